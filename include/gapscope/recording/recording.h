@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gapscope {
+
+/// What the coupling did during a sample (the paper's words). Impact: a contact closed within the sample.
+enum class Mode : signed char { kEngagementMinus = -1, kGap = 0, kEngagementPlus = 1, kImpact = 2 };
+
+/// "gap", "engagement+", "engagement-" or "impact": the words of the mode column of a simulated recording.
+const char* to_string(Mode mode);
+
+/// The view that estimators take: one motor encoder and the input, nothing of the load.
+struct MotorTrace {
+  std::string file;             ///< name of the recording, for events and messages
+  double start = 0.0;           ///< time of the first sample [s]
+  double dt = 0.0;              ///< sampling interval [s]
+  std::span<const double> u;    ///< input, held from its own sample to the next [unit of u]
+  std::span<const double> x1;   ///< motor position, read before u acts [rad]
+  double quantum = 0.0;         ///< encoder quantum [rad]; 0 = unknown
+
+  std::size_t size() const { return x1.size(); }
+  double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
+};
+
+/// A uniformly sampled recording, simulated or recorded. All filled columns have the same length.
+struct Recording {
+  std::string file;             ///< name of the file (or of the simulation)
+  double start = 0.0;           ///< time of the first sample [s]
+  double dt = 0.0;              ///< sampling interval [s]
+  std::vector<double> u;        ///< [unit of u]
+  std::vector<double> x1;       ///< [rad]
+  std::vector<double> x2;       ///< load position [rad]; empty if unknown. Never read by an estimator.
+  std::vector<Mode> mode;       ///< empty unless simulated
+  double quantum = 0.0;         ///< encoder quantum of the sheet, else the one seen in the raw samples [rad]
+  std::string resampling;       ///< what was done to make the sampling uniform; empty if nothing was
+
+  std::size_t size() const { return x1.size(); }
+  double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
+  double duration() const { return dt * static_cast<double>(size()); }
+  MotorTrace motor_trace() const { return {file, start, dt, u, x1, quantum}; }
+};
+
+/// The quantum that raw encoder samples show: the smallest step that recurs, steps of less than 1e-6 of the
+/// range taken as text rounding [rad]. 0 if the samples show none (fewer than 20 steps, or a smooth signal).
+double seen_quantum(std::span<const double> x1);
+
+}  // namespace gapscope

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+#include "gapscope/recording/recording.h"
+
+namespace gapscope {
+
+enum class FitStatus { kNotRun, kConverged, kNotConverged, kFailed };
+
+struct FittedParameter {
+  std::string key;    ///< as in the YAML
+  std::string unit;
+  double start = kNaN;
+  double value = kNaN;
+  double std = kNaN;
+  Interval ci95;              ///< NaN bounds when it is not identifiable or not estimated
+  double low = kNaN;          ///< bounds
+  double high = kNaN;
+  bool estimated = false;     ///< false: fixed at its value
+  bool identifiable = false;  ///< estimated and determined by the recordings
+  bool at_bound = false;
+};
+
+/// Free run of the fitted model beside one recording.
+struct FitTrace {
+  std::string file;
+  std::vector<double> x1;   ///< [rad]
+  std::vector<double> x2;   ///< [rad]; empty for a drive without a load behind a gap
+  std::vector<Mode> mode;
+};
+
+/// Residual of the free run in one mode.
+struct ModeError {
+  Mode mode = Mode::kGap;
+  int samples = 0;
+  double rmse = kNaN;  ///< [rad]
+};
+
+/// What the model-based reference says. A default-built one says that it was not run.
+struct FitSummary {
+  FitStatus status = FitStatus::kNotRun;
+  std::string message = "fit() was not called.";
+  double rmse = kNaN;            ///< free-run x1 − recorded x1, all recordings [rad]
+  double floor = kNaN;           ///< what the encoder alone leaves [rad]
+  int starts = 0;                ///< starting points tried
+  int simulations = 0;           ///< plain simulations spent, a Jet run counted as its measured cost
+  double lag1_autocorrelation = kNaN;       ///< of the residual [-]
+  std::vector<FittedParameter> parameters;  ///< estimated and fixed, in the order of the YAML keys
+  std::vector<FitTrace> traces;
+  std::vector<ModeError> mode_errors;
+  std::vector<double> start_costs;          ///< final cost of each start, best first (waterfall)
+  std::vector<std::string> warnings;        ///< null directions, bounds, advice: one sentence each
+
+  bool converged() const { return status == FitStatus::kConverged; }
+  const FittedParameter* find(const std::string& key) const;  ///< nullptr if there is none of that key
+  std::string brief_report() const;  ///< one line: log, command line
+  std::string full_report() const;   ///< table: terminal, report.md
+};
+
+}  // namespace gapscope

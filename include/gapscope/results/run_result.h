@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gapscope/diagnosis/comparison.h"
+#include "gapscope/recording/recording.h"
+#include "gapscope/reference/fit_summary.h"
+#include "gapscope/sliding_mode/gap_estimate.h"
+
+namespace gapscope {
+
+/// All that `run`, `detect` and `fit` leave behind, and all that a report is drawn from.
+struct RunResult {
+  std::string name;                           ///< of the configuration
+  std::string version;                        ///< of gapscope
+  bool rotation = true;                       ///< false: rad and N·m mean m and N
+  std::optional<GapEstimate> model_free;      ///< absent: not asked for (`fit`)
+  std::optional<FitSummary> reference;        ///< absent: not asked for (`detect`)
+  std::optional<Comparison> comparison;       ///< absent unless both were asked for
+  double simulated_gap = kNaN;                ///< 2β of the simulated plant [rad]; NaN for recorded data
+  std::vector<Recording> recordings;          ///< stored as traces, not in the JSON
+  std::vector<std::string> notes;             ///< what was done to the data, readings of the configuration
+};
+
+/// Wall times; the only stored result that is not a function of input, seed and version.
+struct Timing {
+  double model_free_s = kNaN;
+  double reference_s = kNaN;
+};
+
+/// Writes result.json and traces/<n>_<file>.csv (t_s, u, x1_rad, x2_rad, e_x_rad, w1_hat_rad_s,
+/// fit_x1_rad, fit_x2_rad, fit_mode) into an existing folder.  @throws std::runtime_error
+void write_run_result(const std::string& folder, const RunResult& result);
+void write_timing(const std::string& folder, const Timing& timing);
+
+/// Reads back exactly what write_run_result() wrote.  @throws ConfigError for another schema or a damaged file.
+RunResult read_run_result(const std::string& folder);
+Timing read_timing(const std::string& folder);  ///< NaN where there is none
+
+}  // namespace gapscope

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+
+namespace gapscope {
+
+enum class GapVerdict { kNotRun, kBacklash, kNone, kInconclusive };
+enum class GapMethod { kImpact, kPaper, kLostMotion };
+enum class GapQuantity { kGap, kPlayAtZeroTorque };
+
+const char* to_string(GapVerdict verdict);    ///< "not_run", "backlash", "none", "inconclusive"
+const char* to_string(GapMethod method);      ///< "impact", "paper", "lost_motion"
+const char* to_string(GapQuantity quantity);  ///< "gap", "play_at_zero_torque"
+
+/// One passage of the gap: contact lost at t1 (S3), regained at t2 (S4).
+struct GapEvent {
+  std::string file;             ///< recording it was found in
+  double t1 = kNaN;             ///< [s]
+  double t2 = kNaN;             ///< [s]
+  double x1_t1 = kNaN;          ///< [rad]
+  double x1_t2 = kNaN;          ///< [rad]
+  double gap = kNaN;            ///< estimate of 2β from this passage [rad]
+  double gap_uncorrected = kNaN;  ///< S5 as published, |x1(t2) − x1(t1)| [rad]
+  double std = kNaN;            ///< standard error of `gap` [rad]
+  int direction = 0;            ///< +1: the motor crossed the gap with rising x1; −1: falling
+  bool accepted = true;         ///< false: seen, but not used in the estimate
+  std::string remark;           ///< why it was not used, or what was corrected
+};
+
+/// The error signal e_x that decided, one per recording; kept for the figures.
+struct ErrorTrace {
+  std::string file;
+  std::vector<double> error;     ///< e_x [rad], as long as the recording
+  std::vector<double> velocity;  ///< ŵ1 [rad/s]
+};
+
+/// What the model-free detector says. A default-built one says that it was not run.
+struct GapEstimate {
+  GapVerdict verdict = GapVerdict::kNotRun;
+  std::string reason = "detect_gap() was not called.";  ///< never empty for kInconclusive; says what to change
+  GapMethod method = GapMethod::kImpact;
+  GapQuantity quantity = GapQuantity::kGap;
+  double gap = kNaN;                   ///< 2β̂ [rad]; NaN unless the verdict is kBacklash
+  double std = kNaN;                   ///< [rad]
+  Interval ci95;                       ///< [rad]
+  double smallest_visible_gap = kNaN;  ///< [rad]; always there for kNone
+  double bound = kNaN;                 ///< L that decided t2 [rad/s²]
+  double bound_t1 = kNaN;              ///< L that decided t1 where it is another one [rad/s²]
+  double scale = 1.0;                  ///< N of step S2: e_x × N is comparable with x1
+  std::vector<GapEvent> events;
+  std::vector<ErrorTrace> traces;
+  std::vector<std::string> warnings;
+
+  std::string brief_report() const;  ///< one line: log, command line
+};
+
+}  // namespace gapscope
