@@ -42,7 +42,7 @@ inline constexpr DriveParameterSpec kDriveParameters[kDriveParameterCount] = {
 template <class T>
 T& drive_parameter(DriveParameters<T>& p, int index) {
   T* const members[kDriveParameterCount] = {
-      &p.motor_inertia, &p.torque_constant, &p.motor_damping, &p.mass_ratio, &p.gap,
+      &p.motor_inertia, &p.torque_constant,       &p.motor_damping,     &p.mass_ratio,     &p.gap,
       &p.load_damping,  &p.load_coulomb_friction, &p.contact_stiffness, &p.contact_damping};
   return *members[index];
 }
@@ -57,9 +57,9 @@ enum class LoadKind { kFree, kLocked };
 /// What a drive is made of, beside its numbers.
 struct DriveStructure {
   ContactLaw contact = ContactLaw::kCompliant;
-  double restitution = 1.0;          ///< of the rigid contact, in [0, 1]; 1 is eq. (3) itself
-  LoadKind load = LoadKind::kFree;   ///< locked: the output does not move
-  bool has_load = true;              ///< false: mass_ratio 0, one inertia without a gap
+  double restitution = 1.0;         ///< of the rigid contact, in [0, 1]; 1 is eq. (3) itself
+  LoadKind load = LoadKind::kFree;  ///< locked: the output does not move
+  bool has_load = true;             ///< false: mass_ratio 0, one inertia without a gap
 };
 
 }  // namespace gapscope

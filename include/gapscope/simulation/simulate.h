@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "gapscope/recording/recording.h"
+#include "gapscope/simulation/stepper.h"
+
+namespace gapscope {
+
+/// The encoder on the motor: noise first, then the nearest count.
+struct Encoder {
+  double quantum = 0.0;  ///< [rad]; 0: continuous
+  double noise = 0.0;    ///< rms, before quantisation [rad]
+};
+
+struct SimulationOptions {
+  double rate = 1000.0;        ///< [Hz]
+  std::uint64_t seed = 1;      ///< of the encoder's noise
+  DriveState<double> initial;  ///< at the first sample
+  Encoder encoder;
+};
+
+/// Plays the input u (held from sample to sample) on a drive and records it like a real one: x1 through the
+/// encoder, x2 exactly, and the mode of each sample (impact: a contact closed in the interval that ends
+/// there).
+/// @throws std::runtime_error when the motion diverges.
+Recording simulate(const StepperModel<double>& model, std::span<const double> u,
+                   const SimulationOptions& options);
+
+/// The stepper's model of a drive without effects.
+StepperModel<double> stepper_model(const DriveParameters<double>& drive, const DriveStructure& structure);
+
+}  // namespace gapscope

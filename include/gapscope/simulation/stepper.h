@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "gapscope/plant/drive.h"
+#include "gapscope/plant/scalar.h"
+
+namespace gapscope {
+
+/// Positions [rad] and speeds [rad/s] of both bodies.
+template <class T>
+struct DriveState {
+  T x1{}, w1{}, x2{}, w2{};
+};
+
+/// The discrete part of the state: which affine flow is active.
+struct ContactMode {
+  int contact = 0;  ///< closed contact: −1, +1; 0 open
+  int outside = 0;  ///< open, but still beyond the gap's edge on this side (released under tension)
+  int load = 1;     ///< 0 sticks, ±1 slips in that direction (only followed when the load has friction)
+  int motor = 1;    ///< the same for the motor
+  bool operator==(const ContactMode&) const = default;
+};
+
+/// Everything the stepper needs to know of a drive. The motor's friction and damping may differ with
+/// direction.
+template <class T>
+struct StepperModel {
+  DriveParameters<T> drive;
+  DriveStructure structure;
+  T motor_friction_plus{};    ///< Coulomb level for w1 > 0 [N m]
+  T motor_friction_minus{};   ///< Coulomb level for w1 < 0 [N m]
+  bool motor_sticks = false;  ///< false: no set-valued friction on the motor
+  bool load_sticks = true;    ///< false: no set-valued friction on the load
+};
+
+namespace internal {
+template <class T>
+struct StepperImpl;
+}
+
+/// Advances the two-inertia drive from sample to sample, exactly:
+///   m1 ẇ1 = Km u − d1 w1 − τc − Fc1 sign(w1),   m2 ẇ2 = τc − d2 w2 − Fc2 sign(w2)
+///   τc = 0 while |δ| ≤ β, else k(δ ∓ β) + c δ̇, never pulling;   δ = x1 − x2
+/// sign is set-valued at zero. Between events the drive is affine: a full sample is one precomputed
+/// transition; closing and opening of the contact and every entry and exit of sticking are located by their
+/// own Taylor polynomial and crossed with exact partial steps. With Jets each event time is polished by one
+/// Newton step in Jet arithmetic, so that derivatives carry the jumps at events. u is held constant over a
+/// sample. step() does not allocate.
+template <class T>
+class DriveStepper {
+ public:
+  /// @param dt sampling interval [s]
+  /// @throws std::logic_error unless inertias are positive and friction, stiffness and damping not negative.
+  DriveStepper(const StepperModel<T>& model, double dt);
+  ~DriveStepper();
+  DriveStepper(DriveStepper&&) noexcept;
+  DriveStepper& operator=(DriveStepper&&) noexcept;
+
+  void reset(const DriveState<T>& state);
+
+  /// One sample with input u [unit of u].
+  void step(double u);
+
+  /// Moves position and speed of the motor, the load with it while in contact (output injection of an
+  /// observer). A body that sticks keeps its speed of zero.
+  void inject(const T& dx1, const T& dw1);
+
+  const DriveState<T>& state() const;
+  const ContactMode& mode() const;
+  bool closed_in_last_step() const;  ///< a contact closed within the last sample
+  long events() const;               ///< located since reset()
+  /// False once the motion left the numbers that a double can hold, or events piled up at one instant.
+  bool healthy() const;
+
+ private:
+  std::unique_ptr<internal::StepperImpl<T>> impl_;
+};
+
+extern template class DriveStepper<double>;
+extern template class DriveStepper<Jet<4>>;
+extern template class DriveStepper<Jet<8>>;
+extern template class DriveStepper<Jet<12>>;
+
+}  // namespace gapscope

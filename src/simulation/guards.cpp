@@ -1,0 +1,86 @@
+#include "simulation/guards.h"
+
+#include <cmath>
+
+namespace gapscope::internal {
+namespace {
+
+/// p(s)/s^zeros, which is positive at s = 0 unless the guard's event is due at once.
+struct Deflated {
+  const double* p;
+  int degree;
+  double value(double s) const {
+    double sum = p[degree];
+    for (int n = degree - 1; n >= 0; --n) sum = sum * s + p[n];
+    return sum;
+  }
+  double slope(double s) const {
+    double sum = degree * p[degree];
+    for (int n = degree - 1; n >= 1; --n) sum = sum * s + n * p[n];
+    return sum;
+  }
+};
+
+/// Root in (low, high] by bisection and Newton: value(low) > 0 ≥ value(high).
+double bracketed_root(const Deflated& g, double low, double high) {
+  double s = high;
+  for (int i = 0; i < 100 && high - low > 1e-16 * high; ++i) {
+    const double v = g.value(s);
+    (v > 0.0 ? low : high) = s;
+    if (v == 0.0) return s;
+    const double slope = g.slope(s);
+    const double newton = slope != 0.0 ? s - v / slope : low;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (next == s) break;
+    s = next;
+  }
+  return s;
+}
+
+/// Place of the minimum between a falling and a rising end.
+double bracketed_minimum(const Deflated& g, double low, double high) {
+  for (int i = 0; i < 48; ++i) {
+    const double middle = 0.5 * (low + high);
+    (g.slope(middle) < 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// First root in (0, h]; a negative number if there is none.
+double first_root(const Deflated& g, double h) {
+  constexpr int kPieces = 4;
+  if (g.value(0.0) <= 0.0 && g.value(h / 64.0) <= 0.0) return 0.0;
+  double left = g.value(0.0) > 0.0 ? 0.0 : h / 64.0;
+  for (int piece = 1; piece <= kPieces; ++piece) {
+    const double right = h * piece / kPieces;
+    if (g.value(right) <= 0.0) return bracketed_root(g, left, right);
+    if (g.slope(left) < 0.0 && g.slope(right) > 0.0) {
+      const double lowest = bracketed_minimum(g, left, right);
+      if (g.value(lowest) <= 0.0) return bracketed_root(g, left, lowest);
+    }
+    left = right;
+  }
+  return -1.0;
+}
+
+}  // namespace
+
+Guard& GuardSet::add(Event event, int side, int zeros) {
+  Guard& guard = guards[static_cast<std::size_t>(count++)];
+  guard.event = event;
+  guard.side = side;
+  guard.zeros = zeros;
+  return guard;
+}
+
+FirstEvent first_event(const GuardSet& set, double h) {
+  FirstEvent first{-1, h};
+  for (int i = 0; i < set.count; ++i) {
+    const Guard& guard = set.guards[static_cast<std::size_t>(i)];
+    const double root = first_root({guard.p + guard.zeros, kSeriesOrder - guard.zeros}, first.time);
+    if (root >= 0.0 && (first.guard < 0 || root < first.time)) first = {i, root};
+  }
+  return first;
+}
+
+}  // namespace gapscope::internal

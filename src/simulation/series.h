@@ -1,0 +1,115 @@
+#pragma once
+
+#include "gapscope/plant/scalar.h"
+#include "gapscope/simulation/stepper.h"
+
+namespace gapscope::internal {
+
+/// Time since the start of a step at which the flow is told by its Taylor series, per unit of 1/rate; with
+/// rate · h below this the truncated terms of order 15 are below 1e-14 of the state.
+constexpr double kSeriesReach = 0.75;
+constexpr int kSeriesOrder = 14;
+
+/// Numbers of the flow that do not change from step to step.
+template <class T>
+struct FlowConstants {
+  T m1, m2, d1_plus, d1_minus, d2, k, c;
+  bool rigid = false;
+};
+
+/// Torques and half gap as quadratics of the time since the start of the step: Σ f[n] sⁿ.
+template <class T>
+struct Forcing {
+  T motor[3] = {T(0.0), T(0.0), T(0.0)};     ///< on the motor side, without dampers and contact [N m sⁿ]
+  T load[3] = {T(0.0), T(0.0), T(0.0)};      ///< on the load side [N m]
+  T half_gap[3] = {T(0.0), T(0.0), T(0.0)};  ///< β [rad]
+};
+
+/// The exact flow of one mode as Taylor polynomials in the time since its start.
+template <class T>
+struct Series {
+  T x1[kSeriesOrder + 1], w1[kSeriesOrder + 1], x2[kSeriesOrder + 1], w2[kSeriesOrder + 1];
+  T torque[kSeriesOrder +
+           1];  ///< contact torque τc; outside a closed contact the torque it would have on `side`
+};
+
+template <class T>
+T coefficient(const T (&f)[3], int n) {
+  return n < 3 ? f[n] : T(0.0);
+}
+
+/// Contact torque k(δ − sβ) + c δ̇, term by term; zero on no side.
+template <class T>
+T torque_term(const FlowConstants<T>& f, const Series<T>& z, int n, int side, const Forcing<T>& on) {
+  T delta = z.x1[n] - z.x2[n];
+  if (n < 3) delta -= static_cast<double>(side) * on.half_gap[n];
+  return f.k * delta + f.c * (z.w1[n] - z.w2[n]);
+}
+
+/// Builds the flow of `mode` from `start`: compliant or open contact. The motor and the load each move or
+/// stick.
+template <class T>
+void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const DriveState<T>& start,
+                      const Forcing<T>& on, Series<T>& z) {
+  const T& d1 = mode.motor < 0 ? f.d1_minus : f.d1_plus;
+  const T inverse_m1 = 1.0 / f.m1;
+  const T inverse_m2 = 1.0 / f.m2;
+  const int side = mode.contact != 0 ? mode.contact : mode.outside;
+  z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w2;
+  for (int n = 0;; ++n) {
+    z.torque[n] = side != 0 ? torque_term(f, z, n, side, on) : T(0.0);
+    if (n == kSeriesOrder) break;
+    const double next = 1.0 / (n + 1.0);
+    const T contact = mode.contact != 0 ? z.torque[n] : T(0.0);
+    z.x1[n + 1] = z.w1[n] * next;
+    z.x2[n + 1] = z.w2[n] * next;
+    z.w1[n + 1] =
+        mode.motor == 0 ? T(0.0) : (coefficient(on.motor, n) - d1 * z.w1[n] - contact) * inverse_m1 * next;
+    z.w2[n + 1] =
+        mode.load == 0 ? T(0.0) : (coefficient(on.load, n) - f.d2 * z.w2[n] + contact) * inverse_m2 * next;
+  }
+}
+
+/// The same for a closed rigid contact: both bodies move as one, the torque is what holds them together.
+template <class T>
+void rigid_series(const FlowConstants<T>& f, const ContactMode& mode, const DriveState<T>& start,
+                  const Forcing<T>& on, Series<T>& z) {
+  const T& d1 = mode.motor < 0 ? f.d1_minus : f.d1_plus;
+  const T inverse_m = 1.0 / (f.m1 + f.m2);
+  const bool moves = mode.load != 0 && mode.motor != 0;
+  z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w1;
+  for (int n = 0;; ++n) {
+    const T motor = coefficient(on.motor, n) - d1 * z.w1[n];
+    const T acceleration = moves ? T((motor + coefficient(on.load, n) - f.d2 * z.w1[n]) * inverse_m) : T(0.0);
+    z.torque[n] = motor - f.m1 * acceleration;
+    if (n == kSeriesOrder) break;
+    const double next = 1.0 / (n + 1.0);
+    z.x1[n + 1] = z.w1[n] * next;
+    z.x2[n + 1] = z.x1[n + 1];
+    z.w1[n + 1] = acceleration * next;
+    z.w2[n + 1] = z.w1[n + 1];
+  }
+}
+
+template <class T>
+void flow_series(const FlowConstants<T>& f, const ContactMode& mode, const DriveState<T>& start,
+                 const Forcing<T>& on, Series<T>& z) {
+  if (f.rigid && mode.contact != 0)
+    rigid_series(f, mode, start, on, z);
+  else
+    compliant_series(f, mode, start, on, z);
+}
+
+template <class T, class S>
+S evaluate(const T (&coefficients)[kSeriesOrder + 1], const S& s) {
+  S sum(coefficients[kSeriesOrder]);
+  for (int n = kSeriesOrder - 1; n >= 0; --n) sum = sum * s + coefficients[n];
+  return sum;
+}
+
+template <class T>
+DriveState<T> evaluate(const Series<T>& z, const T& s) {
+  return {evaluate(z.x1, s), evaluate(z.w1, s), evaluate(z.x2, s), evaluate(z.w2, s)};
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,55 @@
+#include "gapscope/simulation/simulate.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "gapscope/base/random.h"
+#include "gapscope/base/require.h"
+
+namespace gapscope {
+namespace {
+
+Mode mode_of(const DriveStepper<double>& stepper) {
+  if (stepper.closed_in_last_step()) return Mode::kImpact;
+  const int contact = stepper.mode().contact;
+  return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;
+}
+
+}  // namespace
+
+Recording simulate(const StepperModel<double>& model, std::span<const double> u,
+                   const SimulationOptions& options) {
+  GAPSCOPE_REQUIRE(options.rate > 0.0);
+  Recording r;
+  r.dt = 1.0 / options.rate;
+  r.quantum = options.encoder.quantum;
+  r.u.assign(u.begin(), u.end());
+  r.x1.reserve(u.size());
+  r.mode.reserve(u.size());
+  auto noise = random_stream(options.seed, "encoder noise");
+  DriveStepper<double> stepper(model, r.dt);
+  stepper.reset(options.initial);
+  for (const double input : u) {
+    double x1 = stepper.state().x1;
+    if (options.encoder.noise > 0.0) x1 += options.encoder.noise * normal(noise);
+    if (options.encoder.quantum > 0.0)
+      x1 = options.encoder.quantum * std::nearbyint(x1 / options.encoder.quantum);
+    r.x1.push_back(x1);
+    if (model.structure.has_load) r.x2.push_back(stepper.state().x2);
+    r.mode.push_back(mode_of(stepper));
+    stepper.step(input);
+    if (!stepper.healthy())
+      throw std::runtime_error("the simulated motion diverges: expected a stable drive and a bounded input");
+  }
+  return r;
+}
+
+StepperModel<double> stepper_model(const DriveParameters<double>& drive, const DriveStructure& structure) {
+  StepperModel<double> model;
+  model.drive = drive;
+  model.structure = structure;
+  model.load_sticks = drive.load_coulomb_friction > 0.0;
+  return model;
+}
+
+}  // namespace gapscope

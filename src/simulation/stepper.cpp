@@ -1,0 +1,55 @@
+#include "gapscope/simulation/stepper.h"
+
+#include "simulation/stepper_events.h"
+
+namespace gapscope {
+
+template <class T>
+DriveStepper<T>::DriveStepper(const StepperModel<T>& model, double dt)
+    : impl_(std::make_unique<internal::StepperImpl<T>>(model, dt)) {}
+template <class T>
+DriveStepper<T>::~DriveStepper() = default;
+template <class T>
+DriveStepper<T>::DriveStepper(DriveStepper&&) noexcept = default;
+template <class T>
+DriveStepper<T>& DriveStepper<T>::operator=(DriveStepper&&) noexcept = default;
+
+template <class T>
+void DriveStepper<T>::reset(const DriveState<T>& state) {
+  impl_->reset(state);
+}
+template <class T>
+void DriveStepper<T>::step(double u) {
+  impl_->step(u);
+}
+template <class T>
+void DriveStepper<T>::inject(const T& dx1, const T& dw1) {
+  impl_->inject(dx1, dw1);
+}
+template <class T>
+const DriveState<T>& DriveStepper<T>::state() const {
+  return impl_->z;
+}
+template <class T>
+const ContactMode& DriveStepper<T>::mode() const {
+  return impl_->mode;
+}
+template <class T>
+bool DriveStepper<T>::closed_in_last_step() const {
+  return impl_->closed;
+}
+template <class T>
+long DriveStepper<T>::events() const {
+  return impl_->events;
+}
+template <class T>
+bool DriveStepper<T>::healthy() const {
+  return impl_->healthy;
+}
+
+template class DriveStepper<double>;
+template class DriveStepper<Jet<4>>;
+template class DriveStepper<Jet<8>>;
+template class DriveStepper<Jet<12>>;
+
+}  // namespace gapscope

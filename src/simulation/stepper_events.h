@@ -1,0 +1,222 @@
+#pragma once
+
+#include "simulation/stepper_impl.h"
+
+namespace gapscope::internal {
+
+template <class T>
+void StepperImpl<T>::collect(const Series<T>& series, GuardSet& set) const {
+  if (has_load) {
+    if (mode.contact != 0) {
+      set.add(Event::kOpen, mode.contact, contact_zeros);
+    } else if (mode.outside != 0) {
+      set.add(Event::kInside, mode.outside, 0);
+      set.add(Event::kClose, mode.outside, contact_zeros);
+    } else {
+      for (const int side : {1, -1}) set.add(Event::kClose, side, side == touching_side ? contact_zeros : 0);
+    }
+  }
+  if (load_friction) {
+    if (mode.load != 0)
+      set.add(Event::kLoadStops, mode.load, load_zeros);
+    else if (mode.contact != 0)
+      for (const int side : {1, -1}) set.add(Event::kLoadBreaks, side, 0);
+  }
+  if (motor_friction) {
+    if (mode.motor != 0)
+      set.add(Event::kMotorStops, mode.motor, motor_zeros);
+    else if (mode.contact != 0)
+      for (const int side : {1, -1}) set.add(Event::kMotorBreaks, side, 0);
+  }
+  for (int i = 0; i < set.count; ++i) {
+    Guard& guard = set.guards[static_cast<std::size_t>(i)];
+    for (int n = 0; n <= kSeriesOrder; ++n) guard.p[n] = value_of(guard_term(guard, series, n));
+  }
+}
+
+/// Coefficient n of a guard polynomial.
+template <class T>
+T StepperImpl<T>::guard_term(const Guard& guard, const Series<T>& series, int n) const {
+  const double side = guard.side;
+  const T constant = n == 0 ? T(1.0) : T(0.0);
+  switch (guard.event) {
+    case Event::kOpen:
+      return side * series.torque[n];
+    case Event::kClose:
+      if (mode.outside != 0) return -side * series.torque[n];
+      return constant * half_gap - side * (series.x1[n] - series.x2[n]);
+    case Event::kInside:
+      return side * (series.x1[n] - series.x2[n]) - constant * half_gap;
+    case Event::kLoadStops:
+      return side * series.w2[n];
+    case Event::kLoadBreaks:
+      return constant * model.drive.load_coulomb_friction - side * series.torque[n];
+    case Event::kMotorStops:
+      return side * series.w1[n];
+    case Event::kMotorBreaks:
+      return constant * motor_level(guard.side) - side * (constant * torque - series.torque[n]);
+    case Event::kNone:
+      break;
+  }
+  return T(0.0);
+}
+
+/// The time of an event as a function of everything that it depends on: one Newton step in Jet arithmetic
+/// from the located value (the implicit function theorem).
+template <class T>
+T StepperImpl<T>::polished(const Guard& guard, const Series<T>& series, double time) const {
+  if constexpr (!kIsJet<T>) {
+    return time;
+  } else {
+    T value(0.0);
+    double slope = 0.0;
+    for (int n = kSeriesOrder; n >= 0; --n) {
+      value = value * time + guard_term(guard, series, n);
+      if (n > 0) slope = slope * time + n * guard.p[n];
+    }
+    if (slope == 0.0) return T(time);
+    T polished_time = -value / slope;
+    polished_time.a = time;
+    return polished_time;
+  }
+}
+
+template <class T>
+void StepperImpl<T>::cross(const Guard& guard) {
+  switch (guard.event) {
+    case Event::kOpen:
+      open(guard.side);
+      break;
+    case Event::kClose:
+      close(guard.side);
+      break;
+    case Event::kInside:
+      mode.outside = 0;
+      touching_side = guard.side;
+      contact_zeros = 1;
+      break;
+    case Event::kLoadStops:
+      z.w2 = T(0.0);
+      resolve_load();
+      break;
+    case Event::kLoadBreaks:
+      mode.load = guard.side;
+      load_zeros = 2;  // both speed and acceleration start at zero
+      break;
+    case Event::kMotorStops:
+      z.w1 = T(0.0);
+      resolve_motor();
+      break;
+    case Event::kMotorBreaks:
+      mode.motor = guard.side;
+      motor_zeros = 2;
+      break;
+    case Event::kNone:
+      break;
+  }
+}
+
+template <class T>
+void StepperImpl<T>::open(int side) {
+  mode.contact = 0;
+  const bool beyond_edge = !f.rigid && value_of(f.c) > 0.0 && side_distance(side) > 0.0;
+  mode.outside = beyond_edge ? side : 0;
+  touching_side = side;
+  contact_zeros = f.rigid ? 2 : 1;  // rigid bodies part with equal speeds
+}
+
+template <class T>
+void StepperImpl<T>::close(int side) {
+  closed = true;
+  if (f.rigid) return bounce(side);
+  contact_zeros = mode.outside != 0 || value_of(f.c) == 0.0 ? 1 : 0;
+  mode.contact = side;
+  mode.outside = 0;
+  // The contact torque may jump, which can break a sticking body loose at this instant.
+  if (load_friction && mode.load == 0) resolve_load();
+  if (motor_friction && mode.motor == 0) resolve_motor();
+}
+
+template <class T>
+void StepperImpl<T>::bounce(int side) {
+  const DriveParameters<T>& p = model.drive;
+  const double e = model.structure.restitution;
+  if (locked) {
+    z.w1 = -e * z.w1;
+  } else {
+    const auto [w1, w2] = speeds_after_impact(z.w1, z.w2, p.mass_ratio, e);
+    z.w1 = w1, z.w2 = w2;
+  }
+  if (load_friction) mode.load = sign_of(value_of(z.w2));
+  if (motor_friction) mode.motor = sign_of(value_of(z.w1));
+  touching_side = side;
+  contact_zeros = 1;
+  const Kinematics now = kinematics(*this, z, value_of(forcing().motor[0]), value_of(forcing().load[0]));
+  const double parting = -side * now.delta_rate;
+  const double pressing = side * (now.a1 - now.a2);
+  if (pressing <= 0.0 || 2.0 * parting / pressing > kShortestBounce * dt) return;
+  const T common = locked ? T(0.0) : T((z.w1 + p.mass_ratio * z.w2) / (1.0 + p.mass_ratio));
+  z.w1 = z.w2 = common;
+  mode.contact = side;
+  touching_side = contact_zeros = 0;
+  if (value_of(common) == 0.0) resolve_load();
+}
+
+template <class T>
+void StepperImpl<T>::resolve_at_sample_start() {
+  if (mode.motor == 0) resolve_motor();
+  if (f.rigid && mode.contact != 0) {
+    if (mode.load == 0 && load_friction) resolve_load();
+    if (mode.contact * value_of(contact_torque(mode.contact)) < 0.0) open(mode.contact);
+  }
+}
+
+/// Brings an open or closed contact in line with a position that was set from outside.
+template <class T>
+void StepperImpl<T>::resolve_contact() {
+  if (!has_load) return;
+  if (mode.contact != 0) {
+    if (mode.contact * value_of(contact_torque(mode.contact)) >= 0.0) return;
+    mode.contact = 0;
+  }
+  mode.outside = 0;
+  for (const int side : {1, -1}) {
+    if (side_distance(side) <= 0.0) continue;
+    if (side * value_of(contact_torque(side)) > 0.0)
+      mode.contact = side;
+    else
+      mode.outside = side;
+  }
+}
+
+/// A load at rest: sticks while the torque on it is within its friction, else starts in the torque's
+/// direction.
+template <class T>
+void StepperImpl<T>::resolve_load() {
+  if (f.rigid && mode.contact != 0) {  // both bodies as one
+    const double level =
+        value_of(model.drive.load_coulomb_friction) + (motor_friction ? value_of(motor_level(1)) : 0);
+    const double applied = value_of(torque);
+    mode.load = std::abs(applied) <= level ? 0 : sign_of(applied);
+    if (motor_friction) mode.motor = mode.load;
+    if (!load_friction && !locked) mode.load = 1;
+    if (locked) mode.load = 0;
+    load_zeros = motor_zeros = 1;
+    return;
+  }
+  if (locked) return;
+  const double applied = value_of(acting_torque());
+  mode.load = std::abs(applied) <= value_of(model.drive.load_coulomb_friction) ? 0 : sign_of(applied);
+  load_zeros = 1;
+}
+
+template <class T>
+void StepperImpl<T>::resolve_motor() {
+  if (f.rigid && mode.contact != 0) return resolve_load();
+  const double applied = value_of(torque) - value_of(acting_torque());
+  const int direction = applied < 0.0 ? -1 : 1;
+  mode.motor = std::abs(applied) <= value_of(motor_level(direction)) ? 0 : direction;
+  motor_zeros = 1;
+}
+
+}  // namespace gapscope::internal
