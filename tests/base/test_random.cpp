@@ -1,8 +1,8 @@
-#include "gapscope/base/random.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "gapscope/base/random.h"
 
 namespace gapscope {
 namespace {

@@ -1,8 +1,8 @@
-#include "gapscope/base/statistics.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "gapscope/base/statistics.h"
 
 namespace gapscope {
 namespace {

@@ -1,0 +1,33 @@
+#include "gapscope/diagnosis/comparison.h"
+
+#include <cmath>
+
+namespace gapscope {
+
+Comparison compare(const GapEstimate& model_free, const FitSummary& reference) {
+  Comparison c;
+  const FittedParameter* gap = reference.find("gap");
+  if (model_free.verdict != GapVerdict::kBacklash || gap == nullptr) return c;
+  // A gap of another quantity (play at zero torque) is not what the reference fits.
+  if (model_free.quantity != GapQuantity::kGap) return c;
+  c.difference = model_free.gap - gap->value;
+  if (!gap->identifiable || !std::isfinite(gap->std) || !std::isfinite(model_free.std)) return c;
+  c.joint_std = std::hypot(model_free.std, gap->std);
+  c.agree = std::abs(c.difference) <= 1.96 * c.joint_std;
+  return c;
+}
+
+double gap_from_load_position(std::span<const Recording> recordings) {
+  std::vector<double> delta;
+  for (const Recording& r : recordings)
+    for (std::size_t i = 0; i < r.x2.size(); ++i) delta.push_back(r.x1[i] - r.x2[i]);
+  if (delta.empty()) return kNaN;
+  // Both flanks are visited for long: their densest places, not the extremes, which impacts wind up.
+  const double low = quantile(delta, 0.02), high = quantile(delta, 0.98);
+  const double middle = 0.5 * (low + high);
+  std::vector<double> minus, plus;
+  for (const double d : delta) (d < middle ? minus : plus).push_back(d);
+  return median(std::move(plus)) - median(std::move(minus));
+}
+
+}  // namespace gapscope

@@ -1,0 +1,138 @@
+// The module order and the place of each third-party library, held as facts.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+const fs::path kRoot = GAPSCOPE_SOURCE_DIR;
+
+/// Which modules each module may include, itself left out.
+const std::map<std::string, Names>& allowed_modules() {
+  static const std::map<std::string, Names> table = [] {
+    const std::vector<std::string> order = {"base",      "recording", "plant",  "simulation", "sliding_mode",
+                                            "reference", "diagnosis", "config", "results",    "campaign",
+                                            "blind",     "report",    "cli"};
+    std::map<std::string, Names> t = {
+        {"base", {}},
+        {"recording", {"base"}},
+        {"plant", {"base"}},
+        {"simulation", {"base", "recording", "plant"}},
+        {"sliding_mode", {"base", "recording"}},  // the detector sees no model
+        {"reference", {"base", "recording", "plant", "simulation"}},
+        {"blind/plant", {"base", "recording"}},  // shares no code with what it checks
+        {"results", {"base", "recording", "sliding_mode", "reference", "diagnosis", "blind", "campaign"}},
+        {"report", {"base", "recording", "results"}},
+    };
+    Names above;
+    for (const std::string& module : order) {
+      if (!t.contains(module)) t[module] = above;
+      above.insert(module);
+    }
+    return t;
+  }();
+  return table;
+}
+
+/// Third-party headers (by prefix) and the only places that may include them.
+const std::vector<std::pair<std::string, Names>> kConfined = {
+    {"opencv2/", {"report"}},
+    {"yaml-cpp/", {"config"}},
+    {"nlohmann/", {"results"}},
+    {"CLI/", {"cli"}},
+    {"spdlog/", {"campaign", "cli"}},
+    {"sqlite3", {"campaign"}},
+    {"tbb/", {"base"}},
+    {"oneapi/", {"base"}},
+};
+
+struct Include {
+  fs::path file;
+  std::string module;
+  std::string header;
+};
+
+/// "src/blind/plant/x.cpp" → "blind/plant"; "include/gapscope/base/x.h" → "base".
+std::string module_of(const fs::path& relative) {
+  auto part = relative.begin();
+  std::string first = (part++)->string();
+  if (first == "include") ++part;
+  std::string module = part->string();
+  if (module == "blind" && std::next(part)->string() == "plant") return "blind/plant";
+  return module;
+}
+
+std::vector<Include> includes() {
+  std::vector<Include> found;
+  const std::regex pattern(R"rx(^\s*#\s*include\s*[<"]([^>"]+)[>"])rx");
+  for (const char* top : {"include/gapscope", "src"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp" && extension != ".inc") continue;
+      const fs::path relative = fs::relative(entry.path(), kRoot);
+      std::ifstream in(entry.path());
+      std::smatch match;
+      for (std::string line; std::getline(in, line);)
+        if (std::regex_search(line, match, pattern))
+          found.push_back({relative, module_of(relative), match[1]});
+    }
+  return found;
+}
+
+/// The module that an own header belongs to; empty for a third-party or standard header.
+std::string own_module(const std::string& header) {
+  std::string rest = header;
+  if (rest.starts_with("gapscope/")) rest = rest.substr(9);
+  if (rest.starts_with("blind/plant/")) return "blind/plant";
+  const std::string first = rest.substr(0, rest.find('/'));
+  return rest != first && allowed_modules().contains(first) ? first : "";
+}
+
+TEST(Layout, ModulesIncludeOnlyWhatTheOrderAllows) {
+  const auto all = includes();
+  ASSERT_GT(all.size(), 100u) << "no sources found below " << kRoot;
+  for (const Include& i : all) {
+    ASSERT_TRUE(allowed_modules().contains(i.module)) << i.file << " is in no known module";
+    const std::string used = own_module(i.header);
+    if (used.empty() || used == i.module) continue;
+    EXPECT_TRUE(allowed_modules().at(i.module).contains(used)) << i.file << " includes " << i.header;
+  }
+}
+
+TEST(Layout, EachThirdPartyLibraryStaysInItsModule) {
+  for (const Include& i : includes())
+    for (const auto& [prefix, modules] : kConfined)
+      if (i.header.starts_with(prefix)) {
+        EXPECT_TRUE(modules.contains(i.module)) << i.file << " includes " << i.header;
+      }
+}
+
+TEST(Layout, CeresIsSeenOnlyByTheFitAndItsJetsOnlyByTheScalarHeader) {
+  for (const Include& i : includes()) {
+    if (!i.header.starts_with("ceres/")) continue;
+    const bool jet = i.header == "ceres/jet.h" && i.file == "include/gapscope/plant/scalar.h";
+    const bool solver = i.file.string().starts_with("src/reference/");
+    EXPECT_TRUE(jet || solver) << i.file << " includes " << i.header;
+  }
+}
+
+TEST(Layout, TopLevelHoldsNothingThatWasNotAgreed) {
+  const Names agreed = {"CMakeLists.txt", "src",     "include",   "configs",
+                        "tests",          "reports", "README.md", "LICENSE"};
+  for (const auto& entry : fs::directory_iterator(kRoot)) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(".") || name.starts_with("build")) continue;
+    EXPECT_TRUE(agreed.contains(name)) << name;
+  }
+}
+
+}  // namespace
