@@ -1,6 +1,9 @@
 #include "gapscope/simulation/stepper.h"
 
+#include "simulation/stepper_effects.h"
 #include "simulation/stepper_events.h"
+#include "simulation/stepper_sample.h"
+#include "simulation/stepper_state.h"
 
 namespace gapscope {
 
@@ -29,6 +32,10 @@ void DriveStepper<T>::inject(const T& dx1, const T& dw1) {
 template <class T>
 const DriveState<T>& DriveStepper<T>::state() const {
   return impl_->z;
+}
+template <class T>
+T DriveStepper<T>::measured() const {
+  return impl_->measured();
 }
 template <class T>
 const ContactMode& DriveStepper<T>::mode() const {

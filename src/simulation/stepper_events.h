@@ -1,11 +1,11 @@
 #pragma once
 
-#include "simulation/stepper_impl.h"
+#include "simulation/stepper_sample.h"
 
 namespace gapscope::internal {
 
 template <class T>
-void StepperImpl<T>::collect(const Series<T>& series, GuardSet& set) const {
+void StepperImpl<T>::collect(const Series<T>& series, const Forcing<T>& on, GuardSet& set) const {
   if (has_load) {
     if (mode.contact != 0) {
       set.add(Event::kOpen, mode.contact, contact_zeros);
@@ -19,42 +19,43 @@ void StepperImpl<T>::collect(const Series<T>& series, GuardSet& set) const {
   if (load_friction) {
     if (mode.load != 0)
       set.add(Event::kLoadStops, mode.load, load_zeros);
-    else if (mode.contact != 0)
+    else if (mode.contact != 0 || smooth)
       for (const int side : {1, -1}) set.add(Event::kLoadBreaks, side, 0);
   }
   if (motor_friction) {
     if (mode.motor != 0)
       set.add(Event::kMotorStops, mode.motor, motor_zeros);
-    else if (mode.contact != 0)
+    else if (mode.contact != 0 || smooth)
       for (const int side : {1, -1}) set.add(Event::kMotorBreaks, side, 0);
   }
   for (int i = 0; i < set.count; ++i) {
     Guard& guard = set.guards[static_cast<std::size_t>(i)];
-    for (int n = 0; n <= kSeriesOrder; ++n) guard.p[n] = value_of(guard_term(guard, series, n));
+    for (int n = 0; n <= kSeriesOrder; ++n) guard.p[n] = value_of(guard_term(guard, series, on, n));
   }
 }
 
 /// Coefficient n of a guard polynomial.
 template <class T>
-T StepperImpl<T>::guard_term(const Guard& guard, const Series<T>& series, int n) const {
+T StepperImpl<T>::guard_term(const Guard& guard, const Series<T>& series, const Forcing<T>& on, int n) const {
   const double side = guard.side;
-  const T constant = n == 0 ? T(1.0) : T(0.0);
+  const T contact = mode.contact != 0 ? series.torque[n] : T(0.0);
+  const auto constant = [n](const T& value) { return n == 0 ? value : T(0.0); };
   switch (guard.event) {
     case Event::kOpen:
-      return side * series.torque[n];
+      return constant(model.adhesion) + side * series.torque[n];
     case Event::kClose:
       if (mode.outside != 0) return -side * series.torque[n];
-      return constant * half_gap - side * (series.x1[n] - series.x2[n]);
+      return coefficient(on.half_gap, n) - side * (series.x1[n] - series.x2[n]);
     case Event::kInside:
-      return side * (series.x1[n] - series.x2[n]) - constant * half_gap;
+      return side * (series.x1[n] - series.x2[n]) - coefficient(on.half_gap, n);
     case Event::kLoadStops:
       return side * series.w2[n];
     case Event::kLoadBreaks:
-      return constant * model.drive.load_coulomb_friction - side * series.torque[n];
+      return constant(model.drive.load_coulomb_friction) - side * (coefficient(on.load, n) + contact);
     case Event::kMotorStops:
       return side * series.w1[n];
     case Event::kMotorBreaks:
-      return constant * motor_level(guard.side) - side * (constant * torque - series.torque[n]);
+      return constant(motor_level(guard.side)) - side * (coefficient(on.motor, n) - contact);
     case Event::kNone:
       break;
   }
@@ -64,14 +65,15 @@ T StepperImpl<T>::guard_term(const Guard& guard, const Series<T>& series, int n)
 /// The time of an event as a function of everything that it depends on: one Newton step in Jet arithmetic
 /// from the located value (the implicit function theorem).
 template <class T>
-T StepperImpl<T>::polished(const Guard& guard, const Series<T>& series, double time) const {
+T StepperImpl<T>::polished(const Guard& guard, const Series<T>& series, const Forcing<T>& on,
+                           double time) const {
   if constexpr (!kIsJet<T>) {
     return time;
   } else {
     T value(0.0);
     double slope = 0.0;
     for (int n = kSeriesOrder; n >= 0; --n) {
-      value = value * time + guard_term(guard, series, n);
+      value = value * time + guard_term(guard, series, on, n);
       if (n > 0) slope = slope * time + n * guard.p[n];
     }
     if (slope == 0.0) return T(time);
@@ -119,6 +121,7 @@ void StepperImpl<T>::cross(const Guard& guard) {
 template <class T>
 void StepperImpl<T>::open(int side) {
   mode.contact = 0;
+  if (locked) mode.load = 0;
   const bool beyond_edge = !f.rigid && value_of(f.c) > 0.0 && side_distance(side) > 0.0;
   mode.outside = beyond_edge ? side : 0;
   touching_side = side;
@@ -151,9 +154,9 @@ void StepperImpl<T>::bounce(int side) {
   if (motor_friction) mode.motor = sign_of(value_of(z.w1));
   touching_side = side;
   contact_zeros = 1;
-  const Kinematics now = kinematics(*this, z, value_of(forcing().motor[0]), value_of(forcing().load[0]));
-  const double parting = -side * now.delta_rate;
-  const double pressing = side * (now.a1 - now.a2);
+  const Outlook next = outlook(*this, z, forcing_now(), 0.0);
+  const double parting = -side * next.delta_rate;
+  const double pressing = side * (next.a1 - next.a2);
   if (pressing <= 0.0 || 2.0 * parting / pressing > kShortestBounce * dt) return;
   const T common = locked ? T(0.0) : T((z.w1 + p.mass_ratio * z.w2) / (1.0 + p.mass_ratio));
   z.w1 = z.w2 = common;
@@ -163,12 +166,12 @@ void StepperImpl<T>::bounce(int side) {
 }
 
 template <class T>
-void StepperImpl<T>::resolve_at_sample_start() {
+void StepperImpl<T>::resolve_at_input_change() {
   if (mode.motor == 0) resolve_motor();
-  if (f.rigid && mode.contact != 0) {
-    if (mode.load == 0 && load_friction) resolve_load();
-    if (mode.contact * value_of(contact_torque(mode.contact)) < 0.0) open(mode.contact);
-  }
+  if (mode.load == 0 && smooth && load_friction) resolve_load();
+  if (!f.rigid || mode.contact == 0) return;
+  if (mode.load == 0 && (load_friction || locked)) resolve_load();
+  if (mode.contact * value_of(contact_torque(mode.contact)) < 0.0) open(mode.contact);
 }
 
 /// Brings an open or closed contact in line with a position that was set from outside.
@@ -176,7 +179,7 @@ template <class T>
 void StepperImpl<T>::resolve_contact() {
   if (!has_load) return;
   if (mode.contact != 0) {
-    if (mode.contact * value_of(contact_torque(mode.contact)) >= 0.0) return;
+    if (mode.contact * value_of(contact_torque(mode.contact)) >= -value_of(model.adhesion)) return;
     mode.contact = 0;
   }
   mode.outside = 0;
@@ -193,30 +196,39 @@ void StepperImpl<T>::resolve_contact() {
 /// direction.
 template <class T>
 void StepperImpl<T>::resolve_load() {
-  if (f.rigid && mode.contact != 0) {  // both bodies as one
-    const double level =
-        value_of(model.drive.load_coulomb_friction) + (motor_friction ? value_of(motor_level(1)) : 0);
-    const double applied = value_of(torque);
-    mode.load = std::abs(applied) <= level ? 0 : sign_of(applied);
-    if (motor_friction) mode.motor = mode.load;
-    if (!load_friction && !locked) mode.load = 1;
-    if (locked) mode.load = 0;
-    load_zeros = motor_zeros = 1;
-    return;
-  }
+  if (f.rigid && mode.contact != 0) return resolve_as_one();
   if (locked) return;
-  const double applied = value_of(acting_torque());
-  mode.load = std::abs(applied) <= value_of(model.drive.load_coulomb_friction) ? 0 : sign_of(applied);
+  mode.load = 0;
+  const double applied = value_of(acting_torque()) + value_of(forcing_now().load[0]);
+  if (std::abs(applied) > value_of(model.drive.load_coulomb_friction)) mode.load = sign_of(applied);
   load_zeros = 1;
 }
 
 template <class T>
 void StepperImpl<T>::resolve_motor() {
-  if (f.rigid && mode.contact != 0) return resolve_load();
-  const double applied = value_of(torque) - value_of(acting_torque());
+  if (f.rigid && mode.contact != 0) return resolve_as_one();
+  mode.motor = 0;
+  const double applied = value_of(forcing_now().motor[0]) - value_of(acting_torque());
   const int direction = applied < 0.0 ? -1 : 1;
-  mode.motor = std::abs(applied) <= value_of(motor_level(direction)) ? 0 : direction;
+  if (std::abs(applied) > value_of(motor_level(direction))) mode.motor = direction;
   motor_zeros = 1;
+}
+
+/// Both bodies at rest in a closed rigid contact: their frictions hold them together.
+template <class T>
+void StepperImpl<T>::resolve_as_one() {
+  load_zeros = motor_zeros = 1;
+  const int load_before = mode.load;
+  mode.load = 0;
+  if (motor_friction) mode.motor = 0;
+  if (locked) return;
+  const Forcing<T> on = forcing_now();
+  const double applied = value_of(on.motor[0]) + value_of(on.load[0]);
+  double level = load_friction ? value_of(model.drive.load_coulomb_friction) : 0.0;
+  if (motor_friction) level += value_of(motor_level(applied < 0.0 ? -1 : 1));
+  const int direction = std::abs(applied) > level ? sign_of(applied) : 0;
+  mode.load = load_friction ? direction : load_before;
+  if (motor_friction) mode.motor = direction;
 }
 
 }  // namespace gapscope::internal

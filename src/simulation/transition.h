@@ -7,22 +7,24 @@
 
 namespace gapscope::internal {
 
+constexpr int kColumns = 9;
+
 /// The flow of one mode over a whole piece h of a sample, as numbers: with δ̃ = δ − sβ the distance into the
-/// contact and constant torques M (motor), L (load),
-///   Δx1, w1⁺, Δx2, w2⁺  =  response · (δ̃, w1, w2, M, L).
+/// contact and torques M(s) = Σ M_n sⁿ (motor), L(s) (load),
+///   Δx1, w1⁺, Δx2, w2⁺  =  response · (δ̃, w1, w2, M₀, L₀, M₁, L₁, M₂, L₂).
 template <class T>
 struct Transition {
   bool ready = false;
-  int pieces = 1;  ///< per sample, so that a piece lies within the series' reach
-  double h = 0.0;  ///< length of a piece [s]
-  T response[4][5];
+  int pieces = 1;  ///< per segment, so that a piece lies within the series' reach
+  T h{};           ///< length of a piece [s]
+  T response[4][kColumns];
 };
 
 /// Fastest rate of a mode [1/s]: dampers, and in a closed compliant contact its oscillation and damping.
 template <class T>
 double flow_rate(const FlowConstants<T>& f, bool closed, bool has_load) {
   const double m1 = value_of(f.m1), m2 = value_of(f.m2);
-  double rate = std::max(value_of(f.d1_plus), value_of(f.d1_minus)) / m1;
+  double rate = std::max(std::abs(value_of(f.d1_plus)), std::abs(value_of(f.d1_minus))) / m1;
   if (!has_load) return rate;
   rate = std::max(rate, value_of(f.d2) / m2);
   if (!closed || f.rigid) return rate;
@@ -32,31 +34,34 @@ double flow_rate(const FlowConstants<T>& f, bool closed, bool has_load) {
 
 /// Column of the response: the flow that starts from one unit of the given quantity and nothing else.
 template <class T>
-void response_column(const FlowConstants<T>& f, const ContactMode& mode, int column, double h,
+void response_column(const FlowConstants<T>& f, const ContactMode& mode, int column,
                      Transition<T>& transition) {
   DriveState<T> start;
   Forcing<T> on;
-  T* const units[5] = {&start.x1, &start.w1, &start.w2, &on.motor[0], &on.load[0]};
+  T* const units[kColumns] = {&start.x1,    &start.w1,   &start.w2,    &on.motor[0], &on.load[0],
+                              &on.motor[1], &on.load[1], &on.motor[2], &on.load[2]};
   *units[column] = T(1.0);
   if (f.rigid && mode.contact != 0 && column == 2) return;  // one body: the load's speed is the motor's
   Series<T> z;
   flow_series(f, mode, start, on, z);
-  const DriveState<T> end = evaluate(z, T(h));
+  const DriveState<T> end = evaluate(z, transition.h);
   transition.response[0][column] = end.x1 - start.x1;
   transition.response[1][column] = end.w1;
   transition.response[2][column] = end.x2 - start.x2;
   transition.response[3][column] = end.w2;
 }
 
+/// @param span length of the segment of a sample that the transition is for [s]
 template <class T>
-void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, double dt,
+void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, const T& span, bool smooth,
              Transition<T>& transition) {
   const double rate = flow_rate(f, mode.contact != 0, has_load);
-  transition.pieces = std::max(1, static_cast<int>(std::ceil(rate * dt / kSeriesReach)));
-  transition.h = dt / transition.pieces;
+  transition.pieces = std::max(1, static_cast<int>(std::ceil(rate * value_of(span) / kSeriesReach)));
+  transition.h = span / static_cast<double>(transition.pieces);
   for (auto& row : transition.response)
     for (T& r : row) r = T(0.0);
-  for (int column = 0; column < 5; ++column) response_column(f, mode, column, transition.h, transition);
+  const int columns = smooth ? kColumns : 5;
+  for (int column = 0; column < columns; ++column) response_column(f, mode, column, transition);
   transition.ready = true;
 }
 

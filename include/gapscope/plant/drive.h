@@ -20,6 +20,12 @@ struct DriveParameters {
   T contact_damping{};        ///< c [N m s/rad]
 };
 
+/// Positions [rad] and speeds [rad/s] of both bodies.
+template <class T>
+struct DriveState {
+  T x1{}, w1{}, x2{}, w2{};
+};
+
 /// Key, unit and member of each drive parameter: the one list that YAML, JSON and the fit go by.
 struct DriveParameterSpec {
   const char* key;

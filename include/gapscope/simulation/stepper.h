@@ -3,16 +3,9 @@
 #include <array>
 #include <memory>
 
-#include "gapscope/plant/drive.h"
-#include "gapscope/plant/scalar.h"
+#include "gapscope/plant/effect.h"
 
 namespace gapscope {
-
-/// Positions [rad] and speeds [rad/s] of both bodies.
-template <class T>
-struct DriveState {
-  T x1{}, w1{}, x2{}, w2{};
-};
 
 /// The discrete part of the state: which affine flow is active.
 struct ContactMode {
@@ -23,17 +16,8 @@ struct ContactMode {
   bool operator==(const ContactMode&) const = default;
 };
 
-/// Everything the stepper needs to know of a drive. The motor's friction and damping may differ with
-/// direction.
 template <class T>
-struct StepperModel {
-  DriveParameters<T> drive;
-  DriveStructure structure;
-  T motor_friction_plus{};    ///< Coulomb level for w1 > 0 [N m]
-  T motor_friction_minus{};   ///< Coulomb level for w1 < 0 [N m]
-  bool motor_sticks = false;  ///< false: no set-valued friction on the motor
-  bool load_sticks = true;    ///< false: no set-valued friction on the load
-};
+using StepperModel = PlantModel<T>;
 
 namespace internal {
 template <class T>
@@ -68,6 +52,8 @@ class DriveStepper {
   void inject(const T& dx1, const T& dw1);
 
   const DriveState<T>& state() const;
+  /// x1 as the encoder would read it without noise and resolution: with the sensing effects [rad].
+  T measured() const;
   const ContactMode& mode() const;
   bool closed_in_last_step() const;  ///< a contact closed within the last sample
   long events() const;               ///< located since reset()

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "gapscope/plant/drive.h"
+#include "gapscope/plant/scalar.h"
+
+namespace gapscope {
+
+template <class T>
+struct EffectHooks;
+
+constexpr int kMostEffectParameters = 4;
+constexpr int kMostEffectMemory = 2;
+
+/// An effect that is in force, with its parameters in the order of its specification.
+template <class T>
+struct ActiveEffect {
+  const EffectHooks<T>* hooks = nullptr;
+  T parameters[kMostEffectParameters] = {};
+};
+
+/// Everything there is to know of a drive: its nine numbers, what it is made of, and the effects in force.
+/// What an effect changes once and for all (its `shape` hook) is already in the numbers here.
+template <class T>
+struct PlantModel {
+  DriveParameters<T> drive;
+  DriveStructure structure;
+  T motor_friction_plus{};    ///< set-valued friction level for w1 > 0 [N m]
+  T motor_friction_minus{};   ///< for w1 < 0 [N m]
+  T motor_damping_excess{};   ///< d1 is larger by this for w1 > 0, smaller for w1 < 0 [N m s/rad]
+  T adhesion{};               ///< tensile torque at which a closed contact parts [N m]
+  bool motor_sticks = false;  ///< the motor's direction matters: reversals are events
+  bool load_sticks = true;    ///< false: no set-valued friction on the load
+  std::vector<ActiveEffect<T>> effects;
+};
+
+}  // namespace gapscope

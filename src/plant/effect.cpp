@@ -1,0 +1,100 @@
+#include "gapscope/plant/effect.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/require.h"
+
+namespace gapscope {
+
+namespace internal {
+#define GAPSCOPE_EFFECT(identifier) extern const EffectEntry effect_##identifier;
+#include "plant/effects/effects.inc"
+#undef GAPSCOPE_EFFECT
+}  // namespace internal
+
+std::span<const EffectEntry* const> effect_table() {
+  static constexpr const EffectEntry* kTable[] = {
+#define GAPSCOPE_EFFECT(identifier) &internal::effect_##identifier,
+#include "plant/effects/effects.inc"
+#undef GAPSCOPE_EFFECT
+  };
+  return kTable;
+}
+
+const EffectEntry* find_effect(std::string_view name) {
+  for (const EffectEntry* entry : effect_table())
+    if (name == entry->name) return entry;
+  return nullptr;
+}
+
+const char* to_string(EffectSide side) {
+  switch (side) {
+    case EffectSide::kMotor:
+      return "motor";
+    case EffectSide::kLoad:
+      return "load";
+    case EffectSide::kCommand:
+      return "command";
+    case EffectSide::kContact:
+      return "contact";
+    case EffectSide::kSensor:
+      return "sensor";
+  }
+  return "";
+}
+
+double scale_value(Scale scale, const ScaleContext& c) {
+  const double torque = c.nominal.torque_constant * c.peak_input;
+  const double k = c.nominal.contact_stiffness;
+  switch (scale) {
+    case Scale::kOne:
+      return 1.0;
+    case Scale::kPeakTorque:
+      return torque;
+    case Scale::kPeakInput:
+      return c.peak_input;
+    case Scale::kPeakSpeed:
+      return c.peak_speed;
+    case Scale::kTorquePerSpeed:
+      return torque / c.peak_speed;
+    case Scale::kTorquePerSpeed2:
+      return torque / (c.peak_speed * c.peak_speed);
+    case Scale::kTravel:
+      return c.travel;
+    case Scale::kQuantum:
+      return c.quantum;
+    case Scale::kGap:
+      return c.nominal.gap;
+    case Scale::kGapPerRecord:
+      return c.nominal.gap / c.duration;
+    case Scale::kStiffness:
+      return k;
+    case Scale::kContactDamping:
+      return std::max(c.nominal.contact_damping, 0.1 * std::sqrt(k * c.nominal.motor_inertia));
+    case Scale::kSample:
+      return c.dt;
+    case Scale::kRecord:
+      return c.duration;
+    case Scale::kPerTravel:
+      return 2.0 * 3.14159265358979323846 / c.travel;
+  }
+  return 1.0;
+}
+
+template <class T>
+void add_effect(PlantModel<T>& plant, const EffectEntry& entry, std::span<const T> parameters) {
+  GAPSCOPE_REQUIRE(parameters.size() == entry.parameters.size());
+  ActiveEffect<T> effect;
+  effect.hooks = entry.hooks<T>();
+  std::copy(parameters.begin(), parameters.end(), effect.parameters);
+  if (effect.hooks->shape != nullptr) effect.hooks->shape(plant, effect.parameters);
+  plant.effects.push_back(effect);
+}
+
+template void add_effect(PlantModel<double>&, const EffectEntry&, std::span<const double>);
+template void add_effect(PlantModel<Jet<4>>&, const EffectEntry&, std::span<const Jet<4>>);
+template void add_effect(PlantModel<Jet<8>>&, const EffectEntry&, std::span<const Jet<8>>);
+template void add_effect(PlantModel<Jet<12>>&, const EffectEntry&, std::span<const Jet<12>>);
+
+}  // namespace gapscope

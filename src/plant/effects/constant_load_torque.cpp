@@ -1,0 +1,28 @@
+// constant_load_torque – a steady torque on the load, or an offset of the input where there is no gap.
+#include <array>
+#include <cmath>
+
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct ConstantLoadTorque {
+  static constexpr EffectSide side = EffectSide::kLoad;
+  static constexpr const char* law = "load torque T0";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"torque_nm", "N m", 0.0, -1.0, 1.0, Scale::kPeakTorque}};
+  static constexpr std::array<const char*, 2> look_alikes = {"friction_asymmetry", "load_unbalance"};
+
+  template <class T>
+  static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
+    if (!at.plant.structure.has_load) return {.motor = p[0]};
+    return {.load = p[0]};
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal
+
+GAPSCOPE_DEFINE_EFFECT(constant_load_torque, ConstantLoadTorque)

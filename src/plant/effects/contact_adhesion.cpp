@@ -1,0 +1,27 @@
+// contact_adhesion – a closed contact holds until it is pulled apart.
+#include <array>
+#include <cmath>
+
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct ContactAdhesion {
+  static constexpr EffectSide side = EffectSide::kContact;
+  static constexpr const char* law = "a closed contact opens at a tensile torque";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"release_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque}};
+  static constexpr std::array<const char*, 0> look_alikes = {};
+
+  template <class T>
+  static void shape(PlantModel<T>& plant, const T* p) {
+    plant.adhesion += p[0];
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal
+
+GAPSCOPE_DEFINE_EFFECT(contact_adhesion, ContactAdhesion)

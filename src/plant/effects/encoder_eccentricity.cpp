@@ -1,0 +1,29 @@
+// encoder_eccentricity – the code disc is off centre.
+#include <array>
+#include <cmath>
+
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct EncoderEccentricity {
+  static constexpr EffectSide side = EffectSide::kSensor;
+  static constexpr const char* law = "x1 + e sin(x1 + phase) is measured";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"amplitude_rad", "rad", 0.0, 0.0, 0.1, Scale::kTravel},
+      {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
+  static constexpr std::array<const char*, 0> look_alikes = {};
+
+  template <class T>
+  static T sense(const EffectPoint<T>& at, const T* p) {
+    using std::sin;
+    return p[0] * sin(at.state.x1 + p[1]);
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal
+
+GAPSCOPE_DEFINE_EFFECT(encoder_eccentricity, EncoderEccentricity)

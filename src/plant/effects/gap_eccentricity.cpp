@@ -1,0 +1,29 @@
+// gap_eccentricity – the gap changes with the angle of the load.
+#include <array>
+#include <cmath>
+
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct GapEccentricity {
+  static constexpr EffectSide side = EffectSide::kContact;
+  static constexpr const char* law = "gap 2 beta + 2 b sin(x2 + phase)";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"amplitude_rad", "rad", 0.0, 0.0, 0.475, Scale::kGap},
+      {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
+  static constexpr std::array<const char*, 0> look_alikes = {};
+
+  template <class T>
+  static T half_gap(const EffectPoint<T>& at, const T* p) {
+    using std::sin;
+    return p[0] * sin(at.state.x2 + p[1]);
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal
+
+GAPSCOPE_DEFINE_EFFECT(gap_eccentricity, GapEccentricity)

@@ -1,0 +1,30 @@
+// load_unbalance – gravity on an unbalanced load.
+#include <array>
+#include <cmath>
+
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct LoadUnbalance {
+  static constexpr EffectSide side = EffectSide::kLoad;
+  static constexpr const char* law = "load torque -G sin(x2 + phase)";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"amplitude_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
+      {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
+  static constexpr std::array<const char*, 2> look_alikes = {"constant_load_torque", "friction_asymmetry"};
+
+  template <class T>
+  static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
+    using std::sin;
+    if (!at.plant.structure.has_load) return {.motor = -p[0] * sin(at.state.x1 + p[1])};
+    return {.load = -p[0] * sin(at.state.x2 + p[1])};
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal
+
+GAPSCOPE_DEFINE_EFFECT(load_unbalance, LoadUnbalance)

@@ -1,0 +1,27 @@
+// shaft_compliance – the contact is softer or stiffer than the nominal one.
+#include <array>
+#include <cmath>
+
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct ShaftCompliance {
+  static constexpr EffectSide side = EffectSide::kContact;
+  static constexpr const char* law = "contact stiffness k as given";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"stiffness_nm_rad", "N m/rad", 1.0, 0.01, 100.0, Scale::kStiffness}};
+  static constexpr std::array<const char*, 1> look_alikes = {"impact_damping"};
+
+  template <class T>
+  static void shape(PlantModel<T>& plant, const T* p) {
+    plant.drive.contact_stiffness = p[0];
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal
+
+GAPSCOPE_DEFINE_EFFECT(shaft_compliance, ShaftCompliance)

@@ -1,0 +1,35 @@
+// torque_ripple – the torque constant repeats with the angle of the motor.
+#include <array>
+#include <cmath>
+
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct TorqueRipple {
+  static constexpr EffectSide side = EffectSide::kCommand;
+  static constexpr const char* law = "torque of the input times 1 + s sin(N x1 + phase)";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"ratio", "-", 0.0, 0.0, 0.95, Scale::kOne},
+      {"periods_per_turn", "1/rev", 2.0, 0.25, 2000.0, Scale::kPerTravel},
+      {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
+  static constexpr std::array<const char*, 1> look_alikes = {"cogging_torque"};
+
+  template <class T>
+  static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
+    using std::sin;
+    return {.motor = at.drive_torque * p[0] * sin(p[1] * at.state.x1 + p[2])};
+  }
+
+  template <class T>
+  static double rate(const EffectPoint<T>& at, const T* p) {
+    return std::abs(value_of(p[1]) * value_of(at.state.w1));
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal
+
+GAPSCOPE_DEFINE_EFFECT(torque_ripple, TorqueRipple)

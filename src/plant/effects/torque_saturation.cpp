@@ -1,0 +1,31 @@
+// torque_saturation – a smooth loss of torque at large inputs.
+#include <array>
+#include <cmath>
+
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct TorqueSaturation {
+  static constexpr EffectSide side = EffectSide::kCommand;
+  static constexpr const char* law = "u/(1 + |u/knee|^s)^(1/s) in place of u";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"knee", "unit of u", std::numeric_limits<double>::infinity(), 0.1, 20.0, Scale::kPeakInput},
+      {"sharpness", "-", 2.0, 1.0, 12.0, Scale::kOne}};
+  static constexpr std::array<const char*, 1> look_alikes = {"quadratic_drag"};
+
+  template <class T>
+  static T command(const T& u, const T* p) {
+    using std::pow;
+    if (value_of(u) == 0.0 || !std::isfinite(value_of(p[0]))) return u;
+    const T size = value_of(u) < 0.0 ? T(-u) : u;
+    return u / pow(1.0 + pow(size / p[0], p[1]), 1.0 / p[1]);
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal
+
+GAPSCOPE_DEFINE_EFFECT(torque_saturation, TorqueSaturation)

@@ -1,0 +1,124 @@
+#pragma once
+
+#include "simulation/stepper_impl.h"
+
+namespace gapscope::internal {
+
+template <class T>
+EffectPoint<T> StepperImpl<T>::point(const DriveState<T>& state, const T& time, std::size_t effect) const {
+  const int direction = motor_friction ? mode.motor : sign_of(value_of(state.w1));
+  return {state, time, torque, direction, model, memory.data() + effect * kMostEffectMemory};
+}
+
+template <class T>
+Extra<T> StepperImpl<T>::extra_at(const DriveState<T>& state, const T& time) const {
+  Extra<T> sum;
+  for (std::size_t i = 0; i < model.effects.size(); ++i) {
+    const ActiveEffect<T>& e = model.effects[i];
+    if (e.hooks->torque != nullptr) {
+      const DriveTorque<T> added = e.hooks->torque(point(state, time, i), e.parameters);
+      sum.motor += added.motor;
+      sum.load += added.load;
+    }
+    if (e.hooks->half_gap != nullptr) sum.half_gap += e.hooks->half_gap(point(state, time, i), e.parameters);
+  }
+  return sum;
+}
+
+template <class T>
+Forcing<T> StepperImpl<T>::forcing_without_effects() const {
+  Forcing<T> on;
+  on.motor[0] = torque;
+  if (motor_friction && mode.motor != 0)
+    on.motor[0] -= static_cast<double>(mode.motor) * motor_level(mode.motor);
+  if (load_friction) on.load[0] = -static_cast<double>(mode.load) * model.drive.load_coulomb_friction;
+  on.half_gap[0] = half_gap;
+  return on;
+}
+
+template <class T>
+void add_constant(Forcing<T>& on, const Extra<T>& extra) {
+  on.motor[0] += extra.motor;
+  on.load[0] += extra.load;
+  on.half_gap[0] += extra.half_gap;
+}
+
+template <class T>
+Forcing<T> StepperImpl<T>::forcing_now() const {
+  Forcing<T> on = forcing_without_effects();
+  if (smooth) add_constant(on, extra_at(z, now));
+  return on;
+}
+
+/// Slope and curvature of the quadratic through three equally spaced values.
+template <class T>
+void quadratic(T (&c)[3], const T& start, const T& middle, const T& end, const T& h) {
+  c[1] = (4.0 * middle - 3.0 * start - end) / h;
+  c[2] = 2.0 * (start - 2.0 * middle + end) / (h * h);
+}
+
+template <class T>
+void StepperImpl<T>::bend(Forcing<T>& on, const Extra<T>& start, const Extra<T>& middle, const Extra<T>& end,
+                          const T& h) const {
+  quadratic(on.motor, start.motor, middle.motor, end.motor, h);
+  quadratic(on.load, start.load, middle.load, end.load, h);
+  quadratic(on.half_gap, start.half_gap, middle.half_gap, end.half_gap, h);
+}
+
+template <class T>
+double StepperImpl<T>::effect_rate() const {
+  double rate = 0.0;
+  for (std::size_t i = 0; i < model.effects.size(); ++i) {
+    const ActiveEffect<T>& e = model.effects[i];
+    if (e.hooks->rate != nullptr) rate = std::max(rate, e.hooks->rate(point(z, now, i), e.parameters));
+  }
+  return std::min(rate, kMostDivisions * kEffectReach / dt);
+}
+
+template <class T>
+void StepperImpl<T>::remember_start() {
+  for (std::size_t i = 0; i < model.effects.size(); ++i) {
+    const ActiveEffect<T>& e = model.effects[i];
+    if (e.hooks->remember != nullptr)
+      e.hooks->remember(point(z, now, i), memory.data() + i * kMostEffectMemory, e.parameters);
+  }
+}
+
+template <class T>
+void StepperImpl<T>::advance_memory(const DriveState<T>& to, const T& end_time) {
+  for (std::size_t i = 0; i < model.effects.size(); ++i) {
+    const ActiveEffect<T>& e = model.effects[i];
+    if (e.hooks->advance != nullptr)
+      e.hooks->advance(point(z, now, i), point(to, end_time, i), memory.data() + i * kMostEffectMemory,
+                       e.parameters);
+  }
+}
+
+template <class T>
+void StepperImpl<T>::set_input(double u) {
+  T input(u);
+  for (const ActiveEffect<T>& e : model.effects)
+    if (e.hooks->command != nullptr) input = e.hooks->command(input, e.parameters);
+  torque = model.drive.torque_constant * input;
+}
+
+/// The inertia of the middle of the sample; the precomputed transitions hold as long as it stays.
+template <class T>
+void StepperImpl<T>::set_inertia() {
+  T factor(1.0);
+  for (const ActiveEffect<T>& e : model.effects)
+    if (e.hooks->load_inertia != nullptr) factor *= e.hooks->load_inertia(now + 0.5 * dt, e.parameters);
+  bool same = value_of(factor) == value_of(inertia_factor);
+  if constexpr (kIsJet<T>) same = same && factor.v == inertia_factor.v;
+  if (same) return;
+  inertia_factor = factor;
+  const DriveParameters<T>& p = model.drive;
+  if (has_load)
+    f.m2 = p.motor_inertia * p.mass_ratio * factor;
+  else
+    f.m1 = p.motor_inertia * factor;
+  for (auto& of_segment : transitions)
+    for (Transition<T>& t : of_segment) t.ready = false;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,262 @@
+#pragma once
+
+#include "simulation/stepper_impl.h"
+
+namespace gapscope::internal {
+
+template <class T>
+Transition<T>& StepperImpl<T>::transition(const T& span, int index) {
+  const int row = (mode.contact != 0 ? 6 : 0) + (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
+  Transition<T>& found = transitions[index][row];
+  if (!found.ready) prepare(f, mode, has_load, span, smooth, found);
+  return found;
+}
+
+template <class T>
+void StepperImpl<T>::respond(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const {
+  const auto& r = step.response;
+  if (mode.contact == 0) {
+    next.x1 = z.x1 + r[0][1] * z.w1 + r[0][3] * on.motor[0];
+    next.w1 = r[1][1] * z.w1 + r[1][3] * on.motor[0];
+    if (!has_load || mode.load == 0) {
+      next.x2 = z.x2, next.w2 = z.w2;
+      return;
+    }
+    next.x2 = z.x2 + r[2][2] * z.w2 + r[2][4] * on.load[0];
+    next.w2 = r[3][2] * z.w2 + r[3][4] * on.load[0];
+    return;
+  }
+  const T depth = z.x1 - z.x2 - static_cast<double>(mode.contact) * on.half_gap[0];
+  T out[4];
+  for (int i = 0; i < 4; ++i)
+    out[i] = r[i][0] * depth + r[i][1] * z.w1 + r[i][2] * z.w2 + r[i][3] * on.motor[0] + r[i][4] * on.load[0];
+  next = {z.x1 + out[0], out[1], z.x2 + out[2], out[3]};
+}
+
+/// Adds what the slopes and curvatures of the torques do. A gap that opens under a closed contact pushes on
+/// both bodies like a pair of torques k s β.
+template <class T>
+void StepperImpl<T>::respond_to_slopes(const Transition<T>& step, const Forcing<T>& on,
+                                       DriveState<T>& next) const {
+  const T pushing = f.rigid ? T(0.0) : T(static_cast<double>(mode.contact) * f.k);
+  const T motor[2] = {on.motor[1] + pushing * on.half_gap[1], on.motor[2] + pushing * on.half_gap[2]};
+  const T load[2] = {on.load[1] - pushing * on.half_gap[1], on.load[2] - pushing * on.half_gap[2]};
+  T* const out[4] = {&next.x1, &next.w1, &next.x2, &next.w2};
+  for (int i = 0; i < 4; ++i) {
+    const auto& r = step.response[i];
+    *out[i] += r[5] * motor[0] + r[6] * load[0] + r[7] * motor[1] + r[8] * load[1];
+  }
+}
+
+/// A whole piece with smooth effects: constant torques predict the motion, their quadratic along it corrects
+/// it.
+template <class T>
+void StepperImpl<T>::advance_smoothly(const Transition<T>& step, Forcing<T>& on, DriveState<T>& next) const {
+  const Extra<T> start = extra_at(z, now);
+  add_constant(on, start);
+  respond(step, on, next);
+  const T& h = step.h;
+  const auto middle_of = [&h](const T& x, const T& w, const T& x_end, const T& w_end) {
+    return 0.5 * (x + x_end) + 0.125 * h * (w - w_end);
+  };
+  const auto middle_speed = [&h](const T& x, const T& w, const T& x_end, const T& w_end) {
+    return 1.5 * (x_end - x) / h - 0.25 * (w + w_end);
+  };
+  const DriveState<T> middle{
+      middle_of(z.x1, z.w1, next.x1, next.w1), middle_speed(z.x1, z.w1, next.x1, next.w1),
+      middle_of(z.x2, z.w2, next.x2, next.w2), middle_speed(z.x2, z.w2, next.x2, next.w2)};
+  bend(on, start, extra_at(middle, now + 0.5 * h), extra_at(next, now + h), h);
+  respond_to_slopes(step, on, next);
+}
+
+/// Whether a guard may fall to zero between two states h apart, judged by its values and slopes at both ends.
+/// A yes may be wrong, a no is not: within the series' reach guards are nearly cubic, and one that dips
+/// between rising ends stays above the crossing of its end tangents.
+inline bool dips(double g0, double slope0, double g1, double slope1, double h) {
+  if (g1 <= 0.0) return true;
+  if (!(slope0 < 0.0 && slope1 > 0.0)) return false;
+  const double s = (g1 - g0 - slope1 * h) / (slope0 - slope1);
+  return g0 + slope0 * s <= 0.0;
+}
+
+/// What the guards look at, at one end of a step.
+struct Outlook {
+  double delta, delta_rate, half_gap, half_gap_rate;
+  double torque, torque_rate;  ///< of the contact
+  double motor, motor_rate;    ///< torque on the motor without dampers and contact
+  double load, load_rate;
+  double w1, a1, w2, a2;
+};
+
+template <class T>
+Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Forcing<T>& on, double s) {
+  const auto value = [s](const T(&c)[3]) {
+    return value_of(c[0]) + s * (value_of(c[1]) + s * value_of(c[2]));
+  };
+  const auto slope = [s](const T(&c)[3]) { return value_of(c[1]) + 2.0 * s * value_of(c[2]); };
+  Outlook q{};
+  const int side = d.mode.contact != 0 ? d.mode.contact : d.mode.outside;
+  q.w1 = value_of(z.w1), q.w2 = value_of(z.w2);
+  q.delta = value_of(z.x1) - value_of(z.x2), q.delta_rate = q.w1 - q.w2;
+  q.half_gap = value(on.half_gap), q.half_gap_rate = slope(on.half_gap);
+  q.motor = value(on.motor), q.motor_rate = slope(on.motor);
+  q.load = value(on.load), q.load_rate = slope(on.load);
+  const double k = value_of(d.f.k), c = value_of(d.f.c);
+  if (side != 0) q.torque = k * (q.delta - side * q.half_gap) + c * q.delta_rate;
+  const double acting = d.mode.contact != 0 ? q.torque : 0.0;
+  const double d1 = value_of(d.mode.motor < 0 ? d.f.d1_minus : d.f.d1_plus);
+  if (d.mode.motor != 0) q.a1 = (q.motor - d1 * q.w1 - acting) / value_of(d.f.m1);
+  if (d.mode.load != 0) q.a2 = (q.load - value_of(d.f.d2) * q.w2 + acting) / value_of(d.f.m2);
+  if (side != 0) q.torque_rate = k * (q.delta_rate - side * q.half_gap_rate) + c * (q.a1 - q.a2);
+  return q;
+}
+
+inline bool contact_may_leave(int contact, double adhesion, const Outlook& a, const Outlook& b, double h) {
+  if (contact != 0)
+    return dips(adhesion + contact * a.torque, contact * a.torque_rate, adhesion + contact * b.torque,
+                contact * b.torque_rate, h);
+  return dips(a.half_gap - a.delta, a.half_gap_rate - a.delta_rate, b.half_gap - b.delta,
+              b.half_gap_rate - b.delta_rate, h) ||
+         dips(a.half_gap + a.delta, a.half_gap_rate + a.delta_rate, b.half_gap + b.delta,
+              b.half_gap_rate + b.delta_rate, h);
+}
+
+/// A sticking body: level ∓ applied torque.
+inline bool may_break(double plus, double minus, double applied0, double rate0, double applied1, double rate1,
+                      double h) {
+  return dips(plus - applied0, -rate0, plus - applied1, -rate1, h) ||
+         dips(minus + applied0, rate0, minus + applied1, rate1, h);
+}
+
+template <class T>
+bool StepperImpl<T>::may_leave(const DriveState<T>& next, const Forcing<T>& on, double h) const {
+  if (!has_load && !motor_friction) return false;
+  if ((f.rigid && mode.contact != 0) || mode.outside != 0) return true;  // the exact path decides
+  const Outlook a = outlook(*this, z, on, 0.0), b = outlook(*this, next, on, h);
+  if (has_load && contact_may_leave(mode.contact, value_of(model.adhesion), a, b, h)) return true;
+  const double acting = mode.contact != 0 ? 1.0 : 0.0;
+  if (motor_friction && mode.motor != 0 &&
+      dips(mode.motor * a.w1, mode.motor * a.a1, mode.motor * b.w1, mode.motor * b.a1, h))
+    return true;
+  if (motor_friction && mode.motor == 0 &&
+      may_break(value_of(motor_level(1)), value_of(motor_level(-1)), a.motor - acting * a.torque,
+                a.motor_rate - acting * a.torque_rate, b.motor - acting * b.torque,
+                b.motor_rate - acting * b.torque_rate, h))
+    return true;
+  if (!load_friction) return false;
+  if (mode.load != 0) return dips(mode.load * a.w2, mode.load * a.a2, mode.load * b.w2, mode.load * b.a2, h);
+  const double level = value_of(model.drive.load_coulomb_friction);
+  return may_break(level, level, a.load + acting * a.torque, a.load_rate + acting * a.torque_rate,
+                   b.load + acting * b.torque, b.load_rate + acting * b.torque_rate, h);
+}
+
+template <class T>
+void StepperImpl<T>::accept(const DriveState<T>& next, const T& h) {
+  if (remembers) advance_memory(next, now + h);
+  z = next;
+  now += h;
+}
+
+template <class T>
+void StepperImpl<T>::step(double u) {
+  closed = false;
+  if (!started) {
+    std::fill(inputs.begin(), inputs.end(), u);
+    set_input(u);
+    remember_start();
+    started = true;
+  }
+  newest = (newest + 1) % inputs.size();
+  inputs[newest] = u;
+  const std::size_t oldest = (newest + 1) % inputs.size();
+  if (varies_inertia) set_inertia();
+  if (delayed) {
+    segment(delay_rest, inputs[oldest], 0);
+    segment(dt - delay_rest, inputs[(oldest + 1) % inputs.size()], 1);
+  } else {
+    segment(T(dt), u, 0);
+  }
+  const double sum = value_of(z.x1) + value_of(z.w1) + value_of(z.x2) + value_of(z.w2);
+  if (!(std::abs(sum) < 1e12)) healthy = false;
+}
+
+/// Part of a sample in which the input is constant.
+template <class T>
+void StepperImpl<T>::segment(const T& span, double u, int index) {
+  set_input(u);
+  resolve_at_input_change();
+  const Transition<T>& whole = transition(span, index);
+  if (smooth && effect_rate() * value_of(whole.h) > kEffectReach) return advance(span);
+  DriveState<T> next;
+  for (int piece = 0; piece < whole.pieces; ++piece) {
+    Forcing<T> on = forcing_without_effects();
+    if (smooth)
+      advance_smoothly(whole, on, next);
+    else
+      respond(whole, on, next);
+    if (may_leave(next, on, value_of(whole.h))) {
+      advance(span - static_cast<double>(piece) * whole.h);
+      return;
+    }
+    accept(next, whole.h);
+    forget_zeros();
+  }
+}
+
+/// The flow over h as a series, smooth effects as the quadratic along it.
+template <class T>
+void StepperImpl<T>::build_series(const T& h, Series<T>& series, Forcing<T>& on) const {
+  on = forcing_without_effects();
+  if (!smooth) return flow_series(f, mode, z, on, series);
+  const Extra<T> start = extra_at(z, now);
+  add_constant(on, start);
+  flow_series(f, mode, z, on, series);
+  if (value_of(h) <= 0.0) return;
+  for (int pass = 0; pass < 2; ++pass) {
+    const Extra<T> middle = extra_at(evaluate(series, T(0.5 * h)), now + 0.5 * h);
+    bend(on, start, middle, extra_at(evaluate(series, h), now + h), h);
+    flow_series(f, mode, z, on, series);
+  }
+}
+
+/// The exact path: Taylor series of the running mode up to its first event, then on in the next mode.
+template <class T>
+void StepperImpl<T>::advance(T span) {
+  const double least = 1e-13 * dt;
+  Series<T> series;
+  Forcing<T> on;
+  for (int count = 0;; ++count) {
+    if (count > kMostEventsPerSample) {
+      healthy = false;
+      return;
+    }
+    double reach = kSeriesReach / flow_rate(f, mode.contact != 0 || mode.outside != 0, has_load);
+    if (smooth) reach = std::min(reach, kEffectReach / std::max(effect_rate(), 1e-9));
+    const double pieces = std::max(1.0, std::ceil(value_of(span) / reach));
+    const bool last = pieces == 1.0;
+    const T h = span / pieces;
+    build_series(h, series, on);
+    FirstEvent event;
+    GuardSet set;
+    if (value_of(h) > least) {
+      collect(series, on, set);
+      event = first_event(set, value_of(h));
+    }
+    if (event.guard < 0) {
+      accept(evaluate(series, h), h);
+      forget_zeros();
+      if (last) return;
+      span -= h;
+      continue;
+    }
+    const Guard& guard = set.guards[static_cast<std::size_t>(event.guard)];
+    const T time = polished(guard, series, on, event.time);
+    accept(evaluate(series, time), time);
+    span -= time;
+    if (event.time > least) forget_zeros();
+    ++events;
+    cross(guard);
+  }
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,97 @@
+#pragma once
+
+#include "simulation/stepper_impl.h"
+
+namespace gapscope::internal {
+
+template <class T>
+StepperImpl<T>::StepperImpl(const StepperModel<T>& m, double step) : model(m), dt(step) {
+  const DriveParameters<T>& p = m.drive;
+  has_load = m.structure.has_load;
+  locked = has_load && m.structure.load == LoadKind::kLocked;
+  load_friction = has_load && !locked && m.load_sticks;
+  motor_friction = m.motor_sticks;
+  GAPSCOPE_REQUIRE(step > 0.0);
+  GAPSCOPE_REQUIRE(value_of(p.motor_inertia) > 0.0);
+  GAPSCOPE_REQUIRE(!has_load || locked || value_of(p.mass_ratio) > 0.0);
+  f.m1 = p.motor_inertia;
+  f.m2 = has_load && !locked ? T(p.motor_inertia * p.mass_ratio) : T(p.motor_inertia);
+  f.d1_plus = p.motor_damping + m.motor_damping_excess;
+  f.d1_minus = p.motor_damping - m.motor_damping_excess;
+  f.d2 = has_load && !locked ? p.load_damping : T(0.0);
+  f.k = p.contact_stiffness;
+  f.c = p.contact_damping;
+  f.rigid = m.structure.contact == ContactLaw::kRigid;
+  half_gap = 0.5 * p.gap;
+  T delay(0.0);
+  for (const ActiveEffect<T>& e : m.effects) {
+    smooth = smooth || e.hooks->torque != nullptr || e.hooks->half_gap != nullptr;
+    remembers = remembers || e.hooks->advance != nullptr;
+    varies_inertia = varies_inertia || e.hooks->load_inertia != nullptr;
+    if (e.hooks->delay == nullptr) continue;
+    delay += e.hooks->delay(e.parameters);
+    delayed = true;
+  }
+  const double whole = std::floor(value_of(delay) / dt);
+  delay_rest = delay - whole * dt;
+  inputs.assign(static_cast<std::size_t>(whole) + 2, 0.0);
+  memory.assign(m.effects.size() * kMostEffectMemory, T(0.0));
+  reset({});
+}
+
+template <class T>
+void StepperImpl<T>::reset(const DriveState<T>& state) {
+  z = state;
+  mode = {};
+  now = T(0.0);
+  torque = T(0.0);
+  started = closed = false;
+  healthy = true;
+  events = 0;
+  forget_zeros();
+  if (locked) z.w2 = T(0.0);
+  if (motor_friction) mode.motor = sign_of(value_of(z.w1));
+  if (locked || load_friction) mode.load = sign_of(value_of(z.w2));
+  remember_start();
+  if (!f.rigid) resolve_contact();
+  if (load_friction && mode.load == 0) resolve_load();
+}
+
+template <class T>
+void StepperImpl<T>::inject(const T& dx1, const T& dw1) {
+  z.x1 += dx1;
+  if (mode.motor != 0) z.w1 += dw1;
+  if (mode.contact != 0) {
+    if (!locked) z.x2 += dx1;
+    if (mode.load != 0) z.w2 += dw1;
+  }
+  if (motor_friction && mode.motor != 0 && mode.motor * value_of(z.w1) < 0.0) mode.motor = -mode.motor;
+  if (load_friction && mode.load != 0 && mode.load * value_of(z.w2) < 0.0) mode.load = -mode.load;
+  forget_zeros();
+  if (!f.rigid) resolve_contact();
+}
+
+template <class T>
+T StepperImpl<T>::measured() const {
+  T x1 = z.x1;
+  for (std::size_t i = 0; i < model.effects.size(); ++i)
+    if (const auto& e = model.effects[i]; e.hooks->sense != nullptr)
+      x1 += e.hooks->sense(point(z, now, i), e.parameters);
+  return x1;
+}
+
+template <class T>
+double StepperImpl<T>::side_distance(int side) const {
+  return side * (value_of(z.x1) - value_of(z.x2)) - value_of(forcing_now().half_gap[0]);
+}
+
+template <class T>
+T StepperImpl<T>::contact_torque(int side) const {
+  const Forcing<T> on = forcing_now();
+  if (!f.rigid) return f.k * (z.x1 - z.x2 - static_cast<double>(side) * on.half_gap[0]) + f.c * (z.w1 - z.w2);
+  if (mode.load == 0 || mode.motor == 0) return on.motor[0];
+  const T motor = on.motor[0] - (mode.motor < 0 ? f.d1_minus : f.d1_plus) * z.w1;
+  return motor - f.m1 * ((motor + on.load[0] - f.d2 * z.w1) / (f.m1 + f.m2));
+}
+
+}  // namespace gapscope::internal

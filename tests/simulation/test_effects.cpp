@@ -1,0 +1,209 @@
+// The conformance suite: every row of the catalogue is held to the same laws; a new effect is tested by being
+// there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gapscope/base/random.h"
+#include "gapscope/plant/effect.h"
+#include "simulation/drives.h"
+
+namespace gapscope {
+namespace {
+
+using test::held;
+using test::paper_rig;
+using test::several_sines;
+
+constexpr double kRate = 2000.0;
+
+ScaleContext context(const std::vector<double>& u, double duration) {
+  ScaleContext c;
+  c.nominal = paper_rig();
+  c.peak_input = std::abs(
+      *std::max_element(u.begin(), u.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  c.peak_speed = 3.0;
+  c.travel = 0.6;
+  c.quantum = 6e-6;
+  c.dt = 1.0 / kRate;
+  c.duration = duration;
+  return c;
+}
+
+struct Case {
+  std::vector<double> u = several_sines(0.9, kRate, 4.0);
+  ScaleContext scale = context(u, 4.0);
+};
+
+/// Values a moderate way into the bounds: strong enough to matter, not extreme.
+std::vector<double> moderate(const EffectEntry& e, const ScaleContext& scale) {
+  std::vector<double> values;
+  for (const EffectParameterSpec& p : e.parameters) {
+    const std::string key = p.key;
+    const double unit = scale_value(p.scale, scale);
+    double v = p.low + 0.1 * (p.high - p.low);
+    if (key == "periods_per_turn") v = 24.0 / unit;
+    if (key == "phase_rad") v = 0.4;
+    if (key == "knee") v = 0.7;
+    if (key == "sharpness") v = 2.5;
+    if (key == "stiffness_nm_rad") v = 0.6;
+    if (key == "damping_nms_rad") v = 2.0;
+    if (key == "delay_s") v = 1.37;
+    if (key == "time_constant_s") v = p.scale == Scale::kSample ? 3.0 : 0.4;
+    if (key == "stribeck_speed_rad_s") v = 0.1;
+    if (key == "stiction_ratio") v = 0.6;
+    if (key == "length_rad") v = 0.005;
+    if (key == "ratio" && e.side == EffectSide::kCommand) v = 0.2;
+    if (key == "ratio" && e.side != EffectSide::kCommand) v = 0.5;
+    if (key == "coulomb_ratio" || key == "viscous_ratio") v = 0.3;
+    if (key == "gap_rad") v = 0.05;
+    if (key == "load_share") v = 0.4;
+    if (key == "time_s") v = 0.41;
+    if (key == "duration_s") v = 0.2;
+    if (key == "rate_rad_s") v = 0.5;
+    if (key == "torque_nm" || key == "release_nm") v = 0.2;
+    values.push_back(v * unit);
+  }
+  return values;
+}
+
+/// The paper's rig; a drive of one inertia for the effect that divides it in two.
+StepperModel<double> nominal(const EffectEntry& e) {
+  DriveStructure structure;
+  structure.has_load = std::string(e.name) != "backlash";
+  return stepper_model(paper_rig(), structure);
+}
+
+StepperModel<double> with(const EffectEntry& e, const std::vector<double>& values) {
+  StepperModel<double> model = nominal(e);
+  add_effect<double>(model, e, values);
+  return model;
+}
+
+std::vector<double> measured(const StepperModel<double>& model, const std::vector<double>& u, double rate,
+                             int every = 1, bool* healthy = nullptr) {
+  DriveStepper<double> stepper(model, 1.0 / rate);
+  stepper.reset({});
+  std::vector<double> x1;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    if (i % static_cast<std::size_t>(every) == 0) x1.push_back(stepper.measured());
+    stepper.step(u[i]);
+  }
+  if (healthy != nullptr) *healthy = stepper.healthy();
+  return x1;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+class EveryEffect : public testing::TestWithParam<const EffectEntry*> {};
+
+TEST_P(EveryEffect, LeavesTheMotionAsItIsAtItsAbsentValues) {
+  const Case c;
+  std::vector<double> absent;
+  for (const EffectParameterSpec& p : GetParam()->parameters)
+    absent.push_back(p.absent * scale_value(p.scale, c.scale));
+  const auto plain = measured(nominal(*GetParam()), c.u, kRate);
+  const auto same = measured(with(*GetParam(), absent), c.u, kRate);
+  EXPECT_LT(largest_difference(plain, same), 1e-10);  // round-off, amplified by the impacts
+}
+
+TEST_P(EveryEffect, ChangesWhatIsMeasuredAtModerateValues) {
+  const Case c;
+  const EffectEntry& e = *GetParam();
+  if (e.hooks_double->quantum != nullptr) {
+    EXPECT_GT(e.hooks_double->quantum(moderate(e, c.scale).data()), c.scale.quantum);
+    return;
+  }
+  const auto plain = measured(nominal(e), c.u, kRate);
+  const auto changed = measured(with(e, moderate(e, c.scale)), c.u, kRate);
+  EXPECT_GT(largest_difference(plain, changed), 1e-5);
+}
+
+TEST_P(EveryEffect, ConvergesAtSecondOrderOrIsExactInTheSamplingInterval) {
+  const Case c;
+  const auto model = with(*GetParam(), moderate(*GetParam(), c.scale));
+  const auto truth = measured(model, held(c.u, 32), 32 * kRate, 32);
+  const double coarse = largest_difference(measured(model, c.u, kRate), truth);
+  const double fine = largest_difference(measured(model, held(c.u, 4), 4 * kRate, 4), truth);
+  std::cout << GetParam()->name << ": " << coarse << " rad at 2 kHz, " << fine << " rad at 8 kHz\n";
+  EXPECT_LT(coarse, 1e-5);
+  if (fine > 1e-9) {
+    EXPECT_GE(std::log2(coarse / fine) / 2.0, 1.8);
+  }
+}
+
+TEST_P(EveryEffect, HasDerivativesThatAgreeWithDifferences) {
+  const Case c;
+  const EffectEntry& e = *GetParam();
+  const std::vector<double> values = moderate(e, c.scale);
+  if (e.hooks_double->quantum != nullptr) GTEST_SKIP() << "a quantum is not continuous";
+  StepperModel<Jet<4>> model;
+  model.structure = nominal(e).structure;
+  for (int i = 0; i < kDriveParameterCount; ++i)
+    drive_parameter(model.drive, i) = Jet<4>(drive_parameter(paper_rig(), i));
+  std::vector<Jet<4>> parameters;
+  for (std::size_t i = 0; i < values.size(); ++i) parameters.emplace_back(values[i], static_cast<int>(i));
+  add_effect<Jet<4>>(model, e, parameters);
+  DriveStepper<Jet<4>> stepper(model, 1.0 / kRate);
+  std::vector<Jet<4>> x1;
+  for (const double u : c.u) {
+    x1.push_back(stepper.measured());
+    stepper.step(u);
+  }
+  for (std::size_t p = 0; p < values.size(); ++p) {
+    double best = kInfinity;
+    for (const double relative : {1e-4, 1e-5, 1e-6, 1e-7}) {
+      auto up = values, down = values;
+      const double h = relative * std::abs(values[p]);
+      up[p] += h, down[p] -= h;
+      const auto a = measured(with(e, up), c.u, kRate), b = measured(with(e, down), c.u, kRate);
+      double error = 0.0, size = 0.0;
+      for (std::size_t i = 0; i < x1.size(); ++i) {
+        const double d = (a[i] - b[i]) / (2.0 * h);
+        error += (d - x1[i].v[static_cast<int>(p)]) * (d - x1[i].v[static_cast<int>(p)]);
+        size += d * d;
+      }
+      best = std::min(best, std::sqrt(error / size));
+    }
+    EXPECT_LT(best, 1e-6) << e.parameters[p].key;
+  }
+}
+
+TEST_P(EveryEffect, StaysFiniteOnRandomParametersWithinItsBounds) {
+  const Case c;
+  const EffectEntry& e = *GetParam();
+  auto generator = random_stream(1, e.name);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<double> values;
+    for (const EffectParameterSpec& p : e.parameters)
+      values.push_back(scale_value(p.scale, c.scale) * uniform(generator, p.low, p.high));
+    bool healthy = false;
+    const auto x1 =
+        measured(with(e, values), std::vector<double>(c.u.begin(), c.u.begin() + 2000), kRate, 1, &healthy);
+    EXPECT_TRUE(healthy);
+    for (const double x : x1) ASSERT_TRUE(std::isfinite(x));
+  }
+}
+
+std::string name_of(const testing::TestParamInfo<const EffectEntry*>& info) { return info.param->name; }
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect,
+                         testing::ValuesIn(effect_table().begin(), effect_table().end()), name_of);
+
+TEST(EffectTable, IsSortedAndHoldsTheWholeCatalogue) {
+  const auto table = effect_table();
+  EXPECT_EQ(table.size(), 24u);
+  for (std::size_t i = 1; i < table.size(); ++i) EXPECT_LT(std::string(table[i - 1]->name), table[i]->name);
+  for (const EffectEntry* e : table) {
+    EXPECT_EQ(find_effect(e->name), e);
+    EXPECT_LE(e->parameters.size(), static_cast<std::size_t>(kMostEffectParameters));
+    for (const char* other : e->look_alikes) EXPECT_NE(find_effect(other), nullptr) << other;
+  }
+  EXPECT_EQ(find_effect("none_such"), nullptr);
+}
+
+}  // namespace
+}  // namespace gapscope
