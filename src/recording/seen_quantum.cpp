@@ -26,11 +26,10 @@ std::vector<double> sorted_steps(std::span<const double> x1) {
   return steps;
 }
 
-/// The smallest step that recurs: the first one with enough others within kCluster above it; 0 if none does.
-double smallest_recurring(const std::vector<double>& steps) {
-  const std::size_t enough = std::max<std::size_t>(3, steps.size() / 1000);
-  for (std::size_t i = 0; i + enough <= steps.size(); ++i)
-    if (steps[i + enough - 1] <= steps[i] * (1.0 + kCluster)) return steps[i + enough / 2];
+/// The smallest step that `times` steps come close to; 0 if none.
+double smallest_recurring(const std::vector<double>& steps, std::size_t times) {
+  for (std::size_t i = 0; i + times <= steps.size(); ++i)
+    if (steps[i + times - 1] <= steps[i] * (1.0 + kCluster)) return steps[i + times / 2];
   return 0.0;
 }
 
@@ -63,11 +62,12 @@ double grid_spacing(const std::vector<double>& steps, std::size_t standing, doub
 double seen_quantum(std::span<const double> x1) {
   const std::vector<double> steps = sorted_steps(x1);
   if (steps.size() < kFewestSteps) return 0.0;
-  const double first = smallest_recurring(steps);
-  if (first == 0.0) return 0.0;
   const std::size_t standing = x1.size() - 1 - steps.size();
-  for (int count = 1; count <= kLargestFirstCount; ++count)
-    if (const double q = grid_spacing(steps, standing, first / count); q > 0.0) return q;
+  for (const std::size_t times : {std::size_t{3}, steps.size() / 1000 + 3}) {  // rare, or no stray step
+    const double first = smallest_recurring(steps, times);
+    for (int count = 1; first > 0.0 && count <= kLargestFirstCount; ++count)
+      if (const double q = grid_spacing(steps, standing, first / count); q > 0.0) return q;
+  }
   return 0.0;
 }
 
