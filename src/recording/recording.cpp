@@ -1,18 +1,55 @@
 #include "gapscope/recording/recording.h"
 
-#include <algorithm>
-#include <cmath>
+#include "gapscope/base/require.h"
 
 namespace gapscope {
+namespace {
+
+template <class T>
+std::vector<T> part_of(const std::vector<T>& values, std::size_t first, std::size_t count) {
+  if (values.empty()) return {};
+  const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+}
+
+}  // namespace
 
 const char* to_string(Mode mode) {
   switch (mode) {
-    case Mode::kGap: return "gap";
-    case Mode::kEngagementPlus: return "engagement+";
-    case Mode::kEngagementMinus: return "engagement-";
-    case Mode::kImpact: return "impact";
+    case Mode::kGap:
+      return "gap";
+    case Mode::kEngagementPlus:
+      return "engagement+";
+    case Mode::kEngagementMinus:
+      return "engagement-";
+    case Mode::kImpact:
+      return "impact";
   }
   return "";
+}
+
+Recording part(const Recording& recording, std::size_t first, std::size_t count) {
+  GAPSCOPE_REQUIRE(first <= recording.size() && count <= recording.size() - first);
+  Recording r;
+  r.file = recording.file;
+  r.start = recording.time(first);
+  r.dt = recording.dt;
+  r.u = part_of(recording.u, first, count);
+  r.x1 = part_of(recording.x1, first, count);
+  r.x2 = part_of(recording.x2, first, count);
+  r.mode = part_of(recording.mode, first, count);
+  r.quantum = recording.quantum;
+  r.resampling = recording.resampling;
+  return r;
+}
+
+MotorTrace part(const MotorTrace& trace, std::size_t first, std::size_t count) {
+  GAPSCOPE_REQUIRE(first <= trace.size() && count <= trace.size() - first);
+  MotorTrace t = trace;
+  t.start = trace.time(first);
+  t.u = trace.u.subspan(first, count);
+  t.x1 = trace.x1.subspan(first, count);
+  return t;
 }
 
 }  // namespace gapscope

@@ -15,12 +15,12 @@ const char* to_string(Mode mode);
 
 /// The view that estimators take: one motor encoder and the input, nothing of the load.
 struct MotorTrace {
-  std::string file;             ///< name of the recording, for events and messages
-  double start = 0.0;           ///< time of the first sample [s]
-  double dt = 0.0;              ///< sampling interval [s]
-  std::span<const double> u;    ///< input, held from its own sample to the next [unit of u]
-  std::span<const double> x1;   ///< motor position, read before u acts [rad]
-  double quantum = 0.0;         ///< encoder quantum [rad]; 0 = unknown
+  std::string file;            ///< name of the recording, for events and messages
+  double start = 0.0;          ///< time of the first sample [s]
+  double dt = 0.0;             ///< sampling interval [s]
+  std::span<const double> u;   ///< input, held from its own sample to the next [unit of u]
+  std::span<const double> x1;  ///< motor position, read before u acts [rad]
+  double quantum = 0.0;        ///< encoder quantum [rad]; 0 = unknown
 
   std::size_t size() const { return x1.size(); }
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
@@ -28,15 +28,15 @@ struct MotorTrace {
 
 /// A uniformly sampled recording, simulated or recorded. All filled columns have the same length.
 struct Recording {
-  std::string file;             ///< name of the file (or of the simulation)
-  double start = 0.0;           ///< time of the first sample [s]
-  double dt = 0.0;              ///< sampling interval [s]
-  std::vector<double> u;        ///< [unit of u]
-  std::vector<double> x1;       ///< [rad]
-  std::vector<double> x2;       ///< load position [rad]; empty if unknown. Never read by an estimator.
-  std::vector<Mode> mode;       ///< empty unless simulated
-  double quantum = 0.0;         ///< encoder quantum of the sheet, else the one seen in the raw samples [rad]
-  std::string resampling;       ///< what was done to make the sampling uniform; empty if nothing was
+  std::string file;        ///< name of the file (or of the simulation)
+  double start = 0.0;      ///< time of the first sample [s]
+  double dt = 0.0;         ///< sampling interval [s]
+  std::vector<double> u;   ///< [unit of u]
+  std::vector<double> x1;  ///< [rad]
+  std::vector<double> x2;  ///< load position [rad]; empty if unknown. Never read by an estimator.
+  std::vector<Mode> mode;  ///< empty unless simulated
+  double quantum = 0.0;    ///< encoder quantum of the sheet, else the one seen in the raw samples [rad]
+  std::string resampling;  ///< what was done to make the sampling uniform; empty if nothing was
 
   std::size_t size() const { return x1.size(); }
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
@@ -44,8 +44,14 @@ struct Recording {
   MotorTrace motor_trace() const { return {file, start, dt, u, x1, quantum}; }
 };
 
+/// `count` samples from `first` on, with their own start time. The view must not outlive what it looks at.
+/// @throws std::logic_error if there are not that many.
+Recording part(const Recording& recording, std::size_t first, std::size_t count);
+MotorTrace part(const MotorTrace& trace, std::size_t first, std::size_t count);
+
 /// The quantum that raw encoder samples show: the smallest step that recurs, steps of less than 1e-6 of the
-/// range taken as text rounding [rad]. 0 if the samples show none (fewer than 20 steps, or a smooth signal).
+/// range taken as text rounding, on whose multiples the others lie [rad]. 0 if the samples show none (fewer
+/// than 20 steps, or a smooth signal).
 double seen_quantum(std::span<const double> x1);
 
 }  // namespace gapscope

@@ -17,17 +17,17 @@ const char* to_string(GapQuantity quantity);  ///< "gap", "play_at_zero_torque"
 
 /// One passage of the gap: contact lost at t1 (S3), regained at t2 (S4).
 struct GapEvent {
-  std::string file;             ///< recording it was found in
-  double t1 = kNaN;             ///< [s]
-  double t2 = kNaN;             ///< [s]
-  double x1_t1 = kNaN;          ///< [rad]
-  double x1_t2 = kNaN;          ///< [rad]
-  double gap = kNaN;            ///< estimate of 2β from this passage [rad]
+  std::string file;               ///< recording it was found in
+  double t1 = kNaN;               ///< [s]
+  double t2 = kNaN;               ///< [s]
+  double x1_t1 = kNaN;            ///< [rad]
+  double x1_t2 = kNaN;            ///< [rad]
+  double gap = kNaN;              ///< estimate of 2β from this passage [rad]
   double gap_uncorrected = kNaN;  ///< S5 as published, |x1(t2) − x1(t1)| [rad]
-  double std = kNaN;            ///< standard error of `gap` [rad]
-  int direction = 0;            ///< +1: the motor crossed the gap with rising x1; −1: falling
-  bool accepted = true;         ///< false: seen, but not used in the estimate
-  std::string remark;           ///< why it was not used, or what was corrected
+  double std = kNaN;              ///< standard error of `gap` [rad]
+  int direction = 0;              ///< +1: the motor crossed the gap with rising x1; −1: falling
+  bool accepted = true;           ///< false: seen, but not used in the estimate
+  std::string remark;             ///< why it was not used, or what was corrected
 };
 
 /// The error signal e_x that decided, one per recording; kept for the figures.
@@ -40,7 +40,8 @@ struct ErrorTrace {
 /// What the model-free detector says. A default-built one says that it was not run.
 struct GapEstimate {
   GapVerdict verdict = GapVerdict::kNotRun;
-  std::string reason = "detect_gap() was not called.";  ///< never empty for kInconclusive; says what to change
+  std::string reason =
+      "detect_gap() was not called.";  ///< never empty for kInconclusive; says what to change
   GapMethod method = GapMethod::kImpact;
   GapQuantity quantity = GapQuantity::kGap;
   double gap = kNaN;                   ///< 2β̂ [rad]; NaN unless the verdict is kBacklash

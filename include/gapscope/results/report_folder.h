@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+namespace gapscope {
+
+/// A folder that appears complete or not at all. What is to be stored is first written into a temporary
+/// folder beside the final one; commit() then moves it over file by file, result.json last. Until then the
+/// final folder, and whatever an earlier run left in it, stays as it was; without commit() the temporary
+/// folder is removed.
+///
+/// A folder holds one report: commit() also removes what an earlier report left and the new one does not have
+/// (*.png, report.md, result.json, diagnosis.json, resolved.yaml, timing.json and traces/). Any other file in
+/// the folder belongs to the user and stays.
+class ReportFolder {
+ public:
+  /// Makes the temporary folder, and the folders above it where they are missing.
+  /// @throws std::runtime_error with the path where that cannot be done.
+  explicit ReportFolder(const std::string& folder);
+  ~ReportFolder();
+  ReportFolder(const ReportFolder&) = delete;
+  ReportFolder& operator=(const ReportFolder&) = delete;
+
+  /// Where to write; exists and is empty at the start.
+  const std::string& path() const { return partial_; }
+
+  /// @throws std::runtime_error with the path of what could not be moved or removed.
+  void commit();
+
+ private:
+  std::string final_;
+  std::string partial_;
+};
+
+}  // namespace gapscope

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gapscope/sliding_mode/super_twisting.h"
+
+namespace gapscope {
+
+/// Super-twisting differentiators of one signal, side by side, one for each bound. Every one gives bit for
+/// bit what a SuperTwistingDifferentiator of its bound gives; together they cost about as much as two of
+/// them.
+class BoundBank {
+ public:
+  /// @throws std::invalid_argument unless every bound is positive and finite.
+  explicit BoundBank(std::span<const double> bounds,
+                     Discretisation discretisation = Discretisation::kMatched);
+
+  std::size_t size() const { return x_.size(); }
+
+  /// Starts all of them anew at a known position and velocity.
+  void start(double position, double velocity) noexcept;
+
+  /// Takes the sample measured dt [s] after the last one. Neither allocates nor throws.
+  void step(double y, double dt) noexcept;
+
+  /// Takes samples that are dt apart; errors, (n_samples × size()) row by row, is filled.
+  void run(std::span<const double> y, double dt, std::span<double> errors) noexcept;
+
+  std::span<const double> errors() const { return e_; }      ///< e [rad] of every bound
+  std::span<const double> velocities() const { return w_; }  ///< ŵ₁ [rad/s] of every bound
+  std::span<const double> positions() const { return x_; }   ///< x̂₁ [rad] of every bound
+
+ private:
+  Discretisation discretisation_;
+  std::vector<double> k1_, k2_, root1_, root2_;  // structure of arrays: the loop over bounds vectorises
+  std::vector<double> x_, w_, e_;
+  bool started_ = false;
+};
+
+}  // namespace gapscope

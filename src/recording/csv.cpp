@@ -1,0 +1,103 @@
+#include "gapscope/recording/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/statistics.h"
+#include "recording/csv_table.h"
+#include "recording/limits.h"
+#include "recording/resample.h"
+
+namespace gapscope {
+namespace {
+
+using internal::CsvTable;
+
+void require_samples(const CsvTable& table, std::size_t count, const std::string& where) {
+  if (count < kFewestSamples)
+    throw ConfigError(table.path,
+                      fmt::format("{} samples{}, expected at least {}", count, where, kFewestSamples));
+}
+
+void cut_to_window(CsvTable& table, const std::pair<double, double>& window) {
+  const auto first = std::lower_bound(table.t.begin(), table.t.end(), window.first);
+  const auto last = std::upper_bound(first, table.t.end(), window.second);
+  const std::string where = fmt::format(" in the window {} to {} s (the file has {} to {} s)", window.first,
+                                        window.second, table.t.front(), table.t.back());
+  require_samples(table, static_cast<std::size_t>(last - first), where);
+  table.keep(static_cast<std::size_t>(first - table.t.begin()), static_cast<std::size_t>(last - first));
+}
+
+double mean_step(const CsvTable& table) {
+  return (table.t.back() - table.t.front()) / static_cast<double>(table.size() - 1);
+}
+
+void require_uniform(const CsvTable& table) {
+  const double mean = mean_step(table);
+  std::size_t worst = 1;
+  const auto deviation = [&](std::size_t i) { return std::abs(table.t[i] - table.t[i - 1] - mean); };
+  for (std::size_t i = 1; i < table.size(); ++i)
+    if (deviation(i) > deviation(worst)) worst = i;
+  if (deviation(worst) <= internal::kUniformTolerance * mean) return;
+  throw ConfigError(
+      table.path, table.line[worst],
+      fmt::format(
+          "time is not uniform: a step of {:.6g} ms, {:.3g} % off the mean of {:.6g} ms, expected every "
+          "step within 0.1 % of the mean, or resample: {{rate: ...}} (here about {:.4g} Hz)",
+          1e3 * (table.t[worst] - table.t[worst - 1]), 100.0 * deviation(worst) / mean, 1e3 * mean,
+          1.0 / mean));
+}
+
+bool reproduces_times(const CsvTable& table, double dt) {
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (table.t.front() + dt * static_cast<double>(i) != table.t[i]) return false;
+  return true;
+}
+
+/// The sampling interval. Of all numbers within rounding of the mean step the one that gives back the times
+/// of the file exactly, one over a whole rate first, so that a recording that was written reads back the
+/// same.
+double sampling_interval(const CsvTable& table) {
+  const double mean = mean_step(table);
+  double below = mean, above = mean;
+  std::vector<double> candidates = {1.0 / std::round(1.0 / mean), mean};
+  for (int ulp = 0; ulp < 3; ++ulp) {
+    candidates.push_back(below = std::nextafter(below, 0.0));
+    candidates.push_back(above = std::nextafter(above, kInfinity));
+  }
+  for (const double dt : candidates)
+    if (reproduces_times(table, dt)) return dt;
+  return mean;
+}
+
+Recording as_it_stands(CsvTable&& table) {
+  require_uniform(table);
+  Recording r;
+  r.start = table.t.front();
+  r.dt = sampling_interval(table);
+  r.u = std::move(table.u);
+  r.x1 = std::move(table.x1);
+  r.x2 = std::move(table.x2);
+  return r;
+}
+
+}  // namespace
+
+Recording read_csv(const std::string& path, const CsvOptions& options) {
+  CsvTable table = internal::read_table(path, options.columns);
+  require_samples(table, table.size(), "");
+  if (options.window) cut_to_window(table, *options.window);
+  const double quantum = seen_quantum(table.x1);  // of the raw samples: resampling hides it
+  Recording r = options.resample_rate ? internal::resample(table, *options.resample_rate)
+                                      : as_it_stands(std::move(table));
+  if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
+  r.file = std::filesystem::path(path).filename().string();
+  r.quantum = quantum;
+  return r;
+}
+
+}  // namespace gapscope

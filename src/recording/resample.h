@@ -1,0 +1,14 @@
+#pragma once
+
+#include "gapscope/recording/recording.h"
+#include "recording/csv_table.h"
+
+namespace gapscope::internal {
+
+/// The table on a uniform grid from its first row on: x1 and x2 linearly between rows, u as the mean of the
+/// held input over each new interval, so that its impulse is kept. The last interval may reach beyond the
+/// last row, whose input is held. Fills the series, start, dt and the note `resampling`.
+/// @param rate [Hz], > 0
+Recording resample(const CsvTable& table, double rate);
+
+}  // namespace gapscope::internal

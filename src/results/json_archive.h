@@ -1,0 +1,140 @@
+#pragma once
+
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+
+/// Two archives that meet the same list of fields: one writes it as JSON, the other reads it back. A struct
+/// names its fields once, in `template <class Archive> void fields(Archive&, Struct&)`, so what is written is
+/// what is read.
+namespace gapscope::internal {
+
+using Json = nlohmann::ordered_json;
+
+/// The words of an enum in the file.
+template <class Enum>
+using Words = std::initializer_list<std::pair<Enum, const char*>>;
+
+/// NaN and infinities become null: a number that could not be had.
+Json to_json(double value);
+
+/// Text of a JSON document with a final newline; doubles come out shortest and read back the same.
+void save_json(const std::string& path, const Json& json);
+/// @throws ConfigError where the file is missing or no JSON.
+Json load_json(const std::string& path);
+
+class JsonWriter {
+ public:
+  Json json = Json::object();
+
+  void operator()(const char* key, double& value) { json[key] = to_json(value); }
+  void operator()(const char* key, int& value) { json[key] = value; }
+  void operator()(const char* key, bool& value) { json[key] = value; }
+  void operator()(const char* key, std::string& value) { json[key] = value; }
+  void operator()(const char* key, std::optional<bool>& value);
+  void operator()(const char* key, Interval& value);
+  void operator()(const char* key, std::vector<std::string>& values) { json[key] = values; }
+  void operator()(const char* key, std::vector<double>& values);
+
+  /// A bound may be infinite, which is no missing number: "inf" or "-inf".
+  void bound(const char* key, double& value);
+
+  template <class Enum>
+  void choice(const char* key, Enum& value, Words<Enum> words) {
+    for (const auto& [meaning, word] : words)
+      if (meaning == value) json[key] = word;
+  }
+  template <class Struct>
+  void list(const char* key, std::vector<Struct>& values) {
+    json[key] = Json::array();
+    for (Struct& value : values) json[key].push_back(written(value));
+  }
+  /// A list whose items have a name of their own, as an object.
+  template <class Struct>
+  void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {
+    json[key] = Json::object();
+    for (Struct& value : values) json[key][value.*name] = written(value);
+  }
+  template <class Struct>
+  void part(const char* key, std::optional<Struct>& value) {
+    json[key] = value ? written(*value) : Json(nullptr);
+  }
+
+ private:
+  template <class Struct>
+  static Json written(Struct& value) {
+    JsonWriter inner;
+    fields(inner, value);
+    return std::move(inner.json);
+  }
+};
+
+/// Refuses what is missing or of another type with a ConfigError that names the place.
+class JsonReader {
+ public:
+  /// @param file for messages   @param place where `json` stands in it, e.g. "model_free"
+  JsonReader(const Json& json, std::string file, std::string place);
+
+  void operator()(const char* key, double& value);
+  void operator()(const char* key, int& value);
+  void operator()(const char* key, bool& value);
+  void operator()(const char* key, std::string& value);
+  void operator()(const char* key, std::optional<bool>& value);
+  void operator()(const char* key, Interval& value);
+  void operator()(const char* key, std::vector<std::string>& values);
+  void operator()(const char* key, std::vector<double>& values);
+  void bound(const char* key, double& value);
+
+  template <class Enum>
+  void choice(const char* key, Enum& value, Words<Enum> words) {
+    const Json& word = at(key);
+    for (const auto& [meaning, text] : words)
+      if (word == text) return void(value = meaning);
+    fail(key, "is " + word.dump() + ", which is none of its words");
+  }
+  template <class Struct>
+  void list(const char* key, std::vector<Struct>& values) {
+    const Json& array = at(key);
+    if (!array.is_array()) fail(key, "is not a list");
+    values.clear();
+    for (const Json& item : array) read(item, inside(key), values.emplace_back());
+  }
+  template <class Struct>
+  void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {
+    const Json& object = at(key);
+    if (!object.is_object()) fail(key, "is not an object");
+    values.clear();
+    for (const auto& [item, json] : object.items()) {
+      read(json, inside(key) + "." + item, values.emplace_back());
+      values.back().*name = item;
+    }
+  }
+  template <class Struct>
+  void part(const char* key, std::optional<Struct>& value) {
+    value.reset();
+    if (!at(key).is_null()) read(at(key), inside(key), value.emplace());
+  }
+
+ private:
+  const Json& at(const char* key) const;
+  std::string inside(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
+  [[noreturn]] void fail(const char* key, const std::string& what) const;
+  double number(const Json& json, const char* key) const;
+
+  template <class Struct>
+  void read(const Json& json, const std::string& place, Struct& value) const {
+    JsonReader inner(json, file_, place);
+    fields(inner, value);
+  }
+
+  const Json& json_;
+  std::string file_;
+  std::string place_;
+};
+
+}  // namespace gapscope::internal

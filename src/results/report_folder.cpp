@@ -1,0 +1,91 @@
+#include "gapscope/results/report_folder.h"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+namespace gapscope {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw std::runtime_error(path.string() + ": " + what);
+}
+
+/// Files below a folder as paths relative to it: sorted, so that every commit goes the same way, and the
+/// result last, so that whoever finds a new result finds all that belongs to it.
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(folder));
+  const auto is_result = [](const fs::path& f) { return f == "result.json" || f == "diagnosis.json"; };
+  std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
+    return std::make_pair(is_result(a), a) < std::make_pair(is_result(b), b);
+  });
+  return files;
+}
+
+/// Is this something that a report writes?
+bool is_ours(const fs::path& file) {
+  if (!file.has_parent_path()) {
+    static const char* const names[] = {"report.md", "result.json", "diagnosis.json", "resolved.yaml",
+                                        "timing.json"};
+    return file.extension() == ".png" ||
+           std::any_of(std::begin(names), std::end(names), [&](const char* name) { return file == name; });
+  }
+  return *file.begin() == "traces" && file.extension() == ".csv";
+}
+
+fs::path without_trailing_slash(const std::string& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+}  // namespace
+
+ReportFolder::ReportFolder(const std::string& folder) {
+  const fs::path target = without_trailing_slash(folder);
+  if (fs::exists(target) && !fs::is_directory(target)) fail(target, "is not a folder");
+  std::error_code error;
+  fs::create_directories(target.parent_path(), error);
+  if (error) fail(target.parent_path(), "cannot be created: " + error.message());
+  std::string name = target.parent_path().string() + "/." + target.filename().string() + ".partial-XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) fail(name, std::string("cannot be created: ") + std::strerror(errno));
+  fs::permissions(name, fs::perms(0755),
+                  error);  // mkdtemp gives 0700, which would survive as the report's own
+  final_ = target.string();
+  partial_ = name;
+}
+
+ReportFolder::~ReportFolder() {
+  std::error_code ignored;
+  if (!partial_.empty()) fs::remove_all(partial_, ignored);
+}
+
+void ReportFolder::commit() {
+  const std::vector<fs::path> fresh = files_below(partial_);
+  const std::vector<fs::path> old = files_below(final_);
+  std::error_code error;
+  for (const fs::path& file : fresh) {
+    const fs::path target = fs::path(final_) / file;
+    fs::create_directories(target.parent_path(), error);
+    if (!error) fs::rename(fs::path(partial_) / file, target, error);
+    if (error) fail(target, "cannot be written: " + error.message());
+  }
+  for (const fs::path& file : old) {
+    if (!is_ours(file) || std::find(fresh.begin(), fresh.end(), file) != fresh.end()) continue;
+    fs::remove(fs::path(final_) / file, error);
+    if (error) fail(fs::path(final_) / file, "cannot be removed: " + error.message());
+  }
+  const fs::path traces = fs::path(final_) / "traces";
+  if (fs::is_directory(traces) && fs::is_empty(traces)) fs::remove(traces, error);
+  fs::remove_all(partial_, error);
+  partial_.clear();
+}
+
+}  // namespace gapscope

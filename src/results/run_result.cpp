@@ -1,0 +1,134 @@
+#include "gapscope/results/run_result.h"
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/require.h"
+#include "results/json_archive.h"
+#include "results/run_result_fields.h"
+#include "results/traces.h"
+
+namespace gapscope {
+namespace fs = std::filesystem;
+namespace {
+
+using internal::Document;
+using internal::JsonReader;
+using internal::JsonWriter;
+using internal::kSchema;
+using internal::StoredRecording;
+
+/// What the contract of the file promises; another state is a bug of the caller.
+void require_consistent(const GapEstimate& g) {
+  GAPSCOPE_REQUIRE(g.verdict != GapVerdict::kNotRun);
+  GAPSCOPE_REQUIRE(std::isnan(g.gap) == (g.verdict != GapVerdict::kBacklash));
+  GAPSCOPE_REQUIRE(g.verdict != GapVerdict::kInconclusive || !g.reason.empty());
+  GAPSCOPE_REQUIRE(g.verdict != GapVerdict::kNone || !std::isnan(g.smallest_visible_gap));
+  for (const GapEvent& e : g.events) GAPSCOPE_REQUIRE(e.direction == 1 || e.direction == -1);
+}
+
+/// The trace of each recording, nullptr where it has none. Recordings of one name take the traces of that
+/// name in turn.
+template <class Trace>
+std::vector<const Trace*> traces_by_recording(const std::vector<Recording>& recordings,
+                                              const std::vector<Trace>& traces) {
+  std::vector<const Trace*> found(recordings.size(), nullptr);
+  for (const Trace& trace : traces) {
+    std::size_t i = 0;
+    while (i < recordings.size() && (found[i] || recordings[i].file != trace.file)) ++i;
+    if (i == recordings.size()) throw std::logic_error("the trace of " + trace.file + " has no recording");
+    found[i] = &trace;
+  }
+  return found;
+}
+
+void save(const std::string& path, JsonWriter& writer) { internal::save_json(path, writer.json); }
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": cannot be created: " + error.message());
+}
+
+StoredRecording store_recording(const std::string& folder, std::size_t index, const Recording& recording,
+                                const ErrorTrace* error, const FitTrace* fit) {
+  StoredRecording stored;
+  stored.trace = internal::trace_name(index, recording.file);
+  stored.samples = static_cast<int>(recording.size());
+  stored.has_error = error != nullptr;
+  stored.has_fit = fit != nullptr;
+  stored.recording = {recording.file,    recording.start,     recording.dt, {}, {}, {}, {},
+                      recording.quantum, recording.resampling};
+  internal::write_trace(folder + "/" + stored.trace, recording, error, fit);
+  return stored;
+}
+
+void load_recording(const std::string& folder, const StoredRecording& stored, RunResult& run) {
+  const std::string path = folder + "/" + stored.trace;
+  internal::TraceSet set{
+      stored.recording, {stored.recording.file, {}, {}}, {stored.recording.file, {}, {}, {}}};
+  internal::read_trace(path, set);
+  if (static_cast<int>(set.recording.size()) != stored.samples)
+    throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
+                                std::to_string(stored.samples));
+  if (stored.has_error && run.model_free) run.model_free->traces.push_back(std::move(set.error));
+  if (stored.has_fit && run.reference) run.reference->traces.push_back(std::move(set.fit));
+  run.recordings.push_back(std::move(set.recording));
+}
+
+}  // namespace
+
+void write_run_result(const std::string& folder, const RunResult& result) {
+  if (result.model_free) require_consistent(*result.model_free);
+  const auto errors = traces_by_recording(
+      result.recordings, result.model_free ? result.model_free->traces : std::vector<ErrorTrace>());
+  const auto fits = traces_by_recording(
+      result.recordings, result.reference ? result.reference->traces : std::vector<FitTrace>());
+  if (!result.recordings.empty()) make_folder(fs::path(folder) / "traces");
+  Document document;
+  document.run = result;
+  document.coordinates = result.rotation ? "rotation" : "translation";
+  for (std::size_t i = 0; i < result.recordings.size(); ++i)
+    document.recordings.push_back(store_recording(folder, i, result.recordings[i], errors[i], fits[i]));
+  JsonWriter writer;
+  fields(writer, document);
+  save(folder + "/result.json", writer);
+}
+
+RunResult read_run_result(const std::string& folder) {
+  const std::string path = folder + "/result.json";
+  const internal::Json json = internal::load_json(path);
+  JsonReader reader(json, path, "");
+  Document document;
+  reader("schema", document.schema);
+  if (document.schema != kSchema)
+    throw ConfigError(path, "has the schema " + document.schema + ", expected " + kSchema);
+  fields(reader, document);
+  if (document.coordinates != "rotation" && document.coordinates != "translation")
+    throw ConfigError(path, "coordinates is " + document.coordinates + ", expected rotation or translation");
+  RunResult& run = document.run;
+  run.rotation = document.coordinates == "rotation";
+  for (const StoredRecording& stored : document.recordings) load_recording(folder, stored, run);
+  return std::move(run);
+}
+
+void write_timing(const std::string& folder, const Timing& timing) {
+  Timing copy = timing;
+  JsonWriter writer;
+  fields(writer, copy);
+  save(folder + "/timing.json", writer);
+}
+
+Timing read_timing(const std::string& folder) {
+  const std::string path = folder + "/timing.json";
+  Timing timing;
+  if (!fs::exists(path)) return timing;
+  const internal::Json json = internal::load_json(path);
+  JsonReader reader(json, path, "");
+  fields(reader, timing);
+  return timing;
+}
+
+}  // namespace gapscope

@@ -1,0 +1,158 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/results/run_result.h"
+#include "results/json_archive.h"
+
+/// The fields of a stored result, each named once. The first ones of every list are those that readers
+/// outside the project rely on; the rest is what a report needs beside them.
+namespace gapscope::internal {
+
+inline constexpr const char* kSchema = "gapscope.result/1";
+
+/// A recording without its columns, which are in the trace file.
+struct StoredRecording {
+  std::string trace;
+  int samples = 0;
+  bool has_error = false, has_fit = false;
+  Recording recording;
+};
+
+/// The document: a run result whose recordings are replaced by what the JSON keeps of them.
+struct Document {
+  std::string schema = kSchema;
+  RunResult run;
+  std::string coordinates;
+  std::vector<StoredRecording> recordings;
+};
+
+template <class Archive>
+void fields(Archive& archive, GapEvent& e) {
+  archive("file", e.file);
+  archive("t1_s", e.t1);
+  archive("t2_s", e.t2);
+  archive("x1_t1_rad", e.x1_t1);
+  archive("x1_t2_rad", e.x1_t2);
+  archive("gap_rad", e.gap);
+  archive("direction", e.direction);
+  archive("gap_uncorrected_rad", e.gap_uncorrected);
+  archive("std_rad", e.std);
+  archive("accepted", e.accepted);
+  archive("remark", e.remark);
+}
+
+template <class Archive>
+void fields(Archive& archive, GapEstimate& g) {
+  archive.choice("verdict", g.verdict,
+                 Words<GapVerdict>{{GapVerdict::kBacklash, "backlash"},
+                                   {GapVerdict::kNone, "none"},
+                                   {GapVerdict::kInconclusive, "inconclusive"}});
+  archive("reason", g.reason);
+  archive.choice("method", g.method,
+                 Words<GapMethod>{{GapMethod::kImpact, "impact"},
+                                  {GapMethod::kPaper, "paper"},
+                                  {GapMethod::kLostMotion, "lost_motion"}});
+  archive.choice("quantity", g.quantity,
+                 Words<GapQuantity>{{GapQuantity::kGap, "gap"},
+                                    {GapQuantity::kPlayAtZeroTorque, "play_at_zero_torque"}});
+  archive("gap_rad", g.gap);
+  archive("std_rad", g.std);
+  archive("ci95_rad", g.ci95);
+  archive("smallest_visible_gap_rad", g.smallest_visible_gap);
+  archive("bound_rad_s2", g.bound);
+  archive("bound_t1_rad_s2", g.bound_t1);
+  archive("scale", g.scale);
+  archive("warnings", g.warnings);
+  archive.list("events", g.events);
+}
+
+template <class Archive>
+void fields(Archive& archive, FittedParameter& p) {
+  archive("value", p.value);
+  archive("unit", p.unit);
+  archive("std", p.std);
+  archive("ci95", p.ci95);
+  archive("identifiable", p.identifiable);
+  archive("estimated", p.estimated);
+  archive("at_bound", p.at_bound);
+  archive("start", p.start);
+  archive.bound("low", p.low);
+  archive.bound("high", p.high);
+}
+
+template <class Archive>
+void fields(Archive& archive, ModeError& m) {
+  archive.choice("mode", m.mode,
+                 Words<Mode>{{Mode::kGap, "gap"},
+                             {Mode::kEngagementPlus, "engagement+"},
+                             {Mode::kEngagementMinus, "engagement-"},
+                             {Mode::kImpact, "impact"}});
+  archive("samples", m.samples);
+  archive("rmse_rad", m.rmse);
+}
+
+template <class Archive>
+void fields(Archive& archive, FitSummary& f) {
+  bool converged = f.converged();  // follows from the status, kept for readers of the file
+  archive("converged", converged);
+  archive("rmse_rad", f.rmse);
+  archive.choice("status", f.status,
+                 Words<FitStatus>{{FitStatus::kNotRun, "not_run"},
+                                  {FitStatus::kConverged, "converged"},
+                                  {FitStatus::kNotConverged, "not_converged"},
+                                  {FitStatus::kFailed, "failed"}});
+  archive("message", f.message);
+  archive.named("parameters", f.parameters, &FittedParameter::key);
+  archive("floor_rad", f.floor);
+  archive("starts", f.starts);
+  archive("simulations", f.simulations);
+  archive("lag1_autocorrelation", f.lag1_autocorrelation);
+  archive("start_costs", f.start_costs);
+  archive.list("mode_errors", f.mode_errors);
+  archive("warnings", f.warnings);
+}
+
+template <class Archive>
+void fields(Archive& archive, Comparison& c) {
+  archive("difference_rad", c.difference);
+  archive("joint_std_rad", c.joint_std);
+  archive("agree", c.agree);
+  archive("x2_map_gap_rad", c.true_gap);
+}
+
+template <class Archive>
+void fields(Archive& archive, StoredRecording& r) {
+  archive("file", r.recording.file);
+  archive("trace", r.trace);
+  archive("samples", r.samples);
+  archive("start_s", r.recording.start);
+  archive("dt_s", r.recording.dt);
+  archive("quantum_rad", r.recording.quantum);
+  archive("resampling", r.recording.resampling);
+  archive("error_trace", r.has_error);
+  archive("fit_trace", r.has_fit);
+}
+
+template <class Archive>
+void fields(Archive& archive, Document& d) {
+  archive("schema", d.schema);
+  archive("name", d.run.name);
+  archive("version", d.run.version);
+  archive("coordinates", d.coordinates);
+  archive.part("model_free", d.run.model_free);
+  archive.part("reference", d.run.reference);
+  archive.part("comparison", d.run.comparison);
+  archive("simulated_gap_rad", d.run.simulated_gap);
+  archive("notes", d.run.notes);
+  archive.list("recordings", d.recordings);
+}
+
+template <class Archive>
+void fields(Archive& archive, Timing& t) {
+  archive("model_free_s", t.model_free_s);
+  archive("reference_s", t.reference_s);
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,171 @@
+#include "results/traces.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+
+#include "gapscope/base/errors.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr Mode kModes[] = {Mode::kGap, Mode::kEngagementPlus, Mode::kEngagementMinus, Mode::kImpact};
+
+/// The number columns of a set in their order in the file, after t_s.
+struct NumberColumn {
+  const char* name;
+  std::vector<double>& (*of)(TraceSet&);
+};
+constexpr NumberColumn kNumbers[] = {
+    {"u", [](TraceSet& s) -> std::vector<double>& { return s.recording.u; }},
+    {"x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.recording.x1; }},
+    {"x2_rad", [](TraceSet& s) -> std::vector<double>& { return s.recording.x2; }},
+    {"e_x_rad", [](TraceSet& s) -> std::vector<double>& { return s.error.error; }},
+    {"w1_hat_rad_s", [](TraceSet& s) -> std::vector<double>& { return s.error.velocity; }},
+    {"fit_x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.x1; }},
+    {"fit_x2_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.x2; }},
+};
+struct ModeColumn {
+  const char* name;
+  std::vector<Mode>& (*of)(TraceSet&);
+};
+constexpr ModeColumn kModeColumns[] = {
+    {"mode", [](TraceSet& s) -> std::vector<Mode>& { return s.recording.mode; }},
+    {"fit_mode", [](TraceSet& s) -> std::vector<Mode>& { return s.fit.mode; }},
+};
+
+void append(std::string& text, double value) {
+  if (std::isnan(value)) return;
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value);
+  text.append(digits, end.ptr);
+}
+
+/// The filled columns of a set.
+struct Columns {
+  std::vector<NumberColumn> numbers;
+  std::vector<ModeColumn> modes;
+};
+
+Columns filled_columns(TraceSet& set) {
+  const std::size_t n = set.recording.size();
+  Columns filled;
+  const auto keep = [&](const auto& column, auto& into) {
+    const std::size_t length = column.of(set).size();
+    if (length != 0 && length != n)
+      throw std::logic_error(set.recording.file + ": column " + column.name + " has another length than x1");
+    if (length != 0) into.push_back(column);
+  };
+  for (const NumberColumn& column : kNumbers) keep(column, filled.numbers);
+  for (const ModeColumn& column : kModeColumns) keep(column, filled.modes);
+  return filled;
+}
+
+std::string text_of(TraceSet& set) {
+  const Columns columns = filled_columns(set);
+  std::string text = "t_s";
+  for (const NumberColumn& column : columns.numbers) text += std::string(",") + column.name;
+  for (const ModeColumn& column : columns.modes) text += std::string(",") + column.name;
+  text += '\n';
+  for (std::size_t i = 0; i < set.recording.size(); ++i) {
+    append(text, set.recording.time(i));
+    for (const NumberColumn& column : columns.numbers) append(text += ',', column.of(set)[i]);
+    for (const ModeColumn& column : columns.modes) (text += ',') += to_string(column.of(set)[i]);
+    text += '\n';
+  }
+  return text;
+}
+
+/// Cuts the next field off a line.
+std::string_view next_field(std::string_view& line) {
+  const std::size_t comma = line.find(',');
+  const std::string_view field = line.substr(0, comma);
+  line = comma == std::string_view::npos ? std::string_view() : line.substr(comma + 1);
+  return field;
+}
+
+double number_of(std::string_view field) {
+  double value = kNaN;
+  if (field.empty()) return value;
+  const auto end = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (end.ec != std::errc() || end.ptr != field.data() + field.size())
+    throw std::invalid_argument("\"" + std::string(field) + "\" is not a number");
+  return value;
+}
+
+Mode mode_of(std::string_view field) {
+  for (const Mode mode : kModes)
+    if (field == to_string(mode)) return mode;
+  throw std::invalid_argument("\"" + std::string(field) + "\" is not a mode");
+}
+
+Columns columns_of_header(std::string_view header) {
+  Columns columns;
+  if (next_field(header) != "t_s") throw std::invalid_argument("the first column is not t_s");
+  while (!header.empty()) {
+    const std::string_view name = next_field(header);
+    const std::size_t before = columns.numbers.size() + columns.modes.size();
+    for (const NumberColumn& column : kNumbers)
+      if (name == column.name) columns.numbers.push_back(column);
+    for (const ModeColumn& column : kModeColumns)
+      if (name == column.name) columns.modes.push_back(column);
+    if (columns.numbers.size() + columns.modes.size() == before)
+      throw std::invalid_argument("unknown column " + std::string(name));
+  }
+  return columns;
+}
+
+void read_row(std::string_view line, const Columns& columns, TraceSet& set) {
+  const auto commas = static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+  if (commas != columns.numbers.size() + columns.modes.size())
+    throw std::invalid_argument("another number of fields than in the header");
+  next_field(line);  // time is start + i dt
+  for (const NumberColumn& column : columns.numbers) column.of(set).push_back(number_of(next_field(line)));
+  for (const ModeColumn& column : columns.modes) column.of(set).push_back(mode_of(next_field(line)));
+}
+
+}  // namespace
+
+std::string trace_name(std::size_t index, const std::string& recording_file) {
+  std::string stem = std::filesystem::path(recording_file).stem().string();
+  for (char& c : stem)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  return "traces/" + std::to_string(index + 1) + "_" + (stem.empty() ? "recording" : stem) + ".csv";
+}
+
+void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
+                 const FitTrace* fit) {
+  TraceSet set{recording, error ? *error : ErrorTrace{}, fit ? *fit : FitTrace{}};
+  std::ofstream out(path, std::ios::binary);
+  out << text_of(set);
+  if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
+void read_trace(const std::string& path, TraceSet& set) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw ConfigError(path, "is missing, the stored result names it");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string_view rest = text;
+  Columns columns;
+  for (int line = 1; !rest.empty(); ++line) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view row = rest.substr(0, end);
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    try {
+      if (line == 1)
+        columns = columns_of_header(row);
+      else
+        read_row(row, columns, set);
+    } catch (const std::invalid_argument& error) {
+      throw ConfigError(path, line, error.what());
+    }
+  }
+}
+
+}  // namespace gapscope::internal

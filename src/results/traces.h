@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/results/run_result.h"
+
+namespace gapscope::internal {
+
+/// What the columns of a trace file come from and go to: one recording, and what the estimators said about
+/// it.
+struct TraceSet {
+  Recording recording;  ///< start, dt and the texts are the caller's, the columns are in the file
+  ErrorTrace error;     ///< empty columns where there is none
+  FitTrace fit;
+};
+
+/// "traces/3_train.csv" for the third recording, of a file train.csv.
+std::string trace_name(std::size_t index, const std::string& recording_file);
+
+/// Writes the filled columns only; an undefined number is an empty field.  @throws std::runtime_error
+void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
+                 const FitTrace* fit);
+
+/// Fills the columns of a set.  @throws ConfigError with file and line for a damaged file.
+void read_trace(const std::string& path, TraceSet& set);
+
+}  // namespace gapscope::internal

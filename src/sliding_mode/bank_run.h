@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gapscope/recording/recording.h"
+#include "gapscope/sliding_mode/super_twisting.h"
+#include "sliding_mode/signal_facts.h"
+
+namespace gapscope::internal {
+
+/// The error signals of all bounds over one recording, with the chatter floor of each.
+struct BankRun {
+  std::vector<double> bounds;  ///< rising [rad/s²]
+  std::vector<double> floor;   ///< of |e| while sliding, one per bound [rad]
+  std::vector<double> quiet;   ///< share of samples with |e| < 2 floor, one per bound
+  std::vector<double> errors;  ///< (n_samples × n_bounds) [rad]
+  double error(std::size_t i, std::size_t bound) const { return errors[i * bounds.size() + bound]; }
+  std::size_t samples() const { return errors.size() / bounds.size(); }
+};
+
+/// Logarithmic grid of bounds for a motion: from what cannot slide to where chatter buries everything.
+std::vector<double> bound_grid(const SignalFacts& facts, double dt);
+
+BankRun run_bank(const MotorTrace& trace, const SignalFacts& facts, std::vector<double> bounds,
+                 Discretisation discretisation);
+
+/// A stretch of one error signal outside its floor, of one sign.
+struct Excursion {
+  std::size_t bound = 0;  ///< index into the grid
+  int sign = 0;           ///< of e
+  std::size_t start = 0;  ///< last sample before it that is within the floor, or of the other sign
+  std::size_t peak = 0;
+  std::size_t end = 0;  ///< first sample back below half the floor, or of the other sign
+  double height = 0.0;  ///< |e| at the peak [rad]
+};
+
+std::vector<Excursion> find_excursions(const BankRun& run, std::size_t bound);
+
+/// Excursions of one sign, linked over the bounds from the highest down: one thing that happened to the
+/// motor.
+struct Event {
+  int sign = 0;
+  std::size_t start = 0;  ///< at the highest bound: least latency
+  std::size_t peak = 0;   ///< at the highest bound
+  std::size_t top = 0;    ///< highest bound (index) that shows it: its abruptness
+  std::size_t last = 0;   ///< lowest bound (index) that shows it
+  std::size_t seen = 0;   ///< number of bounds that show it
+  double step = 0.0;      ///< velocity step Δv = √(k₂ |e_peak|/0.102), median of the top three [rad/s]
+  std::vector<double> steps;  ///< of the top three
+};
+
+std::vector<Event> link_events(const BankRun& run, const std::vector<std::vector<Excursion>>& excursions,
+                               std::size_t tolerance);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,59 @@
+#include "gapscope/sliding_mode/gap_estimate.h"
+
+#include <fmt/format.h>
+
+namespace gapscope {
+
+const char* to_string(GapVerdict verdict) {
+  switch (verdict) {
+    case GapVerdict::kNotRun:
+      return "not_run";
+    case GapVerdict::kBacklash:
+      return "backlash";
+    case GapVerdict::kNone:
+      return "none";
+    case GapVerdict::kInconclusive:
+      return "inconclusive";
+  }
+  return "";
+}
+
+const char* to_string(GapMethod method) {
+  switch (method) {
+    case GapMethod::kImpact:
+      return "impact";
+    case GapMethod::kPaper:
+      return "paper";
+    case GapMethod::kLostMotion:
+      return "lost_motion";
+  }
+  return "";
+}
+
+const char* to_string(GapQuantity quantity) {
+  switch (quantity) {
+    case GapQuantity::kGap:
+      return "gap";
+    case GapQuantity::kPlayAtZeroTorque:
+      return "play_at_zero_torque";
+  }
+  return "";
+}
+
+std::string GapEstimate::brief_report() const {
+  switch (verdict) {
+    case GapVerdict::kBacklash:
+      return fmt::format("backlash: {} {:.4g} rad, 95 % interval [{:.4g}, {:.4g}] rad ({})",
+                         quantity == GapQuantity::kGap ? "gap" : "play at zero torque", gap, ci95.low,
+                         ci95.high, reason);
+    case GapVerdict::kNone:
+      return fmt::format("none above {:.3g} rad ({})", smallest_visible_gap, reason);
+    case GapVerdict::kInconclusive:
+      return fmt::format("inconclusive: {}", reason);
+    case GapVerdict::kNotRun:
+      break;
+  }
+  return fmt::format("not run: {}", reason);
+}
+
+}  // namespace gapscope

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gapscope/sliding_mode/gap_estimate.h"
+#include "sliding_mode/transition.h"
+
+namespace gapscope::internal {
+
+/// Everything that the bank of bounds found in one recording.
+struct ImpactAnalysis {
+  SignalFacts facts;
+  BankRun run;
+  std::vector<Event> events;          ///< main events only, in time
+  std::vector<Transition> passages;   ///< the first main event after each change of sign
+  std::size_t sliding = 0;            ///< index of L_acc, the smallest bound that slides 80 % of the time
+  std::size_t deciding = 0;           ///< index of the bound that decides t2
+  double smallest_visible_gap = 0.0;  ///< [rad]
+  double travel = 0.0;                ///< peak to peak [rad]
+};
+
+ImpactAnalysis analyse(const MotorTrace& trace);
+
+/// Verdict and estimate from all recordings together. Median per direction, mean of both.
+void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
+            GapEstimate& estimate);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gapscope/sliding_mode/gap_estimate.h"
+#include "sliding_mode/impact_method.h"
+
+namespace gapscope::internal {
+
+/// What one error signal e_x (forward Euler, one bound) shows of steps S2 to S4.
+struct PaperReading {
+  double bound = 0.0;            ///< L [rad/s²]
+  std::vector<GapEvent> events;  ///< passages, accepted or not
+  std::vector<double> lateness;  ///< |x1(t1) − x1(reversal)| of the accepted ones [rad]
+  std::vector<double> steps;     ///< |x1| covered in one sample at t2 [rad]
+  double quiet = 0.0;            ///< share of samples within twice the floor
+  std::size_t spikes = 0;        ///< excursions without a ramp before them
+};
+
+PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& analysis, double bound);
+
+/// Steps S5 and S6 over all recordings: |x1(t2) − x1(t1)|, averaged robustly over passages of both
+/// directions.
+void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const PaperReading> readings,
+                       GapEstimate& estimate);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,90 @@
+#include "sliding_mode/signal_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+
+namespace gapscope::internal {
+namespace {
+
+using Samples = std::span<const double>;
+
+/// σ of white noise from fourth differences: smooth motion drops out, and Σ binomial(4, i)² = 70.
+double noise_from_differences(Samples y) {
+  std::vector<double> d;
+  for (std::size_t i = 4; i < y.size(); ++i)
+    d.push_back(std::abs(y[i] - 4.0 * y[i - 1] + 6.0 * y[i - 2] - 4.0 * y[i - 3] + y[i - 4]));
+  return 1.4826 * median(std::move(d)) / std::sqrt(70.0);
+}
+
+/// Root mean square of the speed, by differences wide enough that noise does not count.
+double rms_speed(Samples y, double dt, double noise, double amplitude) {
+  for (std::size_t m = 1; m < y.size() / 8; m *= 2) {
+    double sum = 0.0;
+    for (std::size_t i = m; i < y.size(); ++i) sum += (y[i] - y[i - m]) * (y[i] - y[i - m]);
+    const double step = std::sqrt(sum / static_cast<double>(y.size() - m));
+    if (step > 10.0 * noise || step > 0.3 * amplitude) return step / (dt * static_cast<double>(m));
+  }
+  return 0.0;
+}
+
+/// Instants at which y passes the centre, 30 % of the amplitude of hysteresis.
+std::vector<std::size_t> crossings(Samples y, double centre, double amplitude) {
+  std::vector<std::size_t> found;
+  int side = 0;
+  std::size_t last = 0;  // where the centre itself was passed
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const double d = y[i] - centre;
+    if (i > 0 && (d > 0.0) != (y[i - 1] - centre > 0.0)) last = i;
+    const int now = d > 0.3 * amplitude ? 1 : d < -0.3 * amplitude ? -1 : side;
+    if (side != 0 && now != side) found.push_back(last);
+    side = now;
+  }
+  return found;
+}
+
+void read_period(const MotorTrace& trace, SignalFacts& facts) {
+  const auto found = crossings(trace.x1, facts.centre, facts.amplitude);
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < found.size(); ++i)
+    lengths.push_back(trace.dt * static_cast<double>(found[i] - found[i - 1]));
+  facts.half_periods = lengths.size();
+  facts.half_period = median(std::move(lengths));
+}
+
+}  // namespace
+
+SignalFacts read_facts(const MotorTrace& trace) {
+  SignalFacts facts;
+  const Samples y = trace.x1;
+  if (y.size() < 200 || !(trace.dt > 0.0)) {
+    facts.defect = "recording too short: record at least three periods of a periodic motion";
+    return facts;
+  }
+  facts.quantum = trace.quantum;
+  facts.noise = std::max(noise_from_differences(y), facts.quantum / std::sqrt(12.0));
+  const std::vector<double> all(y.begin(), y.end());
+  const double low = quantile(all, 0.02), high = quantile(all, 0.98);
+  facts.centre = 0.5 * (low + high);
+  facts.amplitude = 0.5 * (high - low);
+  if (!(facts.amplitude > 6.0 * facts.noise) || !(facts.amplitude > 0.0)) {
+    facts.defect = "no motion above the encoder's noise: raise the excitation";
+    return facts;
+  }
+  facts.speed_rms = rms_speed(y, trace.dt, facts.noise, facts.amplitude);
+  read_period(trace, facts);
+  if (facts.half_periods < kFewestHalfPeriods)
+    facts.defect = fmt::format(
+        "no periodic motion: {} half periods found, {} needed; excite with a sine and record three periods "
+        "or more",
+        facts.half_periods, kFewestHalfPeriods);
+  else if (!(facts.speed_rms > 0.0))
+    facts.defect = "no speed above the encoder's noise: raise the excitation";
+  return facts;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "gapscope/recording/recording.h"
+
+namespace gapscope::internal {
+
+/// What the samples say about themselves, before any detection.
+struct SignalFacts {
+  double quantum = 0.0;      ///< of the encoder [rad]
+  double noise = 0.0;        ///< σ_n, standard deviation of one sample: noise and quantisation [rad]
+  double centre = 0.0;       ///< middle of the travel [rad]
+  double amplitude = 0.0;    ///< half the travel, from the 2 and 98 % quantiles [rad]
+  double speed_rms = 0.0;    ///< [rad/s]
+  double half_period = 0.0;  ///< median time between crossings of the centre [s]
+  std::size_t half_periods = 0;
+  std::string defect;  ///< why nothing can be detected here; empty if something can
+};
+
+SignalFacts read_facts(const MotorTrace& trace);
+
+/// Fewest half periods that make a motion periodic.
+constexpr std::size_t kFewestHalfPeriods = 4;
+
+}  // namespace gapscope::internal

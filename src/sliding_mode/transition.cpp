@@ -1,0 +1,118 @@
+#include "sliding_mode/transition.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/statistics.h"
+#include "sliding_mode/impact_time.h"
+#include "sliding_mode/release.h"
+
+namespace gapscope::internal {
+
+const char* describe(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kNone:
+      return "";
+    case Refusal::kContrast:
+      return "not more abrupt than the motion before it";
+    case Refusal::kNoReversal:
+      return "x1 does not reverse before the impact";
+    case Refusal::kSmallRise:
+      return "too few encoder quanta between reversal and impact";
+    case Refusal::kLoadHits:
+      return "the motor was not moving into the gap when it was hit";
+    case Refusal::kNoImpactFit:
+      return "no kink of x1 at the impact";
+    case Refusal::kNoRelease:
+      return "neither a rest nor a separation is seen before the impact";
+    case Refusal::kLoadMoving:
+      return "the load was moving between t1 and t2";
+  }
+  return "";
+}
+
+namespace {
+
+/// Where x1 turned round before the impact, against the direction of the passage.
+Reversal find_reversal(const TransitionContext& context, int direction, std::size_t from, std::size_t to) {
+  Reversal r;
+  r.direction = direction;
+  const auto& y = context.trace.x1;
+  double low = kInfinity;
+  for (std::size_t i = from; i <= to; ++i)
+    if (direction * y[i] <= low) low = direction * y[i], r.last = i;
+  const double tolerance = context.facts.quantum + 2.0 * context.facts.noise;
+  r.first = r.last;
+  for (std::size_t i = r.last; i-- > from && direction * y[i] <= low + tolerance;) r.first = i;
+  r.position = direction * low;
+  r.rise = direction * y[to] - low;
+  return r;
+}
+
+void fill_event(Transition& t, const TransitionContext& context, const ImpactTime& impact,
+                const Release& release) {
+  const auto& trace = context.trace;
+  t.event.t1 = trace.start + trace.dt * release.time;
+  t.event.x1_t1 = release.position;
+  t.event.gap_uncorrected = std::abs(impact.position - release.position);
+  const double s5 = t.event.direction * (impact.position - release.position);
+  t.event.gap = s5 + release.load_travel;
+  t.load_travel = release.load_travel;
+  t.half_width = release.half_width + std::abs(impact.speed) * impact.half_width;
+  t.dwell = release.dwell;
+  if (release.load_travel > 0.0) t.event.remark = "corrected for the travel of the load";
+}
+
+void read_release(Transition& t, const TransitionContext& context, const Reversal& reversal,
+                  const ImpactTime& impact) {
+  const Release release = find_release(context, reversal, impact);
+  if (!release.found) {
+    t.refusal = Refusal::kNoRelease;
+    return;
+  }
+  fill_event(t, context, impact, release);
+  const double change = std::abs(t.event.gap - t.event.gap_uncorrected);
+  if (!(t.event.gap > 0.0) || change > 0.2 * t.event.gap ||
+      2.0 * release.travel_half_width > 0.4 * t.event.gap)
+    t.refusal = Refusal::kLoadMoving;
+}
+
+}  // namespace
+
+Transition read_transition(const TransitionContext& context, const Event& impact, std::size_t from) {
+  Transition t;
+  const auto& trace = context.trace;
+  t.event.file = trace.file;
+  t.event.direction = -impact.sign;  // contact with the far flank pushes the motor back
+  t.event.t2 = trace.time(impact.start);
+  t.event.x1_t2 = trace.x1[impact.start];
+  const Reversal reversal = find_reversal(context, t.event.direction, from, impact.start);
+  const std::size_t margin = 3;
+  if (reversal.last <= from + margin || reversal.last + margin >= impact.start) {
+    t.refusal = Refusal::kNoReversal;
+    return t;
+  }
+  t.event.t1 = trace.time(reversal.last);
+  t.event.x1_t1 = reversal.position;
+  if (reversal.rise < 8.0 * context.facts.noise + 2.0 * context.facts.quantum) {
+    t.refusal = Refusal::kSmallRise;
+    return t;
+  }
+  const ImpactTime time = refine_impact(context, impact, reversal);
+  if (!time.found) {
+    t.refusal = Refusal::kNoImpactFit;
+    return t;
+  }
+  t.event.t2 = trace.start + trace.dt * time.time;
+  t.event.x1_t2 = time.position;
+  t.speed = t.event.direction * time.speed;
+  t.acceleration = t.event.direction * time.acceleration;
+  if (!(t.speed > 0.05 * impact.step)) {
+    t.refusal = Refusal::kLoadHits;
+    return t;
+  }
+  read_release(t, context, reversal, time);
+  return t;
+}
+
+}  // namespace gapscope::internal

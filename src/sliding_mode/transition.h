@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "gapscope/recording/recording.h"
+#include "gapscope/sliding_mode/gap_estimate.h"
+#include "sliding_mode/bank_run.h"
+#include "sliding_mode/signal_facts.h"
+
+namespace gapscope::internal {
+
+/// Why a passage of the gap was not used, in the order in which it is tested.
+enum class Refusal {
+  kNone,
+  kContrast,     ///< not more abrupt than the motion before it
+  kNoReversal,   ///< x1 does not reverse before the impact
+  kSmallRise,    ///< the passage is a few quanta wide
+  kLoadHits,     ///< the motor was not moving along the gap when it was hit
+  kNoImpactFit,  ///< no kink where the impact should be
+  kNoRelease,    ///< neither a rest of the motor nor a separation in motion is seen before the impact
+  kLoadMoving,   ///< the load's own travel is too uncertain
+};
+
+const char* describe(Refusal refusal);  ///< for the remark of an event
+
+/// One candidate passage: an impact, and the release before it.
+struct Transition {
+  GapEvent event;
+  Refusal refusal = Refusal::kNone;
+  double contrast = 0.0;      ///< top bound over the bound that the motion before it needs
+  double half_width = 0.0;    ///< systematic: where the release and the load's travel may lie [rad]
+  double speed = 0.0;         ///< of the motor before the impact [rad/s]
+  double acceleration = 0.0;  ///< of the motor in the gap, just before the impact [rad/s²]
+  double load_travel = 0.0;   ///< assumed between t1 and t2 [rad]
+  bool dwell = false;         ///< the motor rested before it entered the gap
+};
+
+/// What an impact is looked at with.
+struct TransitionContext {
+  const MotorTrace& trace;
+  const SignalFacts& facts;
+  const BankRun& run;
+};
+
+/// The passage that ends in `impact` and began after sample `from`.
+Transition read_transition(const TransitionContext& context, const Event& impact, std::size_t from);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "gapscope/base/statistics.h"
+#include "sliding_mode/impact_method.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct Pool {
+  std::vector<const Transition*> accepted;
+  std::map<Refusal, int> refused;  // ordered: the same text for the same data
+  std::size_t passages = 0;
+  double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0;
+};
+
+std::vector<double> gaps_of(const Pool& pool, int direction) {
+  std::vector<double> gaps;
+  for (const Transition* t : pool.accepted)
+    if (direction == 0 || t->event.direction == direction) gaps.push_back(t->event.gap);
+  return gaps;
+}
+
+template <class Member>
+double median_of(const Pool& pool, Member member) {
+  std::vector<double> values;
+  for (const Transition* t : pool.accepted) values.push_back(t->*member);
+  return median(std::move(values));
+}
+
+Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals) {
+  Pool pool;
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    const ImpactAnalysis& a = analyses[i];
+    if (!a.facts.defect.empty()) continue;
+    pool.half_periods += static_cast<double>(a.facts.half_periods);
+    pool.travel = std::min(pool.travel, a.travel);
+    pool.noise = std::max(pool.noise, a.facts.noise);
+    pool.dt = std::max(pool.dt, intervals[i]);
+    for (const Transition& t : a.passages) {
+      ++pool.passages;
+      if (t.refusal == Refusal::kNone)
+        pool.accepted.push_back(&t);
+      else
+        ++pool.refused[t.refusal];
+    }
+  }
+  return pool;
+}
+
+/// What to change, for the commonest reason of refusal.
+std::string advice(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kContrast:
+      return "no impact stands out of the motion: quasi-static, or without a free passage; use a faster "
+             "excitation "
+             "(higher frequency or amplitude) with the output free to move";
+    case Refusal::kNoReversal:
+      return "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the "
+             "motion rest "
+             "at its reversals (trapezoid or triangle), or lower the frequency";
+    case Refusal::kSmallRise:
+      return "the passages are a few encoder quanta wide; use a finer encoder or a wider motion";
+    case Refusal::kLoadHits:
+      return "the load hits the motor instead of the motor the load; let the motion rest at its reversals, "
+             "or lower "
+             "the frequency";
+    case Refusal::kNoImpactFit:
+      return "too few samples around the impacts; sample faster";
+    case Refusal::kNoRelease:
+      return "the release before the impacts cannot be located; let the motion rest at its reversals "
+             "(trapezoid), "
+             "lower the frequency, or use a finer encoder";
+    case Refusal::kLoadMoving:
+      return "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or "
+             "lower the "
+             "frequency";
+    case Refusal::kNone:
+      break;
+  }
+  return "";
+}
+
+Refusal commonest(const Pool& pool) {
+  Refusal refusal = Refusal::kNone;
+  int most = 0;
+  for (const auto& [r, count] : pool.refused)
+    if (count > most) most = count, refusal = r;
+  return refusal;
+}
+
+/// Why the accepted passages do not make an estimate; empty if they do.
+std::string objection(const Pool& pool) {
+  const auto plus = gaps_of(pool, 1), minus = gaps_of(pool, -1);
+  if (plus.size() < 2 || minus.size() < 2)
+    return fmt::format("only {} and {} usable passages of the gap in the two directions: {}", plus.size(),
+                       minus.size(), advice(commonest(pool)));
+  if (static_cast<double>(pool.accepted.size()) < 0.6 * pool.half_periods)
+    return fmt::format("only {} of {:.0f} reversals show a usable passage of the gap: {}",
+                       pool.accepted.size(), pool.half_periods, advice(commonest(pool)));
+  const double up = median(plus), down = median(minus), gap = 0.5 * (up + down);
+  const double spread = std::max(robust_std(plus), robust_std(minus));
+  if (spread > 0.25 * gap)
+    return fmt::format(
+        "the passages scatter by {:.0f} % of their median; record more periods of one steady motion",
+        100.0 * spread / gap);
+  if (std::abs(up - down) > 0.25 * gap)
+    return fmt::format(
+        "{:.3g} rad with rising and {:.3g} rad with falling x1 contradict each other; remove the offset of "
+        "the "
+        "excitation, or let the motion rest at its reversals",
+        up, down);
+  if (gap > 0.66 * pool.travel)
+    return fmt::format("the estimate of {:.3g} rad is most of the travel of {:.3g} rad; raise the amplitude",
+                       gap, pool.travel);
+  const double moved = std::abs(median_of(pool, &Transition::load_travel));
+  if (moved > 0.2 * gap) return advice(Refusal::kLoadMoving);
+  return "";
+}
+
+void fill_estimate(const Pool& pool, GapEstimate& estimate) {
+  const auto plus = gaps_of(pool, 1), minus = gaps_of(pool, -1);
+  const double up = median(plus), down = median(minus);
+  const double n = static_cast<double>(pool.accepted.size());
+  const double scatter = std::max(robust_std(plus), robust_std(minus)) / std::sqrt(0.5 * n);
+  const double systematic = median_of(pool, &Transition::half_width);
+  const double sampling = 0.25 * median_of(pool, &Transition::speed) * pool.dt;
+  estimate.verdict = GapVerdict::kBacklash;
+  estimate.gap = 0.5 * (up + down);
+  estimate.std = std::sqrt(scatter * scatter + 0.25 * (up - down) * (up - down) + systematic * systematic +
+                           sampling * sampling + pool.noise * pool.noise);
+  estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
+  estimate.reason = fmt::format("{} of {} passages of the gap used", pool.accepted.size(), pool.passages);
+}
+
+void list_events(std::span<const ImpactAnalysis> analyses, GapEstimate& estimate) {
+  const double spread = std::max(robust_std({}), 0.0);
+  (void)spread;
+  for (const ImpactAnalysis& a : analyses)
+    for (const Transition& t : a.passages) {
+      estimate.events.push_back(t.event);
+      GapEvent& event = estimate.events.back();
+      event.std = t.half_width;
+      event.accepted = t.refusal == Refusal::kNone;
+      if (!event.accepted) event.remark = describe(t.refusal);
+    }
+}
+
+}  // namespace
+
+void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
+            GapEstimate& estimate) {
+  estimate.method = GapMethod::kImpact;
+  list_events(analyses, estimate);
+  const Pool pool = collect(analyses, intervals);
+  double visible = 0.0;
+  for (const ImpactAnalysis& a : analyses) {
+    if (!a.facts.defect.empty()) continue;
+    visible = std::max(visible, a.smallest_visible_gap);
+  }
+  if (pool.half_periods == 0.0) {
+    estimate.verdict = GapVerdict::kInconclusive;
+    estimate.reason = analyses.empty() ? "no recording" : analyses.front().facts.defect;
+    return;
+  }
+  estimate.smallest_visible_gap = visible;
+  const std::string against = objection(pool);
+  if (against.empty()) return fill_estimate(pool, estimate);
+  const int contrasted =
+      static_cast<int>(pool.passages) -
+      (pool.refused.contains(Refusal::kContrast) ? pool.refused.at(Refusal::kContrast) : 0);
+  if (contrasted < 0.1 * pool.half_periods && visible < 0.2 * pool.travel) {
+    estimate.verdict = GapVerdict::kNone;
+    estimate.reason = fmt::format("no impact: no gap above {:.2g} rad", visible);
+    return;
+  }
+  estimate.verdict = GapVerdict::kInconclusive;
+  estimate.reason = against;
+}
+
+}  // namespace gapscope::internal

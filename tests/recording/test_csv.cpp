@@ -1,0 +1,190 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/random.h"
+#include "gapscope/recording/csv.h"
+#include "support/temporary_file.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::TemporaryFile;
+
+/// Rows t, u, x1 at 1 kHz.
+std::string rows(int count, const std::string& end = "\n") {
+  std::string text;
+  for (int i = 0; i < count; ++i)
+    text += std::to_string(0.001 * i) + "," + std::to_string(i % 7) + "," + std::to_string(0.01 * i) + end;
+  return text;
+}
+
+std::string refusal(const std::string& text, const CsvOptions& options = {}) {
+  const TemporaryFile file(text);
+  try {
+    read_csv(file.path(), options);
+  } catch (const ConfigError& error) {
+    return std::string(error.what()).substr(file.folder().string().size() + 1);
+  }
+  return "(accepted)";
+}
+
+TEST(Csv, ReadsColumnsByNameWhateverTheirOrder) {
+  std::string text = "x1,note,t,u\n";
+  for (int i = 0; i < 60; ++i) text += std::to_string(i) + ",word," + std::to_string(0.5 * i) + ",3\n";
+  const TemporaryFile file(text);
+  const Recording r = read_csv(file.path());
+  EXPECT_EQ(r.file, "r.csv");
+  EXPECT_EQ(r.size(), 60u);
+  EXPECT_EQ(r.start, 0.0);
+  EXPECT_EQ(r.dt, 0.5);
+  EXPECT_EQ(r.u[17], 3.0);
+  EXPECT_EQ(r.x1[17], 17.0);
+  EXPECT_TRUE(r.x2.empty());
+  EXPECT_TRUE(r.resampling.empty());
+}
+
+TEST(Csv, ToleratesByteOrderMarkCrlfCommentsBlanksAndQuotes) {
+  const TemporaryFile plain("t,u,x1\n" + rows(60));
+  std::string text = "\xEF\xBB\xBF# rig P\r\n\r\n \"t\" , u ,\"x1\",\r\n" + rows(30, "\r\n");
+  std::string rest = rows(60, " , # later\r\n");
+  rest = rest.substr(rows(30, " , # later\r\n").size());
+  const TemporaryFile odd(text + "  # half\r\n" + rest + "\r\n\r\n");
+  const Recording a = read_csv(plain.path()), b = read_csv(odd.path());
+  EXPECT_EQ(a.x1, b.x1);
+  EXPECT_EQ(a.u, b.u);
+  EXPECT_EQ(a.dt, b.dt);
+}
+
+TEST(Csv, ALastLineWithoutNewlineCounts) {
+  std::string text = "t,u,x1\n" + rows(55);
+  text.pop_back();
+  const TemporaryFile file(text);
+  EXPECT_EQ(read_csv(file.path()).size(), 55u);
+}
+
+TEST(Csv, WhatWasWrittenReadsBackTheSame) {
+  // Rates whose interval is no finite binary number, starts off zero, and values of all magnitudes.
+  auto draw = random_stream(1, "csv");
+  for (const double rate : {1000.0, 2500.0, 416.7, 30000.0, 12.3456789}) {
+    Recording r;
+    r.start = rate > 1000.0 ? 17.3 : 0.0;
+    r.dt = 1.0 / rate;
+    for (int i = 0; i < 2000; ++i) {
+      r.u.push_back(normal(draw));
+      r.x1.push_back(1e-9 * normal(draw));
+      r.x2.push_back(1e7 * normal(draw));
+      r.mode.push_back(i % 3 == 0 ? Mode::kGap : Mode::kImpact);
+    }
+    const TemporaryFile folder("");
+    const std::string path = (folder.folder() / "out.csv").string();
+    write_csv(path, r);
+    const Recording back = read_csv(path);
+    EXPECT_EQ(back.start, r.start);
+    for (std::size_t i = 0; i < r.size(); ++i) ASSERT_EQ(back.time(i), r.time(i)) << rate;
+    EXPECT_EQ(back.u, r.u);
+    EXPECT_EQ(back.x1, r.x1);
+    EXPECT_EQ(back.x2, r.x2);
+    EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  }
+}
+
+TEST(Csv, AWindowKeepsBothEnds) {
+  const TemporaryFile file("t,u,x1\n" + rows(200));
+  CsvOptions options;
+  options.window = {0.05, 0.12};
+  const Recording r = read_csv(file.path(), options);
+  EXPECT_EQ(r.size(), 71u);
+  EXPECT_EQ(r.start, 0.05);
+  EXPECT_EQ(r.x1.back(), 1.2);
+}
+
+TEST(Csv, ColumnsCanBeRenamedAndASecondPositionIsOptionalUnlessNamed) {
+  CsvOptions options;
+  options.columns = {.time = "time", .input = "i_q", .position = "theta", .load_position = "phi"};
+  const TemporaryFile file("time,i_q,theta\n" + rows(60));
+  EXPECT_TRUE(read_csv(file.path(), options).x2.empty());
+  options.columns.load_position_required = true;
+  EXPECT_THAT(refusal("time,i_q,theta\n" + rows(60), options),
+              HasSubstr("r.csv:1: there is no column 'phi'"));
+}
+
+TEST(Csv, JitterBelowAThousandthOfTheStepIsUniform) {
+  const auto jittered = [](double share) {
+    std::string text = "t,u,x1\n";
+    for (int i = 0; i < 100; ++i) text += std::to_string(i + (i == 50 ? share : 0.0)) + ",0,0\n";
+    return text;
+  };
+  EXPECT_EQ(refusal(jittered(0.0009)), "(accepted)");
+  EXPECT_THAT(refusal(jittered(0.0011)), HasSubstr("r.csv:52: time is not uniform"));
+}
+
+struct BadCsv {
+  const char* name;
+  std::string text;
+  const char* message;
+};
+
+class BadCsvTest : public ::testing::TestWithParam<BadCsv> {};
+
+TEST_P(BadCsvTest, IsRefusedWithPlaceAndExpectation) {
+  const std::string message = refusal(GetParam().text);
+  EXPECT_THAT(message, HasSubstr(GetParam().message));
+  EXPECT_THAT(message, HasSubstr("expected"));
+}
+
+const std::string kHead = "t,u,x1\n";
+INSTANTIATE_TEST_SUITE_P(
+    Csv, BadCsvTest,
+    ::testing::Values(BadCsv{"empty", "", "r.csv: is empty"},
+                      BadCsv{"comments_only", "# a\n\n", "r.csv: is empty"},
+                      BadCsv{"no_header", rows(60), "r.csv:1: there is no column 't'"},
+                      BadCsv{"missing_column", "# c\nt,u,y\n" + rows(60), "r.csv:2: there is no column 'x1'"},
+                      BadCsv{"column_twice", "t,u,x1,u\n", "r.csv:1: the column 'u' is there twice"},
+                      BadCsv{"semicolons", "t;u;x1\n0;1;2\n", "r.csv:1: there is no column 't'"},
+                      BadCsv{"decimal_comma", kHead + "0,001,0,5,0,2\n", "r.csv:2: 6 fields, expected 3"},
+                      BadCsv{"short_row", kHead + rows(3) + "0.003,1\n", "r.csv:5: 2 fields, expected 3"},
+                      BadCsv{"word", kHead + "0,zero,1\n", "r.csv:2: u is 'zero'"},
+                      BadCsv{"number_and_more", kHead + "0,0,1.5rad\n", "r.csv:2: x1 is '1.5rad'"},
+                      BadCsv{"empty_field", kHead + "0,,1\n", "r.csv:2: u is empty"},
+                      BadCsv{"nan", kHead + "0,0,nan\n", "r.csv:2: x1 is 'nan'"},
+                      BadCsv{"infinite", kHead + "0,inf,1\n", "r.csv:2: u is 'inf'"},
+                      BadCsv{"overflow", kHead + "0,0,1e999\n", "r.csv:2: x1 is '1e999'"},
+                      BadCsv{"binary", kHead + std::string("\x01\x02\0,3,4\n", 7), "r.csv:2: t is '?"},
+                      BadCsv{"time_repeats", kHead + "0,0,0\n0,0,0\n", "r.csv:3: t goes from 0 to 0 s"},
+                      BadCsv{"time_falls", kHead + rows(5) + "0.002,0,0\n",
+                             "r.csv:7: t goes from 0.004 to 0.002 s"},
+                      BadCsv{"few_rows", kHead + rows(49), "r.csv: 49 samples, expected at least 50"},
+                      BadCsv{"pause", kHead + rows(60) + "0.2,0,0\n", "r.csv:62: time is not uniform"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(Csv, AMissingFileAFolderAndAnEmptyWindowAreRefused) {
+  const TemporaryFile file(kHead + rows(60));
+  const auto fails_with = [](const std::string& path, const CsvOptions& options, const char* message) {
+    try {
+      read_csv(path, options);
+      FAIL() << "accepted " << path;
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(message));
+    }
+  };
+  fails_with(file.path() + "x", {}, "there is no such file");
+  fails_with(file.folder().string(), {}, "is no regular file");
+  CsvOptions options;
+  options.window = {3.0, 4.0};
+  fails_with(file.path(), options, "0 samples in the window 3 to 4 s (the file has 0 to 0.059 s)");
+}
+
+TEST(Csv, AnUnwritableFolderIsAFailureThatLeavesNothing) {
+  Recording r;
+  r.dt = 1.0;
+  r.u = r.x1 = std::vector<double>(60, 0.0);
+  EXPECT_THROW(write_csv("/nonexistent/folder/out.csv", r), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace gapscope

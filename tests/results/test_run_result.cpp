@@ -1,0 +1,339 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/results/run_result.h"
+#include "results/scratch_folder.h"
+
+namespace gapscope {
+namespace {
+namespace fs = std::filesystem;
+
+// Numbers that show a lost digit: none of them is short in decimal.
+constexpr double kThird = 1.0 / 3.0;
+
+/// Equal bits, or both undefined.
+void expect_same(double a, double b, const char* what) {
+  EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << what << ": " << a << " and " << b;
+}
+#define EXPECT_SAME(member) expect_same(a.member, b.member, #member)
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Recording recording(const std::string& file, double offset, bool simulated) {
+  Recording r{
+      file, 0.1, 1e-3 * kThird, {}, {}, {}, {}, 5.992112452678286e-06, simulated ? "" : "400 Hz, linear"};
+  for (int i = 0; i < 60; ++i) {
+    r.u.push_back(std::sin(i * kThird));
+    r.x1.push_back(offset + std::sin(i * 0.7) / 7.0);
+    if (simulated) r.x2.push_back(r.x1.back() * kThird);
+    if (simulated)
+      r.mode.push_back(std::array{Mode::kEngagementMinus, Mode::kGap, Mode::kImpact,
+                                  Mode::kEngagementPlus}[static_cast<std::size_t>(i % 4)]);
+  }
+  return r;
+}
+
+GapEstimate estimate(const RunResult& run) {
+  GapEstimate g;
+  g.verdict = GapVerdict::kBacklash;
+  g.reason = "6 passages, \"both\" directions, 2β";
+  g.method = GapMethod::kLostMotion;
+  g.quantity = GapQuantity::kPlayAtZeroTorque;
+  g.gap = 0.0187 * kThird;
+  g.std = 1e-4 * kThird;
+  g.ci95 = {0.018 * kThird, 0.019 * kThird};
+  g.smallest_visible_gap = 4e-4 * kThird;
+  g.bound = 4.1 * kThird;
+  g.bound_t1 = 3.7 * kThird;
+  g.scale = 50.0;
+  g.events.push_back(
+      {"a.csv", kThird, 2 * kThird, -kThird, kThird, 0.018, 0.017, 1e-5, -1, false, "bounced, \n"});
+  g.events.push_back({"b.csv", 1.0, kNaN, 1e-300, kNaN, kNaN, kNaN, kNaN, 1, true, ""});
+  g.traces = {{"a.csv", run.recordings[0].x1, run.recordings[0].u}, {"b.csv", run.recordings[1].x1, {}}};
+  g.traces[0].error[3] = kNaN;
+  g.warnings = {"one", "two"};
+  return g;
+}
+
+FitSummary summary(const RunResult& run) {
+  FitSummary f;
+  f.status = FitStatus::kNotConverged;
+  f.message = "100 iterations";
+  f.rmse = 1e-5 * kThird;
+  f.floor = 1e-6 * kThird;
+  f.starts = 8;
+  f.simulations = 345;
+  f.lag1_autocorrelation = -kThird;
+  f.parameters.push_back({"gap", "rad", 0.02, 0.0188, 1e-5, {0.01878, 0.01882}, 0.0, 0.3, true, true, false});
+  f.parameters.push_back({"a_fixed", "-", 1.2, 1.2, kNaN, {}, -kInfinity, kInfinity, false, false, false});
+  f.parameters.push_back({"bound", "N m", 1.2, 0.0, 3.0, {}, kNaN, 1.0, true, false, true});
+  f.traces = {{"b.csv", run.recordings[1].u, {}, {}}};
+  f.mode_errors = {{Mode::kGap, 12, kThird}, {Mode::kEngagementMinus, 0, kNaN}};
+  f.start_costs = {kThird, 2.0, kNaN};
+  f.warnings = {"advice"};
+  return f;
+}
+
+RunResult full_result() {
+  RunResult run;
+  run.name = "rig_p";
+  run.version = "0.1.0";
+  run.rotation = false;
+  run.recordings = {recording("a.csv", 0.0, true), recording("b.csv", 2.0, false)};
+  run.model_free = estimate(run);
+  run.reference = summary(run);
+  run.comparison = Comparison{-1e-4 * kThird, 1e-4, true, 0.0188 * kThird};
+  run.simulated_gap = 0.0188;
+  run.notes = {"resampled to 400 Hz"};
+  return run;
+}
+
+RunResult round_trip(const RunResult& run) {
+  ScratchFolder scratch;
+  write_run_result(scratch.path.string(), run);
+  return read_run_result(scratch.path.string());
+}
+
+TEST(RunResult, ComesBackExactly) {
+  const RunResult a = full_result();
+  const RunResult b = round_trip(a);
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.version, b.version);
+  EXPECT_EQ(a.rotation, b.rotation);
+  EXPECT_EQ(a.notes, b.notes);
+  EXPECT_SAME(simulated_gap);
+  EXPECT_SAME(comparison->difference);
+  EXPECT_SAME(comparison->joint_std);
+  EXPECT_SAME(comparison->true_gap);
+  EXPECT_EQ(a.comparison->agree, b.comparison->agree);
+}
+
+TEST(RunResult, ItsRecordingsComeBackExactly) {
+  const RunResult x = full_result();
+  const RunResult y = round_trip(x);
+  ASSERT_EQ(y.recordings.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Recording &a = x.recordings[i], &b = y.recordings[i];
+    EXPECT_EQ(a.file, b.file);
+    EXPECT_SAME(start);
+    EXPECT_SAME(dt);
+    EXPECT_SAME(quantum);
+    EXPECT_EQ(a.resampling, b.resampling);
+    EXPECT_EQ(a.u, b.u);
+    EXPECT_EQ(a.x1, b.x1);
+    EXPECT_EQ(a.x2, b.x2);
+    EXPECT_EQ(a.mode, b.mode);
+  }
+}
+
+TEST(RunResult, TheModelFreeEstimateComesBackExactly) {
+  const GapEstimate a = *full_result().model_free;
+  const GapEstimate b = *round_trip(full_result()).model_free;
+  EXPECT_EQ(a.verdict, b.verdict);
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.method, b.method);
+  EXPECT_EQ(a.quantity, b.quantity);
+  EXPECT_SAME(gap);
+  EXPECT_SAME(std);
+  EXPECT_SAME(ci95.low);
+  EXPECT_SAME(ci95.high);
+  EXPECT_SAME(smallest_visible_gap);
+  EXPECT_SAME(bound);
+  EXPECT_SAME(bound_t1);
+  EXPECT_SAME(scale);
+  EXPECT_EQ(a.warnings, b.warnings);
+  ASSERT_EQ(b.traces.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(a.traces[i].file, b.traces[i].file);
+    EXPECT_EQ(a.traces[i].velocity, b.traces[i].velocity);
+    ASSERT_EQ(a.traces[i].error.size(), b.traces[i].error.size());
+    for (std::size_t k = 0; k < a.traces[i].error.size(); ++k) EXPECT_SAME(traces[i].error[k]);
+  }
+}
+
+TEST(RunResult, EventsComeBackExactly) {
+  const auto x = full_result().model_free->events;
+  const auto y = round_trip(full_result()).model_free->events;
+  ASSERT_EQ(x.size(), y.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const GapEvent &a = x[i], &b = y[i];
+    EXPECT_EQ(a.file, b.file);
+    EXPECT_SAME(t1);
+    EXPECT_SAME(t2);
+    EXPECT_SAME(x1_t1);
+    EXPECT_SAME(x1_t2);
+    EXPECT_SAME(gap);
+    EXPECT_SAME(gap_uncorrected);
+    EXPECT_SAME(std);
+    EXPECT_EQ(a.direction, b.direction);
+    EXPECT_EQ(a.accepted, b.accepted);
+    EXPECT_EQ(a.remark, b.remark);
+  }
+}
+
+TEST(RunResult, TheReferenceComesBackExactly) {
+  const FitSummary a = *full_result().reference;
+  const FitSummary b = *round_trip(full_result()).reference;
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.message, b.message);
+  EXPECT_SAME(rmse);
+  EXPECT_SAME(floor);
+  EXPECT_EQ(a.starts, b.starts);
+  EXPECT_EQ(a.simulations, b.simulations);
+  EXPECT_SAME(lag1_autocorrelation);
+  ASSERT_EQ(a.start_costs.size(), b.start_costs.size());
+  for (std::size_t i = 0; i < a.start_costs.size(); ++i) EXPECT_SAME(start_costs[i]);
+  EXPECT_EQ(a.warnings, b.warnings);
+  ASSERT_EQ(a.mode_errors.size(), b.mode_errors.size());
+  for (std::size_t i = 0; i < a.mode_errors.size(); ++i) {
+    EXPECT_EQ(a.mode_errors[i].mode, b.mode_errors[i].mode);
+    EXPECT_EQ(a.mode_errors[i].samples, b.mode_errors[i].samples);
+    EXPECT_SAME(mode_errors[i].rmse);
+  }
+  ASSERT_EQ(b.traces.size(), 1u);
+  EXPECT_EQ(a.traces[0].file, b.traces[0].file);
+  EXPECT_EQ(a.traces[0].x1, b.traces[0].x1);
+  EXPECT_EQ(a.traces[0].x2, b.traces[0].x2);
+  EXPECT_EQ(a.traces[0].mode, b.traces[0].mode);
+}
+
+TEST(RunResult, FittedParametersKeepTheirOrderAndNumbers) {
+  const auto x = full_result().reference->parameters;
+  const auto y = round_trip(full_result()).reference->parameters;
+  ASSERT_EQ(x.size(), y.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const FittedParameter &a = x[i], &b = y[i];
+    EXPECT_EQ(a.key, b.key);
+    EXPECT_EQ(a.unit, b.unit);
+    EXPECT_SAME(start);
+    EXPECT_SAME(value);
+    EXPECT_SAME(std);
+    EXPECT_SAME(ci95.low);
+    EXPECT_SAME(ci95.high);
+    EXPECT_SAME(low);
+    EXPECT_SAME(high);
+    EXPECT_EQ(a.estimated, b.estimated);
+    EXPECT_EQ(a.identifiable, b.identifiable);
+    EXPECT_EQ(a.at_bound, b.at_bound);
+  }
+}
+
+TEST(RunResult, WhatWasNotAskedForStaysAbsent) {
+  RunResult run = full_result();
+  run.model_free.reset();
+  run.reference.reset();
+  run.comparison.reset();
+  const RunResult back = round_trip(run);
+  EXPECT_FALSE(back.model_free || back.reference || back.comparison);
+  EXPECT_EQ(back.recordings.size(), 2u);
+}
+
+TEST(RunResult, ReadAndWrittenAgainGivesTheSameBytes) {
+  ScratchFolder first, second;
+  write_run_result(first.path.string(), full_result());
+  write_run_result(second.path.string(), read_run_result(first.path.string()));
+  for (const char* file : {"result.json", "traces/1_a.csv", "traces/2_b.csv"})
+    EXPECT_EQ(text_of(first.path / file), text_of(second.path / file)) << file;
+}
+
+TEST(RunResult, AMissingNumberIsNullInTheFile) {
+  RunResult run = full_result();
+  run.model_free->verdict = GapVerdict::kInconclusive;
+  run.model_free->gap = run.model_free->std = kNaN;
+  run.model_free->ci95 = {};
+  ScratchFolder scratch;
+  write_run_result(scratch.path.string(), run);
+  const std::string text = text_of(scratch.path / "result.json");
+  EXPECT_NE(text.find("\"gap_rad\": null"), std::string::npos);
+  EXPECT_NE(text.find("\"ci95_rad\": null"), std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+}
+
+TEST(RunResult, ADamagedFileIsRefusedWithItsPlace) {
+  struct Damage {
+    const char* file;
+    const char *from, *to, *message;
+  };
+  const Damage damages[] = {
+      {"result.json", "gapscope.result/1", "gapscope.result/2", "expected gapscope.result/1"},
+      {"result.json", "\"verdict\": \"backlash\"", "\"verdict\": \"maybe\"",
+       "model_free.verdict is \"maybe\""},
+      {"result.json", "\"starts\": 8", "\"starts\": \"8\"", "reference.starts is \"8\""},
+      {"result.json", "\"scale\": 50.0,", "", "model_free.scale is missing"},
+      {"result.json", "\"agree\": true", "\"agree\": 1", "comparison.agree is 1"},
+      {"result.json", "translation", "spiral", "coordinates is spiral"},
+      {"result.json", "\"samples\": 60,", "\"samples\": 61,", "has 60 samples, expected 61"},
+      {"result.json", "\"schema\"", "schema", "result.json: is damaged"},
+      {"traces/1_a.csv", "t_s,u", "t_s,v", "1_a.csv:1: unknown column v"},
+      {"traces/1_a.csv", ",impact\n", ",bang\n", "\"bang\" is not a mode"},
+      {"traces/2_b.csv", "\n0.1,", "\n0.1,0.5,", "2_b.csv:2: another number of fields"},
+  };
+  for (const Damage& damage : damages) {
+    ScratchFolder scratch;
+    write_run_result(scratch.path.string(), full_result());
+    std::string text = text_of(scratch.path / damage.file);
+    const std::size_t at = text.find(damage.from);
+    ASSERT_NE(at, std::string::npos) << damage.from;
+    text.replace(at, std::string(damage.from).size(), damage.to);
+    std::ofstream(scratch.path / damage.file) << text;
+    try {
+      read_run_result(scratch.path.string());
+      ADD_FAILURE() << "not refused: " << damage.message;
+    } catch (const ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find(damage.message), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(RunResult, AFolderWithoutAResultIsRefused) {
+  ScratchFolder scratch;
+  EXPECT_THROW(read_run_result(scratch.path.string()), ConfigError);
+  write_run_result(scratch.path.string(), full_result());
+  fs::remove(scratch.path / "traces" / "2_b.csv");
+  EXPECT_THROW(read_run_result(scratch.path.string()), ConfigError);
+}
+
+TEST(RunResult, AContradictionIsTheCallersBug) {
+  ScratchFolder scratch;
+  RunResult run = full_result();
+  run.model_free->verdict = GapVerdict::kNone;
+  EXPECT_THROW(write_run_result(scratch.path.string(), run), std::logic_error) << "none with a gap";
+  run = full_result();
+  run.model_free->traces[0].file = "c.csv";
+  EXPECT_THROW(write_run_result(scratch.path.string(), run), std::logic_error) << "a trace of no recording";
+  run = full_result();
+  run.recordings[0].x2.pop_back();
+  EXPECT_THROW(write_run_result(scratch.path.string(), run), std::logic_error)
+      << "columns of different length";
+}
+
+TEST(RunResult, AnUnwritablePlaceIsNamed) {
+  ScratchFolder scratch;
+  try {
+    write_run_result((scratch.path / "missing").string(), full_result());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("missing/traces"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Timing, ComesBackAndIsUnknownWhereNoFileIs) {
+  ScratchFolder scratch;
+  EXPECT_TRUE(std::isnan(read_timing(scratch.path.string()).model_free_s));
+  write_timing(scratch.path.string(), {0.1 * kThird, kNaN});
+  const Timing back = read_timing(scratch.path.string());
+  EXPECT_EQ(back.model_free_s, 0.1 * kThird);
+  EXPECT_TRUE(std::isnan(back.reference_s));
+}
+
+}  // namespace
+}  // namespace gapscope

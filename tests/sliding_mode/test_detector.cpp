@@ -1,0 +1,176 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/sliding_mode/detector.h"
+#include "sliding_mode/test_drive.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+
+GapEstimate detect(const TestRecording& recording, const DetectorOptions& options = {}) {
+  const MotorTrace trace = recording.trace();
+  return detect_gap({&trace, 1}, options);
+}
+
+TEST(Detector, ADefaultEstimateSaysThatItWasNotRun) {
+  const GapEstimate estimate;
+  EXPECT_EQ(estimate.verdict, GapVerdict::kNotRun);
+  EXPECT_TRUE(std::isnan(estimate.gap));
+  EXPECT_THAT(estimate.brief_report(), HasSubstr("not called"));
+}
+
+TEST(Detector, ThePapersExperimentIsReadWithinThreePercentAndTheIntervalHoldsTheTruth) {
+  for (const double gap : {0.0188, 0.019})
+    for (const double noise : {0.0, 0.4, 1.0}) {
+      const GapEstimate estimate = detect(paper_experiment(1, noise, gap));
+      ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+      EXPECT_NEAR(estimate.gap / gap, 1.0, 0.03) << estimate.brief_report();
+      EXPECT_LE(estimate.ci95.low, gap);
+      EXPECT_GE(estimate.ci95.high, gap);
+      EXPECT_LT(estimate.ci95.high - estimate.ci95.low, 0.2 * gap) << "the interval says something";
+    }
+}
+
+TEST(Detector, OneErrorSignalReadsThePapersExperimentWithABoundBetweenTheAccelerations) {
+  const TestRecording recording = paper_experiment();
+  for (const double bound : {3.0, 4.0, 5.0}) {
+    const GapEstimate estimate = detect(recording, {.bound = bound});
+    ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << bound << " " << estimate.brief_report();
+    EXPECT_EQ(estimate.method, GapMethod::kPaper);
+    EXPECT_NEAR(estimate.gap / 0.0188, 1.0, 0.03) << bound;
+    EXPECT_LE(estimate.ci95.low, 0.0188) << bound;
+    EXPECT_GE(estimate.ci95.high, 0.0188) << bound;
+  }
+}
+
+TEST(Detector, ABoundAboveTheGapAccelerationIsToldAsSuchWithBoundsToTry) {
+  for (const double bound : {15.0, 40.0, 100.0}) {
+    const GapEstimate estimate = detect(paper_experiment(), {.bound = bound});
+    EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << bound;
+    EXPECT_TRUE(std::isnan(estimate.gap));
+    EXPECT_THAT(estimate.reason, HasSubstr("no t1")) << bound;
+    EXPECT_THAT(estimate.reason, HasSubstr("try L between")) << bound;
+  }
+}
+
+TEST(Detector, ABoundBelowTheEngagedAccelerationIsToldAsSuch) {
+  const GapEstimate estimate = detect(paper_experiment(), {.bound = 1.0});
+  EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive);
+  EXPECT_THAT(estimate.reason, HasSubstr("below the engaged acceleration"));
+}
+
+TEST(Detector, TheAutoEstimateWarnsWhenThePapersBoundWouldHaveMissedThePassages) {
+  const TestRecording recording = paper_experiment();
+  EXPECT_TRUE(detect(recording).warnings.empty());
+  EXPECT_TRUE(detect(recording, {.paper_bound = 4.0}).warnings.empty());
+  const GapEstimate estimate = detect(recording, {.paper_bound = 100.0});
+  ASSERT_EQ(estimate.warnings.size(), 1u);
+  EXPECT_THAT(estimate.warnings[0], HasSubstr("L = 100"));
+}
+
+TEST(Detector, EveryPassageIsListedInOrderWithItsTimesAndTracesAreAsLongAsTheRecording) {
+  const TestRecording recording = paper_experiment();
+  const GapEstimate estimate = detect(recording);
+  int accepted = 0;
+  for (const GapEvent& event : estimate.events) {
+    if (!event.accepted) {
+      EXPECT_FALSE(event.remark.empty());
+      continue;
+    }
+    ++accepted;
+    EXPECT_LT(event.t1, event.t2);
+    EXPECT_LT(event.t2 - event.t1, 0.2);
+    EXPECT_GT(event.direction * (event.x1_t2 - event.x1_t1), 0.0);
+    EXPECT_EQ(event.file, "test.csv");
+  }
+  EXPECT_EQ(accepted, 19) << "10 s at 1 Hz have 19 reversals after the first half period";
+  EXPECT_TRUE(std::is_sorted(estimate.events.begin(), estimate.events.end(),
+                             [](const auto& a, const auto& b) { return a.t2 < b.t2; }));
+  ASSERT_EQ(estimate.traces.size(), 1u);
+  EXPECT_EQ(estimate.traces[0].error.size(), recording.x1.size());
+  EXPECT_EQ(estimate.traces[0].velocity.size(), recording.x1.size());
+  EXPECT_GT(estimate.scale, 1.0);
+}
+
+TEST(Detector, NegatingTheRecordingNegatesTheDirectionsAndKeepsTheGap) {
+  TestRecording recording = paper_experiment();
+  const GapEstimate plain = detect(recording);
+  for (double& x : recording.x1) x = -x;
+  for (double& u : recording.u) u = -u;
+  const GapEstimate mirrored = detect(recording);
+  ASSERT_EQ(plain.events.size(), mirrored.events.size());
+  for (std::size_t i = 0; i < plain.events.size(); ++i)
+    EXPECT_EQ(plain.events[i].direction, -mirrored.events[i].direction);
+  EXPECT_NEAR(plain.gap, mirrored.gap, 1e-9);
+}
+
+TEST(Detector, SeveralRecordingsAreCombinedNotConcatenated) {
+  const TestRecording a = paper_experiment(1), b = paper_experiment(2, 0.5);
+  const MotorTrace traces[] = {a.trace("a.csv"), b.trace("b.csv")};
+  const GapEstimate both = detect_gap(traces);
+  ASSERT_EQ(both.verdict, GapVerdict::kBacklash);
+  EXPECT_EQ(both.events.size(), detect(a).events.size() + detect(b).events.size());
+  EXPECT_EQ(both.traces.size(), 2u);
+  EXPECT_NEAR(both.gap / 0.0188, 1.0, 0.03);
+}
+
+TEST(Detector, DrivesWithoutAGapAreNeverReportedWithOne) {
+  TestDrive rigid;
+  rigid.m1 += rigid.m2, rigid.d1 += rigid.d2, rigid.Fc1 = rigid.Fc2, rigid.m2 = 0.0;
+  TestDrive compliant;
+  compliant.gap = 0.0;
+  TestDrive sticking = rigid;
+  sticking.Fs1 = 1.6 * sticking.Fc1;
+  TestDrive cogging = rigid;
+  cogging.cogging = 0.02;
+  for (const TestDrive& drive : {rigid, compliant, sticking, cogging}) {
+    const GapEstimate estimate = detect(record(drive, sine(0.5814, 1.0), {}));
+    EXPECT_NE(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+    EXPECT_FALSE(estimate.reason.empty());
+    if (estimate.verdict == GapVerdict::kNone) {
+      EXPECT_GT(estimate.smallest_visible_gap, 0.0);
+    }
+  }
+}
+
+TEST(Detector, BadDataIsAVerdictWithAReasonNeverAnException) {
+  struct Bad {
+    const char* what;
+    std::vector<double> x1;
+    const char* reason;
+  };
+  std::vector<double> ramp(5000), noise(5000);
+  auto generator = random_stream(1, "bad data");
+  for (std::size_t i = 0; i < ramp.size(); ++i)
+    ramp[i] = 1e-3 * static_cast<double>(i), noise[i] = normal(generator);
+  const std::vector<Bad> table{{"nothing", {}, "too short"},
+                               {"standing still", std::vector<double>(5000, 0.3), "no motion"},
+                               {"noise", noise, "noise"},
+                               {"a ramp", ramp, "no periodic motion"}};
+  for (const Bad& bad : table) {
+    const MotorTrace trace{"bad.csv", 0.0, 1e-3, {}, bad.x1, 0.0};
+    for (const double bound : {0.0, 5.0}) {
+      const GapEstimate estimate = detect_gap({&trace, 1}, {.bound = bound});
+      EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << bad.what;
+      EXPECT_THAT(estimate.reason, HasSubstr(bad.reason)) << bad.what;
+      EXPECT_TRUE(std::isnan(estimate.gap)) << bad.what;
+    }
+  }
+  EXPECT_EQ(detect_gap({}).verdict, GapVerdict::kInconclusive);
+}
+
+TEST(Detector, TheSameRecordingGivesTheSameAnswerEveryTime) {
+  const TestRecording recording = paper_experiment(4, 0.7);
+  const GapEstimate a = detect(recording), b = detect(recording);
+  EXPECT_EQ(a.gap, b.gap);
+  EXPECT_EQ(a.std, b.std);
+  EXPECT_EQ(a.brief_report(), b.brief_report());
+}
+
+}  // namespace
+}  // namespace gapscope
