@@ -99,7 +99,7 @@ void StepperImpl<T>::set_input(double u) {
   T input(u);
   for (const ActiveEffect<T>& e : model.effects)
     if (e.hooks->command != nullptr) input = e.hooks->command(input, e.parameters);
-  torque = model.drive.torque_constant * input;
+  torque = model.drive.torque_constant * input + model.motor_torque;
 }
 
 /// The inertia of the middle of the sample; the precomputed transitions hold as long as it stays.
