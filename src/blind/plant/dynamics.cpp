@@ -82,7 +82,7 @@ double Dynamics::contact_torque(double t, const State& s, const Regime& r) const
 double Dynamics::stored_energy(double t, const State& s, const Regime& r) const {
   double energy = 0.5 * motor_inertia(t) * s[kW1] * s[kW1];
   if (drive_.load == LoadKind::kFree) energy += 0.5 * load_inertia(t) * s[kW2] * s[kW2];
-  if (is_rigid() || drive_.load == LoadKind::kNone || r.contact != Regime::Contact::kClosed) return energy;
+  if (is_rigid() || drive_.load == LoadKind::kNone || r.contact == Regime::Contact::kOpen) return energy;
   const double p = overlap(t, s, r.flank);
   return energy + 0.5 * drive_.contact_stiffness * p * p *
                       (1.0 + 0.5 * drive_.effects.contact.hardening_per_rad2 * p * p);
@@ -96,14 +96,14 @@ State Dynamics::rates(double t, const State& s, const Regime& r, double held) co
     const double contact = contact_torque(t, s, r);
     if (r.motor != 0) {
       double torque = motor_drive(t, s, r.motor, held) - contact - r.motor * motor_level(r.motor, s[kW1]);
-      if (drive_.load == LoadKind::kNone) torque += load_torques(t, s[kX1], s[kW1], s);
+      if (drive_.load == LoadKind::kNone) torque += load_torques(s[kX1], s[kW1], s);
       rate[kX1] = s[kW1];
       rate[kW1] = torque / motor_inertia(t);
     }
     if (r.load != 0) {
       const double level = load_signed_ ? load_level(contact) : 0.0;
       rate[kX2] = s[kW2];
-      rate[kW2] = (contact + load_drive(t, s) - r.load * level) / load_inertia(t);
+      rate[kW2] = (contact + load_drive(s) - r.load * level) / load_inertia(t);
     }
   }
   if (hidden_states_) hidden_rates(s, held, rate);
@@ -114,7 +114,7 @@ State Dynamics::rates(double t, const State& s, const Regime& r, double held) co
 void Dynamics::joined_rates(double t, const State& s, const Regime& r, double held, State& rate) const {
   if (r.motor == 0) return;
   const double friction = motor_level(r.motor, s[kW1]) + (load_signed_ ? load_level(0.0) : 0.0);
-  const double torque = motor_drive(t, s, r.motor, held) + load_drive(t, s) - r.motor * friction;
+  const double torque = motor_drive(t, s, r.motor, held) + load_drive(s) - r.motor * friction;
   rate[kX1] = s[kW1];
   rate[kX2] = s[kW2];
   rate[kW1] = rate[kW2] = torque / (motor_inertia(t) + load_inertia(t));
@@ -125,7 +125,7 @@ double Dynamics::joined_push(double t, const State& s, const Regime& r, double h
   const double motor = motor_drive(t, s, r.motor, held);
   if (r.motor == 0) {
     const double by_motor = r.flank * motor + motor_level(-r.flank, 0.0);
-    return std::min(by_motor, -r.flank * load_drive(t, s) + load_level(0.0));
+    return std::min(by_motor, -r.flank * load_drive(s) + load_level(0.0));
   }
   const State rate = rates(t, s, r, held);
   return r.flank * (motor - r.motor * motor_level(r.motor, s[kW1]) - motor_inertia(t) * rate[kW1]);
@@ -137,7 +137,7 @@ Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) 
   if (is_joined(r)) {
     g[0] = joined_push(t, s, r, held);
     if (drive_.load == LoadKind::kLocked) return g;
-    const double torque = motor_drive(t, s, r.motor, held) + load_drive(t, s), load = load_level(0.0);
+    const double torque = motor_drive(t, s, r.motor, held) + load_drive(s), load = load_level(0.0);
     fill_friction_guards(&g[2], r.motor, s[kW1], torque, motor_level(1, 0.0) + load,
                          motor_level(-1, 0.0) + load);
     return g;
@@ -156,11 +156,11 @@ Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) 
   const double contact = contact_torque(t, s, r);
   if (load_signed_) {
     const double level = load_level(contact);
-    fill_friction_guards(&g[2], r.load, s[kW2], contact + load_drive(t, s), level, level);
+    fill_friction_guards(&g[2], r.load, s[kW2], contact + load_drive(s), level, level);
   }
   if (motor_signed_) {
     double torque = r.motor == 0 ? motor_drive(t, s, 0, held) - contact : 0.0;
-    if (drive_.load == LoadKind::kNone && r.motor == 0) torque += load_torques(t, s[kX1], s[kW1], s);
+    if (drive_.load == LoadKind::kNone && r.motor == 0) torque += load_torques(s[kX1], s[kW1], s);
     fill_friction_guards(&g[4], r.motor, s[kW1], torque, motor_level(1, 0.0), motor_level(-1, 0.0));
   }
   return g;
@@ -168,20 +168,20 @@ Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) 
 
 void Dynamics::settle_friction(double t, const State& s, Regime& r, double held) const {
   if (is_joined(r)) {
-    const double torque = motor_drive(t, s, 0, held) + load_drive(t, s), load = load_level(0.0);
+    const double torque = motor_drive(t, s, 0, held) + load_drive(s), load = load_level(0.0);
     r.motor = r.load = direction_of(s[kW1], torque, motor_level(1, 0.0) + load, motor_level(-1, 0.0) + load);
     if (joined_push(t, s, r, held) >= 0.0) return;
     r.contact = Regime::Contact::kOpen;
   }
   const double contact = contact_torque(t, s, r);
   double torque = motor_drive(t, s, 0, held) - contact;
-  if (drive_.load == LoadKind::kNone) torque += load_torques(t, s[kX1], s[kW1], s);
+  if (drive_.load == LoadKind::kNone) torque += load_torques(s[kX1], s[kW1], s);
   r.motor = motor_signed_ ? direction_of(s[kW1], torque, motor_level(1, 0.0), motor_level(-1, 0.0)) : 1;
   const double level = load_level(contact);
   if (drive_.load != LoadKind::kFree)
     r.load = 0;
   else
-    r.load = load_signed_ ? direction_of(s[kW2], contact + load_drive(t, s), level, level) : 1;
+    r.load = load_signed_ ? direction_of(s[kW2], contact + load_drive(s), level, level) : 1;
 }
 
 }  // namespace gapscope::blind

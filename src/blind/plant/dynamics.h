@@ -60,7 +60,7 @@ class Dynamics {
   double contact_torque(double t, const State& s,
                         const Regime& regime) const;  ///< τc, compliant and bonded only
 
-  /// Kinetic energy and that of the closed contact's spring, hardening included; no resonator [J].
+  /// Kinetic energy and that of the contact spring while it is pressed; no resonator [J].
   double stored_energy(double t, const State& s, const Regime& regime) const;
 
   bool is_rigid() const { return drive_.load != LoadKind::kNone && drive_.contact == ContactKind::kRigid; }
@@ -75,8 +75,8 @@ class Dynamics {
  private:
   bool is_joined(const Regime& r) const { return is_rigid() && r.contact == Regime::Contact::kClosed; }
   double motor_drive(double t, const State& s, int direction, double held) const;
-  double load_drive(double t, const State& s) const;
-  double load_torques(double t, double x, double w, const State& s) const;
+  double load_drive(const State& s) const;
+  double load_torques(double x, double w, const State& s) const;
   double motor_level(int direction, double w) const;
   double load_level(double contact_torque) const;
   void joined_rates(double t, const State& s, const Regime& r, double held, State& rate) const;

@@ -11,7 +11,6 @@ constexpr double kShortestStep = 1e-12;  // [s]
 constexpr double kEventTime = 1e-14;     // [s] to which a change of regime is located
 constexpr double kSlowestBounce = 1e-6;  // [rad/s] a rigid impact slower than this ends in contact
 constexpr long kMostEventsPerCall = 100000;
-constexpr std::array kSamples{0.0, 0.07, 0.3, 0.5, 0.7, 0.93, 1.0};  // of a step, where guards are looked at
 
 /// Where a parabola through three points has its minimum.
 double vertex(double a, double b, double c, double ga, double gb, double gc) {
@@ -50,7 +49,14 @@ Motion::Motion(const Dynamics& dynamics, double tolerance)
 
 void Motion::hold(double command) {
   held_ = command;
+  settle();
+}
+
+/// Friction after a change; a rigid contact may turn out to be lost.
+void Motion::settle() {
+  const bool was_closed = regime_.contact == Regime::Contact::kClosed;
   dynamics_.settle_friction(t_, s_, regime_, held_);
+  if (was_closed && regime_.contact == Regime::Contact::kOpen) note(false, regime_.flank);
 }
 
 int Motion::flank_in_contact() const {
@@ -70,77 +76,84 @@ template <int Size>
 void Motion::advance_sized(double t_end) {
   const auto rates = [this](double t, const State& s) { return dynamics_.rates(t, s, regime_, held_); };
   State first = rates(t_, s_);
-  long events = 0;
-  while (t_ < t_end) {
+  for (long events = 0; t_ < t_end;) {
     const double left = t_end - t_;
     const double h = h_ >= 0.95 * left ? left : std::min(h_, 0.5 * left);  // no sliver at the end
     const DormandPrinceStep<Size> step(rates, t_, s_, first, h);
-    const double error = step.error(tolerance_);
-    const double next = h * std::clamp(0.9 * std::pow(std::max(error, 1e-10), -0.2), 0.2, 5.0);
     ++steps_;
-    if (error > 1.0 && h > kShortestStep) {
-      h_ = next;
-      continue;
-    }
+    if (!adapt_step(step.error(tolerance_), h)) continue;
     const Crossing crossing = first_crossing(step, h);
-    if (crossing.guard >= 0 && crossing.theta == 0.0 && h > kShortestStep) {
-      h_ = 0.1 * h;  // seems violated from the start: look closer before believing it
-      continue;
-    }
     if (crossing.guard < 0) {
       t_ = h == left ? t_end : t_ + h;
       s_ = step.end();
       first = step.last_rates();
-      h_ = h < h_ ? std::max(h_, next) : next;
-      continue;
+    } else if (crossing.theta == 0.0 && h > kShortestStep) {
+      h_ = 0.1 * h;  // below zero all along: look closer before believing it
+    } else {
+      if (++events > kMostEventsPerCall) throw std::runtime_error("blind plant: events without end");
+      s_ = step.shortened(rates, crossing.theta);
+      t_ += crossing.theta * h;
+      change_regime(crossing.guard);
+      first = rates(t_, s_);
     }
-    if (++events > kMostEventsPerCall) throw std::runtime_error("blind plant: events without end");
-    if (crossing.theta > 0.0) {
-      const double part = crossing.theta * h;
-      s_ = DormandPrinceStep<Size>(rates, t_, s_, first, part).end();
-      t_ += part;
-    }
-    change_regime(crossing.guard);
-    first = rates(t_, s_);
-    h_ = std::max(h_, h);
   }
+}
+
+/// Chooses the next step from the error (in tolerances) of one of length h; false: that one must be repeated.
+bool Motion::adapt_step(double error, double h) {
+  const double next = h * std::clamp(0.9 * std::pow(std::max(error, 1e-10), -0.2), 0.2, 5.0);
+  if (error > 1.0 && h > kShortestStep) {
+    h_ = next;
+    return false;
+  }
+  h_ = h < h_ ? std::max(h_, next) : next;  // a step cut short by t_end says nothing against a longer one
+  return true;
 }
 
 /// The earliest guard that falls below zero within the step, located; theta 0 if it is below zero all along.
 template <class Step>
 Motion::Crossing Motion::first_crossing(const Step& step, double h) const {
-  constexpr std::size_t n = kSamples.size();
-  std::array<Guards, n> g;
-  for (std::size_t j = 0; j < n; ++j) {
-    const State s = j == 0 ? s_ : (j + 1 == n ? step.end() : step.inside(kSamples[j]));
+  std::array<Guards, kSamples.size()> g;
+  for (std::size_t j = 0; j < kSamples.size(); ++j) {
+    const State s = j == 0 ? s_ : (j + 1 == kSamples.size() ? step.end() : step.inside(kSamples[j]));
     g[j] = dynamics_.guards(t_ + kSamples[j] * h, s, regime_, held_);
   }
   Crossing first;
   for (int i = 0; i < static_cast<int>(g[0].size()); ++i) {
-    std::size_t from = 0;
-    while (from < n && g[from][i] < 0.0) ++from;  // a guard may start a round-off below zero
-    if (from == n) return {i, 0.0};
-    for (std::size_t j = from + 1; j < n && kSamples[j - 1] < first.theta; ++j) {
-      double low = kSamples[j - 1], high = kSamples[j];
-      if (g[j][i] >= 0.0) {
-        if (j + 1 == n || g[j][i] > g[j - 1][i] || g[j][i] > g[j + 1][i]) continue;
-        const double dip = vertex(low, high, kSamples[j + 1], g[j - 1][i], g[j][i], g[j + 1][i]);
-        if (!(dip > low && dip < kSamples[j + 1])) continue;
-        if (dynamics_.guards(t_ + dip * h, step.inside(dip), regime_, held_)[i] >= 0.0) continue;
-        high = dip;
-      }
-      const double theta = locate(i, low, high, h, step);
-      if (theta < first.theta || first.guard < 0) first = {i, theta};
-      break;
-    }
+    const Bracket bracket = find_bracket(i, g, step, h);
+    if (bracket.high == 0.0) return {i, 0.0};
+    if (bracket.low >= first.theta) continue;
+    const double theta = locate(i, bracket, h, step);
+    if (theta < first.theta || first.guard < 0) first = {i, theta};
   }
   return first;
 }
 
-/// Root of a guard between shares `low` (guard ≥ 0) and `high` (< 0) of the step, by regula falsi (Illinois)
+/// Where a guard first goes below zero, between samples; also a dip that no sample shows. None: low is 2.
+template <class Step>
+Motion::Bracket Motion::find_bracket(int i, const std::array<Guards, kSamples.size()>& g, const Step& step,
+                                     double h) const {
+  constexpr std::size_t n = kSamples.size();
+  std::size_t from = 0;
+  while (from < n && g[from][i] < 0.0) ++from;  // a guard may start a round-off below zero
+  if (from == n) return {0.0, 0.0};
+  for (std::size_t j = from + 1; j < n; ++j) {
+    if (g[j][i] < 0.0) return {kSamples[j - 1], kSamples[j]};
+    if (j + 1 == n || g[j][i] > g[j - 1][i] || g[j][i] > g[j + 1][i]) continue;
+    const double dip =
+        vertex(kSamples[j - 1], kSamples[j], kSamples[j + 1], g[j - 1][i], g[j][i], g[j + 1][i]);
+    if (!(dip > kSamples[j - 1] && dip < kSamples[j + 1])) continue;
+    if (dynamics_.guards(t_ + dip * h, step.inside(dip), regime_, held_)[i] < 0.0)
+      return {kSamples[j - 1], dip};
+  }
+  return {2.0, 2.0};
+}
+
+/// Root of a guard within the bracket, by regula falsi (Illinois)
 /// on repeated shorter steps; returns the far side, where the guard is < 0.
 template <class Step>
-double Motion::locate(int guard, double low, double high, double h, const Step& step) const {
+double Motion::locate(int guard, Bracket bracket, double h, const Step& step) const {
+  auto [low, high] = bracket;
   const auto rates = [this](double t, const State& s) { return dynamics_.rates(t, s, regime_, held_); };
   const auto value = [&](double theta) {
     return dynamics_.guards(t_ + theta * h, step.shortened(rates, theta), regime_, held_)[guard];
@@ -171,9 +184,7 @@ void Motion::change_regime(int guard) {
     change_contact(guard);
   else
     rest(guard);
-  const bool was_closed = regime_.contact == Regime::Contact::kClosed;
-  dynamics_.settle_friction(t_, s_, regime_, held_);
-  if (was_closed && regime_.contact == Regime::Contact::kOpen) note(false, regime_.flank);
+  settle();
 }
 
 void Motion::change_contact(int guard) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <array>
 #include <vector>
 
 #include "blind/plant/dynamics.h"
@@ -34,17 +34,26 @@ class Motion {
   long steps() const { return steps_; }
 
  private:
+  /// Shares of a step at which the guards are looked at.
+  static constexpr std::array kSamples{0.0, 0.07, 0.3, 0.5, 0.7, 0.93, 1.0};
   struct Crossing {
     int guard = -1;
     double theta = 1.0;  ///< share of the step
   };
+  struct Bracket {
+    double low, high;  ///< shares of the step: guard ≥ 0, guard < 0
+  };
 
   template <int Size>
   void advance_sized(double t_end);
+  bool adapt_step(double error, double h);
   template <class Step>
   Crossing first_crossing(const Step& step, double h) const;
   template <class Step>
-  double locate(int guard, double low, double high, double h, const Step& step) const;
+  Bracket find_bracket(int i, const std::array<Guards, kSamples.size()>& g, const Step& step, double h) const;
+  template <class Step>
+  double locate(int guard, Bracket bracket, double h, const Step& step) const;
+  void settle();
   void change_regime(int guard);
   void change_contact(int guard);
   void collide(int flank);

@@ -68,8 +68,7 @@ double Dynamics::motor_drive(double t, const State& s, int direction, double hel
 }
 
 /// What acts on a load at x, w besides contact and friction.
-double Dynamics::load_torques(double t, double x, double w, const State& s) const {
-  (void)t;
+double Dynamics::load_torques(double x, double w, const State& s) const {
   const LoadEffects& e = drive_.effects.load;
   double torque = e.constant_torque_nm;
   if (e.unbalance_nm != 0.0) torque -= e.unbalance_nm * std::sin(x + e.unbalance_phase_rad);
@@ -78,8 +77,8 @@ double Dynamics::load_torques(double t, double x, double w, const State& s) cons
   return torque;
 }
 
-double Dynamics::load_drive(double t, const State& s) const {
-  return load_torques(t, s[kX2], s[kW2], s) - drive_.load_damping * s[kW2];
+double Dynamics::load_drive(const State& s) const {
+  return load_torques(s[kX2], s[kW2], s) - drive_.load_damping * s[kW2];
 }
 
 double Dynamics::motor_level(int direction, double w) const {
