@@ -67,8 +67,9 @@ StoredRecording store_recording(const std::string& folder, std::size_t index, co
 
 void load_recording(const std::string& folder, const StoredRecording& stored, RunResult& run) {
   const std::string path = folder + "/" + stored.trace;
-  internal::TraceSet set{
-      stored.recording, {stored.recording.file, {}, {}}, {stored.recording.file, {}, {}, {}}};
+  internal::TraceSet set;
+  set.recording = stored.recording;
+  set.error.file = set.fit.file = stored.recording.file;
   internal::read_trace(path, set);
   if (static_cast<int>(set.recording.size()) != stored.samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +

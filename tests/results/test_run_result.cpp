@@ -76,7 +76,9 @@ FitSummary summary(const RunResult& run) {
   f.parameters.push_back({"gap", "rad", 0.02, 0.0188, 1e-5, {0.01878, 0.01882}, 0.0, 0.3, true, true, false});
   f.parameters.push_back({"a_fixed", "-", 1.2, 1.2, kNaN, {}, -kInfinity, kInfinity, false, false, false});
   f.parameters.push_back({"bound", "N m", 1.2, 0.0, 3.0, {}, kNaN, 1.0, true, false, true});
-  f.traces = {{"b.csv", run.recordings[1].u, {}, {}}};
+  FitTrace& trace = f.traces.emplace_back();
+  trace.file = "b.csv";
+  trace.x1 = run.recordings[1].u;
   f.mode_errors = {{Mode::kGap, 12, kThird}, {Mode::kEngagementMinus, 0, kNaN}};
   f.start_costs = {kThird, 2.0, kNaN};
   f.warnings = {"advice"};

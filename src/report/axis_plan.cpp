@@ -1,0 +1,108 @@
+#include <cmath>
+
+#include "report/panel_plan.h"
+
+namespace gapscope::internal {
+namespace {
+
+void widen(Interval& range, double value) {
+  if (!std::isfinite(value)) return;
+  range.low = std::isnan(range.low) ? value : std::min(range.low, value);
+  range.high = std::isnan(range.high) ? value : std::max(range.high, value);
+}
+
+void widen(Interval& range, const Interval& other) {
+  widen(range, other.low);
+  widen(range, other.high);
+}
+
+/// A range with room on both sides; something to look at even for a single value.
+Interval with_room(Interval range, double share) {
+  if (std::isnan(range.low)) return {0.0, 1.0};
+  double room = share * (range.high - range.low);
+  const double magnitude = std::max(std::abs(range.low), std::abs(range.high));
+  if (range.high - range.low <= 1e-9 * magnitude || magnitude == 0.0)
+    room = magnitude > 0.0 ? 0.1 * magnitude : 1.0;
+  return {range.low - room, range.high + room};
+}
+
+double widest_label(const AxisPlan& plan, const Typesetter& typesetter) {
+  double widest = 0.0;
+  for (std::size_t i = 0; i < plan.ticks.values.size(); ++i)
+    widest = std::max(widest, typesetter.measure(plan.tick_text(i), kTickSize).width);
+  return widest;
+}
+
+}  // namespace
+
+Interval x_range(const Panel& panel) {
+  Interval range;
+  for (const Series& s : panel.series) {
+    for (const double x : s.x) widen(range, x);
+    for (const Interval& i : s.x_intervals) widen(range, i);
+  }
+  for (const Mark& mark : panel.x_marks) widen(range, mark.at);
+  return range;
+}
+
+Interval y_range(const Panel& panel) {
+  Interval range;
+  for (const Series& s : panel.series) {
+    for (const double y : s.y) widen(range, y);
+    for (const Interval& i : s.y_intervals) widen(range, i);
+  }
+  for (const Mark& mark : panel.y_marks) widen(range, mark.at);
+  for (const Band& band : panel.y_bands) widen(range, band.range);
+  for (const Dimension& dimension : panel.dimensions) widen(range, dimension.range);
+  return range;
+}
+
+AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
+                   const Typesetter& typesetter) {
+  AxisPlan plan;
+  const bool fixed = !std::isnan(axis.range.low);
+  plan.range = fixed ? axis.range : with_room(data, 0.06);
+  if (!axis.categories.empty()) {  // the first one at the top
+    const double last = static_cast<double>(axis.categories.size()) - 1.0;
+    plan.range = {last + 0.6, -0.6};
+    plan.label = axis.name;
+    return plan;
+  }
+  const UnitScale scale =
+      unit_scale(axis.unit, std::max(std::abs(plan.range.low), std::abs(plan.range.high)));
+  plan.factor = scale.factor;
+  plan.label = axis.name + (scale.unit.empty() ? "" : " (" + scale.unit + ")");
+  const auto ticks = [&](int most) {
+    return round_ticks(plan.range.low / plan.factor, plan.range.high / plan.factor, most);
+  };
+  if (upright) {
+    plan.ticks = ticks(std::max(2, static_cast<int>(length / (2.2 * kTickSize))));
+    return plan;
+  }
+  for (int most = 9; most >= 2; --most) {  // as many as stand clear of each other
+    plan.ticks = ticks(most);
+    const double pitch = length * plan.ticks.step * plan.factor / (plan.range.high - plan.range.low);
+    if (pitch > widest_label(plan, typesetter) + 1.2 * kTickSize) break;
+  }
+  return plan;
+}
+
+Margins side_margins(const Panel& panel, const Typesetter& typesetter) {
+  const AxisPlan x = plan_axis(panel.x, x_range(panel), 1000.0, false, typesetter);
+  const AxisPlan y = plan_axis(panel.y, y_range(panel), panel.height, true, typesetter);
+  Margins margins;
+  double labels = widest_label(y, typesetter);
+  for (const std::string& name : panel.y.categories)
+    labels = std::max(labels, typesetter.measure(name, kTextSize).width);
+  margins.left = labels + 2 * kSpace;
+  if (!y.label.empty()) margins.left += typesetter.measure(y.label, kTextSize).height() + kSpace;
+  margins.right = widest_label(x, typesetter) / 2;
+  for (const std::string& remark : panel.y.remarks)
+    margins.right = std::max(margins.right, typesetter.measure(remark, kTextSize).width + 2 * kSpace);
+  for (const Dimension& dimension : panel.dimensions)
+    margins.right = std::max(margins.right,
+                             4 * kSpace + typesetter.measure(dimension.label, kTextSize).height() + kSpace);
+  return margins;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,140 @@
+#include "report/canvas.h"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kFine = 2.0;  // drawn at this size, averaged down
+constexpr int kShift = 4;      // sixteenths of a fine pixel
+constexpr double kFar = 1e5;   // beyond any paper; keeps sub-pixel coordinates within an int
+
+cv::Scalar bgr(Colour c) { return {double(c.blue), double(c.green), double(c.red)}; }
+
+cv::Point sub_pixel(Point p) {
+  const auto fixed = [](double v) { return cvRound(std::clamp(v, -kFar, kFar) * kFine * (1 << kShift)); };
+  return {fixed(p.x), fixed(p.y)};
+}
+
+int fine_width(double width) { return std::max(1, cvRound(width * kFine)); }
+
+cv::Rect fine_rect(const Box& box, const cv::Mat& paper) {
+  const cv::Point corner(cvRound(box.x * kFine), cvRound(box.y * kFine));
+  const cv::Point end(cvRound(box.right() * kFine), cvRound(box.bottom() * kFine));
+  return cv::Rect(corner, end) & cv::Rect(0, 0, paper.cols, paper.rows);
+}
+
+/// Cuts a line into its dashes.
+std::vector<Polyline> dashes_of(const Polyline& line, const std::vector<double>& pattern) {
+  if (pattern.empty()) return {line};
+  std::vector<Polyline> dashes{{line.front()}};
+  std::size_t part = 0;  // even parts are drawn
+  double left = pattern[0];
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    Point at = line[i - 1];
+    double length = std::hypot(line[i].x - at.x, line[i].y - at.y);
+    while (length > left) {
+      at = {at.x + (line[i].x - at.x) * left / length, at.y + (line[i].y - at.y) * left / length};
+      length -= left;
+      if (part % 2 == 0) dashes.back().push_back(at);
+      part = (part + 1) % pattern.size();
+      left = pattern[part];
+      if (part % 2 == 0) dashes.push_back({at});
+    }
+    left -= length;
+    if (part % 2 == 0) dashes.back().push_back(line[i]);
+  }
+  return dashes;
+}
+
+void stroke(cv::Mat& paper, const Polyline& points, const LineStyle& style) {
+  if (points.empty()) return;
+  for (const Polyline& dash : dashes_of(points, style.dashes)) {
+    std::vector<cv::Point> fixed;
+    for (const Point& p : dash) fixed.push_back(sub_pixel(p));
+    cv::polylines(paper, fixed, false, bgr(style.colour), fine_width(style.width), cv::LINE_AA, kShift);
+  }
+}
+
+void polygon(cv::Mat& paper, const Polyline& corners, Colour colour) {
+  std::vector<cv::Point> fixed;
+  for (const Point& p : corners) fixed.push_back(sub_pixel(p));
+  cv::fillPoly(paper, fixed, bgr(colour), cv::LINE_AA, kShift);
+}
+
+}  // namespace
+
+Canvas::Canvas(double width, double height, const Typesetter& typesetter)
+    : paper_(cvRound(height) * static_cast<int>(kFine), cvRound(width) * static_cast<int>(kFine), CV_8UC3,
+             cv::Scalar::all(255)),
+      typesetter_(typesetter) {}
+
+void Canvas::fill(const Box& box, Colour colour) { paper_(fine_rect(box, paper_)).setTo(bgr(colour)); }
+
+void Canvas::line(const Polyline& points, const LineStyle& style) { stroke(paper_, points, style); }
+
+void Canvas::line(const Polyline& points, const LineStyle& style, const Box& clip) {
+  const cv::Rect part = fine_rect(clip, paper_);
+  if (part.empty()) return;
+  Polyline moved;
+  for (const Point& p : points) moved.push_back({p.x - part.x / kFine, p.y - part.y / kFine});
+  cv::Mat inside = paper_(part);
+  stroke(inside, moved, style);
+}
+
+void Canvas::marker(Point at, Marker marker, Colour colour, double size) {
+  const double r = size / 2;
+  const double up = marker == Marker::kTriangleUp ? -r : r;
+  switch (marker) {
+    case Marker::kNone:
+      return;
+    case Marker::kDisc:
+    case Marker::kCircle:
+      cv::circle(paper_, sub_pixel(at), cvRound(r * kFine * (1 << kShift)), bgr(colour), cv::FILLED,
+                 cv::LINE_AA, kShift);
+      if (marker == Marker::kCircle)
+        cv::circle(paper_, sub_pixel(at), cvRound((r - 3.5) * kFine * (1 << kShift)), cv::Scalar::all(255),
+                   cv::FILLED, cv::LINE_AA, kShift);
+      return;
+    case Marker::kTriangleUp:
+    case Marker::kTriangleDown:
+      return polygon(paper_, {{at.x - r, at.y - up * 0.75}, {at.x + r, at.y - up * 0.75}, {at.x, at.y + up}},
+                     colour);
+    case Marker::kCross:
+      stroke(paper_, {{at.x - 0.8 * r, at.y - 0.8 * r}, {at.x + 0.8 * r, at.y + 0.8 * r}}, {colour, 4.0, {}});
+      stroke(paper_, {{at.x - 0.8 * r, at.y + 0.8 * r}, {at.x + 0.8 * r, at.y - 0.8 * r}}, {colour, 4.0, {}});
+  }
+}
+
+void Canvas::text(Point at, const std::string& markup, const TextStyle& style) {
+  const TextMetrics fine = typesetter_.measure(markup, style.size * kFine, style.bold);
+  const double width = fine.width / kFine, ascent = fine.ascent / kFine, descent = fine.descent / kFine;
+  const double before = style.align == Align::kLeft ? 0.0 : style.align == Align::kCentre ? width / 2 : width;
+  if (!style.upwards) {
+    texts_.push_back({{at.x - before, at.y - ascent, width, ascent + descent}, markup});
+    typesetter_.draw(paper_, {(at.x - before) * kFine, at.y * kFine}, markup, style.size * kFine,
+                     style.colour, style.bold);
+    return;
+  }
+  const Box box{at.x - ascent, at.y + before - width, ascent + descent, width};
+  texts_.push_back({box, markup});
+  constexpr int kRim = 8;  // for italics that lean out of their box [fine px]
+  cv::Mat strip(cvCeil(fine.height()) + 2 * kRim, cvCeil(fine.width) + 2 * kRim, CV_8UC3,
+                cv::Scalar::all(255));
+  typesetter_.draw(strip, {kRim, fine.ascent + kRim}, markup, style.size * kFine, style.colour, style.bold);
+  cv::rotate(strip, strip, cv::ROTATE_90_COUNTERCLOCKWISE);
+  const cv::Rect place(cvRound(box.x * kFine) - kRim, cvRound(box.y * kFine) - kRim, strip.cols, strip.rows);
+  const cv::Rect seen = place & cv::Rect(0, 0, paper_.cols, paper_.rows);
+  if (seen.empty()) return;
+  cv::Mat under = paper_(seen);
+  cv::min(under, strip(seen - place.tl()), under);
+}
+
+cv::Mat Canvas::image() const {
+  cv::Mat small;
+  cv::resize(paper_, small, {}, 1.0 / kFine, 1.0 / kFine, cv::INTER_AREA);
+  return small;
+}
+
+}  // namespace gapscope::internal

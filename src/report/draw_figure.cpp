@@ -1,0 +1,112 @@
+#include "report/draw_figure.h"
+
+#include <sstream>
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kBetween = 34.0;  // rows, and columns
+
+/// Breaks a text into lines no wider than `width`; never within a formula.
+std::vector<std::string> wrapped(const std::string& text, double width, const Typesetter& typesetter) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  std::string word, part;
+  while (words >> part) {
+    word += (word.empty() ? "" : " ") + part;
+    if (std::count(word.begin(), word.end(), '$') % 2 != 0) continue;
+    const bool fits =
+        !lines.empty() && typesetter.measure(lines.back() + " " + word, kTextSize).width <= width;
+    if (fits)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+    word.clear();
+  }
+  return lines;
+}
+
+/// Everything in its place: columns have common margins, rows a common height.
+struct FigurePlan {
+  std::vector<std::string> titles;
+  std::vector<std::string> lines;
+  std::vector<Margins> columns;
+  std::vector<PanelPlan> panels;
+  std::vector<Point> corners;
+  double height = 0.0;
+};
+
+std::string panel_title(const FigureData& figure, std::size_t i) {
+  const std::string& title = figure.panels[i].title;
+  if (figure.panels.size() == 1) return title;
+  const std::string letter = std::string("(") + static_cast<char>('a' + i) + ")";
+  return title.empty() ? letter : letter + " " + title;
+}
+
+std::vector<Margins> column_margins(const FigureData& figure, const Typesetter& typesetter) {
+  std::vector<Margins> columns(static_cast<std::size_t>(figure.columns));
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    Margins& column = columns[i % columns.size()];
+    const Margins needed = side_margins(figure.panels[i], typesetter);
+    column.left = std::max(column.left, needed.left);
+    column.right = std::max(column.right, needed.right);
+  }
+  return columns;
+}
+
+FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
+  FigurePlan plan;
+  plan.columns = column_margins(figure, typesetter);
+  const auto columns = plan.columns.size();
+  const double column_width =
+      (figure.width - 2 * kRim - kBetween * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+  for (const std::string& line : figure.lines)
+    for (std::string& part : wrapped(line, figure.width - 2 * kRim, typesetter)) plan.lines.push_back(part);
+  double y = kRim + 1.5 * kTitleSize + 1.35 * kTextSize * static_cast<double>(plan.lines.size());
+  for (std::size_t first = 0; first < figure.panels.size(); first += columns) {
+    double above = 0.0, below = 0.0;
+    const std::size_t end = std::min(first + columns, figure.panels.size());
+    for (std::size_t i = first; i < end; ++i) {
+      const Margins& column = plan.columns[i % columns];
+      plan.titles.push_back(panel_title(figure, i));
+      plan.panels.push_back(plan_panel(figure.panels[i], plan.titles[i],
+                                       column_width - column.left - column.right, typesetter));
+      above = std::max(above, plan.panels[i].above);
+      below = std::max(below, plan.panels[i].height + plan.panels[i].below);
+    }
+    for (std::size_t i = first; i < end; ++i)
+      plan.corners.push_back({kRim + static_cast<double>(i % columns) * (column_width + kBetween) +
+                                  plan.columns[i % columns].left,
+                              y + above});
+    y += above + below + kBetween;
+  }
+  plan.height = y - kBetween + kRim;
+  return plan;
+}
+
+}  // namespace
+
+Drawing draw_with_notes(const FigureData& figure) {
+  const Typesetter typesetter;
+  const FigurePlan plan = plan_figure(figure, typesetter);
+  Canvas canvas(figure.width, plan.height, typesetter);
+  canvas.text({kRim, kRim + kTitleSize}, figure.title, {kTitleSize, Align::kLeft, kInk, true});
+  for (std::size_t i = 0; i < plan.lines.size(); ++i)
+    canvas.text({kRim, kRim + 1.5 * kTitleSize + (0.9 + 1.35 * static_cast<double>(i)) * kTextSize},
+                plan.lines[i], {kTextSize});
+  Drawing drawing;
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const PanelPlan& panel = plan.panels[i];
+    draw_panel(canvas, figure.panels[i], panel, plan.titles[i], plan.corners[i],
+               plan.columns[i % plan.columns.size()].left, typesetter);
+    drawing.frames.push_back({plan.corners[i].x, plan.corners[i].y, panel.width, panel.height});
+  }
+  drawing.image = canvas.image();
+  drawing.texts = canvas.texts();
+  drawing.plans = plan.panels;
+  return drawing;
+}
+
+cv::Mat draw(const FigureData& figure) { return draw_with_notes(figure).image; }
+
+}  // namespace gapscope::internal

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "report/canvas.h"
+#include "report/figure_data.h"
+#include "report/panel_plan.h"
+
+namespace gapscope::internal {
+
+/// An image and what a test wants to know of it.
+struct Drawing {
+  cv::Mat image;                 ///< 8-bit BGR
+  std::vector<DrawnText> texts;  ///< everything that was written
+  std::vector<Box> frames;       ///< of the panels, in their order
+  std::vector<PanelPlan> plans;
+};
+Drawing draw_with_notes(const FigureData& figure);
+
+/// @throws std::runtime_error without fonts.
+cv::Mat draw(const FigureData& figure);
+
+/// Draws one panel with the upper left corner of its frame at `corner`.
+void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, const std::string& title,
+                Point corner, double left_margin, const Typesetter& typesetter);
+
+}  // namespace gapscope::internal

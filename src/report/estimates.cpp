@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/figures.h"
+#include "report/wording.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr Interval kNone{};
+
+/// One row of the upper panel.
+void add_row(Panel& panel, const std::string& name, double value, const Interval& ci95,
+             const LineStyle& style, Marker marker, const std::string& remark) {
+  const double row = static_cast<double>(panel.y.categories.size());
+  panel.y.categories.push_back(name);
+  panel.y.remarks.push_back(remark);
+  if (!std::isfinite(value)) return;
+  Series s;
+  s.style = {style.colour, style.width, {}};
+  s.marker = marker;
+  s.joined = false;
+  s.x = {value};
+  s.y = {row};
+  if (std::isfinite(ci95.low) && std::isfinite(ci95.high)) s.x_intervals = {ci95};
+  panel.series.push_back(s);
+}
+
+void add_model_free(const ReportView& view, Panel& panel) {
+  if (!view.run.model_free) return;
+  const GapEstimate& g = *view.run.model_free;
+  std::string remark = plus_minus(g.gap, g.ci95, view.length_unit);
+  if (g.verdict == GapVerdict::kInconclusive) remark = "inconclusive";
+  if (g.verdict == GapVerdict::kNone)
+    remark = "none above " + quantity(g.smallest_visible_gap, view.length_unit);
+  add_row(panel, "model-free", g.gap, g.ci95, model_free_style(), Marker::kDisc, remark);
+}
+
+void add_reference(const ReportView& view, Panel& panel) {
+  const FittedParameter* gap = parameter(view.run, "gap");
+  if (gap == nullptr) return;
+  std::string remark = plus_minus(gap->value, gap->ci95, view.length_unit);
+  if (!gap->estimated) remark = quantity(gap->value, view.length_unit) + ", given";
+  if (gap->estimated && !gap->identifiable) remark = "not identifiable";
+  add_row(panel, "reference", gap->value, gap->ci95, reference_style(), Marker::kCircle, remark);
+}
+
+void add_truth(const ReportView& view, Panel& panel) {
+  const double map = view.run.comparison ? view.run.comparison->true_gap : kNaN;
+  if (std::isfinite(map))
+    add_row(panel, "$x_1$–$x_2$ map", map, kNone, {kBlack, 4.0, {}}, Marker::kTriangleUp,
+            quantity(map, view.length_unit));
+  if (std::isfinite(view.run.simulated_gap))
+    add_row(panel, "simulated", view.run.simulated_gap, kNone, {kGrey, 4.0, {}}, Marker::kTriangleDown,
+            quantity(view.run.simulated_gap, view.length_unit));
+  if (std::isfinite(view.true_gap())) panel.x_marks.push_back({view.true_gap(), truth_style(), ""});
+}
+
+Panel side_by_side(const ReportView& view) {
+  Panel panel;
+  panel.title = "Estimates with 95 % intervals";
+  panel.x = {"backlash gap $2β$", view.length_unit, {}, {}, {}};
+  add_model_free(view, panel);
+  add_reference(view, panel);
+  add_truth(view, panel);
+  panel.height = 90.0 + 85.0 * static_cast<double>(panel.y.categories.size());
+  return panel;
+}
+
+Series passages(const ReportView& view, const std::string& label, int direction, bool accepted,
+                Marker marker) {
+  Series s;
+  s.label = label;
+  s.style = {accepted ? (direction > 0 ? kVermillion : kBlue) : kGrey, 4.0, {}};
+  s.marker = marker;
+  s.joined = false;
+  for (const GapEvent& e : view.events) {
+    const bool same = accepted ? e.accepted && e.direction == direction : !e.accepted;
+    if (!same || !std::isfinite(e.gap)) continue;
+    s.x.push_back(e.t2);
+    s.y.push_back(e.gap);
+  }
+  return s;
+}
+
+/// Room for what was accepted and what it means; a passage that was set aside may lie beyond.
+Interval event_range(const ReportView& view) {
+  std::vector<double> values;
+  for (const GapEvent& e : view.accepted()) values.push_back(e.gap);
+  if (values.empty())
+    for (const GapEvent& e : view.events)
+      if (std::isfinite(e.gap)) values.push_back(e.gap);
+  const Interval& ci = view.run.model_free->ci95;
+  for (const double v : {ci.low, ci.high, view.true_gap()})
+    if (std::isfinite(v)) values.push_back(v);
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double room = std::max(0.35 * (*high - *low), 0.01 * std::abs(*high));
+  return {*low - room, *high + room};
+}
+
+Panel over_time(const ReportView& view) {
+  Panel panel;
+  panel.title = "Passage by passage";
+  panel.x = view.time_axis({view.time.front(), view.time.back()});
+  panel.y = {"estimate of $2β$", view.length_unit, event_range(view), {}, {}};
+  panel.height = 520.0;
+  for (const Series& s : {passages(view, "$x_1$ rising", 1, true, Marker::kTriangleUp),
+                          passages(view, "$x_1$ falling", -1, true, Marker::kTriangleDown),
+                          passages(view, "set aside", 0, false, Marker::kCross)})
+    if (!s.x.empty()) panel.series.push_back(s);
+  const Interval& ci = view.run.model_free->ci95;
+  if (std::isfinite(ci.low)) panel.y_bands.push_back({ci, kBandShade, "95 % interval"});
+  if (std::isfinite(view.true_gap()))
+    panel.y_marks.push_back({view.true_gap(), truth_style(), view.true_gap_name()});
+  return panel;
+}
+
+bool has_passages(const ReportView& view) {
+  return view.run.model_free && view.recording &&
+         std::any_of(view.events.begin(), view.events.end(),
+                     [](const GapEvent& e) { return std::isfinite(e.gap); });
+}
+
+std::string passages_reading(const ReportView& view) {
+  std::vector<double> up, down;
+  for (const GapEvent& e : view.accepted()) (e.direction > 0 ? up : down).push_back(e.gap);
+  const std::size_t aside = view.events.size() - up.size() - down.size();
+  std::string text = " Passages used: " + std::to_string(up.size()) + " rising";
+  if (!up.empty()) text += " (median " + quantity(median(up), view.length_unit) + ")";
+  text += ", " + std::to_string(down.size()) + " falling";
+  if (!down.empty()) text += " (median " + quantity(median(down), view.length_unit) + ")";
+  text += "; set aside: " + std::to_string(aside);
+  const Interval range = event_range(view);
+  const auto beyond = std::count_if(view.events.begin(), view.events.end(), [&](const GapEvent& e) {
+    return std::isfinite(e.gap) && (e.gap < range.low || e.gap > range.high);
+  });
+  if (beyond > 0) text += ", " + std::to_string(beyond) + " of them beyond the scale";
+  return text + ".";
+}
+
+std::string error_reading(const ReportView& view, const std::string& name, double value,
+                          const Interval& ci95) {
+  const double truth = view.true_gap();
+  if (!std::isfinite(value) || !std::isfinite(truth)) return "";
+  const bool holds = ci95.low <= truth && truth <= ci95.high;
+  const std::string interval = !std::isfinite(ci95.low) ? ""
+                               : holds                  ? ", its interval holds it"
+                                                        : ", its interval misses it";
+  return fmt::format(" The {} estimate is {}{} % off the {}{}.", name, value < truth ? "−" : "+",
+                     plain_number(100.0 * std::abs(value / truth - 1.0)),
+                     std::isfinite(view.run.simulated_gap) ? "simulated gap" : "map", interval);
+}
+
+}  // namespace
+
+FigureData estimates(const ReportView& view) {
+  FigureData figure;
+  figure.file = "estimates.png";
+  figure.title = "The gap: estimates and truth";
+  Panel panel = side_by_side(view);
+  if (!panel.series.empty()) figure.panels.push_back(panel);
+  if (has_passages(view)) figure.panels.push_back(over_time(view));
+  if (figure.panels.empty())
+    return missing_figure(figure.file, figure.title, "there is no estimate of a gap");
+  figure.reading = headline(view.run);
+  if (view.run.model_free)
+    figure.reading += error_reading(view, "model-free", view.run.model_free->gap, view.run.model_free->ci95);
+  if (const FittedParameter* gap = parameter(view.run, "gap"); gap != nullptr && gap->estimated)
+    figure.reading += error_reading(view, "reference", gap->value, gap->ci95);
+  if (has_passages(view)) figure.reading += passages_reading(view);
+  return figure;
+}
+
+}  // namespace gapscope::internal

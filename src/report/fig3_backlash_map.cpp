@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include "report/figures.h"
+#include "report/signals.h"
+#include "report/wording.h"
+
+namespace gapscope::internal {
+namespace {
+
+Panel map(const ReportView& view, const std::vector<double>& y, const Axis& axis) {
+  Panel panel;
+  panel.x = {"motor displacement $x_1$", view.length_unit, {}, {}, {}};
+  panel.y = axis;
+  panel.height = 470.0;
+  Series s;
+  s.style = measured_style();
+  s.style.width = 3.0;
+  s.x = view.over_time("", {}, view.recording->x1, view.window).y;
+  s.y = view.over_time("", {}, y, view.window).y;
+  panel.series.push_back(s);
+  return panel;
+}
+
+/// The gap read off the map as a dimension, around the middle of the two flanks.
+void mark_gap(const ReportView& view, Panel& panel) {
+  const double gap = view.run.comparison ? view.run.comparison->true_gap : kNaN;
+  const double shown = std::isfinite(gap) ? gap : view.true_gap();
+  if (!std::isfinite(shown)) return;
+  const double middle = robust_middle(view.state);
+  const Interval range{middle - shown / 2, middle + shown / 2};
+  for (const double y : {range.low, range.high}) panel.y_marks.push_back({y, truth_style(), ""});
+  panel.dimensions.push_back({range, "$2β$ = " + quantity(shown, view.length_unit)});
+}
+
+std::string reading(const ReportView& view) {
+  const double spread = quantile(view.state, 0.99) - quantile(view.state, 0.01);
+  std::string text = "98 % of the samples of x1 − x2 lie within " + quantity(spread, view.length_unit);
+  const double gap = view.run.comparison ? view.run.comparison->true_gap : kNaN;
+  if (std::isfinite(gap))
+    text += "; the gap read off the map is " + quantity(gap, view.length_unit);
+  else if (std::isfinite(view.true_gap()))
+    text += "; the simulated gap is " + quantity(view.true_gap(), view.length_unit);
+  else
+    text += "; no gap was read off (that needs both estimators)";
+  return text + ".";
+}
+
+}  // namespace
+
+FigureData fig3_backlash_map(const ReportView& view) {
+  FigureData figure;
+  figure.file = "fig3_backlash_map.png";
+  figure.title = "Backlash map of both encoders";
+  if (view.source != StateSource::kRecorded)
+    return missing_figure(figure.file, figure.title, "the recording has no load position x2");
+  figure.panels.push_back(
+      map(view, view.recording->x2, {"load displacement $x_2$", view.length_unit, {}, {}, {}}));
+  figure.panels.push_back(map(view, view.state, {"$x_1 − x_2$", view.length_unit, {}, {}, {}}));
+  figure.panels.front().x_labels = false;
+  mark_gap(view, figure.panels.back());
+  figure.reading = reading(view);
+  return figure;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,129 @@
+#include "report/fig6_one_period.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/figures.h"
+#include "report/signals.h"
+#include "report/wording.h"
+
+namespace gapscope::internal {
+namespace {
+
+/// The accepted passage whose estimate is nearest to the median, the earliest of equals.
+const GapEvent* typical(const std::vector<GapEvent>& events) {
+  std::vector<double> gaps;
+  for (const GapEvent& e : events) gaps.push_back(e.gap);
+  const double middle = median(gaps);
+  const GapEvent* best = nullptr;
+  for (const GapEvent& e : events)
+    if (e.t2 > e.t1 && std::isfinite(e.x1_t1) && std::isfinite(e.x1_t2) &&
+        (best == nullptr || std::abs(e.gap - middle) < std::abs(best->gap - middle)))
+      best = &e;
+  return best;
+}
+
+/// Is S5 itself the estimate of this passage, to within 1 %?
+bool uncorrected(const GapEvent& e) {
+  return std::abs(std::abs(e.x1_t2 - e.x1_t1) - e.gap) <= 0.01 * std::abs(e.gap);
+}
+
+Panel displacement_panel(const ReportView& view, const OnePassage& p) {
+  Panel panel;
+  panel.x = view.time_axis(p.window);
+  panel.y = {"$x_1$", view.length_unit, {}, {}, {}};
+  panel.height = 520.0;
+  panel.x_labels = false;
+  panel.series.push_back(view.over_time("", measured_style(), view.recording->x1, p.window));
+  for (const double y : {p.event.x1_t1, p.event.x1_t2}) panel.y_marks.push_back({y, guide_style(), ""});
+  const double s5 = std::abs(p.event.x1_t2 - p.event.x1_t1);
+  const std::string name = uncorrected(p.event) ? "$2\\hat{β}$" : "$|x_1(t_2) − x_1(t_1)|$";
+  panel.dimensions.push_back(
+      {{std::min(p.event.x1_t1, p.event.x1_t2), std::max(p.event.x1_t1, p.event.x1_t2)},
+       name + " = " + quantity(s5, view.length_unit)});
+  return panel;
+}
+
+Panel error_panel(const ReportView& view, const OnePassage& p) {
+  Panel panel;
+  panel.x = view.time_axis(p.window);
+  panel.y = {"$e_x$", view.length_unit, {}, {}, {}};
+  panel.height = 400.0;
+  if (view.error) panel.series.push_back(view.over_time("", model_free_style(), view.error->error, p.window));
+  return panel;
+}
+
+void mark_times(Panel& panel, const OnePassage& p, bool named) {
+  if (std::isfinite(p.converged)) panel.x_marks.push_back({p.converged, guide_style(), named ? "$t_c$" : ""});
+  panel.x_marks.push_back({p.event.t1, {kVermillion, 3.0, {14, 8}}, named ? "$t_1$" : ""});
+  panel.x_marks.push_back({p.event.t2, {kVermillion, 3.0, {}}, named ? "$t_2$" : ""});
+  panel.x_bands.push_back({{p.event.t1, p.event.t2}, kGapShade, ""});
+}
+
+std::string reading(const ReportView& view, const OnePassage& p) {
+  const GapEvent& e = p.event;
+  std::string text = fmt::format(
+      "contact is lost at t1 = {:.4f} s and regained at t2 = {:.4f} s, {} later; x1 moves {}", e.t1, e.t2,
+      quantity(e.t2 - e.t1, "s"), quantity(std::abs(e.x1_t2 - e.x1_t1), view.length_unit));
+  if (!uncorrected(e))
+    text += ", which the travel of the load turns into an estimate of " + quantity(e.gap, view.length_unit);
+  text += std::isfinite(p.converged)
+              ? fmt::format("; e_x had been near zero since t_c = {:.4f} s", p.converged)
+              : "; e_x was not quiet just before t1, so t_c is not drawn";
+  return "Passage nearest to the median: " + text + ".";
+}
+
+}  // namespace
+
+double quiet_since(const ReportView& view, const GapEvent& e) {
+  if (!view.error) return kNaN;
+  const std::vector<double>& error = view.error->error;
+  const std::size_t i1 = view.index(e.t1), end = view.index(e.t2 + (e.t2 - e.t1));
+  const std::size_t reach =
+      view.index(e.t1 - (std::isfinite(view.half_period) ? view.half_period : 10 * (e.t2 - e.t1)));
+  const double quiet = 0.1 * largest_magnitude(std::span(error).subspan(i1, end - i1 + 1));
+  std::size_t i = i1;
+  const std::size_t patience = view.index(e.t1 - 0.25 * (e.t2 - e.t1));
+  while (i > patience && !(std::abs(error[i]) <= quiet)) --i;
+  if (!(std::abs(error[i]) <= quiet)) return kNaN;
+  while (i > reach && std::abs(error[i - 1]) <= quiet) --i;
+  return i == reach ? kNaN : view.time[i];
+}
+
+std::optional<OnePassage> typical_passage(const ReportView& view) {
+  const std::vector<GapEvent> events = view.accepted();
+  const GapEvent* event = view.recording ? typical(events) : nullptr;
+  if (event == nullptr) return std::nullopt;
+  OnePassage p;
+  p.event = *event;
+  p.converged = quiet_since(view, p.event);
+  const double flight = p.event.t2 - p.event.t1;
+  const double start =
+      std::isfinite(p.converged) ? std::min(p.converged, p.event.t1 - flight) : p.event.t1 - flight;
+  p.window.low = std::max(view.time.front(), start - 0.5 * flight);
+  p.window.high = std::min(view.time.back(), p.event.t2 + 1.2 * flight);
+  return p;
+}
+
+FigureData fig6_one_period(const ReportView& view) {
+  FigureData figure;
+  figure.file = "fig6_one_period.png";
+  figure.title = "One passage of the gap";
+  const std::optional<OnePassage> passage = typical_passage(view);
+  if (!passage)
+    return missing_figure(figure.file, figure.title,
+                          view.run.model_free ? "no passage of the gap was accepted"
+                                              : "the model-free detector was not asked for");
+  figure.panels = {displacement_panel(view, *passage), error_panel(view, *passage)};
+  if (!view.error) {
+    figure.panels.pop_back();
+    figure.panels.front().x_labels = true;
+  }
+  for (Panel& panel : figure.panels) mark_times(panel, *passage, &panel == &figure.panels.front());
+  figure.reading = reading(view, *passage);
+  return figure;
+}
+
+}  // namespace gapscope::internal

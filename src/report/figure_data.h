@@ -1,0 +1,85 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+#include "report/palette.h"
+
+/// A figure as data, in SI units: everything is computed before anything is drawn. Texts are markup
+/// (rich_text.h).
+namespace gapscope::internal {
+
+enum class Marker { kNone, kDisc, kCircle, kTriangleUp, kTriangleDown, kCross };
+
+struct Series {
+  std::string label{};  ///< in the legend; empty: not there
+  LineStyle style{};
+  std::vector<double> x{}, y{};  ///< NaN interrupts the line
+  bool joined = true;            ///< a line through the points
+  Marker marker = Marker::kNone;
+  std::vector<Interval> x_intervals{};  ///< of each point, along x; empty: none
+  std::vector<Interval> y_intervals{};
+};
+
+/// A line across the frame.
+struct Mark {
+  double at = 0.0;
+  LineStyle style{};
+  std::string label{};  ///< vertical marks: written above the frame; horizontal ones: in the legend
+};
+
+/// A shaded part of the frame.
+struct Band {
+  Interval range{};
+  Colour colour{};
+  std::string label{};  ///< in the legend
+};
+
+/// A dimension at the right of the frame, as in a drawing.
+struct Dimension {
+  Interval range{};
+  std::string label{};
+};
+
+struct Axis {
+  std::string name{};  ///< "displacement $x_1$"
+  std::string unit{};  ///< SI; the drawing chooses the prefix
+  Interval range{};    ///< NaN: from the data
+  std::vector<std::string>
+      categories{};                    ///< names of the places 0, 1, 2, ... (from above) instead of numbers
+  std::vector<std::string> remarks{};  ///< at the right of each category
+};
+
+struct Panel {
+  std::string title{};
+  Axis x{}, y{};
+  double height = 480.0;  ///< of the frame [px]
+  bool x_labels = true;   ///< false: the panel below has the same x axis
+  std::vector<Band> x_bands{}, y_bands{};
+  std::vector<Mark> x_marks{}, y_marks{};  ///< vertical lines at x, horizontal lines at y
+  std::vector<Dimension> dimensions{};     ///< along y
+  std::vector<Series> series{};
+};
+
+struct FigureData {
+  std::string file{};  ///< name of the PNG
+  std::string title{};
+  std::string reading{};             ///< one line: what this figure shows here
+  std::string missing{};             ///< why there is no such figure; empty: there is one
+  std::vector<std::string> lines{};  ///< text under the title, wrapped
+  double width = 1600.0;             ///< [px]
+  int columns = 1;
+  std::vector<Panel> panels{};  ///< row by row
+};
+
+/// A figure that this result cannot have.
+inline FigureData missing_figure(std::string file, std::string title, std::string why) {
+  FigureData figure;
+  figure.file = std::move(file);
+  figure.title = std::move(title);
+  figure.missing = std::move(why);
+  return figure;
+}
+
+}  // namespace gapscope::internal

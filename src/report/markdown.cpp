@@ -1,0 +1,138 @@
+#include "report/markdown.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/rich_text.h"
+#include "report/wording.h"
+
+namespace gapscope::internal {
+namespace {
+
+std::string parameter_row(const FittedParameter& p, bool rotation) {
+  const std::string unit = shown_unit(p.unit, rotation);
+  const char* known = !p.estimated ? "given" : p.identifiable ? "yes" : "no";
+  const std::string start = p.estimated ? quantity(p.start, unit) : "";
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", p.key,
+                     p.estimated ? plus_minus(p.value, p.ci95, unit) : quantity(p.value, unit), known, start,
+                     p.at_bound ? "at its bound" : "");
+}
+
+std::string estimate_rows(const RunResult& run) {
+  const std::string unit = position_unit(run);
+  std::string text = "| backlash gap 2β | value | 95 % interval | needed to know |\n|---|---|---|---|\n";
+  const auto row = [&](const std::string& name, double value, const Interval& ci, const std::string& needed) {
+    const std::string interval =
+        std::isfinite(ci.low) ? quantity(ci.low, unit) + " to " + quantity(ci.high, unit) : "";
+    text += fmt::format("| {} | {} | {} | {} |\n", name, quantity(value, unit), interval, needed);
+  };
+  if (run.model_free) {
+    const GapEstimate& g = *run.model_free;
+    const bool play = g.quantity == GapQuantity::kPlayAtZeroTorque;
+    row(play ? "model-free (play at zero torque)" : "model-free", g.gap, g.ci95,
+        g.method == GapMethod::kLostMotion ? "motor position and torque" : "motor position");
+  }
+  if (const FittedParameter* gap = parameter(run, "gap"))
+    row("model-based reference", gap->value, gap->ci95,
+        "motor position, input, equations and the given parameters");
+  if (run.comparison && std::isfinite(run.comparison->true_gap))
+    row("read off the x1–x2 map", run.comparison->true_gap, {}, "both encoders");
+  if (std::isfinite(run.simulated_gap)) row("simulated plant", run.simulated_gap, {}, "");
+  return text;
+}
+
+std::string comparison_line(const RunResult& run) {
+  if (!run.comparison || !std::isfinite(run.comparison->difference)) return "";
+  const Comparison& c = *run.comparison;
+  return fmt::format("\nDifference of the two estimates: {}, joint standard deviation {}{}.\n",
+                     quantity(c.difference, position_unit(run)), quantity(c.joint_std, position_unit(run)),
+                     !c.agree   ? ""
+                     : *c.agree ? "; they agree within 1.96 of it"
+                                : "; they differ by more than 1.96 of it");
+}
+
+std::string parameter_table(const RunResult& run) {
+  if (!run.reference || run.reference->parameters.empty()) return "";
+  std::string text =
+      "\n## Parameters of the reference\n\n| parameter | value (± half of the 95 % interval) | identifiable "
+      "| start | "
+      "remark |\n|---|---|---|---|---|\n";
+  for (const FittedParameter& p : run.reference->parameters) text += parameter_row(p, run.rotation);
+  const FitSummary& fit = *run.reference;
+  text += fmt::format("\n{}{} Free run: {} rms", fit.message, fit.message.ends_with(".") ? "" : ".",
+                      quantity(fit.rmse, position_unit(run)));
+  if (std::isfinite(fit.floor))
+    text += ", the encoder alone leaves " + quantity(fit.floor, position_unit(run));
+  return text + ".\n";
+}
+
+std::string timing_line(const Timing& timing) {
+  std::string text;
+  if (std::isfinite(timing.model_free_s)) text += "model-free " + quantity(timing.model_free_s, "s");
+  if (std::isfinite(timing.reference_s))
+    text += (text.empty() ? "" : ", ") + ("reference " + quantity(timing.reference_s, "s"));
+  return text.empty() ? "" : "\nRun times are in `timing.json`.\n";
+}
+
+std::string figure_section(const std::vector<FigureData>& figures) {
+  std::string text = "\n## Figures\n";
+  for (const FigureData& figure : figures) {
+    const std::string title = plain_text(figure.title);
+    if (figure.missing.empty())
+      text += fmt::format("\n### {}\n\n![{}]({})\n\n{}\n", title, title, figure.file, figure.reading);
+  }
+  std::string left_out;
+  for (const FigureData& figure : figures)
+    if (!figure.missing.empty()) left_out += fmt::format("- `{}`: {}.\n", figure.file, figure.missing);
+  if (!left_out.empty()) text += "\n### Left out\n\n" + left_out;
+  return text;
+}
+
+std::string bullet_section(const char* title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string text = fmt::format("\n## {}\n\n", title);
+  for (const std::string& line : lines) text += "- " + line + "\n";
+  return text;
+}
+
+std::vector<std::string> notes_of(const RunResult& run) {
+  std::vector<std::string> notes = run.notes;
+  for (const Recording& r : run.recordings) {
+    notes.push_back(fmt::format("`{}`: {} samples, {} at {:g} Hz, encoder quantum {}.", r.file, r.size(),
+                                quantity(r.duration(), "s"), 1.0 / r.dt,
+                                r.quantum > 0.0 ? quantity(r.quantum, position_unit(run)) : "unknown"));
+    if (!r.resampling.empty()) notes.push_back(fmt::format("`{}`: {}", r.file, r.resampling));
+  }
+  return notes;
+}
+
+std::vector<std::string> warnings_of(const RunResult& run) {
+  std::vector<std::string> warnings;
+  if (run.model_free) warnings = run.model_free->warnings;
+  if (!run.reference) return warnings;
+  if (!run.reference->converged()) warnings.push_back("The fit did not converge: " + run.reference->message);
+  for (const FittedParameter& p : run.reference->parameters) {
+    if (p.at_bound) warnings.push_back("`" + p.key + "` ended at its bound.");
+    if (p.estimated && !p.identifiable)
+      warnings.push_back("`" + p.key + "` is not determined by the recording.");
+  }
+  warnings.insert(warnings.end(), run.reference->warnings.begin(), run.reference->warnings.end());
+  return warnings;
+}
+
+}  // namespace
+
+std::string report_text(const RunResult& run, const Timing& timing, const std::vector<FigureData>& figures) {
+  std::string text = fmt::format("# {}\n\n**{}**\n", run.name, headline(run));
+  if (const auto lines = warnings_of(run); !lines.empty()) text += bullet_section("Warnings", lines);
+  text += "\n## Estimates\n\n" + estimate_rows(run) + comparison_line(run);
+  if (run.model_free && !run.model_free->reason.empty())
+    text += "\nModel-free verdict: " + run.model_free->reason +
+            (run.model_free->reason.ends_with(".") ? "" : ".") + "\n";
+  text += timing_line(timing) + parameter_table(run) + figure_section(figures);
+  text += bullet_section("Notes", notes_of(run));
+  return text + fmt::format("\ngapscope {}\n", run.version);
+}
+
+}  // namespace gapscope::internal

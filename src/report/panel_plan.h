@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/figure_data.h"
+#include "report/geometry.h"
+#include "report/ticks.h"
+#include "report/typesetter.h"
+
+namespace gapscope::internal {
+
+// Sizes of a figure [px at a width of 1600].
+inline constexpr double kTitleSize = 46.0;
+inline constexpr double kTextSize = 40.0;
+inline constexpr double kTickSize = 38.0;
+inline constexpr double kSpace = 14.0;   ///< between neighbouring pieces
+inline constexpr double kRim = 26.0;     ///< around everything
+inline constexpr double kSample = 70.0;  ///< line sample in a legend
+
+/// An axis ready to draw: its range, its round places and what is written on it.
+struct AxisPlan {
+  Interval range;
+  Ticks ticks;  ///< in units of `factor`
+  double factor = 1.0;
+  std::string label;
+
+  double fraction(double value) const { return (value - range.low) / (range.high - range.low); }
+  std::string tick_text(std::size_t i) const { return tick_label(ticks.values[i], ticks.decimals); }
+};
+
+/// @param length of the axis [px]   @param upright true for the y axis
+AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
+                   const Typesetter& typesetter);
+
+/// Range of all that a panel shows along x or y.
+Interval x_range(const Panel& panel);
+Interval y_range(const Panel& panel);
+
+struct LegendEntry {
+  std::string label;
+  LineStyle style;
+  Marker marker = Marker::kNone;
+  bool joined = true;
+  bool shade = false;  ///< a band
+};
+std::vector<LegendEntry> legend_entries(const Panel& panel);
+
+/// A legend laid out: offsets of its entries within its box.
+struct Legend {
+  Box box;
+  std::vector<Point> places;  ///< left end of each entry's baseline, relative to the box
+};
+Legend stacked_legend(const std::vector<LegendEntry>& entries, const Typesetter& typesetter);
+Legend flowing_legend(const std::vector<LegendEntry>& entries, double width, const Typesetter& typesetter);
+
+/// Room that a panel needs at the left and right of its frame.
+struct Margins {
+  double left = 0.0, right = 0.0;
+};
+Margins side_margins(const Panel& panel, const Typesetter& typesetter);
+
+/// A panel with everything in its place, relative to the upper left corner of its frame.
+struct PanelPlan {
+  AxisPlan x, y;
+  double width = 0.0, height = 0.0;  ///< of the frame
+  double above = 0.0, below = 0.0;   ///< room for what stands outside of it
+  std::vector<LegendEntry> entries;
+  Legend legend;
+  bool legend_inside = false;
+  std::vector<Polyline> lines;  ///< all data, for the placement of the legend
+
+  Point place(double px, double py) const {
+    return {x.fraction(px) * width, (1.0 - y.fraction(py)) * height};
+  }
+};
+PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
+                     const Typesetter& typesetter);
+
+/// The pieces of a series between its undefined points, decimated for a frame of this plan.
+std::vector<Polyline> polylines_of(const Series& series, const PanelPlan& plan);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/results/run_result.h"
+#include "report/figure_data.h"
+
+namespace gapscope::internal {
+
+enum class StateSource { kNone, kRecorded, kFitted };
+
+/// What the figures of a run have in common: the one recording that they show, with all that is known of it.
+struct ReportView {
+  explicit ReportView(const RunResult& result);
+
+  const RunResult& run;
+  const Recording* recording =
+      nullptr;                        ///< the one with most accepted passages, else the first; nullptr: none
+  const ErrorTrace* error = nullptr;  ///< nullptr where there is none
+  const FitTrace* fit = nullptr;
+  std::vector<GapEvent> events;  ///< of this recording, in time
+  std::vector<double> time;      ///< [s]
+  StateSource source = StateSource::kNone;
+  std::vector<double> state;  ///< x1 − x2, recorded or fitted, around zero [rad]
+  double state_offset = 0.0;  ///< that was taken off to bring it there [rad]
+  double half_period = kNaN;  ///< median time from one crossing of the middle to the next [s]
+  Interval window;            ///< the part that figures of single periods show [s]
+  bool whole = true;          ///< the window is the whole recording
+  std::string length_unit;    ///< "rad" or "m"
+
+  std::size_t index(double t) const;  ///< of the sample nearest to a time
+  std::vector<GapEvent> accepted() const;
+  double true_gap() const;  ///< of the simulated plant, else read off the x1–x2 map; NaN
+  std::string true_gap_name() const;
+
+  /// A line over time, cut to an interval.
+  Series over_time(const std::string& label, const LineStyle& style, const std::vector<double>& values,
+                   const Interval& interval) const;
+  Axis time_axis(const Interval& interval) const;
+  std::string state_name() const;  ///< "backlash state $x_1 − x_2$", fitted where it is
+};
+
+}  // namespace gapscope::internal

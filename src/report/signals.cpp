@@ -1,0 +1,81 @@
+#include "report/signals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal {
+
+std::vector<double> difference(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) result.push_back(a[i] - b[i]);
+  return result;
+}
+
+std::vector<double> scaled(std::span<const double> a, double factor) {
+  std::vector<double> result;
+  for (const double v : a) result.push_back(factor * v);
+  return result;
+}
+
+double robust_middle(const std::vector<double>& values) {
+  return (quantile(values, 0.01) + quantile(values, 0.99)) / 2;
+}
+
+double peak_to_peak(std::span<const double> values) {
+  double low = kNaN, high = kNaN;
+  for (const double v : values) {
+    if (std::isnan(v)) continue;
+    low = std::isnan(low) ? v : std::min(low, v);
+    high = std::isnan(high) ? v : std::max(high, v);
+  }
+  return high - low;
+}
+
+double largest_magnitude(std::span<const double> values) {
+  double largest = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+std::vector<std::size_t> middle_crossings(std::span<const double> values) {
+  std::vector<std::size_t> crossings;
+  if (values.empty()) return crossings;
+  const std::vector<double> copy(values.begin(), values.end());
+  const double low = quantile(copy, 0.02), high = quantile(copy, 0.98);
+  const double middle = (low + high) / 2, arm = 0.15 * (high - low);
+  int side = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int now = values[i] > middle + arm ? 1 : values[i] < middle - arm ? -1 : 0;
+    if (now == 0 || now == side) continue;
+    if (side != 0) crossings.push_back(i);
+    side = now;
+  }
+  return crossings;
+}
+
+double round_factor(double size, double target) {
+  if (!(size > 0.0) || !(target > 0.0)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(target / size)));
+  const double digits = target / size / power;
+  return power * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0);
+}
+
+std::vector<double> autocorrelation(std::span<const double> values, std::size_t lags) {
+  const double centre = mean(values);
+  std::vector<double> deviations;
+  double power = 0.0;
+  for (const double v : values) {
+    deviations.push_back(v - centre);
+    power += deviations.back() * deviations.back();
+  }
+  std::vector<double> r;
+  for (std::size_t k = 0; k <= lags && k < values.size(); ++k) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + k < deviations.size(); ++i) sum += deviations[i] * deviations[i + k];
+    r.push_back(power > 0.0 ? sum / power : kNaN);
+  }
+  return r;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+
+/// What the figures compute from stored traces.
+namespace gapscope::internal {
+
+std::vector<double> difference(std::span<const double> a, std::span<const double> b);  ///< a − b
+std::vector<double> scaled(std::span<const double> a, double factor);
+
+/// Middle between the 1 % and the 99 % quantile.
+double robust_middle(const std::vector<double>& values);
+/// Largest minus smallest value.
+double peak_to_peak(std::span<const double> values);
+double largest_magnitude(std::span<const double> values);
+
+/// Times at which a signal crosses its middle, with a hysteresis of 30 % of its range: two a period
+/// [samples].
+std::vector<std::size_t> middle_crossings(std::span<const double> values);
+
+/// Factor 1, 2 or 5 × 10^n that brings `size` nearest below `target`.
+double round_factor(double size, double target);
+
+/// Autocorrelation of the deviations from the mean for lags 0 ... lags:
+///   r_k = Σ_i (x_i − x̄)(x_{i+k} − x̄) / Σ_i (x_i − x̄)²
+/// White noise of n samples keeps 95 % of r_1, r_2, ... within ±1.96/√n.
+std::vector<double> autocorrelation(std::span<const double> values, std::size_t lags);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,49 @@
+#include "report/ticks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal {
+namespace {
+
+Ticks ticks_of_step(double low, double high, double step, int power) {
+  Ticks ticks{step, std::max(0, -power), {}};
+  const double slack = 1e-9 * (high - low);  // a limit that is a multiple of the step keeps its tick
+  const double first = std::ceil((low - slack) / step), last = std::floor((high + slack) / step);
+  for (double k = first; k <= last; k += 1.0) ticks.values.push_back(k == 0.0 ? 0.0 : k * step);
+  return ticks;
+}
+
+}  // namespace
+
+Ticks round_ticks(double low, double high, int most) {
+  if (!(high > low)) return {1.0, 0, {low}};
+  int power = static_cast<int>(std::floor(std::log10((high - low) / most))) - 1;
+  for (;; ++power) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double step = digit * std::pow(10.0, power);
+      if ((high - low) / step > most + 1.0) continue;
+      Ticks ticks = ticks_of_step(low, high, step, power);
+      if (static_cast<int>(ticks.values.size()) <= most) return ticks;
+    }
+  }
+}
+
+std::string tick_label(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
+  const bool is_zero = text.find_first_not_of("0.") == std::string::npos;
+  return (value < 0.0 && !is_zero ? "−" : "") + text;
+}
+
+UnitScale unit_scale(const std::string& unit, double magnitude) {
+  static constexpr const char* kScaled[] = {"rad", "m", "s", "N·m", "N", "rad/s", "m/s"};
+  const bool scaled = std::find(std::begin(kScaled), std::end(kScaled), unit) != std::end(kScaled);
+  if (!scaled || !(magnitude > 0.0) || magnitude >= 1.0) return {1.0, unit};
+  static constexpr const char* kPrefixes[] = {"m", "µ", "n", "p"};
+  const int thousands = std::clamp(static_cast<int>(std::ceil(-std::log10(magnitude) / 3.0 - 1e-12)), 1, 4);
+  return {std::pow(10.0, -3 * thousands), kPrefixes[thousands - 1] + unit};
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gapscope::internal {
+
+/// Round places on an axis: multiples of 1, 2 or 5 times a power of ten.
+struct Ticks {
+  double step = 0.0;
+  int decimals = 0;            ///< that the labels need
+  std::vector<double> values;  ///< all multiples of the step within [low, high]
+};
+
+/// The finest round step that puts at most `most` (≥ 2) ticks on [low, high].
+Ticks round_ticks(double low, double high, int most);
+
+/// "−0.25" with the decimals of the step and a true minus sign.
+std::string tick_label(double value, int decimals);
+
+/// Values are divided by `factor` and shown in `unit`.
+struct UnitScale {
+  double factor = 1.0;
+  std::string unit;
+};
+
+/// rad → mrad, µrad, nrad for magnitudes below 1, so that the numbers on the axis stay between 1 and 1000;
+/// the same for m, s and torques and forces. Other units stay as they are.
+UnitScale unit_scale(const std::string& unit, double magnitude);
+
+}  // namespace gapscope::internal

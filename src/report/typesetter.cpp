@@ -1,0 +1,118 @@
+#include "report/typesetter.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace gapscope::internal {
+namespace {
+
+using Level = TextRun::Level;
+constexpr double kScriptSize = 0.70;     // of the em
+constexpr double kSubscriptDrop = 0.20;  // of the em, below the baseline
+constexpr double kSuperscriptRise = 0.36;
+
+cv::Ptr<cv::freetype::FreeType2> load(const std::string& folder, const char* name) {
+  const std::string path = folder + "/" + name;
+  if (!std::filesystem::exists(path))
+    throw std::runtime_error(path + ": font is missing (Debian: fonts-dejavu-core and fonts-dejavu-extra)");
+  auto face = cv::freetype::createFreeType2();
+  face->loadFontData(path, 0);
+  return face;
+}
+
+int pixels(double size) { return std::max(1, static_cast<int>(std::lround(size))); }
+
+cv::Scalar bgr(Colour c) { return {double(c.blue), double(c.green), double(c.red)}; }
+
+}  // namespace
+
+std::string font_folder() {
+  std::vector<std::string> folders;
+  if (const char* own = std::getenv("GAPSCOPE_FONTS")) {
+    folders = {own};
+  } else {
+    folders = {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
+               "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF", "/usr/local/share/fonts"};
+  }
+  for (const std::string& folder : folders)
+    if (std::filesystem::exists(folder + "/DejaVuSans.ttf")) return folder;
+  throw std::runtime_error(
+      "no DejaVuSans.ttf in " + folders[0] +
+      ": install the DejaVu fonts (Debian: fonts-dejavu-core and fonts-dejavu-extra) or set "
+      "GAPSCOPE_FONTS to the folder that holds them");
+}
+
+Typesetter::Typesetter() {
+  const std::string folder = font_folder();
+  upright_ = load(folder, "DejaVuSans.ttf");
+  italic_ = load(folder, "DejaVuSans-Oblique.ttf");
+  bold_ = load(folder, "DejaVuSans-Bold.ttf");
+  bold_italic_ = load(folder, "DejaVuSans-BoldOblique.ttf");
+}
+
+cv::freetype::FreeType2& Typesetter::face(const TextRun& run, bool bold) const {
+  if (bold) return run.italic ? *bold_italic_ : *bold_;
+  return run.italic ? *italic_ : *upright_;
+}
+
+double Typesetter::advance(const TextRun& run, double size, bool bold) const {
+  // The library measures ink; between two bars it is the advance, blanks at the ends included.
+  cv::freetype::FreeType2& font = face(run, bold);
+  int baseline = 0;
+  const int with = font.getTextSize("|" + run.text + "|", pixels(size), -1, &baseline).width;
+  return with - font.getTextSize("||", pixels(size), -1, &baseline).width;
+}
+
+std::vector<PlacedRun> Typesetter::place(const std::string& markup, double size, bool bold) const {
+  std::vector<PlacedRun> placed;
+  double x = 0.0;
+  for (const TextRun& run : parse_markup(markup)) {
+    const bool script = run.level != Level::kBase;
+    PlacedRun p{run, x, 0.0, script ? kScriptSize * size : size, 0.0};
+    if (run.level == Level::kSubscript) p.y = kSubscriptDrop * size;
+    if (run.level == Level::kSuperscript) p.y = -kSuperscriptRise * size;
+    p.width = advance(run, p.size, bold);
+    x += p.width;
+    placed.push_back(p);
+  }
+  return placed;
+}
+
+TextMetrics Typesetter::measure(const std::string& markup, double size, bool bold) const {
+  TextMetrics metrics{0.0, 0.77 * size, 0.24 * size};  // ascenders and descenders of the face
+  for (const PlacedRun& p : place(markup, size, bold)) {
+    metrics.width = p.x + p.width;
+    metrics.ascent = std::max(metrics.ascent, -p.y + (p.run.hat ? 1.0 : 0.77) * p.size);
+    metrics.descent = std::max(metrics.descent, p.y + 0.24 * p.size);
+  }
+  return metrics;
+}
+
+void Typesetter::draw(cv::Mat& image, cv::Point2d at, const std::string& markup, double size, Colour colour,
+                      bool bold) const {
+  for (const PlacedRun& p : place(markup, size, bold)) {
+    const cv::Point origin(cvRound(at.x + p.x), cvRound(at.y + p.y));
+    face(p.run, bold).putText(image, p.run.text, origin, pixels(p.size), bgr(colour), -1, cv::LINE_AA, true);
+    if (p.run.hat) draw_hat(image, at, p, colour, bold);
+  }
+}
+
+void Typesetter::draw_hat(cv::Mat& image, cv::Point2d at, const PlacedRun& p, Colour colour,
+                          bool bold) const {
+  int baseline = 0;
+  const double ink = face(p.run, bold).getTextSize(p.run.text, pixels(p.size), -1, &baseline).height;
+  const double slant = p.run.italic ? 0.19 * ink : 0.0;  // the face leans by 11 degrees
+  const double centre = at.x + p.x + 0.5 * p.width + slant;
+  const double foot = at.y + p.y - ink - 0.05 * p.size;
+  constexpr int kShift = 4;  // sixteenths of a pixel
+  const auto point = [&](double x, double y) { return cv::Point(cvRound(x * 16.0), cvRound(y * 16.0)); };
+  const std::vector<cv::Point> hat = {point(centre - 0.17 * p.size, foot),
+                                      point(centre, foot - 0.13 * p.size),
+                                      point(centre + 0.17 * p.size, foot)};
+  cv::polylines(image, hat, false, bgr(colour), pixels((bold ? 0.10 : 0.065) * p.size), cv::LINE_AA, kShift);
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,137 @@
+#include "report/wording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/ticks.h"
+
+namespace gapscope::internal {
+namespace {
+
+/// Decimals that show `digits` significant digits of the given size.
+int decimals_for(double size, int digits) {
+  if (!(size > 0.0)) return 0;
+  return std::clamp(digits - 1 - static_cast<int>(std::floor(std::log10(size))), 0, 6);
+}
+
+bool known(const Interval& interval) { return std::isfinite(interval.low) && std::isfinite(interval.high); }
+
+std::string unit_after(const std::string& unit) { return unit.empty() || unit == "-" ? "" : " " + unit; }
+
+/// Small and large numbers of units that take no prefix.
+std::string scientific(double value, int digits) {
+  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
+  const std::size_t e = text.find('e');
+  return text.substr(0, e) + "e" + std::to_string(std::stoi(text.substr(e + 1)));
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string what_was_read(const GapEstimate& g) {
+  return g.quantity == GapQuantity::kPlayAtZeroTorque ? "play at zero torque" : "backlash gap";
+}
+
+std::string model_free_sentence(const RunResult& run) {
+  const GapEstimate& g = *run.model_free;
+  const std::string unit = position_unit(run);
+  switch (g.verdict) {
+    case GapVerdict::kBacklash:
+      return "Without a model: " + what_was_read(g) + " " + with_interval(g.gap, g.ci95, unit) + ".";
+    case GapVerdict::kNone:
+      return "Without a model: no backlash above " + quantity(g.smallest_visible_gap, unit) + ".";
+    default:
+      return "Without a model: inconclusive, " + g.reason + (g.reason.ends_with(".") ? "" : ".");
+  }
+}
+
+std::string reference_sentence(const RunResult& run) {
+  const FitSummary& fit = *run.reference;
+  const FittedParameter* gap = parameter(run, "gap");
+  const std::string state = fit.converged() ? "" : " (the fit did not converge)";
+  if (fit.status == FitStatus::kFailed || fit.status == FitStatus::kNotRun)
+    return "The model-based reference has no result: " + fit.message;
+  if (gap == nullptr) return "The model-based reference has no gap to estimate" + state + ".";
+  const std::string value = with_interval(gap->value, gap->ci95, position_unit(run));
+  if (!gap->estimated) return "The model-based reference took the gap as known, " + value + state + ".";
+  if (!gap->identifiable)
+    return "The model-based reference could not determine the gap (" + value + ")" + state + ".";
+  return "Model-based reference: " + value + state + ".";
+}
+
+std::string comparison_sentence(const RunResult& run) {
+  const Comparison& c = *run.comparison;
+  if (!c.agree) return "";
+  return fmt::format(" They {}: the difference is {}, its standard deviation {}.",
+                     *c.agree ? "agree" : "disagree", quantity(c.difference, position_unit(run)),
+                     quantity(c.joint_std, position_unit(run)));
+}
+
+}  // namespace
+
+std::string quantity(double value, const std::string& unit) {
+  if (!std::isfinite(value)) return "unknown";
+  if (value == 0.0) return "0" + unit_after(unit);
+  const UnitScale scale = unit_scale(unit, std::abs(value));
+  const double shown = value / scale.factor;
+  if (std::abs(shown) < 1e-2 || std::abs(shown) >= 1e5) return scientific(shown, 3) + unit_after(scale.unit);
+  return tick_label(shown, decimals_for(std::abs(shown), 3)) + unit_after(scale.unit);
+}
+
+std::string with_interval(double value, const Interval& ci95, const std::string& unit) {
+  if (!std::isfinite(value) || !known(ci95)) return quantity(value, unit);
+  const UnitScale scale = unit_scale(unit, std::max(std::abs(value), std::abs(ci95.high)));
+  const int decimals = decimals_for((ci95.high - ci95.low) / 2 / scale.factor, 2);
+  const auto text = [&](double v) { return tick_label(v / scale.factor, decimals); };
+  return text(value) + unit_after(scale.unit) + " (95 %: " + text(ci95.low) + " to " + text(ci95.high) + ")";
+}
+
+std::string plus_minus(double value, const Interval& ci95, const std::string& unit) {
+  if (!std::isfinite(value) || !known(ci95)) return quantity(value, unit);
+  const double half = (ci95.high - ci95.low) / 2;
+  const UnitScale scale = unit_scale(unit, std::max(std::abs(value), half));
+  if (std::max(std::abs(value), half) / scale.factor < 1e-2)
+    return scientific(value, 4) + " ± " + scientific(half, 2) + unit_after(unit);
+  const int decimals = decimals_for(half / scale.factor, 2);
+  return tick_label(value / scale.factor, decimals) + " ± " + tick_label(half / scale.factor, decimals) +
+         unit_after(scale.unit);
+}
+
+std::string plain_number(double value) {
+  if (!std::isfinite(value)) return "unknown";
+  return tick_label(value, decimals_for(std::abs(value), 2));
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string position_unit(const RunResult& run) { return run.rotation ? "rad" : "m"; }
+std::string torque_unit(const RunResult& run) { return run.rotation ? "N·m" : "N"; }
+
+std::string shown_unit(const std::string& unit, bool rotation) {
+  if (rotation) return replaced(replaced(unit, "N m", "N·m"), "m^2", "m²");
+  return replaced(replaced(replaced(unit, "N m", "N"), "kg m^2", "kg"), "rad", "m");
+}
+
+const FittedParameter* parameter(const RunResult& run, const std::string& key) {
+  if (!run.reference) return nullptr;
+  for (const FittedParameter& p : run.reference->parameters)
+    if (p.key == key) return &p;
+  return nullptr;
+}
+
+std::string headline(const RunResult& run) {
+  std::string text;
+  if (run.model_free) text += model_free_sentence(run);
+  if (run.reference) text += (text.empty() ? "" : " ") + reference_sentence(run);
+  if (run.comparison) text += comparison_sentence(run);
+  return text.empty() ? "Nothing was estimated." : text;
+}
+
+}  // namespace gapscope::internal

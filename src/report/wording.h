@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/results/run_result.h"
+
+/// How numbers and findings are put into words. Plain Unicode text, fit for Markdown and figures alike.
+namespace gapscope::internal {
+
+/// "18.7 mrad": three significant digits; "unknown" for NaN.
+std::string quantity(double value, const std::string& unit);
+
+/// "18.70 mrad (95 %: 18.50 to 18.90)": digits as the interval warrants; without one like quantity().
+std::string with_interval(double value, const Interval& ci95, const std::string& unit);
+
+/// "18.70 ± 0.20 mrad"
+std::string plus_minus(double value, const Interval& ci95, const std::string& unit);
+
+/// A ratio or count for people: "7.0", "132".
+std::string plain_number(double value);
+
+/// "1 passage", "3 passages"
+std::string counted(std::size_t count, const std::string& noun);
+
+std::string position_unit(const RunResult& run);  ///< "rad" or "m"
+std::string torque_unit(const RunResult& run);    ///< "N·m" or "N"
+/// The unit of a fitted parameter as a reader expects it, for either kind of coordinates.
+std::string shown_unit(const std::string& unit, bool rotation);
+
+/// The parameter of that key, nullptr if there is none.
+const FittedParameter* parameter(const RunResult& run, const std::string& key);
+
+/// The verdict and the estimates of a run in one or two sentences.
+std::string headline(const RunResult& run);
+
+}  // namespace gapscope::internal
