@@ -17,8 +17,11 @@ constexpr int kMostEventsPerSample = 2000;
 constexpr double kShortestBounce = 1e-3;
 
 /// Steps are at most this long against the fastest rate of a smooth effect [-], and divided at most so often.
-constexpr double kEffectReach = 0.5;
+constexpr double kEffectReach = 0.25;
 constexpr double kMostDivisions = 64.0;
+
+/// Passes by which the torques of smooth effects are brought in line with the motion that they cause.
+constexpr int kCorrections = 2;
 
 /// What the smooth effects add at one point.
 template <class T>

@@ -48,6 +48,13 @@ void StepperImpl<T>::respond_to_slopes(const Transition<T>& step, const Forcing<
   }
 }
 
+/// The state half-way on the cubics through both ends.
+template <class T>
+DriveState<T> middle_between(const DriveState<T>& a, const DriveState<T>& b, const T& h) {
+  return {0.5 * (a.x1 + b.x1) + 0.125 * h * (a.w1 - b.w1), 1.5 * (b.x1 - a.x1) / h - 0.25 * (a.w1 + b.w1),
+          0.5 * (a.x2 + b.x2) + 0.125 * h * (a.w2 - b.w2), 1.5 * (b.x2 - a.x2) / h - 0.25 * (a.w2 + b.w2)};
+}
+
 /// A whole piece with smooth effects: constant torques predict the motion, their quadratic along it corrects
 /// it.
 template <class T>
@@ -55,18 +62,14 @@ void StepperImpl<T>::advance_smoothly(const Transition<T>& step, Forcing<T>& on,
   const Extra<T> start = extra_at(z, now);
   add_constant(on, start);
   respond(step, on, next);
+  const DriveState<T> constant = next;
   const T& h = step.h;
-  const auto middle_of = [&h](const T& x, const T& w, const T& x_end, const T& w_end) {
-    return 0.5 * (x + x_end) + 0.125 * h * (w - w_end);
-  };
-  const auto middle_speed = [&h](const T& x, const T& w, const T& x_end, const T& w_end) {
-    return 1.5 * (x_end - x) / h - 0.25 * (w + w_end);
-  };
-  const DriveState<T> middle{
-      middle_of(z.x1, z.w1, next.x1, next.w1), middle_speed(z.x1, z.w1, next.x1, next.w1),
-      middle_of(z.x2, z.w2, next.x2, next.w2), middle_speed(z.x2, z.w2, next.x2, next.w2)};
-  bend(on, start, extra_at(middle, now + 0.5 * h), extra_at(next, now + h), h);
-  respond_to_slopes(step, on, next);
+  for (int pass = 0; pass < kCorrections; ++pass) {
+    const DriveState<T> middle = middle_between(z, next, h);
+    bend(on, start, extra_at(middle, now + 0.5 * h), extra_at(next, now + h), h);
+    next = constant;
+    respond_to_slopes(step, on, next);
+  }
 }
 
 /// Whether a guard may fall to zero between two states h apart, judged by its values and slopes at both ends.
@@ -212,7 +215,7 @@ void StepperImpl<T>::build_series(const T& h, Series<T>& series, Forcing<T>& on)
   add_constant(on, start);
   flow_series(f, mode, z, on, series);
   if (value_of(h) <= 0.0) return;
-  for (int pass = 0; pass < 2; ++pass) {
+  for (int pass = 0; pass < kCorrections + 1; ++pass) {
     const Extra<T> middle = extra_at(evaluate(series, T(0.5 * h)), now + 0.5 * h);
     bend(on, start, middle, extra_at(evaluate(series, h), now + h), h);
     flow_series(f, mode, z, on, series);
@@ -230,7 +233,8 @@ void StepperImpl<T>::advance(T span) {
       healthy = false;
       return;
     }
-    double reach = kSeriesReach / flow_rate(f, mode.contact != 0 || mode.outside != 0, has_load);
+    double reach = (smooth ? kSmoothReach : kSeriesReach) /
+                   flow_rate(f, mode.contact != 0 || mode.outside != 0, has_load);
     if (smooth) reach = std::min(reach, kEffectReach / std::max(effect_rate(), 1e-9));
     const double pieces = std::max(1.0, std::ceil(value_of(span) / reach));
     const bool last = pieces == 1.0;

@@ -9,6 +9,10 @@ namespace gapscope::internal {
 
 constexpr int kColumns = 9;
 
+/// With smooth effects a piece is at most this long per unit of 1/rate, so that the torques along the motion
+/// are nearly quadratic in it.
+constexpr double kSmoothReach = 0.25;
+
 /// The flow of one mode over a whole piece h of a sample, as numbers: with δ̃ = δ − sβ the distance into the
 /// contact and torques M(s) = Σ M_n sⁿ (motor), L(s) (load),
 ///   Δx1, w1⁺, Δx2, w2⁺  =  response · (δ̃, w1, w2, M₀, L₀, M₁, L₁, M₂, L₂).
@@ -56,7 +60,8 @@ template <class T>
 void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, const T& span, bool smooth,
              Transition<T>& transition) {
   const double rate = flow_rate(f, mode.contact != 0, has_load);
-  transition.pieces = std::max(1, static_cast<int>(std::ceil(rate * value_of(span) / kSeriesReach)));
+  transition.pieces = std::max(
+      1, static_cast<int>(std::ceil(rate * value_of(span) / (smooth ? kSmoothReach : kSeriesReach))));
   transition.h = span / static_cast<double>(transition.pieces);
   for (auto& row : transition.response)
     for (T& r : row) r = T(0.0);
