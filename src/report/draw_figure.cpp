@@ -26,11 +26,11 @@ std::vector<std::string> wrapped(const std::string& text, double width, const Ty
   return lines;
 }
 
-/// Everything in its place: columns have common margins, rows a common height.
+/// Everything in its place: the frames of a column begin at one line, those of a row share their upper edge.
 struct FigurePlan {
   std::vector<std::string> titles;
   std::vector<std::string> lines;
-  std::vector<Margins> columns;
+  std::vector<Margins> margins;  // of each panel
   std::vector<PanelPlan> panels;
   std::vector<Point> corners;
   double height = 0.0;
@@ -43,41 +43,45 @@ std::string panel_title(const FigureData& figure, std::size_t i) {
   return title.empty() ? letter : letter + " " + title;
 }
 
-std::vector<Margins> column_margins(const FigureData& figure, const Typesetter& typesetter) {
-  std::vector<Margins> columns(static_cast<std::size_t>(figure.columns));
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    Margins& column = columns[i % columns.size()];
-    const Margins needed = side_margins(figure.panels[i], typesetter);
-    column.left = std::max(column.left, needed.left);
-    column.right = std::max(column.right, needed.right);
-  }
-  return columns;
+/// One left margin for a column; one right margin for panels that share their x axis.
+std::vector<Margins> panel_margins(const FigureData& figure, const Typesetter& typesetter) {
+  std::vector<Margins> margins;
+  for (const Panel& panel : figure.panels) margins.push_back(side_margins(panel, typesetter));
+  const auto columns = static_cast<std::size_t>(figure.columns);
+  const auto share = [](double& a, double& b) { a = b = std::max(a, b); };
+  for (int pass = 0; pass < 2; ++pass)  // down and up again, so that the largest reaches all
+    for (std::size_t k = columns; k < margins.size(); ++k) {
+      const std::size_t i = pass == 0 ? k : margins.size() - 1 - (k - columns);
+      share(margins[i].left, margins[i - columns].left);
+      if (!figure.panels[i - columns].x_labels) share(margins[i].right, margins[i - columns].right);
+    }
+  return margins;
 }
 
 FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
   FigurePlan plan;
-  plan.columns = column_margins(figure, typesetter);
-  const auto columns = plan.columns.size();
+  plan.margins = panel_margins(figure, typesetter);
+  const auto columns = static_cast<std::size_t>(figure.columns);
   const double column_width =
       (figure.width - 2 * kRim - kBetween * static_cast<double>(columns - 1)) / static_cast<double>(columns);
   for (const std::string& line : figure.lines)
     for (std::string& part : wrapped(line, figure.width - 2 * kRim, typesetter)) plan.lines.push_back(part);
-  double y = kRim + 1.5 * kTitleSize + 1.35 * kTextSize * static_cast<double>(plan.lines.size());
+  double y = kRim + 1.65 * kTitleSize + 1.35 * kTextSize * static_cast<double>(plan.lines.size());
   for (std::size_t first = 0; first < figure.panels.size(); first += columns) {
     double above = 0.0, below = 0.0;
     const std::size_t end = std::min(first + columns, figure.panels.size());
     for (std::size_t i = first; i < end; ++i) {
-      const Margins& column = plan.columns[i % columns];
       plan.titles.push_back(panel_title(figure, i));
       plan.panels.push_back(plan_panel(figure.panels[i], plan.titles[i],
-                                       column_width - column.left - column.right, typesetter));
+                                       column_width - plan.margins[i].left - plan.margins[i].right,
+                                       typesetter));
       above = std::max(above, plan.panels[i].above);
       below = std::max(below, plan.panels[i].height + plan.panels[i].below);
     }
     for (std::size_t i = first; i < end; ++i)
-      plan.corners.push_back({kRim + static_cast<double>(i % columns) * (column_width + kBetween) +
-                                  plan.columns[i % columns].left,
-                              y + above});
+      plan.corners.push_back(
+          {kRim + static_cast<double>(i % columns) * (column_width + kBetween) + plan.margins[i].left,
+           y + above});
     y += above + below + kBetween;
   }
   plan.height = y - kBetween + kRim;
@@ -97,8 +101,8 @@ Drawing draw_with_notes(const FigureData& figure) {
   Drawing drawing;
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const PanelPlan& panel = plan.panels[i];
-    draw_panel(canvas, figure.panels[i], panel, plan.titles[i], plan.corners[i],
-               plan.columns[i % plan.columns.size()].left, typesetter);
+    draw_panel(canvas, figure.panels[i], panel, plan.titles[i], plan.corners[i], plan.margins[i].left,
+               typesetter);
     drawing.frames.push_back({plan.corners[i].x, plan.corners[i].y, panel.width, panel.height});
   }
   drawing.image = canvas.image();

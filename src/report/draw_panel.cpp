@@ -74,7 +74,7 @@ class PanelPainter {
     if (!title.empty()) {
       const TextMetrics metrics = typesetter_.measure(title, kTextSize, true);
       canvas_.text({frame_.x, y + metrics.ascent}, title, {kTextSize, Align::kLeft, kInk, true});
-      y += metrics.height() + kSpace;
+      y += metrics.height() + kTitleGap;
     }
     if (!plan_.entries.empty()) {
       const Box& box = plan_.legend.box;
@@ -93,9 +93,9 @@ class PanelPainter {
       arrow({x, low}, low < high ? -1.0 : 1.0);
       arrow({x, high}, low < high ? 1.0 : -1.0);
       const double half = typesetter_.measure(dimension.label, kTextSize).width / 2;
+      // Beside the frame; a name longer than the frame hangs down from its top.
       const double middle =
-          std::clamp((low + high) / 2, frame_.y - plan_.above + half,
-                     std::max(frame_.y - plan_.above + half, frame_.bottom() + plan_.below - half));
+          std::clamp((low + high) / 2, frame_.y + half, std::max(frame_.y + half, frame_.bottom() - half));
       const double ascent = typesetter_.measure(dimension.label, kTextSize).ascent;
       canvas_.text({x + 2 * kSpace + ascent, middle}, dimension.label,
                    {kTextSize, Align::kCentre, kInk, false, true});
@@ -107,6 +107,10 @@ class PanelPainter {
   double y_of(double y) const { return frame_.bottom() - plan_.y.fraction(y) * frame_.height; }
   void vertical(double x, const LineStyle& style) {
     canvas_.line({{x, frame_.y}, {x, frame_.bottom()}}, style, frame_);
+  }
+  bool within(double x, double y) const {
+    const double fx = plan_.x.fraction(x), fy = plan_.y.fraction(y);
+    return fx >= 0.0 && fx <= 1.0 && fy >= 0.0 && fy <= 1.0;  // false for NaN
   }
   void horizontal(double y, const LineStyle& style) {
     canvas_.line({{frame_.x, y}, {frame_.right(), y}}, style, frame_);
@@ -138,7 +142,7 @@ class PanelPainter {
       canvas_.line({{x_of(s.x[i]), y_of(s.y_intervals[i].low)}, {x_of(s.x[i]), y_of(s.y_intervals[i].high)}},
                    bar, frame_);
     for (std::size_t i = 0; i < s.x.size() && s.marker != Marker::kNone; ++i)
-      if (std::isfinite(s.x[i]) && std::isfinite(s.y[i]))
+      if (within(s.x[i], s.y[i]))
         canvas_.marker({x_of(s.x[i]), y_of(s.y[i])}, s.marker, s.style.colour, kMarkerSize);
   }
 

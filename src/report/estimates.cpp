@@ -69,22 +69,6 @@ Panel side_by_side(const ReportView& view) {
   return panel;
 }
 
-Series passages(const ReportView& view, const std::string& label, int direction, bool accepted,
-                Marker marker) {
-  Series s;
-  s.label = label;
-  s.style = {accepted ? (direction > 0 ? kVermillion : kBlue) : kGrey, 4.0, {}};
-  s.marker = marker;
-  s.joined = false;
-  for (const GapEvent& e : view.events) {
-    const bool same = accepted ? e.accepted && e.direction == direction : !e.accepted;
-    if (!same || !std::isfinite(e.gap)) continue;
-    s.x.push_back(e.t2);
-    s.y.push_back(e.gap);
-  }
-  return s;
-}
-
 /// Room for what was accepted and what it means; a passage that was set aside may lie beyond.
 Interval event_range(const ReportView& view) {
   std::vector<double> values;
@@ -98,6 +82,23 @@ Interval event_range(const ReportView& view) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double room = std::max(0.35 * (*high - *low), 0.01 * std::abs(*high));
   return {*low - room, *high + room};
+}
+
+Series passages(const ReportView& view, const std::string& label, int direction, bool accepted,
+                Marker marker) {
+  Series s;
+  s.label = label;
+  s.style = {accepted ? kVermillion : kGrey, 4.0, {}};
+  s.marker = marker;
+  s.joined = false;
+  const Interval range = event_range(view);
+  for (const GapEvent& e : view.events) {
+    const bool same = accepted ? e.accepted && e.direction == direction : !e.accepted;
+    if (!same || !(e.gap >= range.low && e.gap <= range.high)) continue;
+    s.x.push_back(e.t2);
+    s.y.push_back(e.gap);
+  }
+  return s;
 }
 
 Panel over_time(const ReportView& view) {

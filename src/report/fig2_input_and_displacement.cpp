@@ -8,9 +8,10 @@
 namespace gapscope::internal {
 namespace {
 
-Panel over_time(const ReportView& view, const Axis& y, const LineStyle& style,
+Panel over_time(const ReportView& view, const std::string& title, const Axis& y, const LineStyle& style,
                 const std::vector<double>& values) {
   Panel panel;
+  panel.title = title;
   panel.x = view.time_axis(view.window);
   panel.y = y;
   panel.height = 330.0;
@@ -24,6 +25,7 @@ Panel state_and_error(const ReportView& view) {
   panel.x = view.time_axis(view.window);
   panel.y = {"displacement", view.length_unit, {}, {}, {}};
   panel.height = 480.0;
+  panel.title = view.state.empty() ? "Estimation error" : "Backlash state";
   double target = view.recording ? 0.5 * peak_to_peak(view.recording->x1) : kNaN;
   if (!view.state.empty()) {
     const bool fitted = view.source == StateSource::kFitted;
@@ -62,9 +64,10 @@ FigureData fig2_input_and_displacement(const ReportView& view) {
   figure.file = "fig2_input_and_displacement.png";
   figure.title = "Input, displacement and backlash state";
   if (!view.recording) return missing_figure(figure.file, figure.title, "no recording is stored");
-  figure.panels.push_back(over_time(view, {"input $u$", "", {}, {}, {}}, input_style(), view.recording->u));
   figure.panels.push_back(
-      over_time(view, {"$x_1$", view.length_unit, {}, {}, {}}, measured_style(), view.recording->x1));
+      over_time(view, "Input", {"input $u$", "", {}, {}, {}}, input_style(), view.recording->u));
+  figure.panels.push_back(over_time(view, "Motor displacement", {"$x_1$", view.length_unit, {}, {}, {}},
+                                    measured_style(), view.recording->x1));
   if (!view.state.empty() || view.error) figure.panels.push_back(state_and_error(view));
   figure.panels.back().x_labels = true;
   figure.reading = reading(view);

@@ -7,9 +7,10 @@
 namespace gapscope::internal {
 namespace {
 
-Panel map(const ReportView& view, const std::vector<double>& y, const Axis& axis) {
+Panel map(const ReportView& view, const std::string& title, const std::vector<double>& y, const Axis& axis) {
   Panel panel;
-  panel.x = {"motor displacement $x_1$", view.length_unit, {}, {}, {}};
+  panel.title = title;
+  panel.x = {"motor $x_1$", view.length_unit, {}, {}, {}};
   panel.y = axis;
   panel.height = 470.0;
   Series s;
@@ -54,8 +55,9 @@ FigureData fig3_backlash_map(const ReportView& view) {
   if (view.source != StateSource::kRecorded)
     return missing_figure(figure.file, figure.title, "the recording has no load position x2");
   figure.panels.push_back(
-      map(view, view.recording->x2, {"load displacement $x_2$", view.length_unit, {}, {}, {}}));
-  figure.panels.push_back(map(view, view.state, {"$x_1 − x_2$", view.length_unit, {}, {}, {}}));
+      map(view, "Load over motor", view.recording->x2, {"load $x_2$", view.length_unit, {}, {}, {}}));
+  figure.panels.push_back(
+      map(view, "Their difference", view.state, {"$x_1 − x_2$", view.length_unit, {}, {}, {}}));
   figure.panels.front().x_labels = false;
   mark_gap(view, figure.panels.back());
   figure.reading = reading(view);

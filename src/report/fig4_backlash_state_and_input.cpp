@@ -38,12 +38,13 @@ std::vector<double> zero_crossings(const ReportView& view, const std::vector<dou
   return times;
 }
 
-Panel over_time(const ReportView& view, const Series& series, const Axis& axis,
+Panel over_time(const ReportView& view, const std::string& title, const Series& series, const Axis& axis,
                 const std::vector<double>& zeros) {
   Panel panel;
+  panel.title = title;
   panel.x = view.time_axis(view.window);
   panel.y = axis;
-  panel.height = 330.0;
+  panel.height = 400.0;
   panel.series = {series};
   for (const double t : zeros)
     if (t > view.window.low && t < view.window.high) panel.x_marks.push_back({t, guide_style(), ""});
@@ -52,6 +53,7 @@ Panel over_time(const ReportView& view, const Series& series, const Axis& axis,
 
 Panel loop(const ReportView& view, const Drive& drive, const LineStyle& style) {
   Panel panel;
+  panel.title = "One against the other";
   panel.x = drive.axis;
   panel.y = {view.state_name(), view.length_unit, {}, {}, {}};
   panel.height = 470.0;
@@ -98,10 +100,10 @@ FigureData fig4_backlash_state_and_input(const ReportView& view) {
   const std::vector<double> zeros = zero_crossings(view, drive.values);
   const LineStyle style = view.source == StateSource::kFitted ? reference_style() : measured_style();
   const Axis state_axis{view.state_name(), view.length_unit, {}, {}, {}};
-  figure.panels.push_back(
-      over_time(view, view.over_time("", input_style(), drive.values, view.window), drive.axis, zeros));
-  figure.panels.push_back(
-      over_time(view, view.over_time("", style, view.state, view.window), state_axis, zeros));
+  figure.panels.push_back(over_time(
+      view, "Input", view.over_time("", input_style(), drive.values, view.window), drive.axis, zeros));
+  figure.panels.push_back(over_time(view, "Backlash state",
+                                    view.over_time("", style, view.state, view.window), state_axis, zeros));
   figure.panels.front().x_labels = false;
   figure.panels.push_back(loop(view, drive, style));
   figure.reading = reading(view, drive, zeros);

@@ -35,6 +35,7 @@ Panel displacement_panel(const ReportView& view, const OnePassage& p) {
   panel.x = view.time_axis(p.window);
   panel.y = {"$x_1$", view.length_unit, {}, {}, {}};
   panel.height = 520.0;
+  panel.title = "Motor displacement";
   panel.x_labels = false;
   panel.series.push_back(view.over_time("", measured_style(), view.recording->x1, p.window));
   for (const double y : {p.event.x1_t1, p.event.x1_t2}) panel.y_marks.push_back({y, guide_style(), ""});
@@ -51,12 +52,14 @@ Panel error_panel(const ReportView& view, const OnePassage& p) {
   panel.x = view.time_axis(p.window);
   panel.y = {"$e_x$", view.length_unit, {}, {}, {}};
   panel.height = 400.0;
+  panel.title = "Estimation error";
   if (view.error) panel.series.push_back(view.over_time("", model_free_style(), view.error->error, p.window));
   return panel;
 }
 
 void mark_times(Panel& panel, const OnePassage& p, bool named) {
-  if (std::isfinite(p.converged)) panel.x_marks.push_back({p.converged, guide_style(), named ? "$t_c$" : ""});
+  if (p.converged >= p.window.low)
+    panel.x_marks.push_back({p.converged, guide_style(), named ? "$t_c$" : ""});
   panel.x_marks.push_back({p.event.t1, {kVermillion, 3.0, {14, 8}}, named ? "$t_1$" : ""});
   panel.x_marks.push_back({p.event.t2, {kVermillion, 3.0, {}}, named ? "$t_2$" : ""});
   panel.x_bands.push_back({{p.event.t1, p.event.t2}, kGapShade, ""});
@@ -83,7 +86,7 @@ double quiet_since(const ReportView& view, const GapEvent& e) {
   const std::size_t i1 = view.index(e.t1), end = view.index(e.t2 + (e.t2 - e.t1));
   const std::size_t reach =
       view.index(e.t1 - (std::isfinite(view.half_period) ? view.half_period : 10 * (e.t2 - e.t1)));
-  const double quiet = 0.1 * largest_magnitude(std::span(error).subspan(i1, end - i1 + 1));
+  const double quiet = 0.05 * largest_magnitude(std::span(error).subspan(i1, end - i1 + 1));
   std::size_t i = i1;
   const std::size_t patience = view.index(e.t1 - 0.25 * (e.t2 - e.t1));
   while (i > patience && !(std::abs(error[i]) <= quiet)) --i;
@@ -100,8 +103,8 @@ std::optional<OnePassage> typical_passage(const ReportView& view) {
   p.event = *event;
   p.converged = quiet_since(view, p.event);
   const double flight = p.event.t2 - p.event.t1;
-  const double start =
-      std::isfinite(p.converged) ? std::min(p.converged, p.event.t1 - flight) : p.event.t1 - flight;
+  const bool near = p.event.t1 - p.converged < 6.0 * flight;  // false for NaN
+  const double start = near ? std::min(p.converged, p.event.t1 - flight) : p.event.t1 - 2.0 * flight;
   p.window.low = std::max(view.time.front(), start - 0.5 * flight);
   p.window.high = std::min(view.time.back(), p.event.t2 + 1.2 * flight);
   return p;

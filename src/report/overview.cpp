@@ -42,8 +42,8 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   borrow(sheet, figures, "fig5_displacement_and_error.png", 0, "Displacement and estimation error", 420.0);
   if (sheet.panels.size() < 2)
     borrow(sheet, figures, "fig2_input_and_displacement.png", 1, "Displacement", 420.0);
-  borrow(sheet, figures, "fig6_one_period.png", 0, "One passage of the gap: displacement", 480.0);
-  borrow(sheet, figures, "fig6_one_period.png", 1, "One passage of the gap: error", 480.0);
+  borrow(sheet, figures, "fig6_one_period.png", 0, "One passage of the gap", 480.0);
+  borrow(sheet, figures, "fig6_one_period.png", 1, "Its estimation error", 480.0);
   borrow(sheet, figures, "estimates.png", 0, "Estimates with 95 % intervals", 400.0);
   borrow(sheet, figures, "estimates.png", 1, "Passage by passage", 400.0);
   borrow(sheet, figures, "fig3_backlash_map.png", 1, "Backlash map", 420.0);

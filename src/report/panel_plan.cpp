@@ -158,7 +158,7 @@ PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
   add_marks(panel, plan);
   plan.entries = legend_entries(panel);
   place_legend(plan, typesetter);
-  if (!title.empty()) plan.above += typesetter.measure(title, kTextSize, true).height() + kSpace;
+  if (!title.empty()) plan.above += typesetter.measure(title, kTextSize, true).height() + kTitleGap;
   if (!plan.entries.empty() && !plan.legend_inside) plan.above += plan.legend.box.height;
   if (has_mark_labels(panel)) plan.above += 1.35 * kTextSize;
   if (panel.x_labels)

@@ -15,9 +15,10 @@ namespace gapscope::internal {
 inline constexpr double kTitleSize = 46.0;
 inline constexpr double kTextSize = 40.0;
 inline constexpr double kTickSize = 38.0;
-inline constexpr double kSpace = 14.0;   ///< between neighbouring pieces
-inline constexpr double kRim = 26.0;     ///< around everything
-inline constexpr double kSample = 70.0;  ///< line sample in a legend
+inline constexpr double kSpace = 14.0;    ///< between neighbouring pieces
+inline constexpr double kTitleGap = 4.0;  ///< below a panel's title
+inline constexpr double kRim = 26.0;      ///< around everything
+inline constexpr double kSample = 70.0;   ///< line sample in a legend
 
 /// An axis ready to draw: its range, its round places and what is written on it.
 struct AxisPlan {

@@ -31,11 +31,12 @@ void require_consistent(const GapEstimate& g) {
 
 /// The trace of each recording, nullptr where it has none. Recordings of one name take the traces of that
 /// name in turn.
-template <class Trace>
-std::vector<const Trace*> traces_by_recording(const std::vector<Recording>& recordings,
-                                              const std::vector<Trace>& traces) {
+template <class Part>
+auto traces_by_recording(const std::vector<Recording>& recordings, const std::optional<Part>& part) {
+  using Trace = typename decltype(part->traces)::value_type;
   std::vector<const Trace*> found(recordings.size(), nullptr);
-  for (const Trace& trace : traces) {
+  if (!part) return found;
+  for (const Trace& trace : part->traces) {
     std::size_t i = 0;
     while (i < recordings.size() && (found[i] || recordings[i].file != trace.file)) ++i;
     if (i == recordings.size()) throw std::logic_error("the trace of " + trace.file + " has no recording");
@@ -83,10 +84,8 @@ void load_recording(const std::string& folder, const StoredRecording& stored, Ru
 
 void write_run_result(const std::string& folder, const RunResult& result) {
   if (result.model_free) require_consistent(*result.model_free);
-  const auto errors = traces_by_recording(
-      result.recordings, result.model_free ? result.model_free->traces : std::vector<ErrorTrace>());
-  const auto fits = traces_by_recording(
-      result.recordings, result.reference ? result.reference->traces : std::vector<FitTrace>());
+  const auto errors = traces_by_recording(result.recordings, result.model_free);
+  const auto fits = traces_by_recording(result.recordings, result.reference);
   if (!result.recordings.empty()) make_folder(fs::path(folder) / "traces");
   Document document;
   document.run = result;
