@@ -14,6 +14,7 @@ constexpr int kSeriesOrder = 14;
 template <class T>
 struct FlowConstants {
   T m1, m2, d1_plus, d1_minus, d2, k, c;
+  T decay_rate{};  ///< of a dying extra torque on the motor [1/s]
   bool rigid = false;
 };
 
@@ -23,6 +24,7 @@ struct Forcing {
   T motor[3] = {T(0.0), T(0.0), T(0.0)};     ///< on the motor side, without dampers and contact [N m sⁿ]
   T load[3] = {T(0.0), T(0.0), T(0.0)};      ///< on the load side [N m]
   T half_gap[3] = {T(0.0), T(0.0), T(0.0)};  ///< β [rad]
+  T decaying{};                              ///< amplitude of a dying torque on the motor [N m]
 };
 
 /// The exact flow of one mode as Taylor polynomials in the time since its start.
@@ -37,6 +39,25 @@ template <class T>
 T coefficient(const T (&f)[3], int n) {
   return n < 3 ? f[n] : T(0.0);
 }
+
+/// Torque on the motor, term by term: the quadratic and the exponential. Called with n = 0, 1, 2, … in turn.
+template <class T>
+class MotorTorque {
+ public:
+  MotorTorque(const FlowConstants<T>& f, const Forcing<T>& on) : f_(f), on_(on), decaying_(on.decaying) {}
+  T term(int n) {
+    T sum = coefficient(on_.motor, n);
+    if (value_of(f_.decay_rate) == 0.0) return sum;
+    sum += decaying_;
+    decaying_ *= -f_.decay_rate / (n + 1.0);
+    return sum;
+  }
+
+ private:
+  const FlowConstants<T>& f_;
+  const Forcing<T>& on_;
+  T decaying_;
+};
 
 /// Contact torque k(δ − sβ) + c δ̇, term by term; zero on no side.
 template <class T>
@@ -55,6 +76,7 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
   const T inverse_m1 = 1.0 / f.m1;
   const T inverse_m2 = 1.0 / f.m2;
   const int side = mode.contact != 0 ? mode.contact : mode.outside;
+  MotorTorque<T> motor(f, on);
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w2;
   for (int n = 0;; ++n) {
     z.torque[n] = side != 0 ? torque_term(f, z, n, side, on) : T(0.0);
@@ -63,8 +85,7 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
     const T contact = mode.contact != 0 ? z.torque[n] : T(0.0);
     z.x1[n + 1] = z.w1[n] * next;
     z.x2[n + 1] = z.w2[n] * next;
-    z.w1[n + 1] =
-        mode.motor == 0 ? T(0.0) : (coefficient(on.motor, n) - d1 * z.w1[n] - contact) * inverse_m1 * next;
+    z.w1[n + 1] = mode.motor == 0 ? T(0.0) : (motor.term(n) - d1 * z.w1[n] - contact) * inverse_m1 * next;
     z.w2[n + 1] =
         mode.load == 0 ? T(0.0) : (coefficient(on.load, n) - f.d2 * z.w2[n] + contact) * inverse_m2 * next;
   }
@@ -77,9 +98,10 @@ void rigid_series(const FlowConstants<T>& f, const ContactMode& mode, const Driv
   const T& d1 = mode.motor < 0 ? f.d1_minus : f.d1_plus;
   const T inverse_m = 1.0 / (f.m1 + f.m2);
   const bool moves = mode.load != 0 && mode.motor != 0;
+  MotorTorque<T> motor_torque(f, on);
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w1;
   for (int n = 0;; ++n) {
-    const T motor = coefficient(on.motor, n) - d1 * z.w1[n];
+    const T motor = motor_torque.term(n) - d1 * z.w1[n];
     const T acceleration = moves ? T((motor + coefficient(on.load, n) - f.d2 * z.w1[n]) * inverse_m) : T(0.0);
     z.torque[n] = motor - f.m1 * acceleration;
     if (n == kSeriesOrder) break;

@@ -33,6 +33,11 @@ Forcing<T> StepperImpl<T>::forcing_without_effects() const {
     on.motor[0] -= static_cast<double>(mode.motor) * motor_level(mode.motor);
   if (load_friction) on.load[0] = -static_cast<double>(mode.load) * model.drive.load_coulomb_friction;
   on.half_gap[0] = half_gap;
+  if (decaying >= 0) {
+    const auto effect = static_cast<std::size_t>(decaying);
+    const auto& e = model.effects[effect];
+    on.decaying = decay_share * e.hooks->decay(point(z, now, effect), e.parameters).amplitude;
+  }
   return on;
 }
 
@@ -72,7 +77,7 @@ double StepperImpl<T>::effect_rate() const {
     const ActiveEffect<T>& e = model.effects[i];
     if (e.hooks->rate != nullptr) rate = std::max(rate, e.hooks->rate(point(z, now, i), e.parameters));
   }
-  return std::min(rate, kMostDivisions * kEffectReach / dt);
+  return std::min(rate, (1 << kMostHalvings) * kEffectReach / dt);
 }
 
 template <class T>
@@ -118,7 +123,8 @@ void StepperImpl<T>::set_inertia() {
   else
     f.m1 = p.motor_inertia * factor;
   for (auto& of_segment : transitions)
-    for (Transition<T>& t : of_segment) t.ready = false;
+    for (auto& of_mode : of_segment)
+      for (Transition<T>& t : of_mode) t.ready = false;
 }
 
 }  // namespace gapscope::internal

@@ -25,13 +25,23 @@ void StepperImpl<T>::collect(const Series<T>& series, const Forcing<T>& on, Guar
   if (motor_friction) {
     if (mode.motor != 0)
       set.add(Event::kMotorStops, mode.motor, motor_zeros);
-    else if (mode.contact != 0 || smooth)
+    else if (mode.contact != 0 || smooth || decaying >= 0)
       for (const int side : {1, -1}) set.add(Event::kMotorBreaks, side, 0);
   }
   for (int i = 0; i < set.count; ++i) {
     Guard& guard = set.guards[static_cast<std::size_t>(i)];
     for (int n = 0; n <= kSeriesOrder; ++n) guard.p[n] = value_of(guard_term(guard, series, on, n));
   }
+}
+
+/// Coefficient n of the torque on the motor without dampers and contact.
+template <class T>
+T StepperImpl<T>::motor_coefficient(const Forcing<T>& on, int n) const {
+  T sum = coefficient(on.motor, n);
+  if (decaying < 0) return sum;
+  T dying = on.decaying;
+  for (int i = 1; i <= n; ++i) dying *= -f.decay_rate / static_cast<double>(i);
+  return sum + dying;
 }
 
 /// Coefficient n of a guard polynomial.
@@ -55,7 +65,7 @@ T StepperImpl<T>::guard_term(const Guard& guard, const Series<T>& series, const 
     case Event::kMotorStops:
       return side * series.w1[n];
     case Event::kMotorBreaks:
-      return constant(motor_level(guard.side)) - side * (coefficient(on.motor, n) - contact);
+      return constant(motor_level(guard.side)) - side * (motor_coefficient(on, n) - contact);
     case Event::kNone:
       break;
   }
@@ -208,7 +218,7 @@ template <class T>
 void StepperImpl<T>::resolve_motor() {
   if (f.rigid && mode.contact != 0) return resolve_as_one();
   mode.motor = 0;
-  const double applied = value_of(forcing_now().motor[0]) - value_of(acting_torque());
+  const double applied = value_of(motor_coefficient(forcing_now(), 0)) - value_of(acting_torque());
   const int direction = applied < 0.0 ? -1 : 1;
   if (std::abs(applied) > value_of(motor_level(direction))) mode.motor = direction;
   motor_zeros = 1;
@@ -223,7 +233,7 @@ void StepperImpl<T>::resolve_as_one() {
   if (motor_friction) mode.motor = 0;
   if (locked) return;
   const Forcing<T> on = forcing_now();
-  const double applied = value_of(on.motor[0]) + value_of(on.load[0]);
+  const double applied = value_of(motor_coefficient(on, 0)) + value_of(on.load[0]);
   double level = load_friction ? value_of(model.drive.load_coulomb_friction) : 0.0;
   if (motor_friction) level += value_of(motor_level(applied < 0.0 ? -1 : 1));
   const int direction = std::abs(applied) > level ? sign_of(applied) : 0;

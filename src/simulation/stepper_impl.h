@@ -16,9 +16,12 @@ constexpr int kMostEventsPerSample = 2000;
 /// such a bounce, a quarter of its duration times its speed, is far below any encoder.
 constexpr double kShortestBounce = 1e-3;
 
-/// Steps are at most this long against the fastest rate of a smooth effect [-], and divided at most so often.
+/// Steps are at most this long against the fastest rate of a smooth effect [-], and halved at most so often.
 constexpr double kEffectReach = 0.25;
-constexpr double kMostDivisions = 64.0;
+constexpr int kMostHalvings = 6;
+
+/// A dying torque divides a sample into at most so many pieces.
+constexpr double kMostDecayPieces = 128.0;
 
 /// Passes by which the torques of smooth effects are brought in line with the motion that they cause.
 constexpr int kCorrections = 2;
@@ -41,6 +44,8 @@ struct StepperImpl {
   bool remembers = false;       ///< an effect has memory
   bool varies_inertia = false;  ///< an effect changes the inertia
   bool delayed = false;         ///< an effect delays the input
+  int decaying = -1;            ///< effect with a dying torque; −1: none
+  T decay_share{1.0};           ///< of its amplitude, where its rate had to be limited
   T half_gap{};
   T delay_rest{};              ///< part of a sample in which the older of two inputs still acts [s]
   std::vector<double> inputs;  ///< ring of the last inputs, as long as the delay needs
@@ -60,12 +65,14 @@ struct StepperImpl {
   bool closed = false;
   bool healthy = true;
   long events = 0;
-  Transition<T> transitions[2][12];  ///< of each segment of a sample (two with a delay), of each mode
+  /// Of each segment of a sample (two with a delay), each mode, and how often its pieces are halved.
+  Transition<T> transitions[2][12][kMostHalvings + 1];
 
   StepperImpl(const StepperModel<T>& m, double step);
 
   // --- where things stand: stepper_state.h
   // -----------------------------------------------------------------------
+  void set_decay();
   void reset(const DriveState<T>& state);
   void inject(const T& dx1, const T& dw1);
   T measured() const;
@@ -94,7 +101,8 @@ struct StepperImpl {
   // ------------------------------------------------------------------------------
   void step(double u);
   void segment(const T& span, double u, int index);
-  Transition<T>& transition(const T& span, int index);
+  Transition<T>& transition(const T& span, int index, int times_halved);
+  int halvings(double h) const;
   void respond(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
   void respond_to_slopes(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
   void advance_smoothly(const Transition<T>& step, Forcing<T>& on, DriveState<T>& next) const;
@@ -107,6 +115,7 @@ struct StepperImpl {
   // ----------------------------------------------------------------------------------
   void collect(const Series<T>& series, const Forcing<T>& on, GuardSet& set) const;
   T guard_term(const Guard& guard, const Series<T>& series, const Forcing<T>& on, int n) const;
+  T motor_coefficient(const Forcing<T>& on, int n) const;
   T polished(const Guard& guard, const Series<T>& series, const Forcing<T>& on, double time) const;
   void cross(const Guard& guard);
   void open(int side);

@@ -5,11 +5,21 @@
 namespace gapscope::internal {
 
 template <class T>
-Transition<T>& StepperImpl<T>::transition(const T& span, int index) {
+Transition<T>& StepperImpl<T>::transition(const T& span, int index, int times_halved) {
   const int row = (mode.contact != 0 ? 6 : 0) + (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
-  Transition<T>& found = transitions[index][row];
-  if (!found.ready) prepare(f, mode, has_load, span, smooth, found);
+  Transition<T>& found = transitions[index][row][times_halved];
+  if (!found.ready) prepare(f, mode, has_load, span, smooth, times_halved, found);
   return found;
+}
+
+/// How often a piece of length h has to be halved for the effects at this point.
+template <class T>
+int StepperImpl<T>::halvings(double h) const {
+  if (!smooth) return 0;
+  const double rate = effect_rate();
+  int count = 0;
+  while (rate * h > kEffectReach && count < kMostHalvings) h *= 0.5, ++count;
+  return count;
 }
 
 template <class T>
@@ -18,6 +28,10 @@ void StepperImpl<T>::respond(const Transition<T>& step, const Forcing<T>& on, Dr
   if (mode.contact == 0) {
     next.x1 = z.x1 + r[0][1] * z.w1 + r[0][3] * on.motor[0];
     next.w1 = r[1][1] * z.w1 + r[1][3] * on.motor[0];
+    if (decaying >= 0) {
+      next.x1 += r[0][9] * on.decaying;
+      next.w1 += r[1][9] * on.decaying;
+    }
     if (!has_load || mode.load == 0) {
       next.x2 = z.x2, next.w2 = z.w2;
       return;
@@ -30,6 +44,8 @@ void StepperImpl<T>::respond(const Transition<T>& step, const Forcing<T>& on, Dr
   T out[4];
   for (int i = 0; i < 4; ++i)
     out[i] = r[i][0] * depth + r[i][1] * z.w1 + r[i][2] * z.w2 + r[i][3] * on.motor[0] + r[i][4] * on.load[0];
+  if (decaying >= 0)
+    for (int i = 0; i < 4; ++i) out[i] += r[i][9] * on.decaying;
   next = {z.x1 + out[0], out[1], z.x2 + out[2], out[3]};
 }
 
@@ -102,7 +118,9 @@ Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Forcing<T
   q.w1 = value_of(z.w1), q.w2 = value_of(z.w2);
   q.delta = value_of(z.x1) - value_of(z.x2), q.delta_rate = q.w1 - q.w2;
   q.half_gap = value(on.half_gap), q.half_gap_rate = slope(on.half_gap);
-  q.motor = value(on.motor), q.motor_rate = slope(on.motor);
+  const double rate = value_of(d.f.decay_rate);
+  const double dying = rate > 0.0 ? value_of(on.decaying) * std::exp(-rate * s) : 0.0;
+  q.motor = value(on.motor) + dying, q.motor_rate = slope(on.motor) - rate * dying;
   q.load = value(on.load), q.load_rate = slope(on.load);
   const double k = value_of(d.f.k), c = value_of(d.f.c);
   if (side != 0) q.torque = k * (q.delta - side * q.half_gap) + c * q.delta_rate;
@@ -188,8 +206,7 @@ template <class T>
 void StepperImpl<T>::segment(const T& span, double u, int index) {
   set_input(u);
   resolve_at_input_change();
-  const Transition<T>& whole = transition(span, index);
-  if (smooth && effect_rate() * value_of(whole.h) > kEffectReach) return advance(span);
+  const Transition<T>& whole = transition(span, index, halvings(value_of(transition(span, index, 0).h)));
   DriveState<T> next;
   for (int piece = 0; piece < whole.pieces; ++piece) {
     Forcing<T> on = forcing_without_effects();

@@ -28,6 +28,7 @@ StepperImpl<T>::StepperImpl(const StepperModel<T>& m, double step) : model(m), d
     smooth = smooth || e.hooks->torque != nullptr || e.hooks->half_gap != nullptr;
     remembers = remembers || e.hooks->advance != nullptr;
     varies_inertia = varies_inertia || e.hooks->load_inertia != nullptr;
+    if (e.hooks->decay != nullptr) decaying = static_cast<int>(&e - m.effects.data());
     if (e.hooks->delay == nullptr) continue;
     delay += e.hooks->delay(e.parameters);
     delayed = true;
@@ -36,7 +37,21 @@ StepperImpl<T>::StepperImpl(const StepperModel<T>& m, double step) : model(m), d
   delay_rest = delay - whole * dt;
   inputs.assign(static_cast<std::size_t>(whole) + 2, 0.0);
   memory.assign(m.effects.size() * kMostEffectMemory, T(0.0));
+  set_decay();
   reset({});
+}
+
+/// A torque that dies within a small part of a sample is replaced by a slower one of the same impulse.
+template <class T>
+void StepperImpl<T>::set_decay() {
+  if (decaying < 0) return;
+  const auto effect = static_cast<std::size_t>(decaying);
+  const auto& e = model.effects[effect];
+  f.decay_rate = e.hooks->decay(point(z, now, effect), e.parameters).rate;
+  const double most = kMostDecayPieces * kSeriesReach / dt;
+  if (value_of(f.decay_rate) <= most) return;
+  decay_share = most / f.decay_rate;
+  f.decay_rate = T(most);
 }
 
 template <class T>
@@ -89,8 +104,8 @@ template <class T>
 T StepperImpl<T>::contact_torque(int side) const {
   const Forcing<T> on = forcing_now();
   if (!f.rigid) return f.k * (z.x1 - z.x2 - static_cast<double>(side) * on.half_gap[0]) + f.c * (z.w1 - z.w2);
-  if (mode.load == 0 || mode.motor == 0) return on.motor[0];
-  const T motor = on.motor[0] - (mode.motor < 0 ? f.d1_minus : f.d1_plus) * z.w1;
+  if (mode.load == 0 || mode.motor == 0) return motor_coefficient(on, 0);
+  const T motor = motor_coefficient(on, 0) - (mode.motor < 0 ? f.d1_minus : f.d1_plus) * z.w1;
   return motor - f.m1 * ((motor + on.load[0] - f.d2 * z.w1) / (f.m1 + f.m2));
 }
 

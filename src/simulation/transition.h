@@ -7,7 +7,7 @@
 
 namespace gapscope::internal {
 
-constexpr int kColumns = 9;
+constexpr int kColumns = 10;
 
 /// With smooth effects a piece is at most this long per unit of 1/rate, so that the torques along the motion
 /// are nearly quadratic in it.
@@ -15,7 +15,8 @@ constexpr double kSmoothReach = 0.25;
 
 /// The flow of one mode over a whole piece h of a sample, as numbers: with δ̃ = δ − sβ the distance into the
 /// contact and torques M(s) = Σ M_n sⁿ (motor), L(s) (load),
-///   Δx1, w1⁺, Δx2, w2⁺  =  response · (δ̃, w1, w2, M₀, L₀, M₁, L₁, M₂, L₂).
+///   Δx1, w1⁺, Δx2, w2⁺  =  response · (δ̃, w1, w2, M₀, L₀, M₁, L₁, M₂, L₂, D)
+/// with D the amplitude of a dying torque on the motor.
 template <class T>
 struct Transition {
   bool ready = false;
@@ -29,6 +30,7 @@ template <class T>
 double flow_rate(const FlowConstants<T>& f, bool closed, bool has_load) {
   const double m1 = value_of(f.m1), m2 = value_of(f.m2);
   double rate = std::max(std::abs(value_of(f.d1_plus)), std::abs(value_of(f.d1_minus))) / m1;
+  rate = std::max(rate, value_of(f.decay_rate));
   if (!has_load) return rate;
   rate = std::max(rate, value_of(f.d2) / m2);
   if (!closed || f.rigid) return rate;
@@ -43,7 +45,7 @@ void response_column(const FlowConstants<T>& f, const ContactMode& mode, int col
   DriveState<T> start;
   Forcing<T> on;
   T* const units[kColumns] = {&start.x1,    &start.w1,   &start.w2,    &on.motor[0], &on.load[0],
-                              &on.motor[1], &on.load[1], &on.motor[2], &on.load[2]};
+                              &on.motor[1], &on.load[1], &on.motor[2], &on.load[2],  &on.decaying};
   *units[column] = T(1.0);
   if (f.rigid && mode.contact != 0 && column == 2) return;  // one body: the load's speed is the motor's
   Series<T> z;
@@ -56,17 +58,21 @@ void response_column(const FlowConstants<T>& f, const ContactMode& mode, int col
 }
 
 /// @param span length of the segment of a sample that the transition is for [s]
+/// @param halvings how often the pieces are halved beyond what the flow itself needs
 template <class T>
 void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, const T& span, bool smooth,
-             Transition<T>& transition) {
+             int halvings, Transition<T>& transition) {
   const double rate = flow_rate(f, mode.contact != 0, has_load);
   transition.pieces = std::max(
       1, static_cast<int>(std::ceil(rate * value_of(span) / (smooth ? kSmoothReach : kSeriesReach))));
+  transition.pieces <<= halvings;
   transition.h = span / static_cast<double>(transition.pieces);
   for (auto& row : transition.response)
     for (T& r : row) r = T(0.0);
-  const int columns = smooth ? kColumns : 5;
-  for (int column = 0; column < columns; ++column) response_column(f, mode, column, transition);
+  for (int column = 0; column < kColumns; ++column) {
+    const bool used = column < 5 || (column == 9 ? value_of(f.decay_rate) > 0.0 : smooth);
+    if (used) response_column(f, mode, column, transition);
+  }
   transition.ready = true;
 }
 

@@ -67,6 +67,13 @@ struct DriveTorque {
   T motor{}, load{};  ///< [N m]
 };
 
+/// An extra torque on the motor that dies away within a step of constant input: amplitude · exp(−rate · s).
+template <class T>
+struct DecayingTorque {
+  T amplitude{};  ///< at the point that was asked for [N m]
+  T rate{};       ///< [1/s], the same at every point
+};
+
 /// The laws of one effect for one scalar; what an effect does not do stays null.
 template <class T>
 struct EffectHooks {
@@ -78,6 +85,8 @@ struct EffectHooks {
   T (*delay)(const T* p) = nullptr;
   /// Extra torque on either side, a smooth function of the point between events.
   DriveTorque<T> (*torque)(const EffectPoint<T>& at, const T* p) = nullptr;
+  /// Extra torque that is followed exactly; at most one effect of a drive may have one.
+  DecayingTorque<T> (*decay)(const EffectPoint<T>& at, const T* p) = nullptr;
   /// Added to the half gap β [rad].
   T (*half_gap)(const EffectPoint<T>& at, const T* p) = nullptr;
   /// Load inertia over its nominal value [-].

@@ -24,8 +24,9 @@ struct ActuatorLag {
   }
 
   template <class T>
-  static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
-    return {.motor = lacking(at, at.memory, p)};
+  static DecayingTorque<T> decay(const EffectPoint<T>& at, const T* p) {
+    if (value_of(p[0]) <= 0.0) return {};
+    return {lacking(at, at.memory, p), 1.0 / p[0]};
   }
 
   template <class T>
@@ -38,11 +39,6 @@ struct ActuatorLag {
   static void advance(const EffectPoint<T>&, const EffectPoint<T>& to, T* memory, const T* p) {
     memory[1] = to.drive_torque + lacking(to, memory, p);
     memory[0] = to.time;
-  }
-
-  template <class T>
-  static double rate(const EffectPoint<T>&, const T* p) {
-    return value_of(p[0]) > 0.0 ? 2.0 / value_of(p[0]) : 0.0;
   }
 };
 
