@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gapscope/config/data_config.h"
+#include "gapscope/config/model_config.h"
+#include "gapscope/plant/acceleration_bound.h"
+
+namespace gapscope {
+
+/// `detector:` – where the bound L of the model-free detector comes from; neither of both: from the data
+/// alone.
+struct DetectorConfig {
+  std::optional<double> bound;               ///< [rad/s²]
+  std::optional<BoundKnowledge> from_model;  ///< L by eq. (13)
+  int line = 0;
+};
+
+/// One configuration serves every command.
+struct Configuration {
+  std::string name;                          ///< of the report folder; a plain file name
+  std::string file;                          ///< the YAML itself, for messages
+  std::optional<RecordingConfig> recording;  ///< exactly one of these two
+  std::optional<SimulationConfig> simulation;
+  EncoderConfig encoder;
+  bool rotation = true;  ///< false: rad and N·m mean m and N
+  ModelConfig model;
+  DetectorConfig detector;
+};
+
+/// Reads a configuration strictly: unknown and repeated keys, wrong types, numbers out of range and
+/// contradictions are refused, unknown keys with the nearest known one. Recordings are not opened.
+/// @throws ConfigError "file:line: what is wrong, what was expected"
+Configuration load_configuration(const std::string& path);
+
+/// The same from text; `file` names it in messages, and paths in it are relative to its folder.
+Configuration parse_configuration(const std::string& text, const std::string& file);
+
+/// @throws ConfigError unless the model has all that a fit needs: every parameter of its structure either
+/// given or estimated.
+void require_reference_model(const Configuration& configuration);
+
+/// The bounds that eq. (13) gives for the model's own numbers.  @throws std::logic_error without
+/// `from_model`.
+Interval bound_from_model(const Configuration& configuration);
+
+/// The configuration as YAML with every default filled in. It reads back as the same configuration (from the
+/// same folder: paths stay as they were given) and gives the same text again.
+std::string resolved_yaml(const Configuration& configuration);
+
+}  // namespace gapscope

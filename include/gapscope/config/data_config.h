@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gapscope/base/fields.h"
+#include "gapscope/config/model_config.h"
+#include "gapscope/recording/csv.h"
+#include "gapscope/simulation/excitation.h"
+#include "gapscope/simulation/simulate.h"
+
+namespace gapscope {
+
+/// A recording named in a configuration.
+struct RecordedFile {
+  std::string given;  ///< as it is written there
+  std::string path;   ///< relative to the configuration's own folder, so that it can be opened
+  int line = 0;       ///< of the configuration
+};
+
+/// `recording:` – data from files. Several are never concatenated.
+struct RecordingConfig {
+  std::vector<RecordedFile> files;
+  std::vector<RecordedFile> held_out;  ///< only read by the diagnosis
+  CsvOptions csv;                      ///< columns, window, resampling
+};
+
+/// `encoder:` – what its sheet says.
+struct EncoderConfig {
+  std::optional<int> bits;  ///< counts per revolution = 2^bits
+  double quantum = 0.0;     ///< [rad], from either key; 0: not given
+
+  static double quantum_of(int bits) { return 2.0 * std::numbers::pi / static_cast<double>(1ull << bits); }
+};
+
+/// `simulation.initial:` – the state at the first sample.
+struct InitialState {
+  double x1 = 0.0;  ///< [rad]
+  double w1 = 0.0;  ///< [rad/s]
+  double x2 = 0.0;  ///< [rad]
+  double w2 = 0.0;  ///< [rad/s]
+  void fields(FieldVisitor& v);
+};
+
+/// `simulation:` – data of its own making.
+struct SimulationConfig {
+  double rate = 0.0;       ///< [Hz]
+  double duration = 0.0;   ///< [s]
+  std::uint64_t seed = 1;  ///< the only source of randomness
+  Excitation excitation;
+  InitialState initial;
+  double noise = 0.0;  ///< rms, before quantisation [rad]
+  SimulatedPlant plant;
+  int line = 0;
+
+  std::size_t samples() const;  ///< rate × duration, to the nearest
+};
+
+/// More samples than this are refused: a mistyped rate must not eat the machine.
+constexpr double kMostSimulatedSamples = 2e7;
+
+}  // namespace gapscope

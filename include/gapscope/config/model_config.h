@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gapscope/plant/drive.h"
+#include "gapscope/reference/fit.h"
+
+namespace gapscope {
+
+/// One entry of `effects:`, as it is written.
+struct EffectConfig {
+  std::string name;
+  std::vector<std::pair<std::string, double>> parameters;  ///< in the order of the file
+  int line = 0;
+};
+
+/// `model:` – the drive that is fitted, and that a simulation starts from.
+/// Keys that are absent: gap, motor_damping and mass_ratio are estimated from a start that the fit derives;
+/// load_damping, load_coulomb_friction and contact_damping are 0; the others stay unknown (NaN).
+/// Bounds that are absent are NaN: the fit derives them.
+struct ModelConfig {
+  bool given = false;  ///< false: there is no such block
+  DriveStructure structure;
+  std::array<ParameterSetting, kDriveParameterCount> parameters;  ///< in the order of kDriveParameters
+  std::array<bool, kDriveParameterCount> defaulted{};             ///< the value is not in the file
+  std::vector<EffectConfig> effects;
+  int line = 0;
+
+  ReferenceModel reference_model() const { return {structure, parameters, {}}; }
+};
+
+/// The plant behind simulated data: `model:` with what `simulation.model:` changes, every number known.
+struct SimulatedPlant {
+  DriveStructure structure;
+  DriveParameters<double> drive;
+  std::vector<EffectConfig> effects;
+};
+
+/// Whether a drive of this structure has the parameter with the given place in kDriveParameters: without a
+/// load only the motor's own, a locked load has no mass_ratio and no load_*, a rigid contact no contact_*.
+bool has_parameter(const DriveStructure& structure, int index);
+
+/// Place of a key in kDriveParameters.  @throws std::logic_error for any other.
+int drive_parameter_index(const std::string& key);
+
+}  // namespace gapscope

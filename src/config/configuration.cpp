@@ -1,0 +1,158 @@
+#include "gapscope/config/configuration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "config/data_reader.h"
+#include "config/model_reader.h"
+#include "config/yaml_document.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/require.h"
+
+namespace gapscope {
+namespace internal {
+namespace {
+
+constexpr const char* kNameForm =
+    "a plain folder name of letters, digits, '_', '-' and '.', not beginning with '.' or '-'";
+
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), plain) &&
+         name[0] != '.' && name[0] != '-';
+}
+
+std::string read_name(const Section& root, const std::string& file) {
+  if (const auto given = root.find("name")) {
+    const std::string name = given->text();
+    if (!is_plain_name(name)) given->fail_expecting(kNameForm);
+    return name;
+  }
+  const std::string stem = std::filesystem::path(file).stem().string();
+  if (!is_plain_name(stem)) root.require("name", kNameForm);
+  return stem;
+}
+
+/// `bound: auto`, a number, or {from_model: {input_limit, load_force_bound}}.
+DetectorConfig read_detector(const Value& value) {
+  const Section section(value, {"bound"});
+  DetectorConfig detector;
+  detector.line = value.line();
+  const auto bound = section.find("bound");
+  if (!bound) return detector;
+  detector.line = bound->line();
+  if (bound->is_map()) {
+    const Section from(
+        Section(*bound, {"from_model"}).require("from_model", "{input_limit, load_force_bound}"),
+        {"input_limit", "load_force_bound"});
+    detector.from_model =
+        BoundKnowledge{from.require("input_limit", "the largest |u|").number({1e-12, 1e12, "unit of u"}),
+                       from.require("load_force_bound", "G, a bound of the unknown forces [N m]")
+                           .number({0.0, 1e12, "N m"})};
+  } else if (!bound->is_text()) {
+    bound->fail_expecting(
+        "auto, a number [rad/s^2] or {from_model: {input_limit: ..., load_force_bound: ...}}");
+  } else if (bound->text() != "auto") {
+    detector.bound = bound->number({1e-9, 1e12, "rad/s^2"});
+  }
+  return detector;
+}
+
+/// Eq. (13) needs three numbers of the model.
+void require_bound_from_model(const Configuration& c) {
+  if (!c.detector.from_model) return;
+  for (const char* key : {"motor_inertia", "torque_constant", "mass_ratio"})
+    if (std::isnan(c.model.parameters[drive_parameter_index(key)].value))
+      throw ConfigError(c.file, c.detector.line,
+                        fmt::format("detector.bound is from_model but {0} is not known, expected a number in "
+                                    "model.parameters.{0}",
+                                    key));
+}
+
+void require_possible_start(const Configuration& c) {
+  const SimulationConfig& s = *c.simulation;
+  const bool rigid = s.plant.structure.contact == ContactLaw::kRigid && s.plant.structure.has_load;
+  const double apart = std::abs(s.initial.x1 - s.initial.x2), half = s.plant.drive.gap / 2.0;
+  if (rigid && apart > half)
+    throw ConfigError(
+        c.file, s.line,
+        fmt::format("simulation.initial has x1 and x2 {} rad apart, expected at most half the gap, {} "
+                    "rad, with a rigid contact",
+                    apart, half));
+}
+
+void read_data(const Section& root, const WrittenModel& model, Configuration& c) {
+  const auto recording = root.find("recording"), simulation = root.find("simulation");
+  if (recording && simulation)
+    simulation->fail(
+        fmt::format("stands beside recording (line {}), expected only one of both", recording->line()));
+  if (!recording && !simulation) root.require("recording", "either recording or simulation");
+  if (recording) {
+    c.recording = read_recording(*recording, std::filesystem::path(c.file).parent_path().string());
+    return;
+  }
+  c.simulation = read_simulation(*simulation);
+  WrittenModel changes;
+  if (const auto given = simulated_model(*simulation)) changes = read_model(*given);
+  require_known_effects(changes);
+  c.simulation->plant = simulated_plant(overlaid(model, changes), *simulation);
+  require_possible_start(c);
+}
+
+Configuration read_configuration(const Value& document) {
+  const Section root(document,
+                     {"name", "recording", "simulation", "encoder", "coordinates", "model", "detector"});
+  Configuration c;
+  c.file = document.file();
+  c.name = read_name(root, c.file);
+  if (const auto coordinates = root.find("coordinates"))
+    c.rotation = coordinates->word({"rotation", "translation"}) == 0;
+  if (const auto encoder = root.find("encoder")) c.encoder = read_encoder(*encoder, c.rotation);
+  if (const auto detector = root.find("detector")) c.detector = read_detector(*detector);
+  WrittenModel model;
+  if (const auto given = root.find("model")) model = read_model(*given);
+  require_known_effects(model);
+  c.model = resolved_model(model);
+  require_bound_from_model(c);
+  read_data(root, model, c);
+  return c;
+}
+
+}  // namespace
+}  // namespace internal
+
+Configuration parse_configuration(const std::string& text, const std::string& file) {
+  return internal::read_configuration(internal::parse_document(text, file));
+}
+
+Configuration load_configuration(const std::string& path) {
+  return parse_configuration(internal::read_text(path), path);
+}
+
+void require_reference_model(const Configuration& c) {
+  if (!c.model.given)
+    throw ConfigError(c.file, "there is no model, expected model: with parameters for the reference");
+  for (int i = 0; i < kDriveParameterCount; ++i) {
+    const ParameterSetting& p = c.model.parameters[i];
+    if (!has_parameter(c.model.structure, i) || p.estimate || !std::isnan(p.value)) continue;
+    throw ConfigError(
+        c.file, c.model.line,
+        fmt::format("model.parameters has no {0}, expected a number [{1}] or {0}: {{estimate: true}}",
+                    kDriveParameters[i].key, kDriveParameters[i].unit));
+  }
+}
+
+Interval bound_from_model(const Configuration& c) {
+  GAPSCOPE_REQUIRE(c.detector.from_model.has_value());
+  DriveParameters<double> drive;
+  for (int i = 0; i < kDriveParameterCount; ++i) drive_parameter(drive, i) = c.model.parameters[i].value;
+  return acceleration_bound(drive, *c.detector.from_model);
+}
+
+}  // namespace gapscope

@@ -1,0 +1,151 @@
+#include "config/data_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "config/field_reader.h"
+#include "gapscope/base/errors.h"
+
+namespace gapscope {
+
+void InitialState::fields(FieldVisitor& v) {
+  v.field({"x1", "rad", "motor position", -1e6, 1e6}, x1);
+  v.field({"w1", "rad/s", "motor speed", -1e6, 1e6}, w1);
+  v.field({"x2", "rad", "load position", -1e6, 1e6}, x2);
+  v.field({"w2", "rad/s", "load speed", -1e6, 1e6}, w2);
+}
+
+std::size_t SimulationConfig::samples() const {
+  return static_cast<std::size_t>(std::llround(rate * duration));
+}
+
+namespace internal {
+namespace {
+
+const std::vector<std::string> kSimulationKeys = {"rate",    "duration", "seed", "excitation",
+                                                  "initial", "noise",    "model"};
+
+std::vector<RecordedFile> read_files(const Value& value, const std::string& folder,
+                                     std::set<std::string>& seen) {
+  std::vector<Value> names = value.is_list() ? value.items() : std::vector<Value>{value};
+  if (names.empty()) value.fail("is an empty list, expected a file or a list of files");
+  std::vector<RecordedFile> files;
+  for (const Value& name : names) {
+    if (!name.is_text()) name.fail_expecting("a file or a list of files");
+    const std::string given = name.text();
+    const std::filesystem::path path = (std::filesystem::path(folder) / given).lexically_normal();
+    if (!seen.insert(path.string()).second)
+      name.fail(fmt::format("names {} a second time, expected each recording once", given));
+    files.push_back({given, path.string(), name.line()});
+  }
+  return files;
+}
+
+void read_column(const Section& section, const char* key, std::string& name, std::set<std::string>& taken) {
+  const auto given = section.find(key);
+  if (given) name = given->text();
+  if (!taken.insert(name).second)
+    (given ? *given : section.value())
+        .fail(fmt::format("uses the column {} twice, expected four columns", name));
+}
+
+CsvColumns read_columns(const Value& value) {
+  const Section section(value, {"time", "input", "position", "load_position"});
+  CsvColumns columns;
+  std::set<std::string> taken;
+  read_column(section, "time", columns.time, taken);
+  read_column(section, "input", columns.input, taken);
+  read_column(section, "position", columns.position, taken);
+  read_column(section, "load_position", columns.load_position, taken);
+  columns.load_position_required = section.find("load_position").has_value();
+  return columns;
+}
+
+Excitation read_excitation(const Value& value) {
+  std::vector<std::string> names;
+  for (const auto& spec : excitation_kinds()) names.emplace_back(spec.name);
+  const Section section(value, names);
+  std::optional<Excitation> excitation;
+  for (const auto& spec : excitation_kinds()) {
+    const auto given = section.find(spec.name);
+    if (!given) continue;
+    if (excitation) given->fail("is a second excitation, expected exactly one");
+    excitation.emplace();
+    excitation->kind = spec.kind;
+    read_fields(*given, *excitation);
+  }
+  if (!excitation)
+    value.fail("is an empty map, expected one of sine, multisine, swept_sine, triangle, trapezoid, steps");
+  return *excitation;
+}
+
+void require_sensible_size(const SimulationConfig& s, const Section& section) {
+  const double samples = s.rate * s.duration;
+  if (samples > kMostSimulatedSamples)
+    section.value().fail(fmt::format("gives rate x duration = {:.6g} samples, expected at most {:.0f}",
+                                     samples, kMostSimulatedSamples));
+  if (s.samples() < kFewestSamples)
+    section.value().fail(
+        fmt::format("gives rate x duration = {:.6g} samples, expected at least {}", samples, kFewestSamples));
+}
+
+}  // namespace
+
+RecordingConfig read_recording(const Value& value, const std::string& folder) {
+  const Section section(value, {"file", "held_out", "columns", "window", "resample"});
+  RecordingConfig recording;
+  std::set<std::string> seen;
+  recording.files = read_files(section.require("file", "a file or a list of files"), folder, seen);
+  if (const auto held_out = section.find("held_out"))
+    recording.held_out = read_files(*held_out, folder, seen);
+  if (const auto columns = section.find("columns")) recording.csv.columns = read_columns(*columns);
+  if (const auto window = section.find("window"))
+    recording.csv.window = window->rising_pair({-kInfinity, kInfinity, "s"});
+  if (const auto resample = section.find("resample"))
+    recording.csv.resample_rate =
+        Section(*resample, {"rate"}).require("rate", "a number [Hz]").number({1e-3, 1e7, "Hz"});
+  return recording;
+}
+
+EncoderConfig read_encoder(const Value& value, bool rotation) {
+  const Section section(value, {"bits", "quantum"});
+  const auto bits = section.find("bits"), quantum = section.find("quantum");
+  EncoderConfig encoder;
+  if (bits.has_value() == quantum.has_value())
+    value.fail(fmt::format("has {} of bits and quantum, expected exactly one", bits ? "both" : "neither"));
+  if (quantum) {
+    encoder.quantum = quantum->number({1e-15, 10.0, rotation ? "rad" : "m"});
+    return encoder;
+  }
+  if (!rotation) bits->fail("counts a revolution, expected quantum [m] with coordinates: translation");
+  encoder.bits = static_cast<int>(bits->integer(1, 40));
+  encoder.quantum = EncoderConfig::quantum_of(*encoder.bits);
+  return encoder;
+}
+
+SimulationConfig read_simulation(const Value& value) {
+  const Section section(value, kSimulationKeys);
+  SimulationConfig s;
+  s.line = value.line();
+  s.rate = section.require("rate", "the sampling rate [Hz]").number({1e-3, 1e7, "Hz"});
+  s.duration = section.require("duration", "the duration [s]").number({1e-6, 1e8, "s"});
+  require_sensible_size(s, section);
+  if (const auto seed = section.find("seed")) s.seed = seed->natural(~std::uint64_t{0});
+  const Value excitation = section.require("excitation", "e.g. sine: {amplitude: 0.5, frequency: 1}");
+  s.excitation = read_excitation(excitation);
+  if (const std::string problem = excitation_problem(s.excitation, s.rate, s.duration); !problem.empty())
+    excitation.fail(std::string(to_string(s.excitation.kind)) + ": " + problem);
+  if (const auto initial = section.find("initial")) read_fields(*initial, s.initial);
+  if (const auto noise = section.find("noise")) s.noise = noise->number({0.0, 1e3, "rad"});
+  return s;
+}
+
+std::optional<Value> simulated_model(const Value& value) {
+  return Section(value, kSimulationKeys).find("model");
+}
+
+}  // namespace internal
+}  // namespace gapscope

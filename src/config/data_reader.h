@@ -1,0 +1,17 @@
+#pragma once
+
+#include "config/yaml_value.h"
+#include "gapscope/config/data_config.h"
+
+namespace gapscope::internal {
+
+/// @param folder  of the configuration, to which paths are relative
+RecordingConfig read_recording(const Value& value, const std::string& folder);
+
+EncoderConfig read_encoder(const Value& value, bool rotation);
+
+/// All but the plant. `model` of the block is left to the caller.
+SimulationConfig read_simulation(const Value& value);
+std::optional<Value> simulated_model(const Value& value);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,113 @@
+#include "config/model_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal {
+namespace {
+
+/// What each number can be at all, in the order of kDriveParameters.
+constexpr std::pair<double, double> kPossible[kDriveParameterCount] = {
+    {1e-12, 1e9}, {1e-12, 1e9}, {0.0, 1e9},   {0.0, 1e6},  {0.0, 1e3},
+    {0.0, 1e9},   {0.0, 1e9},   {1e-9, 1e15}, {0.0, 1e12},
+};
+
+Range possible(int index) {
+  return {kPossible[index].first, kPossible[index].second, kDriveParameters[index].unit};
+}
+
+/// `prior: {value, std}`; without a value it is around the start.
+std::pair<std::optional<double>, double> read_prior(const Value& value, const Range& range) {
+  const Section section(value, {"value", "std"});
+  std::optional<double> centre;
+  if (const auto given = section.find("value")) centre = given->number(range);
+  const Value std = section.require("std", "the standard deviation of what is known beforehand");
+  const double width = std.number({0.0, kInfinity, range.unit});
+  if (width == 0.0) std.fail("is 0, expected more than 0");
+  return {centre, width};
+}
+
+WrittenParameter read_parameter(const Value& value, int index) {
+  WrittenParameter p{{}, {}, {}, {}, value};
+  const Range range = possible(index);
+  if (!value.is_map()) {
+    p.value = value.number(range);
+    p.estimate = false;
+    return p;
+  }
+  const Section section(value, {"value", "estimate", "bounds", "prior"});
+  if (const auto given = section.find("estimate")) p.estimate = given->truth();
+  if (const auto given = section.find("bounds")) p.bounds = given->rising_pair(range);
+  if (const auto given = section.find("prior")) p.prior = read_prior(*given, range);
+  if (const auto given = section.find("value"))
+    p.value = given->number(p.bounds ? Range{p.bounds->first, p.bounds->second, range.unit} : range);
+  if (!p.value && p.estimate == false)
+    value.fail("has no value and is not estimated, expected a value or estimate: true");
+  return p;
+}
+
+std::pair<ContactLaw, double> read_contact(const Value& value) {
+  if (value.is_text()) {
+    value.word({"compliant", "{rigid: {restitution: 0 to 1}}"});
+    return {ContactLaw::kCompliant, 1.0};
+  }
+  const Section section(value, {"rigid"});
+  const Section rigid(section.require("rigid", "rigid: {restitution: 0 to 1}"), {"restitution"});
+  return {ContactLaw::kRigid, rigid.require("restitution", "a number from 0 to 1").number({0.0, 1.0, "-"})};
+}
+
+EffectConfig read_effect(const Value& value) {
+  const char* const form = "one effect, {name: {key: number}}";
+  if (!value.is_map()) value.fail_expecting(form);
+  const auto entries = value.entries();
+  if (entries.size() != 1) value.fail_expecting(form);
+  EffectConfig effect{entries[0].first, {}, entries[0].second.line()};
+  for (const auto& [key, number] : entries[0].second.entries())
+    effect.parameters.emplace_back(key, number.number());
+  return effect;
+}
+
+void read_parameters(const Value& value, WrittenModel& model) {
+  std::vector<std::string> keys;
+  for (const auto& spec : kDriveParameters) keys.emplace_back(spec.key);
+  const Section section(value, keys);
+  for (int i = 0; i < kDriveParameterCount; ++i)
+    if (const auto given = section.find(keys[i])) model.parameters[i] = read_parameter(*given, i);
+}
+
+}  // namespace
+
+WrittenModel read_model(const Value& value) {
+  WrittenModel model;
+  model.given = true;
+  model.place = value;
+  const Section section(value, {"contact", "load", "parameters", "effects"});
+  if (const auto contact = section.find("contact")) model.contact = read_contact(*contact);
+  if (const auto load = section.find("load"))
+    model.load = load->word({"free", "locked"}) == 0 ? LoadKind::kFree : LoadKind::kLocked;
+  if (const auto parameters = section.find("parameters")) read_parameters(*parameters, model);
+  if (const auto effects = section.find("effects")) {
+    model.effects.emplace();
+    for (const Value& item : effects->items()) model.effects->push_back(read_effect(item));
+  }
+  return model;
+}
+
+WrittenModel overlaid(const WrittenModel& base, const WrittenModel& changes) {
+  WrittenModel both = base;
+  both.given = base.given || changes.given;
+  if (changes.place) both.place = changes.place;
+  if (changes.contact) both.contact = changes.contact;
+  if (changes.load) both.load = changes.load;
+  if (changes.effects) both.effects = changes.effects;
+  for (int i = 0; i < kDriveParameterCount; ++i) {
+    if (!changes.parameters[i]) continue;
+    std::optional<double> value = changes.parameters[i]->value;
+    if (!value && base.parameters[i]) value = base.parameters[i]->value;
+    both.parameters[i] = changes.parameters[i];
+    both.parameters[i]->value = value;
+  }
+  return both;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "config/yaml_value.h"
+#include "gapscope/config/model_config.h"
+
+namespace gapscope::internal {
+
+/// A parameter as it is written; what is not written is absent.
+struct WrittenParameter {
+  std::optional<double> value;
+  std::optional<bool> estimate;
+  std::optional<std::pair<double, double>> bounds;
+  std::optional<std::pair<std::optional<double>, double>> prior;  ///< value and std
+  Value place;
+};
+
+/// A `model:` block as it is written.
+struct WrittenModel {
+  bool given = false;
+  std::optional<std::pair<ContactLaw, double>> contact;  ///< with the restitution
+  std::optional<LoadKind> load;
+  std::array<std::optional<WrittenParameter>, kDriveParameterCount> parameters;
+  std::optional<std::vector<EffectConfig>> effects;
+  std::optional<Value> place;
+};
+
+WrittenModel read_model(const Value& value);
+
+/// `base` with everything that `changes` writes. A parameter of both keeps what only the base says.
+WrittenModel overlaid(const WrittenModel& base, const WrittenModel& changes);
+
+/// The rules of the structure applied: what is estimated, what does not exist, what contradicts.
+ModelConfig resolved_model(const WrittenModel& written);
+
+/// The plant of a simulation: every parameter of its structure needs a number.
+/// @param simulation  the block that needs them, for messages
+SimulatedPlant simulated_plant(const WrittenModel& written, const Value& simulation);
+
+/// Refuses effects that this version does not know.
+void require_known_effects(const WrittenModel& written);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "config/yaml_writer.h"
+#include "gapscope/config/configuration.h"
+
+namespace gapscope {
+namespace {
+
+using internal::FieldWriter;
+using internal::yaml_number;
+using internal::yaml_text;
+using internal::YamlWriter;
+
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& parts) {
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void write_files(YamlWriter& out, const char* key, const std::vector<RecordedFile>& files) {
+  if (files.empty()) return;
+  std::vector<std::string> list;
+  for (const RecordedFile& file : files) list.push_back(yaml_text(file.given));
+  out.entry(key, "[" + joined(list) + "]");
+}
+
+void write_recording(YamlWriter& out, const RecordingConfig& recording) {
+  out.open("recording");
+  write_files(out, "file", recording.files);
+  write_files(out, "held_out", recording.held_out);
+  out.open("columns");
+  const CsvColumns& columns = recording.csv.columns;
+  out.entry("time", yaml_text(columns.time));
+  out.entry("input", yaml_text(columns.input));
+  out.entry("position", yaml_text(columns.position));
+  if (columns.load_position_required) {
+    out.entry("load_position", yaml_text(columns.load_position));
+  } else {
+    out.comment("load_position: " + yaml_text(columns.load_position) + " where there is one");
+  }
+  out.close();
+  if (const auto& window = recording.csv.window)
+    out.entry("window", fmt::format("[{}, {}]", window->first, window->second), "s");
+  if (const auto& rate = recording.csv.resample_rate)
+    out.entry("resample", fmt::format("{{rate: {}}}", *rate), "Hz");
+  out.close();
+}
+
+void write_structure(YamlWriter& out, const DriveStructure& structure) {
+  const bool rigid = structure.contact == ContactLaw::kRigid;
+  out.entry("contact",
+            rigid ? fmt::format("{{rigid: {{restitution: {}}}}}", structure.restitution) : "compliant");
+  out.entry("load", structure.load == LoadKind::kFree ? "free" : "locked");
+}
+
+std::string setting_text(const ParameterSetting& p) {
+  if (!p.estimate) return yaml_number(p.value);
+  std::vector<std::string> parts;
+  if (!std::isnan(p.value)) parts.push_back(fmt::format("value: {}", p.value));
+  parts.emplace_back("estimate: true");
+  if (!std::isnan(p.low) && !std::isnan(p.high))
+    parts.push_back(fmt::format("bounds: [{}, {}]", p.low, p.high));
+  if (p.prior) parts.push_back(fmt::format("prior: {{value: {}, std: {}}}", p.prior->value, p.prior->std));
+  return "{" + joined(parts) + "}";
+}
+
+void write_effects(YamlWriter& out, const std::vector<EffectConfig>& effects) {
+  std::vector<std::string> list;
+  for (const EffectConfig& effect : effects) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : effect.parameters)
+      keys.push_back(fmt::format("{}: {}", yaml_text(key), value));
+    list.push_back(fmt::format("{{{}: {{{}}}}}", yaml_text(effect.name), joined(keys)));
+  }
+  out.entry("effects", "[" + joined(list) + "]");
+}
+
+void write_model(YamlWriter& out, const ModelConfig& model) {
+  if (!model.given) return;
+  out.open("model");
+  write_structure(out, model.structure);
+  out.open("parameters");
+  for (int i = 0; i < kDriveParameterCount; ++i) {
+    const ParameterSetting& p = model.parameters[i];
+    if (!p.estimate && std::isnan(p.value)) continue;
+    const bool derived = p.estimate && (std::isnan(p.low) || std::isnan(p.value));
+    out.entry(kDriveParameters[i].key, setting_text(p),
+              std::string(kDriveParameters[i].unit) + (derived ? "; what is not here the fit derives" : ""));
+  }
+  out.close();
+  write_effects(out, model.effects);
+  out.close();
+}
+
+void write_plant(YamlWriter& out, const SimulatedPlant& plant) {
+  out.open("model");
+  write_structure(out, plant.structure);
+  const int ratio = drive_parameter_index("mass_ratio");
+  out.open("parameters");
+  for (int i = 0; i < kDriveParameterCount; ++i)
+    if (has_parameter(plant.structure, i) || (i == ratio && !plant.structure.has_load))
+      out.entry(kDriveParameters[i].key, yaml_number(drive_parameter(plant.drive, i)),
+                kDriveParameters[i].unit);
+  out.close();
+  write_effects(out, plant.effects);
+  out.close();
+}
+
+void write_simulation(YamlWriter& out, SimulationConfig simulation) {
+  FieldWriter fields(out);
+  out.open("simulation");
+  out.entry("rate", yaml_number(simulation.rate), "Hz");
+  out.entry("duration", yaml_number(simulation.duration), "s");
+  out.entry("seed", fmt::format("{}", simulation.seed));
+  out.open("excitation");
+  out.open(to_string(simulation.excitation.kind));
+  simulation.excitation.fields(fields);
+  out.close();
+  out.close();
+  out.open("initial");
+  simulation.initial.fields(fields);
+  out.close();
+  out.entry("noise", yaml_number(simulation.noise), "rad");
+  write_plant(out, simulation.plant);
+  out.close();
+}
+
+void write_detector(YamlWriter& out, const DetectorConfig& detector) {
+  out.open("detector");
+  if (detector.from_model) {
+    out.open("bound");
+    out.open("from_model");
+    out.entry("input_limit", yaml_number(detector.from_model->input_limit), "unit of u");
+    out.entry("load_force_bound", yaml_number(detector.from_model->load_force_bound), "N m");
+    out.close();
+    out.close();
+  } else {
+    out.entry("bound", detector.bound ? yaml_number(*detector.bound) : "auto",
+              detector.bound ? "rad/s^2" : "");
+  }
+  out.close();
+}
+
+}  // namespace
+
+std::string resolved_yaml(const Configuration& c) {
+  YamlWriter out;
+  out.comment("The configuration of this report, every default filled in; paths are those of the original.");
+  out.entry("name", yaml_text(c.name));
+  if (c.recording) write_recording(out, *c.recording);
+  if (c.simulation) write_simulation(out, *c.simulation);
+  if (c.encoder.bits) {
+    out.entry("encoder", fmt::format("{{bits: {}}}", *c.encoder.bits));
+  } else if (c.encoder.quantum > 0.0) {
+    out.entry("encoder", fmt::format("{{quantum: {}}}", c.encoder.quantum), "rad");
+  }
+  out.entry("coordinates", c.rotation ? "rotation" : "translation");
+  write_model(out, c.model);
+  write_detector(out, c.detector);
+  return out.text();
+}
+
+}  // namespace gapscope

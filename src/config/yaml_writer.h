@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/base/fields.h"
+
+namespace gapscope::internal {
+
+/// Text of a number that reads back as the same number.
+std::string yaml_number(double value);
+
+/// A text, in quotes where YAML could take it for something else.
+std::string yaml_text(const std::string& text);
+
+/// Writes block-style YAML line by line.
+class YamlWriter {
+ public:
+  void open(const std::string& key);  ///< a map begins
+  void close() { --depth_; }
+  void entry(const std::string& key, const std::string& value, const std::string& comment = "");
+  void comment(const std::string& text);
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  int depth_ = 0;
+};
+
+/// Writes every field of a struct with its unit as a comment. A number that is NaN is left out.
+class FieldWriter : public FieldVisitor {
+ public:
+  explicit FieldWriter(YamlWriter& out) : out_(out) {}
+  void field(const FieldSpec& s, bool& value) override;
+  void field(const FieldSpec& s, int& value) override;
+  void field(const FieldSpec& s, std::uint64_t& value) override;
+  void field(const FieldSpec& s, double& value) override;
+  void field(const FieldSpec& s, std::optional<double>& value) override;
+  void field(const FieldSpec& s, std::string& value) override;
+  void field(const FieldSpec& s, std::vector<double>& value) override;
+
+ private:
+  YamlWriter& out_;
+};
+
+}  // namespace gapscope::internal
