@@ -1,5 +1,6 @@
 #include "gapscope/simulation/simulate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,6 +16,13 @@ Mode mode_of(const DriveStepper<double>& stepper) {
   return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;
 }
 
+/// The coarser of the sheet's quantum and one that an effect gives.
+double real_quantum(const StepperModel<double>& model, double quantum) {
+  for (const ActiveEffect<double>& e : model.effects)
+    if (e.hooks->quantum != nullptr) quantum = std::max(quantum, e.hooks->quantum(e.parameters));
+  return quantum;
+}
+
 }  // namespace
 
 Recording simulate(const StepperModel<double>& model, std::span<const double> u,
@@ -27,13 +35,13 @@ Recording simulate(const StepperModel<double>& model, std::span<const double> u,
   r.x1.reserve(u.size());
   r.mode.reserve(u.size());
   auto noise = random_stream(options.seed, "encoder noise");
+  const double quantum = real_quantum(model, options.encoder.quantum);
   DriveStepper<double> stepper(model, r.dt);
   stepper.reset(options.initial);
   for (const double input : u) {
-    double x1 = stepper.state().x1;
+    double x1 = stepper.measured();
     if (options.encoder.noise > 0.0) x1 += options.encoder.noise * normal(noise);
-    if (options.encoder.quantum > 0.0)
-      x1 = options.encoder.quantum * std::nearbyint(x1 / options.encoder.quantum);
+    if (quantum > 0.0) x1 = quantum * std::nearbyint(x1 / quantum);
     r.x1.push_back(x1);
     if (model.structure.has_load) r.x2.push_back(stepper.state().x2);
     r.mode.push_back(mode_of(stepper));
