@@ -11,13 +11,13 @@ namespace gapscope {
 enum class FitStatus { kNotRun, kConverged, kNotConverged, kFailed };
 
 struct FittedParameter {
-  std::string key;    ///< as in the YAML
+  std::string key;  ///< as in the YAML
   std::string unit;
   double start = kNaN;
   double value = kNaN;
   double std = kNaN;
-  Interval ci95;              ///< NaN bounds when it is not identifiable or not estimated
-  double low = kNaN;          ///< bounds
+  Interval ci95;      ///< NaN bounds when it is not identifiable or not estimated
+  double low = kNaN;  ///< bounds
   double high = kNaN;
   bool estimated = false;     ///< false: fixed at its value
   bool identifiable = false;  ///< estimated and determined by the recordings
@@ -27,8 +27,9 @@ struct FittedParameter {
 /// Free run of the fitted model beside one recording.
 struct FitTrace {
   std::string file;
-  std::vector<double> x1;   ///< [rad]
-  std::vector<double> x2;   ///< [rad]; empty for a drive without a load behind a gap
+  std::vector<double> x1;            ///< [rad]
+  std::vector<double> predicted_x1;  ///< of the model run as an observer, one step ahead [rad]
+  std::vector<double> x2;            ///< [rad]; empty for a drive without a load behind a gap
   std::vector<Mode> mode;
 };
 
@@ -43,21 +44,24 @@ struct ModeError {
 struct FitSummary {
   FitStatus status = FitStatus::kNotRun;
   std::string message = "fit() was not called.";
-  double rmse = kNaN;            ///< free-run x1 − recorded x1, all recordings [rad]
-  double floor = kNaN;           ///< what the encoder alone leaves [rad]
-  int starts = 0;                ///< starting points tried
-  int simulations = 0;           ///< plain simulations spent, a Jet run counted as its measured cost
-  double lag1_autocorrelation = kNaN;       ///< of the residual [-]
+  double rmse = kNaN;                  ///< free-run x1 − recorded x1, all recordings [rad]
+  double floor = kNaN;                 ///< what the encoder alone leaves [rad]
+  double innovation_rmse = kNaN;       ///< one-step prediction error of the model run as an observer [rad]
+  double observer_hz = kNaN;           ///< poles of that observer [Hz]
+  double objective_hz = kNaN;          ///< poles of the observer that gave the values; 0: the free run [Hz]
+  int starts = 0;                      ///< starting points tried
+  int simulations = 0;                 ///< plain simulations spent, a Jet run counted as its measured cost
+  double lag1_autocorrelation = kNaN;  ///< of the residual [-]
   std::vector<FittedParameter> parameters;  ///< estimated and fixed, in the order of the YAML keys
   std::vector<FitTrace> traces;
   std::vector<ModeError> mode_errors;
-  std::vector<double> start_costs;          ///< final cost of each start, best first (waterfall)
-  std::vector<std::string> warnings;        ///< null directions, bounds, advice: one sentence each
+  std::vector<double> start_costs;    ///< final cost of each start, best first (waterfall)
+  std::vector<std::string> warnings;  ///< null directions, bounds, advice: one sentence each
 
   bool converged() const { return status == FitStatus::kConverged; }
   const FittedParameter* find(const std::string& key) const;  ///< nullptr if there is none of that key
-  std::string brief_report() const;  ///< one line: log, command line
-  std::string full_report() const;   ///< table: terminal, report.md
+  std::string brief_report() const;                           ///< one line: log, command line
+  std::string full_report() const;                            ///< table: terminal, report.md
 };
 
 }  // namespace gapscope

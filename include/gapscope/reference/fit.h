@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gapscope/base/fields.h"
+#include "gapscope/plant/effect.h"
+#include "gapscope/recording/recording.h"
+#include "gapscope/reference/fit_summary.h"
+
+namespace gapscope {
+
+/// What is known beforehand of one parameter, as a Gaussian.
+struct Prior {
+  double value = kNaN;
+  double std = kNaN;
+};
+
+/// One parameter of the model: a fixed number, or one to be estimated.
+/// Bounds that are NaN are derived. With v the value (or, where it is NaN, the start that the recordings
+/// suggest), the derived bounds are
+///   gap                                            [0, travel of x1, peak to peak]
+///   motor_inertia, torque_constant, mass_ratio,
+///   contact_stiffness                              [v/100, 100 v]
+///   dampings, Coulomb frictions                    [0, 100 v], the high end at least 10 × what the
+///   recordings suggest
+struct ParameterSetting {
+  double value = kNaN;  ///< NaN: not given, which needs estimate
+  bool estimate = false;
+  double low = kNaN;
+  double high = kNaN;
+  std::optional<Prior> prior;
+};
+
+/// An effect of the catalogue that the model contains, its parameters in the order of the specification. A
+/// value that is NaN and estimated starts at a tenth of its upper bound; derived bounds are those of the
+/// catalogue. In summaries the keys read effect.parameter.
+struct ModelEffect {
+  const EffectEntry* entry = nullptr;
+  std::array<ParameterSetting, kMostEffectParameters> parameters;
+};
+
+/// The drive that is fitted. Parameters that its structure does not have are ignored: without a load only
+/// motor_inertia, torque_constant and motor_damping are used; a locked load has no mass_ratio and no load_*;
+/// a rigid contact has no contact_*.
+struct ReferenceModel {
+  DriveStructure structure;
+  std::array<ParameterSetting, kDriveParameterCount> parameters;  ///< in the order of kDriveParameters
+  std::vector<ModelEffect> effects;
+};
+
+struct FitOptions {
+  int starts = 4;                  ///< local searches at most; they stop at the first that reaches the floor
+  int max_iterations = 60;         ///< of each local search
+  double observer_hz = 2.5;        ///< poles of the observer in the search [Hz]
+  double rejected_hz = 30.0;       ///< poles when the model does not reach the encoder's floor [Hz]
+  double rejected_ratio = 3.0;     ///< innovations above this many floors: the model is not the drive
+  double loss_width = 0.0;         ///< Huber width [rad]; 0 = plain least squares
+  double max_condition = 1e12;     ///< cond(JᵀJ) [-] with scaled columns; above it: not identifiable
+  std::uint64_t seed = 1;          ///< of the starting points
+  std::optional<double> gap_seed;  ///< start of the gap from another estimate [rad]; absent: own start
+
+  void fields(FieldVisitor& visitor);  ///< the one list: keys, bounds, units, docs
+};
+
+/// Fits the drive to the input and the motor encoder alone, all recordings jointly, each with its own initial
+/// state (the load's position within the gap included).
+///
+/// 1. Search. The model runs as an observer of the encoder: innovation e = x1 measured − x1 predicted,
+///      x1 ← x1 + l1 e,  w1 ← w1 + l2 e/dt,   l1 = 1 − p², l2 = (1 − p)², p = exp(−2π f dt),
+///    both bodies alike while in contact. Least squares of e has a wide basin at f = 2 to 3 Hz. Levenberg–
+///    Marquardt from several starts; exact derivatives through every event.
+/// 2. Polish, when the innovations are at the encoder's floor: the same at zero gain, the free run. Values
+/// and
+///    intervals come from here.
+/// 3. Otherwise the model is not the drive and a free run would bend inertia and friction to hide drift:
+/// values
+///    come from the observer at rejected_hz, intervals from the scatter of windows and from how far the
+///    values move between that gain and a third of it. A warning says so.
+///
+/// A rollout that diverges is never a residual: the step is refused. Intervals are widened for autocorrelated
+/// residuals and for the quantiser (an undithered one repeats its error, it does not average out).
+/// @throws std::logic_error for an empty span, a recording of fewer than 20 samples, or a parameter that is
+///   neither given nor estimated.
+FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& model,
+               const FitOptions& options = {});
+
+}  // namespace gapscope

@@ -1,0 +1,218 @@
+#include "reference/fit_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/require.h"
+
+namespace gapscope::internal {
+namespace {
+
+enum Number {
+  kMotorInertia,
+  kTorqueConstant,
+  kMotorDamping,
+  kMassRatio,
+  kGap,
+  kLoadDamping,
+  kLoadCoulomb,
+  kStiffness,
+  kContactDamping
+};
+
+/// Rates beyond so many per sample are not tried: the recording could not show them, the simulation would
+/// crawl.
+constexpr double kStiffest = 15.0;
+
+bool in_structure(const DriveStructure& s, int number) {
+  if (number <= kMotorDamping) return true;
+  if (!s.has_load) return false;
+  if (number == kGap) return true;
+  if (number == kStiffness || number == kContactDamping) return s.contact == ContactLaw::kCompliant;
+  return s.load == LoadKind::kFree;
+}
+
+/// The size that each number probably has, from the balance of the recordings and the numbers that are given.
+std::array<double, kDriveParameterCount> suggested(const RoughDrive& rough, const ReferenceModel& model) {
+  const auto given = [&](Number n, double otherwise) {
+    const double v = model.parameters[static_cast<std::size_t>(n)].value;
+    return v > 0.0 ? v : otherwise;
+  };
+  std::array<double, kDriveParameterCount> s{};
+  const bool free_load = model.structure.has_load && model.structure.load == LoadKind::kFree;
+  const double km = s[kTorqueConstant] = given(kTorqueConstant, 1.0);
+  const double peak = std::max(km * rough.peak_input, 1e-300);
+  const double speed = std::max(rough.speed, 1e-300), travel = std::max(rough.travel, 1e-300);
+  const double inertia = rough.inertia > 0.0 ? km * rough.inertia : 0.01 * peak / speed;
+  const double damping = rough.damping > 0.0 ? km * rough.damping : 0.1 * peak / speed;
+  s[kMotorInertia] = given(kMotorInertia, free_load ? 0.5 * inertia : inertia);
+  s[kMotorDamping] = free_load ? 0.5 * damping : damping;
+  s[kMassRatio] = std::clamp(inertia / s[kMotorInertia] - 1.0, 0.1, 10.0);
+  s[kGap] = 0.2 * travel;
+  s[kLoadDamping] = 0.5 * damping;
+  s[kLoadCoulomb] = std::clamp(km * rough.friction, 0.02 * peak, 0.6 * peak);
+  s[kStiffness] = (free_load ? 30.0 : 4.0) * peak / travel;
+  const double mu = given(kMassRatio, s[kMassRatio]);
+  const double reduced = s[kMotorInertia] * (free_load ? mu / (1.0 + mu) : 1.0);
+  s[kContactDamping] = 0.2 * std::sqrt(given(kStiffness, s[kStiffness]) * reduced);
+  return s;
+}
+
+Interval derived_bounds(int number, double start, double suggestion, const RoughDrive& rough) {
+  switch (number) {
+    case kGap:
+      return {0.0, std::max(rough.travel, 1e-12)};
+    case kMotorInertia:
+    case kTorqueConstant:
+    case kMassRatio:
+    case kStiffness:
+      return {0.01 * start, 100.0 * start};
+    default:
+      return {0.0, std::max(100.0 * start, 10.0 * suggestion)};
+  }
+}
+
+/// Least value that the equations of motion allow.
+double lowest_sensible(int number, double typical) {
+  return number == kMotorInertia || number == kMassRatio || number == kStiffness ? 1e-4 * typical
+                                                                                 : -kInfinity;
+}
+
+Parameter start_parameter(int number, const ParameterSetting& setting, double suggestion) {
+  Parameter p;
+  p.number = number;
+  p.estimated = setting.estimate;
+  p.given = std::isfinite(setting.value);
+  GAPSCOPE_REQUIRE(p.given || p.estimated);
+  p.start = p.given ? setting.value : suggestion;
+  p.prior = setting.prior;
+  return p;
+}
+
+void set_bounds(Parameter& p, const ParameterSetting& setting, const Interval& derived, double lowest) {
+  p.low = std::max(std::isfinite(setting.low) ? setting.low : derived.low, lowest);
+  p.high = std::max(std::isfinite(setting.high) ? setting.high : derived.high, p.low);
+  p.start = std::clamp(p.start, p.low, p.high);
+}
+
+Parameter drive_number(int number, const ParameterSetting& setting, double suggestion,
+                       const RoughDrive& rough) {
+  Parameter p = start_parameter(number, setting, suggestion);
+  p.key = kDriveParameters[number].key;
+  p.unit = kDriveParameters[number].unit;
+  if (!p.estimated) return p;
+  p.typical = p.start > 0.0 ? p.start : suggestion;
+  set_bounds(p, setting, derived_bounds(number, p.start, suggestion, rough),
+             lowest_sensible(number, p.typical));
+  p.coordinate = Coordinate::logarithmic(p.typical);
+  return p;
+}
+
+Parameter effect_number(int number, const EffectEntry& effect, const EffectParameterSpec& spec,
+                        const ParameterSetting& setting, const ScaleContext& context) {
+  const double scale = scale_value(spec.scale, context);
+  Parameter p = start_parameter(number, setting, spec.low * scale + 0.1 * (spec.high - spec.low) * scale);
+  p.key = std::string(effect.name) + "." + spec.key;
+  p.unit = spec.unit;
+  if (!p.estimated) return p;
+  set_bounds(p, setting, {spec.low * scale, spec.high * scale}, -kInfinity);
+  p.typical = p.start != 0.0 ? std::abs(p.start) : 0.01 * std::max(std::abs(p.low), std::abs(p.high));
+  p.coordinate = p.low >= 0.0 ? Coordinate::logarithmic(p.typical) : Coordinate::linear(p.start, p.typical);
+  return p;
+}
+
+ReferenceModel with_gap_seed(ReferenceModel model, const FitOptions& options) {
+  if (options.gap_seed && *options.gap_seed > 0.0 && model.parameters[kGap].estimate)
+    model.parameters[kGap].value = *options.gap_seed;
+  return model;
+}
+
+void add_drive(FitProblem& problem, const ReferenceModel& model,
+               const std::array<double, kDriveParameterCount>& sizes) {
+  for (int n = 0; n < kDriveParameterCount; ++n) {
+    if (!in_structure(model.structure, n)) continue;
+    const auto i = static_cast<std::size_t>(n);
+    problem.parameters.push_back(drive_number(n, model.parameters[i], sizes[i], problem.rough));
+    const Parameter& p = problem.parameters.back();
+    if (n == kLoadCoulomb) problem.load_may_stick = p.estimated || p.start > 0.0;
+  }
+}
+
+/// What the bounds of effects are measured in.
+ScaleContext scales(const FitProblem& problem, const std::array<double, kDriveParameterCount>& sizes) {
+  ScaleContext context;
+  const MotorTrace& first = problem.recordings.front();
+  context.peak_input = problem.rough.peak_input;
+  context.peak_speed = problem.rough.peak_speed;
+  context.travel = problem.rough.travel;
+  context.quantum = std::max(first.quantum, problem.floors.front());
+  context.dt = first.dt;
+  context.duration = first.dt * static_cast<double>(first.size());
+  for (int n = 0; n < kDriveParameterCount; ++n)
+    drive_parameter(context.nominal, n) = sizes[static_cast<std::size_t>(n)];
+  for (const Parameter& p : problem.parameters) drive_parameter(context.nominal, p.number) = p.start;
+  return context;
+}
+
+void add_effects(FitProblem& problem, const ReferenceModel& model, const ScaleContext& context) {
+  int number = kDriveParameterCount;
+  for (const ModelEffect& effect : model.effects) {
+    GAPSCOPE_REQUIRE(effect.entry != nullptr);
+    problem.effects.push_back(effect.entry);
+    const auto& specs = effect.entry->parameters;
+    for (std::size_t i = 0; i < specs.size(); ++i)
+      problem.parameters.push_back(effect_number(number + static_cast<int>(i), *effect.entry, specs[i],
+                                                 effect.parameters[i], context));
+    number += kMostEffectParameters;
+  }
+}
+
+}  // namespace
+
+std::vector<int> FitProblem::free_states(const RecordingStart& start, bool free_run) const {
+  std::vector<int> states;
+  if (free_run) states.push_back(0);  // an observer has corrected it after a few samples
+  if (start.moves || !motor_may_stick) states.push_back(1);  // a body that sticks has no other speed than 0
+  if (structure.has_load) states.push_back(2);
+  if (structure.has_load && !locked() && start.variant.load_moves) states.push_back(3);
+  return states;
+}
+
+double FitProblem::stiffness(const ModelNumbers<double>& n) const {
+  const double m1 = n[kMotorInertia];
+  double rate = n[kMotorDamping] / m1;
+  if (!structure.has_load) return rate;
+  const double inverse = 1.0 / m1 + (locked() ? 0.0 : 1.0 / (m1 * n[kMassRatio]));
+  if (!locked()) rate = std::max(rate, n[kLoadDamping] / (m1 * n[kMassRatio]));
+  return rate + std::sqrt(n[kStiffness] * inverse) + n[kContactDamping] * inverse;
+}
+
+FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceModel& given,
+                        const FitOptions& options) {
+  GAPSCOPE_REQUIRE(!recordings.empty());
+  for (const MotorTrace& r : recordings) {
+    GAPSCOPE_REQUIRE(r.size() >= 20);
+    GAPSCOPE_REQUIRE(r.u.size() == r.size());
+  }
+  const ReferenceModel model = with_gap_seed(given, options);
+  FitProblem problem;
+  problem.recordings = recordings;
+  problem.structure = model.structure;
+  problem.options = options;
+  problem.rough = rough_drive(recordings);
+  for (const MotorTrace& r : recordings) problem.floors.push_back(encoder_floor(r));
+  const std::array<double, kDriveParameterCount> sizes = suggested(problem.rough, model);
+  add_drive(problem, model, sizes);
+  add_effects(problem, model, scales(problem, sizes));
+  for (std::size_t i = 0; i < problem.parameters.size(); ++i)
+    if (problem.parameters[i].estimated) problem.free.push_back(static_cast<int>(i));
+  std::vector<double> q;
+  for (std::size_t i = 0; i < problem.free_count(); ++i)
+    q.push_back(problem.free_parameter(i).coordinate.solver(problem.free_parameter(i).start));
+  const ModelNumbers<double> numbers = problem.numbers(q.data());
+  problem.motor_may_stick = problem.stepper_model(numbers).motor_sticks;
+  problem.stiffest = std::max(kStiffest / recordings.front().dt, 3.0 * problem.stiffness(numbers));
+  return problem;
+}
+
+}  // namespace gapscope::internal

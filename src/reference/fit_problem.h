@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gapscope/reference/fit.h"
+#include "gapscope/simulation/stepper.h"
+#include "reference/coordinate.h"
+#include "reference/rough_drive.h"
+
+namespace gapscope::internal {
+
+/// Every number of the model: the drive's parameters, then kMostEffectParameters for each effect.
+template <class T>
+using ModelNumbers = std::vector<T>;
+
+/// One number that the model's structure has.
+struct Parameter {
+  int number = 0;  ///< its place in ModelNumbers
+  std::string key, unit;
+  double start = kNaN;
+  double low = kNaN, high = kNaN;
+  double typical = kNaN;  ///< size at which it would matter
+  bool estimated = false;
+  bool given = true;  ///< false: the start was derived from the recordings
+  std::optional<Prior> prior;
+  Coordinate coordinate;
+};
+
+/// Where the load may be at the first sample, relative to the motor.
+struct InitialVariant {
+  int side = 0;             ///< −1, +1: at that edge of the gap, 0: in its middle
+  bool load_moves = false;  ///< with the speed of the motor; else at rest
+};
+
+/// Initial state of one recording in solver units, all linear:
+///   x1(0) = x̄1 + s0 q0,  w1(0) = w̄1 + s1 q1,  x2(0) = x1(0) − side β − s2 q2,  w2(0) = w1(0) + s3 q3 (or 0)
+constexpr int kStates = 4;
+struct RecordingStart {
+  double x1 = 0.0, w1 = 0.0;  ///< x̄1, w̄1 from a local polynomial
+  bool moves = false;         ///< w̄1 is clearly not zero
+  InitialVariant variant;
+  std::array<double, kStates> scale{};
+  std::array<double, kStates> q{};
+};
+
+/// All that the searches share: data, floor, parameters, and the counted cost.
+struct FitProblem {
+  std::span<const MotorTrace> recordings;
+  DriveStructure structure;
+  FitOptions options;
+  RoughDrive rough;
+  std::vector<double> floors;         ///< per recording [rad]
+  std::vector<Parameter> parameters;  ///< all of the structure, in the order of the keys
+  std::vector<int> free;              ///< indices of the estimated ones
+  std::vector<const EffectEntry*> effects;
+  bool load_may_stick = false, motor_may_stick = false;
+  double stiffest = kInfinity;  ///< rate beyond which a trial is refused [1/s]
+  mutable double simulations = 0.0;
+
+  std::size_t free_count() const { return free.size(); }
+  const Parameter& free_parameter(std::size_t i) const {
+    return parameters[static_cast<std::size_t>(free[i])];
+  }
+  bool locked() const { return structure.has_load && structure.load == LoadKind::kLocked; }
+
+  /// The initial numbers of a recording that are searched. Under an observer the motor's own do not matter.
+  std::vector<int> free_states(const RecordingStart& start, bool free_run) const;
+
+  /// Fastest rate of the drive, in contact [1/s].
+  double stiffness(const ModelNumbers<double>& n) const;
+
+  /// Physical numbers from the solver's vector of the free ones.
+  template <class T>
+  ModelNumbers<T> numbers(const T* q) const {
+    ModelNumbers<T> n(kDriveParameterCount + effects.size() * kMostEffectParameters, T(0.0));
+    for (const Parameter& p : parameters) n[static_cast<std::size_t>(p.number)] = T(p.start);
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const Parameter& p = free_parameter(i);
+      n[static_cast<std::size_t>(p.number)] = p.coordinate.physical(q[i]);
+    }
+    return n;
+  }
+
+  template <class T>
+  StepperModel<T> stepper_model(const ModelNumbers<T>& n) const {
+    StepperModel<T> model;
+    for (int i = 0; i < kDriveParameterCount; ++i)
+      drive_parameter(model.drive, i) = n[static_cast<std::size_t>(i)];
+    model.structure = structure;
+    model.load_sticks = load_may_stick;
+    std::span<const T> rest = std::span<const T>(n).subspan(kDriveParameterCount);
+    for (const EffectEntry* e : effects) {
+      add_effect(model, *e, rest.first(e->parameters.size()));
+      rest = rest.subspan(kMostEffectParameters);
+    }
+    return model;
+  }
+
+  /// Initial state from all four solver numbers of a recording.
+  template <class T>
+  DriveState<T> state(const RecordingStart& start, const T& half_gap, const T* q) const {
+    DriveState<T> z;
+    z.x1 = start.x1 + start.scale[0] * q[0];
+    z.w1 = start.w1 + start.scale[1] * q[1];
+    if (!structure.has_load) return z;
+    z.x2 = z.x1 - static_cast<double>(start.variant.side) * half_gap - start.scale[2] * q[2];
+    if (start.variant.load_moves && !locked()) z.w2 = z.w1 + start.scale[3] * q[3];
+    return z;
+  }
+};
+
+/// Reads the settings and the recordings. @throws std::logic_error, see fit().
+FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceModel& model,
+                        const FitOptions& options);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,75 @@
+#include "gapscope/reference/fit_summary.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace gapscope {
+namespace {
+
+const char* to_string(FitStatus status) {
+  switch (status) {
+    case FitStatus::kNotRun:
+      return "not run";
+    case FitStatus::kConverged:
+      return "converged";
+    case FitStatus::kNotConverged:
+      return "not converged";
+    case FitStatus::kFailed:
+      return "failed";
+  }
+  return "";
+}
+
+std::string number(double v) { return std::isnan(v) ? "-" : fmt::format("{:.6g}", v); }
+
+std::string note(const FittedParameter& p) {
+  if (!p.estimated) return "fixed";
+  if (!p.identifiable) return "not identifiable";
+  return p.at_bound ? "at its bound" : "";
+}
+
+}  // namespace
+
+const FittedParameter* FitSummary::find(const std::string& key) const {
+  for (const FittedParameter& p : parameters)
+    if (p.key == key) return &p;
+  return nullptr;
+}
+
+std::string FitSummary::brief_report() const {
+  std::string text = fmt::format("reference: {}", to_string(status));
+  if (status == FitStatus::kNotRun || status == FitStatus::kFailed) return text + ": " + message;
+  if (const FittedParameter* gap = find("gap"); gap != nullptr && gap->estimated) {
+    text += fmt::format(", gap {}", number(gap->value));
+    text += gap->identifiable ? fmt::format(" [{}, {}]", number(gap->ci95.low), number(gap->ci95.high))
+                              : " (not identifiable)";
+  }
+  text += fmt::format(", free-run error {} (floor {})", number(rmse), number(floor));
+  if (!warnings.empty())
+    text += fmt::format(", {} warning{}", warnings.size(), warnings.size() > 1 ? "s" : "");
+  return text;
+}
+
+std::string FitSummary::full_report() const {
+  std::string text = fmt::format("Reference fit: {}. {}\n", to_string(status), message);
+  if (status == FitStatus::kNotRun) return text;
+  text += fmt::format("{:<34} {:>12} {:>12} {:>12} {:>26}  {}\n", "parameter", "start", "value", "std",
+                      "95 %", "");
+  for (const FittedParameter& p : parameters) {
+    const std::string interval =
+        std::isnan(p.ci95.low) ? "-" : fmt::format("{} .. {}", number(p.ci95.low), number(p.ci95.high));
+    text += fmt::format("{:<34} {:>12} {:>12} {:>12} {:>26}  {}\n", fmt::format("{} [{}]", p.key, p.unit),
+                        number(p.start), number(p.value), number(p.std), interval, note(p));
+  }
+  text += fmt::format("free-run error {}, prediction error {} at {} Hz, encoder floor {}\n", number(rmse),
+                      number(innovation_rmse), number(observer_hz), number(floor));
+  for (const ModeError& m : mode_errors)
+    text += fmt::format("  {:<12} {:>8} samples, error {}\n", to_string(m.mode), m.samples, number(m.rmse));
+  text += fmt::format("lag-1 autocorrelation {}, {} starts, {} simulations\n", number(lag1_autocorrelation),
+                      starts, simulations);
+  for (const std::string& w : warnings) text += "warning: " + w + "\n";
+  return text;
+}
+
+}  // namespace gapscope

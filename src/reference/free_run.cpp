@@ -1,0 +1,74 @@
+#include "reference/free_run.h"
+
+#include <cmath>
+
+#include "reference/rollout.h"
+
+namespace gapscope::internal {
+namespace {
+
+Mode mode_of(const DriveStepper<double>& stepper) {
+  if (stepper.closed_in_last_step()) return Mode::kImpact;
+  const int contact = stepper.mode().contact;
+  return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;
+}
+
+double error(const FitProblem& problem, const std::vector<FitTrace>& traces,
+             std::vector<double> FitTrace::*column) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t r = 0; r < traces.size(); ++r) {
+    const std::vector<double>& x = traces[r].*column;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += std::pow(problem.recordings[r].x1[i] - x[i], 2);
+    count += static_cast<double>(x.size());
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : kNaN;
+}
+
+}  // namespace
+
+FitTrace trace_of(const FitProblem& problem, const Solution& at, std::size_t r, double observer_hz) {
+  const MotorTrace& recording = problem.recordings[r];
+  const StepperModel<double> model = problem.stepper_model(problem.numbers(at.q.data()));
+  const DriveState<double> start = problem.state(at.starts[r], 0.5 * model.drive.gap, at.starts[r].q.data());
+  const bool has_load = problem.structure.has_load;
+  FitTrace t;
+  t.file = recording.file;
+  problem.simulations += 2.0;
+  if (!roll_out(model, start, recording, {}, [&](std::size_t, const DriveStepper<double>& stepper) {
+        t.x1.push_back(stepper.measured());
+        if (has_load) t.x2.push_back(stepper.state().x2);
+        t.mode.push_back(mode_of(stepper));
+      })) {
+    t.x1.clear(), t.x2.clear(), t.mode.clear();
+  }
+  const ObserverGain gain = ObserverGain::poles(observer_hz, recording.dt);
+  if (!roll_out(model, start, recording, gain, [&](std::size_t, const DriveStepper<double>& stepper) {
+        t.predicted_x1.push_back(stepper.measured());
+      }))
+    t.predicted_x1.clear();
+  return t;
+}
+
+double free_run_error(const FitProblem& problem, const std::vector<FitTrace>& traces) {
+  return error(problem, traces, &FitTrace::x1);
+}
+double prediction_error(const FitProblem& problem, const std::vector<FitTrace>& traces) {
+  return error(problem, traces, &FitTrace::predicted_x1);
+}
+
+std::vector<ModeError> errors_by_mode(const FitProblem& problem, const std::vector<FitTrace>& traces) {
+  std::vector<ModeError> errors;
+  if (!problem.structure.has_load) return errors;
+  for (const Mode mode : {Mode::kGap, Mode::kEngagementPlus, Mode::kEngagementMinus, Mode::kImpact}) {
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t r = 0; r < traces.size(); ++r)
+      for (std::size_t i = 0; i < traces[r].x1.size(); ++i)
+        if (traces[r].mode[i] == mode)
+          sum += std::pow(problem.recordings[r].x1[i] - traces[r].x1[i], 2), ++count;
+    if (count > 0) errors.push_back({mode, count, std::sqrt(sum / count)});
+  }
+  return errors;
+}
+
+}  // namespace gapscope::internal

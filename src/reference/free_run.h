@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "gapscope/reference/fit_summary.h"
+#include "reference/solve.h"
+
+namespace gapscope::internal {
+
+/// Free run and one-step prediction of a solution beside recording r. Empty columns where the motion
+/// diverges.
+FitTrace trace_of(const FitProblem& problem, const Solution& at, std::size_t r, double observer_hz);
+
+/// Root mean square of recorded − modelled x1 over all recordings [rad]; NaN without traces.
+double free_run_error(const FitProblem& problem, const std::vector<FitTrace>& traces);
+double prediction_error(const FitProblem& problem, const std::vector<FitTrace>& traces);
+
+/// Free-run error in each mode of the fitted model that occurs.
+std::vector<ModeError> errors_by_mode(const FitProblem& problem, const std::vector<FitTrace>& traces);
+
+}  // namespace gapscope::internal

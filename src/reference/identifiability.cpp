@@ -1,0 +1,179 @@
+#include "reference/identifiability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kShareInCombination = 0.05;  ///< of the largest change, for a parameter to be named
+
+/// The free numbers that the recordings see at all, and those among them that no null direction touches.
+struct Directions {
+  std::vector<Eigen::Index> seen;
+  std::vector<bool> in_null;  ///< per free number
+  Eigen::MatrixXd inverse;  ///< of the normal matrix within the determined directions (n × n), zero elsewhere
+};
+
+/// The standard error that a parameter would have if all others were known [its unit].
+double error_alone(const FitProblem& problem, const Solution& at, const Information& info, std::size_t i) {
+  const auto k = static_cast<Eigen::Index>(i);
+  const double slope = problem.free_parameter(i).coordinate.slope(at.q[i]);
+  return slope * std::sqrt(info.variance / std::max(info.normal(k, k), 1e-300));
+}
+
+double size_of(const FitProblem& problem, const Solution& at, std::size_t i) {
+  const Parameter& p = problem.free_parameter(i);
+  return std::max(p.typical, std::abs(p.coordinate.physical(at.q[i])));
+}
+
+std::string list(const std::vector<std::string>& keys) {
+  std::string text;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == keys.size() ? " and " : ", ") + keys[i];
+  return text;
+}
+
+/// Names the parameters of one null direction v (normalised columns) and marks them: those that change by a
+/// share of the largest relative change among the well visible ones.
+void mark_null(const FitProblem& problem, const Eigen::VectorXd& v, const Eigen::VectorXd& norm,
+               Directions& directions, Determined& determined) {
+  std::vector<std::string> keys;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (std::abs(v[i]) > kShareInCombination * v.cwiseAbs().maxCoeff())
+      largest = std::max(largest, std::abs(v[i]) / norm[i]);
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    const auto k = static_cast<std::size_t>(directions.seen[static_cast<std::size_t>(i)]);
+    if (std::abs(v[i]) / norm[i] < kShareInCombination * largest) continue;
+    directions.in_null[k] = true;
+    if (k < problem.free_count()) keys.push_back(problem.free_parameter(k).key);
+  }
+  if (keys.empty()) return;
+  determined.warnings.push_back(
+      keys.size() == 1
+          ? fmt::format("{} cannot be told apart from the initial state: not identifiable.", keys[0])
+          : fmt::format(
+                "{} change the motion together without a trace: only a combination is identifiable; fix one "
+                "of them.",
+                list(keys)));
+}
+
+Directions directions_of(const FitProblem& problem, const Information& info, Determined& determined) {
+  Directions d;
+  const Eigen::Index n = info.normal.rows();
+  d.in_null.assign(static_cast<std::size_t>(n), false);
+  d.inverse = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (static_cast<std::size_t>(k) >= problem.free_count() ||
+        determined.identifiable[static_cast<std::size_t>(k)])
+      d.seen.push_back(k);
+  const auto m = static_cast<Eigen::Index>(d.seen.size());
+  if (m == 0) return d;
+  Eigen::MatrixXd scaled(m, m);
+  Eigen::VectorXd norm(m);
+  for (Eigen::Index i = 0; i < m; ++i) norm[i] = std::sqrt(info.normal(d.seen[size_t(i)], d.seen[size_t(i)]));
+  for (Eigen::Index i = 0; i < m; ++i)
+    for (Eigen::Index j = 0; j < m; ++j)
+      scaled(i, j) = info.normal(d.seen[size_t(i)], d.seen[size_t(j)]) / (norm[i] * norm[j]);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  const double least = eigen.eigenvalues()[m - 1] / problem.options.max_condition;
+  for (Eigen::Index e = 0; e < m; ++e) {
+    const Eigen::VectorXd v = eigen.eigenvectors().col(e);
+    if (eigen.eigenvalues()[e] < least) {
+      mark_null(problem, v, norm, d, determined);
+      continue;
+    }
+    for (Eigen::Index i = 0; i < m; ++i)
+      for (Eigen::Index j = 0; j < m; ++j)
+        d.inverse(d.seen[size_t(i)], d.seen[size_t(j)]) +=
+            v[i] * v[j] / (norm[i] * norm[j] * eigen.eigenvalues()[e]);
+  }
+  return d;
+}
+
+/// Variances of all free numbers in solver units.
+Eigen::VectorXd variances(const Information& info, const Eigen::MatrixXd& inverse) {
+  const double count = std::max(2, info.window_count);
+  const Eigen::VectorXd white = info.variance * info.inflation * inverse.diagonal();
+  const Eigen::VectorXd scatter = count / (count - 1.0) * (inverse * info.windows * inverse).diagonal();
+  const Eigen::VectorXd counts = (inverse * info.quantiser * inverse).diagonal();
+  return white.cwiseMax(scatter).cwiseMax(counts);
+}
+
+/// The parameter that another one is confounded with most; empty below a correlation of 0.95.
+std::string partner(const FitProblem& problem, const Eigen::MatrixXd& inverse, std::size_t i) {
+  double strongest = 0.95;
+  std::string key;
+  for (std::size_t j = 0; j < problem.free_count(); ++j) {
+    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+    const double r = std::abs(inverse(a, b)) / std::sqrt(inverse(a, a) * inverse(b, b));
+    if (j == i || !(r > strongest)) continue;
+    strongest = r;
+    key = problem.free_parameter(j).key;
+  }
+  return key;
+}
+
+void judge(const FitProblem& problem, const Solution& at, const Directions& d, std::size_t i, double std,
+           Determined& determined) {
+  const Parameter& p = problem.free_parameter(i);
+  if (d.in_null[i]) {
+    determined.identifiable[i] = false;
+  } else if (!(std < size_of(problem, at, i))) {
+    const std::string with = partner(problem, d.inverse, i);
+    determined.identifiable[i] = false;
+    determined.warnings.push_back(fmt::format(
+        "{} is not determined by the recordings (standard error {:.2g} {}{}): needed is {}.", p.key, std,
+        p.unit, with.empty() ? "" : ", confounded with " + with, excitation_for(p.key)));
+  } else {
+    determined.std[i] = std;
+  }
+}
+
+}  // namespace
+
+std::string excitation_for(const std::string& key) {
+  static const std::map<std::string, std::string> advice = {
+      {"motor_inertia", "faster changes of the input"},
+      {"torque_constant", "a known torque or a known inertia"},
+      {"motor_damping", "more speed, or more passages through the gap"},
+      {"mass_ratio", "fast changes of the input with the contact closed, and passages through the gap"},
+      {"gap", "a motion that closes the contact on both sides"},
+      {"load_damping", "more speed with the contact closed"},
+      {"load_coulomb_friction", "slow reversals that move the load"},
+      {"contact_stiffness", "impacts, or a larger torque in contact"},
+      {"contact_damping", "harder impacts"}};
+  const auto found = advice.find(key);
+  return found == advice.end() ? "an input that brings this effect out" : found->second;
+}
+
+Determined determine(const FitProblem& problem, const Solution& at, const Information& info,
+                     const std::vector<double>& shift) {
+  const std::size_t n = problem.free_count();
+  Determined determined;
+  determined.std.assign(n, kNaN);
+  determined.identifiable.assign(n, info.valid);
+  if (!info.valid) return determined;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (error_alone(problem, at, info, i) < size_of(problem, at, i)) continue;
+    const std::string& key = problem.free_parameter(i).key;
+    determined.identifiable[i] = false;
+    determined.warnings.push_back(
+        fmt::format("{} leaves no trace in the recordings: needed is {}.", key, excitation_for(key)));
+  }
+  const Directions d = directions_of(problem, info, determined);
+  const Eigen::VectorXd variance = variances(info, d.inverse);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!determined.identifiable[i]) continue;
+    const double slope = problem.free_parameter(i).coordinate.slope(at.q[i]);
+    const double own = slope * std::sqrt(variance[static_cast<Eigen::Index>(i)]);
+    judge(problem, at, d, i, shift.empty() ? own : std::hypot(own, shift[i]), determined);
+  }
+  return determined;
+}
+
+}  // namespace gapscope::internal

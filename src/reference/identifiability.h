@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/information.h"
+
+namespace gapscope::internal {
+
+/// What could be determined of each free parameter, in the order of FitProblem::free.
+struct Determined {
+  std::vector<double> std;  ///< [unit of the parameter]; NaN where it is not identifiable
+  std::vector<bool> identifiable;
+  double quantile = 1.96;  ///< half width of the 95 % interval in std
+  std::vector<std::string> warnings;
+};
+
+/// Standard errors, and what is not determined:
+/// - alone: a column of the Jacobian is (nearly) zero;
+/// - in combination: an eigenvector of the normalised JᵀJ with a relative eigenvalue below 1/max_condition;
+/// - in practice: the standard error exceeds the parameter itself.
+/// The variance of a parameter is the largest of: that of autocorrelated residuals, that from the scatter of
+/// the windows' scores, and that of the quantiser.
+/// @param shift  change of each free parameter [its unit] to another observer gain, counted as an error of
+/// its own
+Determined determine(const FitProblem& problem, const Solution& at, const Information& information,
+                     const std::vector<double>& shift = {});
+
+/// The excitation that would determine a parameter, as half a sentence.
+std::string excitation_for(const std::string& key);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,147 @@
+#include "reference/information.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/recording_cost.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr int kWindows = 24;  ///< the recordings are cut into about so many, for the scatter of scores
+constexpr int kPhases = 16;   ///< places of the counts within a quantum that are tried
+constexpr std::size_t kMostLags = 2000;
+
+/// One recording's part: its residuals and Jacobian, and where its columns go.
+struct Part {
+  Eigen::VectorXd residuals;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
+  std::vector<Eigen::Index> columns;
+};
+
+/// Adds the small symmetric matrix of one recording to the whole one.
+void scatter(const Eigen::MatrixXd& part, const std::vector<Eigen::Index>& columns, Eigen::MatrixXd& whole) {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      whole(columns[i], columns[j]) += part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+}
+
+bool fill(const FitProblem& problem, const Solution& at, std::size_t r, double hz, Eigen::Index& used,
+          Part& part) {
+  const RecordingCost cost(problem, r, at.starts[r], hz);
+  std::vector<double> q = at.q;
+  for (std::size_t i = 0; i < at.q.size(); ++i) part.columns.push_back(static_cast<Eigen::Index>(i));
+  for (const int s : cost.states()) {
+    q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
+    part.columns.push_back(used++);
+  }
+  const auto samples = static_cast<Eigen::Index>(problem.recordings[r].size());
+  part.residuals.resize(samples);
+  part.jacobian.resize(samples, cost.numbers());
+  return cost.evaluate(q.data(), part.residuals.data(), part.jacobian.data());
+}
+
+Eigen::MatrixXd window_scores(const Part& part, Eigen::Index length, int& count) {
+  const Eigen::Index n = part.jacobian.cols(), samples = part.residuals.size();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index first = 0; first < samples; first += length) {
+    const Eigen::Index size = std::min(length, samples - first);
+    const Eigen::VectorXd score =
+        part.jacobian.middleRows(first, size).transpose() * part.residuals.segment(first, size);
+    sum += score * score.transpose();
+    ++count;
+  }
+  return sum;
+}
+
+/// The error of an encoder on the fitted motion, for counts that lie anywhere. Noise before the quantiser
+/// spreads its error; its first harmonic falls by exp(−2π² (noise/quantum)²).
+Eigen::MatrixXd quantiser_scores(const Part& part, const MotorTrace& recording, double floor) {
+  const Eigen::Index n = part.jacobian.cols(), samples = part.residuals.size();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  const double quantum = recording.quantum;
+  if (!(quantum > 0.0)) return sum;
+  const double square = part.residuals.squaredNorm() / static_cast<double>(samples) * floor * floor;
+  const double noise = std::sqrt(std::max(0.0, square - quantum * quantum / 12.0)) / quantum;
+  const double spread = std::exp(-2.0 * kPi * kPi * noise * noise) * quantum / floor;
+  if (spread < 1e-3) return sum;
+  Eigen::VectorXd error(samples);
+  for (int j = 0; j < kPhases; ++j) {
+    for (Eigen::Index i = 0; i < samples; ++i) {
+      const double counts =
+          (recording.x1[static_cast<std::size_t>(i)] - part.residuals[i] * floor) / quantum +
+          j / double(kPhases);
+      error[i] = (std::nearbyint(counts) - counts) * spread;
+    }
+    const Eigen::VectorXd score = part.jacobian.transpose() * error;
+    sum += score * score.transpose() / kPhases;
+  }
+  return sum;
+}
+
+double autocovariance(const Eigen::VectorXd& r, std::size_t lag) {
+  const auto k = static_cast<Eigen::Index>(lag);
+  return r.head(r.size() - k).dot(r.tail(r.size() - k));
+}
+
+/// 1 + 2 Σ ρ over the initial lags whose pairs stay positive (Geyer's rule).
+void correlation(const std::vector<Part>& parts, Information& information) {
+  const auto pooled = [&](std::size_t lag) {
+    double sum = 0.0;
+    for (const Part& p : parts)
+      if (lag < static_cast<std::size_t>(p.residuals.size())) sum += autocovariance(p.residuals, lag);
+    return sum;
+  };
+  const double zero = pooled(0);
+  if (!(zero > 0.0)) return;
+  const double one = pooled(1);
+  information.lag1 = one / zero;
+  double sum = zero + one;
+  for (std::size_t lag = 2; lag < kMostLags; lag += 2) {
+    const double pair = pooled(lag) + pooled(lag + 1);
+    if (!(pair > 0.0)) break;
+    sum += pair;
+  }
+  information.inflation = std::max(1.0, 2.0 * sum / zero - 1.0);
+}
+
+void add_priors(const FitProblem& problem, const Solution& at, Information& information) {
+  for (std::size_t i = 0; i < problem.free_count(); ++i) {
+    const Parameter& p = problem.free_parameter(i);
+    const auto k = static_cast<Eigen::Index>(i);
+    if (p.prior) information.normal(k, k) += std::pow(p.coordinate.slope(at.q[i]) / p.prior->std, 2);
+  }
+  for (auto k = static_cast<Eigen::Index>(problem.free_count()); k < information.normal.rows(); ++k)
+    information.normal(k, k) += 1.0 / (kStateWidth * kStateWidth);
+}
+
+}  // namespace
+
+Information information_at(const FitProblem& problem, const Solution& at, double observer_hz) {
+  Information information;
+  auto used = static_cast<Eigen::Index>(problem.free_count());
+  std::vector<Part> parts(at.starts.size());
+  double samples = 0.0, squares = 0.0, quantised = 0.0;
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    if (!fill(problem, at, r, observer_hz, used, parts[r])) return information;
+    const double size = static_cast<double>(parts[r].residuals.size());
+    samples += size;
+    squares += parts[r].residuals.squaredNorm();
+    quantised += size * std::pow(problem.recordings[r].quantum / problem.floors[r], 2) / 12.0;
+  }
+  information.normal = information.windows = information.quantiser = Eigen::MatrixXd::Zero(used, used);
+  const auto length = static_cast<Eigen::Index>(std::ceil(samples / kWindows));
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    const Part& p = parts[r];
+    scatter(p.jacobian.transpose() * p.jacobian, p.columns, information.normal);
+    scatter(window_scores(p, length, information.window_count), p.columns, information.windows);
+    scatter(quantiser_scores(p, problem.recordings[r], problem.floors[r]), p.columns, information.quantiser);
+  }
+  add_priors(problem, at, information);
+  information.variance = std::max(squares, quantised) / std::max(1.0, samples - static_cast<double>(used));
+  correlation(parts, information);
+  information.valid = information.normal.allFinite();
+  return information;
+}
+
+}  // namespace gapscope::internal

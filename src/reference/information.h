@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "reference/solve.h"
+
+namespace gapscope::internal {
+
+/// What the recordings say about the free numbers at a solution, in solver units. Columns: the free
+/// parameters, then the free initial numbers of each recording. Residuals are in floors.
+struct Information {
+  bool valid = false;      ///< false: the motion diverged at the solution
+  Eigen::MatrixXd normal;  ///< JᵀJ with the priors (n × n)
+  Eigen::MatrixXd windows;  ///< Σ over windows of score·scoreᵀ, score = Σ of J r within the window (n × n)
+  Eigen::MatrixXd
+      quantiser;  ///< score·scoreᵀ of the quantiser's error, averaged over where the counts lie (n × n)
+  double variance = 1.0;   ///< of a residual [floor²], never below the quantiser's
+  double inflation = 1.0;  ///< samples per independent sample, from the autocorrelation
+  double lag1 = kNaN;      ///< autocorrelation of the residual at one sample [-]
+  int window_count = 0;
+};
+
+Information information_at(const FitProblem& problem, const Solution& at, double observer_hz);
+
+}  // namespace gapscope::internal

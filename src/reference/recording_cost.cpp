@@ -1,0 +1,120 @@
+#include "reference/recording_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal {
+namespace {
+
+/// Cost of a Jet run in plain runs, as measured on one core; constants, so that the count is a function of
+/// the work alone.
+constexpr double kJet4Cost = 3.0, kJet8Cost = 6.0, kJet12Cost = 9.0;
+
+}  // namespace
+
+RecordingCost::RecordingCost(const FitProblem& problem, std::size_t recording, const RecordingStart& start,
+                             double observer_hz)
+    : problem_(problem),
+      recording_(problem.recordings[recording]),
+      start_(start),
+      states_(problem.free_states(start, observer_hz <= 0.0)),
+      shared_(problem.free_count()),
+      gain_(ObserverGain::poles(observer_hz, problem.recordings[recording].dt)),
+      floor_(problem.floors[recording]) {
+  set_num_residuals(static_cast<int>(recording_.size()));
+  if (shared_ > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(shared_));
+  if (!states_.empty()) mutable_parameter_block_sizes()->push_back(static_cast<int>(states_.size()));
+}
+
+template <class T>
+bool RecordingCost::run(const T* q, T* out) const {
+  const ModelNumbers<T> numbers = problem_.numbers(q);
+  std::array<T, kStates> initial;
+  for (std::size_t i = 0; i < kStates; ++i) initial[i] = T(start_.q[i]);
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    initial[static_cast<std::size_t>(states_[i])] = q[shared_ + i];
+  const StepperModel<T> model = problem_.stepper_model(numbers);
+  const DriveState<T> state = problem_.state(start_, T(0.5 * model.drive.gap), initial.data());
+  const double scale = 1.0 / floor_;
+  return roll_out(model, state, recording_, gain_, [&](std::size_t i, const DriveStepper<T>& stepper) {
+    out[i] = (recording_.x1[i] - stepper.measured()) * scale;
+  });
+}
+
+template <int N>
+bool RecordingCost::run_chunk(const double* q, int first, int count, double* residuals,
+                              double* jacobian) const {
+  const auto n = static_cast<std::size_t>(numbers());
+  std::vector<Jet<N>> jets(n);
+  for (std::size_t i = 0; i < n; ++i) jets[i] = Jet<N>(q[i]);
+  for (int i = 0; i < count; ++i) jets[static_cast<std::size_t>(first + i)].v[i] = 1.0;
+  std::vector<Jet<N>> out(recording_.size());
+  if (!run(jets.data(), out.data())) return false;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    residuals[k] = out[k].a;
+    for (int i = 0; i < count; ++i) jacobian[k * n + static_cast<std::size_t>(first + i)] = out[k].v[i];
+  }
+  const std::size_t last = out.size() - 1;
+  return std::isfinite(residuals[last]) && out[last].v.allFinite();
+}
+
+bool RecordingCost::evaluate(const double* q, double* residuals, double* jacobian, bool plain) const {
+  if (problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return false;
+  if (jacobian == nullptr) {
+    problem_.simulations += 1.0;
+    if (!run(q, residuals)) return false;
+  } else {
+    for (int first = 0; first < std::max(1, numbers());) {
+      const int left = numbers() - first;
+      const int count = std::min(left, 12);
+      problem_.simulations += left <= 4 ? kJet4Cost : left <= 8 ? kJet8Cost : kJet12Cost;
+      const bool done = left <= 4   ? run_chunk<4>(q, first, count, residuals, jacobian)
+                        : left <= 8 ? run_chunk<8>(q, first, count, residuals, jacobian)
+                                    : run_chunk<12>(q, first, count, residuals, jacobian);
+      if (!done) return false;
+      first += std::max(1, count);
+    }
+  }
+  if (!plain) apply_loss(residuals, jacobian);
+  return true;
+}
+
+/// Huber: r stays within the width w; beyond it becomes √(2 w |r| − w²), whose square is Huber's loss.
+void RecordingCost::apply_loss(double* residuals, double* jacobian) const {
+  const double width = problem_.options.loss_width / floor_;
+  if (!(width > 0.0)) return;
+  const auto n = static_cast<std::size_t>(numbers());
+  for (std::size_t k = 0; k < recording_.size(); ++k) {
+    const double r = residuals[k];
+    if (std::abs(r) <= width) continue;
+    const double root = std::sqrt(2.0 * width * std::abs(r) - width * width);
+    residuals[k] = std::copysign(root, r);
+    if (jacobian == nullptr) continue;
+    for (std::size_t i = 0; i < n; ++i) jacobian[k * n + i] *= width / root;
+  }
+}
+
+bool RecordingCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
+  const auto n = static_cast<std::size_t>(numbers());
+  std::vector<double> q;
+  q.reserve(n);
+  std::size_t block = 0;
+  if (shared_ > 0) q.insert(q.end(), blocks[block], blocks[block] + shared_), ++block;
+  if (!states_.empty()) q.insert(q.end(), blocks[block], blocks[block] + states_.size());
+  if (jacobians == nullptr) return evaluate(q.data(), residuals, nullptr);
+
+  const auto samples = static_cast<std::size_t>(num_residuals());
+  std::vector<double> all(samples * n);
+  if (!evaluate(q.data(), residuals, all.data())) return false;
+  std::size_t first = 0;
+  for (std::size_t b = 0; b < parameter_block_sizes().size(); ++b) {
+    const auto width = static_cast<std::size_t>(parameter_block_sizes()[b]);
+    if (jacobians[b] != nullptr)
+      for (std::size_t k = 0; k < samples; ++k)
+        std::copy_n(&all[k * n + first], width, jacobians[b] + k * width);
+    first += width;
+  }
+  return true;
+}
+
+}  // namespace gapscope::internal

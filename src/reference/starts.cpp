@@ -1,0 +1,107 @@
+#include "reference/starts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/random.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr int kDrawsPerStart = 12;   ///< looked at by plain runs, when a value was not given
+constexpr double kNearFactor = 1.6;  ///< draws around a given value
+constexpr double kFarFactor = 8.0;   ///< draws around a derived one
+
+Interval draw_range(const FitProblem& problem, const Parameter& p) {
+  if (p.key == std::string("gap") && !p.given)
+    return {0.01 * problem.rough.travel, 0.8 * problem.rough.travel};
+  const double factor = p.given ? kNearFactor : kFarFactor;
+  return {p.start / factor, p.start * factor};
+}
+
+std::vector<double> drawn(const FitProblem& problem, std::mt19937_64& generator) {
+  std::vector<double> q;
+  for (std::size_t i = 0; i < problem.free_count(); ++i) {
+    const Parameter& p = problem.free_parameter(i);
+    const Interval range = draw_range(problem, p);
+    const double value = range.low > 0.0 ? log_uniform(generator, range.low, range.high) : p.start;
+    q.push_back(p.coordinate.solver(std::clamp(value, p.low, p.high)));
+  }
+  return q;
+}
+
+std::vector<double> given_values(const FitProblem& problem) {
+  std::vector<double> q;
+  for (std::size_t i = 0; i < problem.free_count(); ++i)
+    q.push_back(problem.free_parameter(i).coordinate.solver(problem.free_parameter(i).start));
+  return q;
+}
+
+}  // namespace
+
+std::vector<InitialVariant> initial_variants(const FitProblem& problem, const RecordingStart& start) {
+  if (!problem.structure.has_load) return {{0, false}};
+  if (problem.locked() || !start.moves) return {{0, false}, {-1, false}, {1, false}};
+  return {{0, false}, {0, true}, {-1, true}, {1, true}};
+}
+
+Solution start_point(const FitProblem& problem, std::vector<double> q) {
+  Solution point;
+  point.q = std::move(q);
+  const ModelNumbers<double> numbers = problem.numbers(point.q.data());
+  const double gap = numbers[4];
+  const double length = std::max(gap, 1e-3 * problem.rough.travel);
+  for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+    const double floor = problem.floors[r];
+    const LocalMotion motion = local_motion(problem.recordings[r], floor);
+    RecordingStart start;
+    start.x1 = motion.x;
+    start.moves = std::abs(motion.w) > std::max(4.0 * motion.w_std, 1e-3 * problem.rough.speed);
+    start.w1 = start.moves ? motion.w : 0.0;
+    const double speed = std::max({problem.rough.speed, std::abs(motion.w), motion.w_std});
+    start.scale = {10.0 * floor, std::max(3.0 * motion.w_std, 0.02 * speed), 0.1 * length, 0.2 * speed};
+    start.variant = initial_variants(problem, start).front();
+    point.starts.push_back(start);
+  }
+  return point;
+}
+
+bool choose_variants(const FitProblem& problem, Solution& at, double observer_hz) {
+  bool changed = false;
+  for (std::size_t r = 0; r < at.starts.size(); ++r) {
+    double best = recording_square(problem, at.q, r, at.starts[r], observer_hz);
+    for (const InitialVariant& variant : initial_variants(problem, at.starts[r])) {
+      RecordingStart start = at.starts[r];
+      start.variant = variant;
+      start.q.fill(0.0);
+      const double cost = recording_square(problem, at.q, r, start, observer_hz);
+      if (!(cost < best)) continue;
+      best = cost;
+      at.starts[r] = start;
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+std::vector<Solution> starting_points(const FitProblem& problem, double observer_hz) {
+  const int starts = std::max(1, problem.options.starts);
+  bool all_given = true;
+  for (std::size_t i = 0; i < problem.free_count(); ++i) all_given &= problem.free_parameter(i).given;
+  const int draws = problem.free_count() == 0 ? 0 : all_given ? starts - 1 : kDrawsPerStart * starts;
+
+  auto generator = random_stream(problem.options.seed, "fit starts");
+  std::vector<Solution> points = {start_point(problem, given_values(problem))};
+  for (int i = 0; i < draws; ++i) points.push_back(start_point(problem, drawn(problem, generator)));
+  for (Solution& p : points) {
+    choose_variants(problem, p, observer_hz);
+    p.mean_square = mean_square(problem, p, observer_hz);
+  }
+  // Given values are what the user believes: they go first. Derived ones have no such rank.
+  std::stable_sort(points.begin() + (all_given ? 1 : 0), points.end(),
+                   [](const Solution& a, const Solution& b) { return a.mean_square < b.mean_square; });
+  points.resize(std::min(points.size(), static_cast<std::size_t>(starts)));
+  return points;
+}
+
+}  // namespace gapscope::internal
