@@ -10,7 +10,7 @@
 namespace gapscope::internal {
 namespace {
 
-constexpr std::size_t kBounds = 20;
+constexpr std::size_t kBounds = 24;
 constexpr std::size_t kSurrogate = 3000;  // samples
 constexpr std::size_t kSettle = 600;      // of them, not looked at
 
@@ -51,12 +51,25 @@ double first_speed(const MotorTrace& trace, const SignalFacts& facts) {
   return (trace.x1[m] - trace.x1[0]) / (trace.dt * static_cast<double>(m));
 }
 
+double quiet_share(const BankRun& run, std::size_t bound) {
+  std::size_t quiet = 0;
+  for (std::size_t i = 0; i < run.samples(); ++i)
+    quiet += std::abs(run.error(i, bound)) < 2.0 * run.floor[bound];
+  return static_cast<double>(quiet) / static_cast<double>(run.samples());
+}
+
 }  // namespace
+
+std::size_t smallest_sliding(const BankRun& run) {
+  for (std::size_t j = 0; j < run.quiet.size(); ++j)
+    if (run.quiet[j] >= 0.8) return j;
+  return run.bounds.size() - 1;
+}
 
 std::vector<double> bound_grid(const SignalFacts& facts, double dt) {
   const double omega = std::sqrt(2.0) * facts.speed_rms / facts.amplitude;
   const double low = 0.15 * facts.amplitude * omega * omega;
-  const double high = std::max(40.0 * low, 0.12 * facts.speed_rms / dt);
+  const double high = std::max(150.0 * low, 0.12 * facts.speed_rms / dt);
   std::vector<double> bounds(kBounds);
   for (std::size_t j = 0; j < kBounds; ++j)
     bounds[j] = low * std::pow(high / low, static_cast<double>(j) / static_cast<double>(kBounds - 1));
@@ -74,9 +87,15 @@ BankRun run_bank(const MotorTrace& trace, const SignalFacts& facts, std::vector<
   for (std::size_t j = 0; j < m; ++j) {
     const double chatter = quantile(column(ramp, m, j, kSettle), 0.999);
     run.floor.push_back(std::max({chatter, 1.5 * facts.noise, 1e-12 * facts.amplitude}));
-    std::size_t quiet = 0;
-    for (std::size_t i = 0; i < trace.size(); ++i) quiet += std::abs(run.error(i, j)) < 2.0 * run.floor[j];
-    run.quiet.push_back(static_cast<double>(quiet) / static_cast<double>(trace.size()));
+    run.quiet.push_back(quiet_share(run, j));
+  }
+  if (discretisation == Discretisation::kForwardEuler)
+    return run;  // its chatter of O(L dt²) covers the lag below
+  // Steps that do not chatter lag by ÿ dt² instead, which the ramp does not show.
+  const double lag = run.bounds[smallest_sliding(run)] * trace.dt * trace.dt;
+  for (std::size_t j = 0; j < m; ++j) {
+    run.floor[j] = std::max(run.floor[j], lag);
+    run.quiet[j] = quiet_share(run, j);
   }
   return run;
 }
@@ -107,6 +126,7 @@ namespace {
 void join(Event& event, const Excursion& x, double k2) {
   event.last = x.bound;
   ++event.seen;
+  if (event.seen <= 4 && x.peak > event.start) event.latency = std::max(event.latency, x.peak - event.start);
   if (event.steps.size() < 3) event.steps.push_back(std::sqrt(k2 * x.height / 0.102));
 }
 
@@ -132,7 +152,7 @@ std::vector<Event> link_events(const BankRun& run, const std::vector<std::vector
         joined = true;
       }
       if (joined) continue;
-      events.push_back({x.sign, x.start, x.peak, j, j, 0, 0.0, {}});
+      events.push_back({x.sign, x.start, x.peak, j, j, 0, 0.0, {}, 0});
       join(events.back(), x, k2);
     }
   }

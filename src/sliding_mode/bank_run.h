@@ -25,6 +25,9 @@ std::vector<double> bound_grid(const SignalFacts& facts, double dt);
 BankRun run_bank(const MotorTrace& trace, const SignalFacts& facts, std::vector<double> bounds,
                  Discretisation discretisation);
 
+/// Index of L_acc, the smallest bound that slides 80 % of the time; the highest one if none does.
+std::size_t smallest_sliding(const BankRun& run);
+
 /// A stretch of one error signal outside its floor, of one sign.
 struct Excursion {
   std::size_t bound = 0;  ///< index into the grid
@@ -48,6 +51,7 @@ struct Event {
   std::size_t seen = 0;   ///< number of bounds that show it
   double step = 0.0;      ///< velocity step Δv = √(k₂ |e_peak|/0.102), median of the top three [rad/s]
   std::vector<double> steps;  ///< of the top three
+  std::size_t latency = 0;    ///< longest from start to peak among the top four [samples]
 };
 
 std::vector<Event> link_events(const BankRun& run, const std::vector<std::vector<Excursion>>& excursions,

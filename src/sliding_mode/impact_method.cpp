@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/visible_gap.h"
 
 namespace gapscope::internal {
 namespace {
@@ -52,12 +53,6 @@ double bound_needed_before(const BankRun& run, std::size_t from, std::size_t to)
   return 0.0;
 }
 
-std::size_t smallest_sliding(const BankRun& run) {
-  for (std::size_t j = 0; j < run.bounds.size(); ++j)
-    if (run.quiet[j] >= 0.8) return j;
-  return run.bounds.size() - 1;
-}
-
 void read_passages(const MotorTrace& trace, ImpactAnalysis& a) {
   const TransitionContext context{trace, a.facts, a.run};
   const double sliding = a.run.bounds[a.sliding];
@@ -65,7 +60,9 @@ void read_passages(const MotorTrace& trace, ImpactAnalysis& a) {
     if (a.events[i].sign == a.events[i - 1].sign) continue;
     const std::size_t from = a.events[i - 1].start, to = a.events[i].start;
     Transition t = read_transition(context, a.events[i], from);
-    const double needed = std::max(sliding, bound_needed_before(a.run, from, to > 2 ? to - 2 : to));
+    const double needed = std::max(
+        sliding, bound_needed_before(
+                     a.run, from, to - std::min(to - from, std::max<std::size_t>(2, a.events[i].latency))));
     t.contrast = a.run.bounds[a.events[i].top] / needed;
     if (t.contrast < kContrast) t.refusal = Refusal::kContrast;
     a.passages.push_back(std::move(t));
@@ -93,7 +90,8 @@ ImpactAnalysis analyse(const MotorTrace& trace) {
   a.deciding = deciding_bound(a);
   const auto [low, high] = std::minmax_element(trace.x1.begin(), trace.x1.end());
   a.travel = *high - *low;
-  a.smallest_visible_gap = 20.0 * a.run.floor[a.sliding];
+  a.smallest_visible_gap = smallest_visible_gap(trace, a.facts, a.run, a.deciding);
+  a.finest_gap = smallest_visible_gap(trace, a.facts, a.run, a.sliding);
   read_passages(trace, a);
   return a;
 }

@@ -12,12 +12,14 @@ namespace gapscope::internal {
 struct ImpactAnalysis {
   SignalFacts facts;
   BankRun run;
-  std::vector<Event> events;          ///< main events only, in time
-  std::vector<Transition> passages;   ///< the first main event after each change of sign
-  std::size_t sliding = 0;            ///< index of L_acc, the smallest bound that slides 80 % of the time
-  std::size_t deciding = 0;           ///< index of the bound that decides t2
-  double smallest_visible_gap = 0.0;  ///< [rad]
-  double travel = 0.0;                ///< peak to peak [rad]
+  std::vector<Event> events;         ///< main events only, in time
+  std::vector<Transition> passages;  ///< the first main event after each change of sign
+  std::size_t sliding = 0;           ///< index of L_acc, the smallest bound that slides 80 % of the time
+  std::size_t deciding = 0;          ///< index of the bound that decides t2
+  double smallest_visible_gap =
+      0.0;                  ///< had there been no impact: hidden by the rest of the motion or not [rad]
+  double finest_gap = 0.0;  ///< the same where the main events are impacts, and hide nothing [rad]
+  double travel = 0.0;      ///< peak to peak [rad]
 };
 
 ImpactAnalysis analyse(const MotorTrace& trace);

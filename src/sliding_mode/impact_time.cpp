@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "gapscope/base/statistics.h"
 #include "sliding_mode/kink_fit.h"
 
 namespace gapscope::internal {
 namespace {
+
+constexpr int kDegree = 2;
+constexpr double kAlmostAsGood = 1.5;
 
 struct Window {
   std::size_t first, after, end;  ///< end: one past the last sample
@@ -14,7 +19,7 @@ struct Window {
 
 Window fit_window(const TransitionContext& context, const Event& impact, const Reversal& reversal) {
   const auto n = context.trace.size();
-  const auto latency = static_cast<double>(impact.peak - impact.start);
+  const auto latency = static_cast<double>(impact.latency);
   const auto after = std::max<std::size_t>(3, static_cast<std::size_t>(std::lround(0.8 * latency)));
   const auto flight = impact.start - reversal.last;
   const auto most = std::max(static_cast<std::size_t>(0.02 / context.trace.dt), 4 * after);
@@ -24,26 +29,43 @@ Window fit_window(const TransitionContext& context, const Event& impact, const R
 
 }  // namespace
 
+namespace {
+
+/// Contacts to try: their half period from two samples to four times the window after the impact, light and
+/// heavy damping; the rigid impact is the limit of the fast ones.
+std::vector<KinkShape> contact_shapes(std::size_t after) {
+  constexpr int kRates = 9;
+  std::vector<KinkShape> shapes{{1}};
+  const double longest = 4.0 * static_cast<double>(after);
+  for (int i = 0; i < kRates; ++i) {
+    const double half_period = 2.0 * std::pow(longest / 2.0, i / (kRates - 1.0));
+    for (const double damping : {0.05, 0.3}) shapes.push_back({0, kPi / half_period, damping});
+  }
+  return shapes;
+}
+
+}  // namespace
+
 ImpactTime refine_impact(const TransitionContext& context, const Event& impact, const Reversal& reversal) {
   ImpactTime result;
   const Window w = fit_window(context, impact, reversal);
   if (w.end < w.first + 9) return result;
-  const KinkScan scan(context.trace.x1.subspan(w.first, w.end - w.first), w.first, 2);
+  const KinkScan scan(context.trace.x1.subspan(w.first, w.end - w.first), w.first, kDegree);
   const auto start = static_cast<double>(impact.start);
   const double back =
-      std::min(static_cast<double>(2 * w.after + 2), 0.5 * (start - static_cast<double>(w.first)));
-  std::array<KinkFit, 3> fits;
-  for (int p = 1; p <= 3; ++p)
-    fits[static_cast<std::size_t>(p - 1)] =
-        scan.best(p, start - back, static_cast<double>(w.end) - 2.0, std::max(0.5, back / 40.0));
+      std::min(static_cast<double>(3 * w.after + 2), 0.5 * (start - static_cast<double>(w.first)));
+  std::vector<KinkFit> fits;
+  for (const KinkShape& shape : contact_shapes(w.after))
+    fits.push_back(
+        scan.best(shape, start - back, static_cast<double>(w.end) - 2.0, std::max(0.5, back / 20.0)));
   const KinkFit& best =
       *std::min_element(fits.begin(), fits.end(), [](const auto& a, const auto& b) { return a.sse < b.sse; });
-  // Quantisation alone leaves this much: below it all fits are equally good.
+  // Noise alone leaves this much: below it all fits are equally good.
   const double sigma = context.facts.noise;
-  const double resolution = 0.5 * sigma * sigma * static_cast<double>(scan.size());
+  const double resolution = sigma * sigma * static_cast<double>(scan.size());
   double low = best.time, high = best.time;
   for (const KinkFit& fit : fits) {
-    if (fit.sse > 2.0 * std::max(best.sse, resolution)) continue;
+    if (fit.sse > kAlmostAsGood * std::max(best.sse, 0.25 * resolution)) continue;
     low = std::min(low, fit.time);
     high = std::max(high, fit.time);
   }

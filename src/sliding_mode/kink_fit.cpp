@@ -6,11 +6,15 @@
 #include "gapscope/base/require.h"
 
 namespace gapscope::internal {
-namespace {
-
-double power_of(double x, int p) { return p == 1 ? x : p == 2 ? x * x : x * x * x; }
-
-}  // namespace
+double KinkShape::operator()(double x) const {
+  if (power == 1) return x;
+  if (power == 2) return x * x;
+  if (power == 3) return x * x * x;
+  const double damped = omega * std::sqrt(1.0 - damping * damping);
+  const double end = std::acos(-1.0) / damped;
+  if (x < end) return x - std::exp(-damping * omega * x) * std::sin(damped * x) / damped;
+  return end + (1.0 + std::exp(-damping * omega * end)) * (x - end);
+}
 
 KinkScan::KinkScan(std::span<const double> y, std::size_t first, int degree)
     : first_(first), columns_(static_cast<std::size_t>(degree) + 1), residual_(y.begin(), y.end()) {
@@ -53,13 +57,14 @@ std::array<double, 3> KinkScan::derivatives(const std::array<double, kColumns>& 
           (2.0 * m[2] + 6.0 * tau * m[3]) / (half_ * half_)};
 }
 
-KinkScan::Trial KinkScan::trial(int power, double time, std::array<double, kColumns>* weights) const {
+KinkScan::Trial KinkScan::trial(const KinkShape& shape, double time,
+                                std::array<double, kColumns>* weights) const {
   const double local = time - static_cast<double>(first_);
   const auto begin = static_cast<std::size_t>(std::max(std::ceil(local), 0.0));
   std::array<double, kColumns> dots{};
   double square = 0.0, with_residual = 0.0;
   for (std::size_t i = begin; i < size(); ++i) {
-    const double c = power_of(static_cast<double>(i) - local, power);
+    const double c = shape(static_cast<double>(i) - local);
     square += c * c;
     with_residual += c * residual_[i];
     for (std::size_t k = 0; k < columns_; ++k) dots[k] += c * basis_[i * columns_ + k];
@@ -72,21 +77,21 @@ KinkScan::Trial KinkScan::trial(int power, double time, std::array<double, kColu
   return {std::max(smooth_sse_ - amplitude * with_residual, 0.0), amplitude};
 }
 
-KinkFit KinkScan::finish(int power, double time) const {
+KinkFit KinkScan::finish(const KinkShape& shape, double time) const {
   std::array<double, kColumns> dots{};
-  const Trial t = trial(power, time, &dots);
+  const Trial t = trial(shape, time, &dots);
   std::array<double, kColumns> weights = weights_;
   for (std::size_t k = 0; k < columns_; ++k) weights[k] -= t.amplitude * dots[k];
   const double tau = (time - static_cast<double>(first_) - middle_) / half_;
   const auto d = derivatives(weights, tau);
-  return {time, power, t.amplitude, t.sse, d[0], d[1], d[2]};
+  return {time, shape, t.amplitude, t.sse, d[0], d[1], d[2]};
 }
 
-KinkFit KinkScan::best(int power, double from, double to, double step) const {
-  double time = from, least = trial(power, from, nullptr).sse;
+KinkFit KinkScan::best(const KinkShape& shape, double from, double to, double step) const {
+  double time = from, least = trial(shape, from, nullptr).sse;
   const auto visit = [&](double t) {
     if (t < from || t > to) return;
-    const double sse = trial(power, t, nullptr).sse;
+    const double sse = trial(shape, t, nullptr).sse;
     if (sse < least) least = sse, time = t;
   };
   for (double t = from; t <= to; t += step) visit(t);
@@ -95,7 +100,7 @@ KinkFit KinkScan::best(int power, double from, double to, double step) const {
     visit(centre - fine);
     visit(centre + fine);
   }
-  return finish(power, time);
+  return finish(shape, time);
 }
 
 }  // namespace gapscope::internal

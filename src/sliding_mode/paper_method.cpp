@@ -28,6 +28,17 @@ std::size_t reversal_before(const MotorTrace& trace, const SignalFacts& facts, i
   return at;
 }
 
+/// The last sample before the peak at which e_x still rises nearly as fast as it ever did: the impact lies
+/// between.
+std::size_t steepest_before(const BankRun& run, const Excursion& ramp) {
+  const auto rise = [&](std::size_t i) { return ramp.sign * (run.error(i, 0) - run.error(i - 1, 0)); };
+  double steepest = 0.0;
+  for (std::size_t i = ramp.start + 1; i <= ramp.peak; ++i) steepest = std::max(steepest, rise(i));
+  std::size_t at = ramp.peak;
+  while (at > ramp.start + 1 && rise(at) < 0.7 * steepest) --at;
+  return at;
+}
+
 struct Pair {
   const Excursion& ramp;
   const Excursion& flip;
@@ -83,9 +94,8 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
     if (event.accepted) {
       const std::size_t turn = reversal_before(trace, facts, event.direction, pair.ramp.peak);
       reading.lateness.push_back(std::abs(event.x1_t1 - trace.x1[turn]));
-      // The peak of e_x follows the impact by a part of its fall.
-      const std::size_t before = pair.ramp.peak - std::min(pair.flip.start - pair.ramp.peak, pair.ramp.peak);
-      reading.steps.push_back(0.5 * std::abs(trace.x1[before] - trace.x1[pair.ramp.peak]));
+      reading.steps.push_back(0.5 *
+                              std::abs(trace.x1[steepest_before(run, pair.ramp)] - trace.x1[pair.ramp.peak]));
       event.std = 0.5 * reading.lateness.back();
     }
     reading.events.push_back(std::move(event));

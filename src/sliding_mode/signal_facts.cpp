@@ -48,7 +48,8 @@ std::vector<std::size_t> crossings(Samples y, double centre, double amplitude) {
 }
 
 void read_period(const MotorTrace& trace, SignalFacts& facts) {
-  const auto found = crossings(trace.x1, facts.centre, facts.amplitude);
+  facts.crossings = crossings(trace.x1, facts.centre, facts.amplitude);
+  const auto& found = facts.crossings;
   std::vector<double> lengths;
   for (std::size_t i = 1; i < found.size(); ++i)
     lengths.push_back(trace.dt * static_cast<double>(found[i] - found[i - 1]));

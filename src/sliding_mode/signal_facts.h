@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "gapscope/recording/recording.h"
 
@@ -16,7 +17,8 @@ struct SignalFacts {
   double speed_rms = 0.0;    ///< [rad/s]
   double half_period = 0.0;  ///< median time between crossings of the centre [s]
   std::size_t half_periods = 0;
-  std::string defect;  ///< why nothing can be detected here; empty if something can
+  std::vector<std::size_t> crossings;  ///< of the centre, one per half stroke
+  std::string defect;                  ///< why nothing can be detected here; empty if something can
 };
 
 SignalFacts read_facts(const MotorTrace& trace);

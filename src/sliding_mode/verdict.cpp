@@ -14,7 +14,8 @@ struct Pool {
   std::vector<const Transition*> accepted;
   std::map<Refusal, int> refused;  // ordered: the same text for the same data
   std::size_t passages = 0;
-  double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0;
+  double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0;
+  double contrast = 0.0;  // highest of all passages
 };
 
 std::vector<double> gaps_of(const Pool& pool, int direction) {
@@ -40,8 +41,11 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.travel = std::min(pool.travel, a.travel);
     pool.noise = std::max(pool.noise, a.facts.noise);
     pool.dt = std::max(pool.dt, intervals[i]);
+    pool.visible = std::max(pool.visible, a.smallest_visible_gap);
+    pool.finest = std::max(pool.finest, a.finest_gap);
     for (const Transition& t : a.passages) {
       ++pool.passages;
+      pool.contrast = std::max(pool.contrast, t.contrast);
       if (t.refusal == Refusal::kNone)
         pool.accepted.push_back(&t);
       else
@@ -121,6 +125,33 @@ std::string objection(const Pool& pool) {
   return "";
 }
 
+/// No impact stands out anywhere, and the gap that would have shown is a small part of the travel.
+bool shows_nothing(const Pool& pool) {
+  const auto quiet = pool.refused.find(Refusal::kContrast);
+  const double contrasted = static_cast<double>(pool.passages) -
+                            (quiet == pool.refused.end() ? 0.0 : static_cast<double>(quiet->second));
+  return contrasted < 0.1 * pool.half_periods && pool.contrast < 1.5 && pool.visible < 0.3 * pool.travel;
+}
+
+/// Nothing was seen because nothing could have been seen.
+bool too_slow(const Pool& pool) {
+  const Refusal refusal = commonest(pool);
+  return pool.accepted.empty() && pool.visible >= 0.3 * pool.travel &&
+         (refusal == Refusal::kContrast || refusal == Refusal::kNoReversal || refusal == Refusal::kNone);
+}
+
+std::string slow_motion(const Pool& pool) {
+  const std::string limit =
+      std::isfinite(pool.visible)
+          ? fmt::format("the impacts of a gap below {:.2g} rad would not show", pool.visible)
+          : "the impact of no gap would show";
+  return fmt::format(
+      "no impact to be expected: quasi-static motion, locked output or coarse encoder, {}; use a faster "
+      "excitation "
+      "(higher frequency or amplitude) with the output free to move, or a finer encoder",
+      limit);
+}
+
 void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   const auto plus = gaps_of(pool, 1), minus = gaps_of(pool, -1);
   const double up = median(plus), down = median(minus);
@@ -129,6 +160,7 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   const double systematic = median_of(pool, &Transition::half_width);
   const double sampling = 0.25 * median_of(pool, &Transition::speed) * pool.dt;
   estimate.verdict = GapVerdict::kBacklash;
+  estimate.smallest_visible_gap = std::isfinite(pool.finest) ? pool.finest : kNaN;
   estimate.gap = 0.5 * (up + down);
   estimate.std = std::sqrt(scatter * scatter + 0.25 * (up - down) * (up - down) + systematic * systematic +
                            sampling * sampling + pool.noise * pool.noise);
@@ -137,8 +169,6 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
 }
 
 void list_events(std::span<const ImpactAnalysis> analyses, GapEstimate& estimate) {
-  const double spread = std::max(robust_std({}), 0.0);
-  (void)spread;
   for (const ImpactAnalysis& a : analyses)
     for (const Transition& t : a.passages) {
       estimate.events.push_back(t.event);
@@ -156,29 +186,21 @@ void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> in
   estimate.method = GapMethod::kImpact;
   list_events(analyses, estimate);
   const Pool pool = collect(analyses, intervals);
-  double visible = 0.0;
-  for (const ImpactAnalysis& a : analyses) {
-    if (!a.facts.defect.empty()) continue;
-    visible = std::max(visible, a.smallest_visible_gap);
-  }
   if (pool.half_periods == 0.0) {
     estimate.verdict = GapVerdict::kInconclusive;
     estimate.reason = analyses.empty() ? "no recording" : analyses.front().facts.defect;
     return;
   }
-  estimate.smallest_visible_gap = visible;
+  estimate.smallest_visible_gap = std::isfinite(pool.visible) ? pool.visible : kNaN;
   const std::string against = objection(pool);
   if (against.empty()) return fill_estimate(pool, estimate);
-  const int contrasted =
-      static_cast<int>(pool.passages) -
-      (pool.refused.contains(Refusal::kContrast) ? pool.refused.at(Refusal::kContrast) : 0);
-  if (contrasted < 0.1 * pool.half_periods && visible < 0.2 * pool.travel) {
+  if (shows_nothing(pool)) {
     estimate.verdict = GapVerdict::kNone;
-    estimate.reason = fmt::format("no impact: no gap above {:.2g} rad", visible);
+    estimate.reason = fmt::format("no impact in {:.0f} half periods", pool.half_periods);
     return;
   }
   estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = against;
+  estimate.reason = too_slow(pool) ? slow_motion(pool) : against;
 }
 
 }  // namespace gapscope::internal

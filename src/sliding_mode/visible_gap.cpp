@@ -1,0 +1,42 @@
+#include "sliding_mode/visible_gap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/statistics.h"
+
+namespace gapscope::internal {
+namespace {
+
+/// Median speed at which the motor is `distance` away from its last reversal.
+double speed_away_from_reversals(const MotorTrace& trace, const SignalFacts& facts, double distance) {
+  const auto& y = trace.x1;
+  const auto m = std::max<std::size_t>(1, static_cast<std::size_t>(0.01 * facts.half_period / trace.dt));
+  std::vector<double> speeds;
+  for (std::size_t k = 1; k < facts.crossings.size(); ++k) {
+    std::size_t turn = facts.crossings[k - 1];
+    for (std::size_t i = turn; i < facts.crossings[k]; ++i)
+      if (std::abs(y[i] - facts.centre) > std::abs(y[turn] - facts.centre)) turn = i;
+    std::size_t i = turn;
+    while (i + m + 1 < y.size() && std::abs(y[i] - y[turn]) < distance) ++i;
+    if (i >= m && i + m < y.size())
+      speeds.push_back(std::abs(y[i + m] - y[i - m]) / (2.0 * trace.dt * static_cast<double>(m)));
+  }
+  return speeds.empty() ? 0.0 : median(std::move(speeds));
+}
+
+}  // namespace
+
+double smallest_visible_gap(const MotorTrace& trace, const SignalFacts& facts, const BankRun& run,
+                            std::size_t hiding) {
+  const std::size_t sliding = smallest_sliding(run);
+  const std::size_t j = std::max(sliding, hiding);
+  const double k2 = SuperTwistingGains::from_bound(run.bounds[j]).k2;
+  const double slowest =
+      2.0 * std::sqrt(2.0 * run.floor[j] * k2 / 0.102);  // v that leaves a visible Δv = v/2
+  double gap = std::max(slowest * slowest / run.bounds[sliding], 8.0 * facts.noise + 2.0 * facts.quantum);
+  while (gap < 2.0 * facts.amplitude && speed_away_from_reversals(trace, facts, gap) < slowest) gap *= 1.1;
+  return gap < 2.0 * facts.amplitude ? gap : kInfinity;
+}
+
+}  // namespace gapscope::internal
