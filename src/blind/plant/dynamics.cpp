@@ -1,5 +1,6 @@
 #include "blind/plant/dynamics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -50,6 +51,15 @@ Dynamics::Dynamics(const BlindDrive& drive, std::vector<Knock> knocks)
                  (drive_.load_coulomb > 0.0 || e.load.friction_per_contact_torque > 0.0);
   hidden_states_ = e.motor.bristle.level_nm > 0.0 || e.command.lag_s > 0.0 || e.sensor.lag_s > 0.0 ||
                    e.load.resonator_inertia > 0.0;
+  for (const Knock& knock : knocks_) {
+    kinks_.push_back(knock.start_s);
+    kinks_.push_back(knock.start_s + e.motor.knocks.duration_s);
+  }
+  if (e.load.inertia_ratio != 0.0) {
+    kinks_.push_back(e.load.inertia_time_s);
+    kinks_.push_back(e.load.inertia_time_s + e.load.inertia_duration_s);
+  }
+  std::sort(kinks_.begin(), kinks_.end());
 }
 
 double Dynamics::half_gap(double t, double x2) const {

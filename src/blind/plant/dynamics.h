@@ -68,6 +68,9 @@ class Dynamics {
     return drive_.load != LoadKind::kNone && drive_.contact != ContactKind::kBonded;
   }
   bool has_hidden_states() const { return hidden_states_; }
+  const std::vector<double>& kinks() const {
+    return kinks_;
+  }  ///< times at which a law in t is not smooth [s]
   const BlindDrive& drive() const { return drive_; }
   double load_inertia(double t) const;   ///< m2 at t; infinite when locked [kg·m²]
   double motor_inertia(double t) const;  ///< m1; with one inertia it carries the load's variation
@@ -85,6 +88,7 @@ class Dynamics {
 
   BlindDrive drive_;
   std::vector<Knock> knocks_;
+  std::vector<double> kinks_;
   bool motor_signed_, load_signed_, hidden_states_;
 };
 

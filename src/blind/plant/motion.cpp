@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kShortestStep = 1e-12;  // [s]
 constexpr double kEventTime = 1e-14;     // [s] to which a change of regime is located
-constexpr double kSlowestBounce = 1e-6;  // [rad/s] a rigid impact slower than this ends in contact
+/// [rad/s] Rigid bodies that would part more slowly stay together: their bounce would be lower than 1e-10
+/// rad, and lossless bounces under a steady push never end by themselves.
+constexpr double kSlowestBounce = 1e-4;
 constexpr long kMostEventsPerCall = 100000;
 
 /// Where a parabola through three points has its minimum.
@@ -66,6 +68,13 @@ int Motion::flank_in_contact() const {
 }
 
 void Motion::advance(double t_end) {
+  const std::vector<double>& kinks = dynamics_.kinks();
+  for (; next_kink_ < kinks.size() && kinks[next_kink_] < t_end; ++next_kink_)
+    advance_smoothly(kinks[next_kink_]);
+  advance_smoothly(t_end);
+}
+
+void Motion::advance_smoothly(double t_end) {
   if (dynamics_.has_hidden_states())
     advance_sized<kStateSize>(t_end);
   else
@@ -215,8 +224,6 @@ void Motion::close(int flank) {
 
 /// Newton's impact law, eq. (3) for restitution 1: momentum is kept, the relative speed reversed and scaled.
 void Motion::collide(int flank) {
-  constexpr double kClearance = 4e-15;  // [rad] leaves the bodies just apart whatever the round-off
-  s_[kX1] -= flank * (dynamics_.overlap(t_, s_, flank) + kClearance);
   const double approach = flank * (s_[kW1] - s_[kW2]);
   const double e = dynamics_.drive().restitution;
   const double m1 = dynamics_.motor_inertia(t_), m2 = dynamics_.load_inertia(t_);
@@ -227,7 +234,10 @@ void Motion::collide(int flank) {
   s_[kW2] += impulse / m2;
   regime_.flank = flank;
   if (ends) {
+    constexpr double kClearance =
+        4e-15;  // [rad] should they part again, they start apart whatever the round-off
     regime_.contact = Regime::Contact::kClosed;
+    s_[kX1] -= flank * (dynamics_.overlap(t_, s_, flank) + kClearance);
     s_[kW1] = s_[kW2];
   } else {
     note(false, flank);

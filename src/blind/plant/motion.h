@@ -44,6 +44,7 @@ class Motion {
     double low, high;  ///< shares of the step: guard ≥ 0, guard < 0
   };
 
+  void advance_smoothly(double t_end);
   template <int Size>
   void advance_sized(double t_end);
   bool adapt_step(double error, double h);
@@ -68,6 +69,7 @@ class Motion {
   Regime regime_;
   double t_ = 0.0, h_ = 1e-5, held_ = 0.0;
   std::vector<ContactEvent> contact_events_;
+  std::size_t next_kink_ = 0;
   long steps_ = 0;
 };
 

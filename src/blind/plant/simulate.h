@@ -23,7 +23,7 @@ struct BlindOptions {
   double rate = 2500.0;      ///< [Hz]
   double duration = 10.0;    ///< [s]
   std::uint64_t seed = 1;    ///< the only source of randomness: noise, phases, knocks, lost counts
-  double tolerance = 1e-12;  ///< local error of a step [rad]
+  double tolerance = 1e-13;  ///< local error of a step [rad]
 };
 
 /// From losing one flank to closing the other, or the same again (a bounce).

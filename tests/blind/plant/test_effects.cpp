@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include "blind/plant/severity.h"
 
 namespace gapscope::blind {
+
+void PrintTo(const EffectEntry& entry, std::ostream* out) {
+  *out << entry.name;
+}  // found by its type's namespace
+
 namespace {
 
 /// A drive in wide motion (±0.6 rad), where every effect has its say.

@@ -80,7 +80,7 @@ TEST(Motion, MomentumIsKeptThroughManyImpactsWithoutFriction) {
 TEST(Motion, HalvingTheToleranceTenfoldChangesTheRunLessThanTheCoarserTolerancePromises) {
   const BlindRun coarse = simulate_blind({}, {}, {}, {.tolerance = kFastTolerance});
   const BlindRun fine = simulate_blind({}, {}, {}, {});
-  const BlindRun finest = simulate_blind({}, {}, {}, {.tolerance = 1e-13});
+  const BlindRun finest = simulate_blind({}, {}, {}, {.tolerance = 1e-14});
   double coarse_error = 0.0, fine_error = 0.0;
   for (std::size_t k = 0; k < finest.truth.x1.size(); ++k) {
     coarse_error = std::max(coarse_error, std::abs(coarse.truth.x1[k] - finest.truth.x1[k]));
