@@ -141,35 +141,19 @@ std::string passages_reading(const ReportView& view) {
   return text + ".";
 }
 
-std::string error_reading(const ReportView& view, const std::string& name, double value,
-                          const Interval& ci95) {
-  const double truth = view.true_gap();
-  if (!std::isfinite(value) || !std::isfinite(truth)) return "";
-  const bool holds = ci95.low <= truth && truth <= ci95.high;
-  const std::string interval = !std::isfinite(ci95.low) ? ""
-                               : holds                  ? ", its interval holds it"
-                                                        : ", its interval misses it";
-  return fmt::format(" The {} estimate is {}{} % off the {}{}.", name, value < truth ? "−" : "+",
-                     plain_number(100.0 * std::abs(value / truth - 1.0)),
-                     std::isfinite(view.run.simulated_gap) ? "simulated gap" : "map", interval);
-}
-
 }  // namespace
 
 FigureData estimates(const ReportView& view) {
   FigureData figure;
   figure.file = "estimates.png";
-  figure.title = "The gap: estimates and truth";
+  figure.title = "Estimates of the gap";
   Panel panel = side_by_side(view);
   if (!panel.series.empty()) figure.panels.push_back(panel);
   if (has_passages(view)) figure.panels.push_back(over_time(view));
   if (figure.panels.empty())
     return missing_figure(figure.file, figure.title, "there is no estimate of a gap");
-  figure.reading = headline(view.run);
-  if (view.run.model_free)
-    figure.reading += error_reading(view, "model-free", view.run.model_free->gap, view.run.model_free->ci95);
-  if (const FittedParameter* gap = parameter(view.run, "gap"); gap != nullptr && gap->estimated)
-    figure.reading += error_reading(view, "reference", gap->value, gap->ci95);
+  figure.reading = accuracy(view.run);
+  if (figure.reading.empty()) figure.reading = "The true gap is not known here.";
   if (has_passages(view)) figure.reading += passages_reading(view);
   return figure;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/drive_signal.h"
 #include "report/figures.h"
 #include "report/signals.h"
 #include "report/wording.h"
@@ -10,32 +11,27 @@
 namespace gapscope::internal {
 namespace {
 
-/// The motor torque where the torque constant is known, else the input itself.
-struct Drive {
-  std::vector<double> values;
-  Axis axis;
-  std::string name;
+/// Where the input turns: its passages through zero, or through its middle where it does not change sign.
+struct Turns {
+  std::vector<double> times;  ///< [s]
+  const char* level = "zero";
 };
 
-Drive drive_of(const ReportView& view) {
-  const FittedParameter* constant = parameter(view.run, "torque_constant");
-  if (constant == nullptr || !std::isfinite(constant->value))
-    return {view.recording->u, {"input $u$", "", {}, {}, {}}, "input"};
-  const std::string name = view.run.rotation ? "torque" : "force";
-  return {scaled(view.recording->u, constant->value),
-          {name + " $K_m u$", torque_unit(view.run), {}, {}, {}},
-          name};
-}
-
-std::vector<double> zero_crossings(const ReportView& view, const std::vector<double>& drive) {
-  std::vector<double> times;
+Turns turns_of(const ReportView& view, const std::vector<double>& drive) {
+  Turns turns;
+  double level = robust_middle(drive);
+  if (std::abs(level) < 0.1 * peak_to_peak(drive))
+    level = 0.0;
+  else
+    turns.level = "its middle";
   for (const std::size_t i : middle_crossings(drive)) {
-    std::size_t k = i;  // back from the end of the hysteresis to the middle itself
-    const double middle = robust_middle(drive);
-    while (k > 0 && (drive[k - 1] > middle) == (drive[i] > middle)) --k;
-    times.push_back(view.time[k]);
+    std::size_t k = i;  // back from the end of the hysteresis
+    while (k > 0 && (drive[k - 1] > level) == (drive[i] > level)) --k;
+    if (k == 0) continue;
+    const double part = (level - drive[k - 1]) / (drive[k] - drive[k - 1]);
+    turns.times.push_back(view.time[k - 1] + part * view.recording->dt);
   }
-  return times;
+  return turns;
 }
 
 Panel over_time(const ReportView& view, const std::string& title, const Series& series, const Axis& axis,
@@ -51,7 +47,7 @@ Panel over_time(const ReportView& view, const std::string& title, const Series& 
   return panel;
 }
 
-Panel loop(const ReportView& view, const Drive& drive, const LineStyle& style) {
+Panel loop(const ReportView& view, const DriveSignal& drive, const LineStyle& style) {
   Panel panel;
   panel.title = "One against the other";
   panel.x = drive.axis;
@@ -67,11 +63,11 @@ Panel loop(const ReportView& view, const Drive& drive, const LineStyle& style) {
   return panel;
 }
 
-std::string reading(const ReportView& view, const Drive& drive, const std::vector<double>& zeros) {
+std::string reading(const ReportView& view, const DriveSignal& drive, const Turns& turns) {
   std::vector<double> lags;
   for (const GapEvent& e : view.accepted()) {
     double lag = kNaN;
-    for (const double t : zeros)
+    for (const double t : turns.times)
       if (t <= e.t2) lag = e.t2 - t;
     if (std::isfinite(lag)) lags.push_back(lag);
   }
@@ -82,8 +78,8 @@ std::string reading(const ReportView& view, const Drive& drive, const std::vecto
       quantity(*std::max_element(view.state.begin(), view.state.end()), view.length_unit), drive.name,
       quantity(peak_to_peak(drive.values), drive.axis.unit));
   if (!lags.empty())
-    text += fmt::format("; the gap is closed {} (median) after the {} crosses its middle, dotted",
-                        quantity(median(lags), "s"), drive.name);
+    text += fmt::format("; the gap is closed {} (median) after the {} passes {}, dotted",
+                        quantity(median(lags), "s"), drive.name, turns.level);
   return text + ".";
 }
 
@@ -96,17 +92,17 @@ FigureData fig4_backlash_state_and_input(const ReportView& view) {
   if (view.state.empty())
     return missing_figure(figure.file, figure.title,
                           "x2 was not recorded and no fitted model with a load stands in for it");
-  const Drive drive = drive_of(view);
-  const std::vector<double> zeros = zero_crossings(view, drive.values);
+  const DriveSignal drive = drive_signal(view);
+  const Turns turns = turns_of(view, drive.values);
   const LineStyle style = view.source == StateSource::kFitted ? reference_style() : measured_style();
   const Axis state_axis{view.state_name(), view.length_unit, {}, {}, {}};
   figure.panels.push_back(over_time(
-      view, "Input", view.over_time("", input_style(), drive.values, view.window), drive.axis, zeros));
-  figure.panels.push_back(over_time(view, "Backlash state",
-                                    view.over_time("", style, view.state, view.window), state_axis, zeros));
+      view, "Input", view.over_time("", input_style(), drive.values, view.window), drive.axis, turns.times));
+  figure.panels.push_back(over_time(
+      view, "Backlash state", view.over_time("", style, view.state, view.window), state_axis, turns.times));
   figure.panels.front().x_labels = false;
   figure.panels.push_back(loop(view, drive, style));
-  figure.reading = reading(view, drive, zeros);
+  figure.reading = reading(view, drive, turns);
   return figure;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "report/rich_text.h"
@@ -22,10 +23,11 @@ std::string parameter_row(const FittedParameter& p, bool rotation) {
 std::string estimate_rows(const RunResult& run) {
   const std::string unit = position_unit(run);
   std::string text = "| backlash gap 2β | value | 95 % interval | needed to know |\n|---|---|---|---|\n";
+  int rows = 0;
   const auto row = [&](const std::string& name, double value, const Interval& ci, const std::string& needed) {
-    const std::string interval =
-        std::isfinite(ci.low) ? quantity(ci.low, unit) + " to " + quantity(ci.high, unit) : "";
-    text += fmt::format("| {} | {} | {} | {} |\n", name, quantity(value, unit), interval, needed);
+    ++rows;
+    text +=
+        fmt::format("| {} | {} | {} | {} |\n", name, quantity(value, unit), interval_text(ci, unit), needed);
   };
   if (run.model_free) {
     const GapEstimate& g = *run.model_free;
@@ -39,7 +41,7 @@ std::string estimate_rows(const RunResult& run) {
   if (run.comparison && std::isfinite(run.comparison->true_gap))
     row("read off the x1–x2 map", run.comparison->true_gap, {}, "both encoders");
   if (std::isfinite(run.simulated_gap)) row("simulated plant", run.simulated_gap, {}, "");
-  return text;
+  return rows > 0 ? text : "No gap was estimated.\n";
 }
 
 std::string comparison_line(const RunResult& run) {
@@ -112,9 +114,14 @@ std::vector<std::string> warnings_of(const RunResult& run) {
   if (run.model_free) warnings = run.model_free->warnings;
   if (!run.reference) return warnings;
   if (!run.reference->converged()) warnings.push_back("The fit did not converge: " + run.reference->message);
+  const auto told = [&](const FittedParameter& p) {  // the fit says more of it than we could
+    const auto& own = run.reference->warnings;
+    return std::any_of(own.begin(), own.end(),
+                       [&](const std::string& w) { return w.find(p.key) != std::string::npos; });
+  };
   for (const FittedParameter& p : run.reference->parameters) {
-    if (p.at_bound) warnings.push_back("`" + p.key + "` ended at its bound.");
-    if (p.estimated && !p.identifiable)
+    if (p.at_bound && !told(p)) warnings.push_back("`" + p.key + "` ended at its bound.");
+    if (p.estimated && !p.identifiable && !told(p))
       warnings.push_back("`" + p.key + "` is not determined by the recording.");
   }
   warnings.insert(warnings.end(), run.reference->warnings.begin(), run.reference->warnings.end());

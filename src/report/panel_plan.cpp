@@ -38,7 +38,7 @@ bool has_mark_labels(const Panel& panel) {
                      [](const Mark& m) { return !m.label.empty(); });
 }
 
-/// Error bars and markers hide as little as lines do.
+/// Error bars and markers are data, too.
 void add_points(const Panel& panel, PanelPlan& plan) {
   constexpr double kMarker = 16.0;
   for (const Series& s : panel.series) {
@@ -61,6 +61,11 @@ void add_marks(const Panel& panel, PanelPlan& plan) {
     const double x = plan.place(mark.at, 0.0).x;
     plan.lines.push_back({{x, 0.0}, {x, plan.height}});
   }
+  for (const Band& band : panel.y_bands)
+    for (const double at : {band.range.low, (band.range.low + band.range.high) / 2, band.range.high}) {
+      const double y = plan.place(0.0, at).y;
+      plan.lines.push_back({{0.0, y}, {plan.width, y}});
+    }
   for (const Mark& mark : panel.y_marks) {
     const double y = plan.place(0.0, mark.at).y;
     plan.lines.push_back({{0.0, y}, {plan.width, y}});

@@ -29,7 +29,7 @@ void write_file(const fs::path& path, const char* data, std::size_t size) {
 
 void write_png(const fs::path& path, const cv::Mat& image) {
   std::vector<unsigned char> png;
-  cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 9});
+  cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 6});
   write_file(path, reinterpret_cast<const char*>(png.data()), png.size());
 }
 

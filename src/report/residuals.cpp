@@ -82,8 +82,8 @@ std::string reading(const ReportView& view, const std::vector<double>& residual,
   if (std::isfinite(fit.floor) && fit.floor > 0.0)
     text += fmt::format(", {} times what the encoder leaves", plain_number(size / fit.floor));
   if (const ModeError* worst = worst_mode(fit))
-    text +=
-        fmt::format("; most in {} ({} rms)", to_string(worst->mode), quantity(worst->rmse, view.length_unit));
+    text += fmt::format("; it is largest in mode {} ({} rms)", to_string(worst->mode),
+                        quantity(worst->rmse, view.length_unit));
   const double band = 1.96 / std::sqrt(static_cast<double>(residual.size()));
   const auto beyond = std::count_if(r.begin() + 1, r.end(), [&](double v) { return std::abs(v) > band; });
   const double share = static_cast<double>(beyond) / static_cast<double>(r.size() - 1);

@@ -67,7 +67,10 @@ class Parser {
 std::vector<TextRun> parse_markup(const std::string& markup) {
   Parser parser;
   for (std::size_t at = 0; at < markup.size();) {
-    if (markup[at] == '$') {
+    if (markup.compare(at, 2, "$$") == 0) {
+      parser.add("$", Level::kBase, false, true);
+      at += 2;
+    } else if (markup[at] == '$') {
       const std::size_t end = markup.find('$', at + 1);
       GAPSCOPE_REQUIRE(end != std::string::npos);
       parser.maths(markup.substr(at + 1, end - at - 1), Level::kBase, false);
@@ -77,6 +80,12 @@ std::vector<TextRun> parse_markup(const std::string& markup) {
     }
   }
   return parser.runs;
+}
+
+std::string literal(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '$' ? "$$" : std::string(1, c);
+  return escaped;
 }
 
 std::string plain_text(const std::string& markup) {

@@ -56,12 +56,24 @@ std::string reference_sentence(const RunResult& run) {
   const std::string state = fit.converged() ? "" : " (the fit did not converge)";
   if (fit.status == FitStatus::kFailed || fit.status == FitStatus::kNotRun)
     return "The model-based reference has no result: " + fit.message;
-  if (gap == nullptr) return "The model-based reference has no gap to estimate" + state + ".";
+  if (gap == nullptr) return "The model-based reference is a drive without a gap" + state + ".";
   const std::string value = with_interval(gap->value, gap->ci95, position_unit(run));
   if (!gap->estimated) return "The model-based reference took the gap as known, " + value + state + ".";
   if (!gap->identifiable)
     return "The model-based reference could not determine the gap (" + value + ")" + state + ".";
   return "Model-based reference: " + value + state + ".";
+}
+
+std::string error_sentence(const RunResult& run, const std::string& name, double value,
+                           const Interval& ci95) {
+  const bool simulated = std::isfinite(run.simulated_gap);
+  const double truth = simulated ? run.simulated_gap : run.comparison ? run.comparison->true_gap : kNaN;
+  if (!std::isfinite(value) || !std::isfinite(truth)) return "";
+  const bool holds = ci95.low <= truth && truth <= ci95.high;
+  const char* interval = !known(ci95) ? "" : holds ? "; its interval holds it" : "; its interval misses it";
+  return fmt::format("The {} estimate is {} % {} the {}{}.", name,
+                     plain_number(100.0 * std::abs(value / truth - 1.0)), value < truth ? "below" : "above",
+                     simulated ? "simulated gap" : "gap read off the x1–x2 map", interval);
 }
 
 std::string comparison_sentence(const RunResult& run) {
@@ -89,6 +101,14 @@ std::string with_interval(double value, const Interval& ci95, const std::string&
   const int decimals = decimals_for((ci95.high - ci95.low) / 2 / scale.factor, 2);
   const auto text = [&](double v) { return tick_label(v / scale.factor, decimals); };
   return text(value) + unit_after(scale.unit) + " (95 %: " + text(ci95.low) + " to " + text(ci95.high) + ")";
+}
+
+std::string interval_text(const Interval& ci95, const std::string& unit) {
+  if (!known(ci95)) return "";
+  const UnitScale scale = unit_scale(unit, std::max(std::abs(ci95.low), std::abs(ci95.high)));
+  const int decimals = decimals_for((ci95.high - ci95.low) / 2 / scale.factor, 2);
+  return tick_label(ci95.low / scale.factor, decimals) + " to " +
+         tick_label(ci95.high / scale.factor, decimals) + unit_after(scale.unit);
 }
 
 std::string plus_minus(double value, const Interval& ci95, const std::string& unit) {
@@ -124,6 +144,23 @@ const FittedParameter* parameter(const RunResult& run, const std::string& key) {
   for (const FittedParameter& p : run.reference->parameters)
     if (p.key == key) return &p;
   return nullptr;
+}
+
+std::string accuracy(const RunResult& run) {
+  std::string text;
+  if (run.model_free) text += error_sentence(run, "model-free", run.model_free->gap, run.model_free->ci95);
+  if (const FittedParameter* gap = parameter(run, "gap"); gap != nullptr && gap->estimated)
+    text += (text.empty() ? "" : " ") + error_sentence(run, "reference", gap->value, gap->ci95);
+  return text;
+}
+
+std::string fit_quality(const RunResult& run) {
+  if (!run.reference || !std::isfinite(run.reference->rmse)) return "";
+  const FitSummary& fit = *run.reference;
+  std::string text = "Free run of the fitted model: " + quantity(fit.rmse, position_unit(run)) + " rms";
+  if (std::isfinite(fit.floor) && fit.floor > 0.0)
+    text += ", " + plain_number(fit.rmse / fit.floor) + " times what the encoder leaves";
+  return text + ".";
 }
 
 std::string headline(const RunResult& run) {

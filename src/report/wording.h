@@ -13,6 +13,9 @@ std::string quantity(double value, const std::string& unit);
 /// "18.70 mrad (95 %: 18.50 to 18.90)": digits as the interval warrants; without one like quantity().
 std::string with_interval(double value, const Interval& ci95, const std::string& unit);
 
+/// "18.50 to 18.90 mrad"; empty without an interval.
+std::string interval_text(const Interval& ci95, const std::string& unit);
+
 /// "18.70 ± 0.20 mrad"
 std::string plus_minus(double value, const Interval& ci95, const std::string& unit);
 
@@ -29,6 +32,12 @@ std::string shown_unit(const std::string& unit, bool rotation);
 
 /// The parameter of that key, nullptr if there is none.
 const FittedParameter* parameter(const RunResult& run, const std::string& key);
+
+/// How far each estimate is from the true gap, where that is known; else empty.
+std::string accuracy(const RunResult& run);
+
+/// How well the free run of the fitted model meets the recording; empty without a fit.
+std::string fit_quality(const RunResult& run);
 
 /// The verdict and the estimates of a run in one or two sentences.
 std::string headline(const RunResult& run);

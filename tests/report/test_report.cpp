@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,14 +19,12 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void store_and_draw(const fs::path& folder, const RunResult& run) {
-  write_run_result(folder.string(), run);
-  write_report(folder.string());
-}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Report, EveryFigureOfAFullRunIsThereAndNotBlank) {
   ScratchFolder scratch;
-  store_and_draw(scratch.path, sample_run());
+  write_run_result(scratch.path.string(), sample_run({.samples = 9000}));
+  write_report(scratch.path.string());
   const std::string text = text_of(scratch.path / "report.md");
   for (const char* name : {"overview.png", "fig2_input_and_displacement.png", "fig3_backlash_map.png",
                            "fig4_backlash_state_and_input.png", "fig5_displacement_and_error.png",
@@ -35,12 +32,51 @@ TEST(Report, EveryFigureOfAFullRunIsThereAndNotBlank) {
     const cv::Mat image = cv::imread((scratch.path / name).string());
     EXPECT_EQ(image.cols, std::string(name) == "overview.png" ? 3200 : 1600) << name;
     EXPECT_GT(image.rows, 400) << name;
-    EXPECT_NE(text.find("](" + std::string(name) + ")"), std::string::npos) << name << " is not in report.md";
+    EXPECT_TRUE(has(text, "](" + std::string(name) + ")")) << name << " is not in report.md";
     cv::Scalar centre, spread;
     cv::meanStdDev(image, centre, spread);
     EXPECT_GT(spread[0], 10.0) << name << " is blank";
   }
-  EXPECT_EQ(text.find("Left out"), std::string::npos);
+  EXPECT_TRUE(has(text, "# rig_p\n\n**Without a model: backlash gap 18.91 mrad"));
+  EXPECT_TRUE(has(text, "| `gap` | 18.828 ± 0.029 mrad | yes |"));
+  EXPECT_TRUE(has(text, "## Warnings\n\n- The load turned on"));
+}
+
+TEST(Report, OfAnInconclusiveDetectionSaysWhyAndWhatIsLeftOut) {
+  ScratchFolder scratch;
+  RunResult run = sample_run(
+      {.samples = 6000, .load_recorded = false, .fitted = false, .verdict = GapVerdict::kInconclusive});
+  run.notes.push_back("The recording was resampled to 400 Hz.");
+  write_run_result(scratch.path.string(), run);
+  write_report(scratch.path.string());
+  const std::string text = text_of(scratch.path / "report.md");
+  EXPECT_TRUE(has(text, "inconclusive, the load was moving"));
+  for (const char* name : {"fig3_backlash_map.png", "fig6_one_period.png", "residuals.png"}) {
+    EXPECT_FALSE(fs::exists(scratch.path / name)) << name;
+    EXPECT_TRUE(has(text, "- `" + std::string(name) + "`: ")) << name;
+  }
+  EXPECT_TRUE(has(text, "## Notes\n\n- The recording was resampled to 400 Hz."));
+}
+
+TEST(Report, DrawnAgainGivesTheSameBytesAndRemovesFiguresThatNoLongerAre) {
+  ScratchFolder scratch;
+  write_run_result(scratch.path.string(),
+                   sample_run({.samples = 6000, .load_recorded = false, .fitted = false}));
+  write_report(scratch.path.string());
+  const std::string text = text_of(scratch.path / "report.md");
+  const std::string image = text_of(scratch.path / "fig5_displacement_and_error.png");
+  std::ofstream(scratch.path / "residuals.png") << "of an earlier result";
+  std::ofstream(scratch.path / "photo.png") << "not ours";
+  write_report(scratch.path.string());
+  EXPECT_EQ(text, text_of(scratch.path / "report.md"));
+  EXPECT_TRUE(image == text_of(scratch.path / "fig5_displacement_and_error.png"));
+  EXPECT_FALSE(fs::exists(scratch.path / "residuals.png"));
+  EXPECT_TRUE(fs::exists(scratch.path / "photo.png"));
+}
+
+TEST(Report, OfAFolderWithoutAResultIsAnErrorOfTheInput) {
+  ScratchFolder scratch;
+  EXPECT_THROW(write_report(scratch.path.string()), ConfigError);
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include "report/draw_figure.h"
+#include "report/figures.h"
+#include "report/legend_placement.h"
+#include "report/sample_run.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr std::size_t kKinds = 7;
+
+RunResult kind_of_run(std::size_t kind) {
+  const SampleOptions options[kKinds] = {
+      {.samples = 15000},
+      {.samples = 60000, .rate = 5000.0, .frequency = 3.0},
+      {.samples = 6000, .rotation = false},
+      {.samples = 9000, .load_recorded = false, .verdict = GapVerdict::kInconclusive},
+      {.samples = 9000, .load_recorded = false, .fitted = false},
+      {.samples = 9000, .load_recorded = false, .detected = false, .one_inertia = true},
+      {.samples = 9000, .load_recorded = false, .verdict = GapVerdict::kNone}};
+  RunResult run = sample_run(options[kind]);
+  if (kind == 2) run.model_free->method = GapMethod::kLostMotion;
+  if (kind == 2) run.name = "screw $ axis";
+  if (kind == 3) run.name = "a_rather_long_name_that_someone_gave_to_the_third_rig_in_the_cellar";
+  return run;
+}
+
+bool hides_data(const PanelPlan& plan) {
+  for (const Polyline& line : plan.lines)
+    for (std::size_t i = 1; i < line.size(); ++i)
+      if (crosses(plan.legend.box, line[i - 1], line[i])) return true;
+  return false;
+}
+
+class DrawnFigures : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(DrawnFigures, HaveNoTextsThatMeetOrAreCutAndNoLegendOverData) {
+  const RunResult run = kind_of_run(GetParam());
+  const ReportView view(run);
+  for (const FigureData& figure : all_figures(view)) {
+    if (!figure.missing.empty()) continue;
+    const Drawing drawing = draw_with_notes(figure);
+    const Box paper{0.0, 0.0, static_cast<double>(drawing.image.cols),
+                    static_cast<double>(drawing.image.rows)};
+    for (std::size_t i = 0; i < drawing.texts.size(); ++i) {
+      EXPECT_TRUE(paper.holds(drawing.texts[i].box))
+          << figure.file << ": cut off: " << drawing.texts[i].markup;
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_FALSE(overlap(drawing.texts[i].box, drawing.texts[k].box))
+            << figure.file << ": " << drawing.texts[i].markup << " meets " << drawing.texts[k].markup;
+    }
+    for (std::size_t i = 0; i < drawing.frames.size(); ++i) {
+      EXPECT_TRUE(paper.holds(drawing.frames[i])) << figure.file;
+      EXPECT_FALSE(drawing.plans[i].legend_inside && hides_data(drawing.plans[i]))
+          << figure.file << " panel " << i;
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_FALSE(overlap(drawing.frames[i], drawing.frames[k])) << figure.file;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(KindsOfRuns, DrawnFigures, testing::Range(std::size_t{0}, kKinds));
+
+TEST(Drawing, IsTheSameEveryTime) {
+  const RunResult run = sample_run({.samples = 6000});
+  const FigureData figure = fig5_displacement_and_error(ReportView(run));
+  EXPECT_EQ(cv::norm(draw(figure), draw(figure), cv::NORM_INF), 0.0);
+}
+
+TEST(Drawing, PutsDataWhereTheAxesSay) {
+  // One black disc in the middle of the axes must be in the middle of the frame.
+  FigureData figure;
+  figure.title = "t";
+  Panel panel;
+  panel.x = {"x", "", {-1.0, 1.0}, {}, {}};
+  panel.y = {"y", "", {10.0, 30.0}, {}, {}};
+  panel.series.push_back({"", {kBlack, 4.0, {}}, {0.0}, {20.0}, false, Marker::kDisc, {}, {}});
+  figure.panels.push_back(panel);
+  const Drawing drawing = draw_with_notes(figure);
+  const Point middle = drawing.frames[0].centre();
+  const auto dark = [&](double dx, double dy) {
+    return drawing.image.at<cv::Vec3b>(cvRound(middle.y + dy), cvRound(middle.x + dx))[0] < 60;
+  };
+  EXPECT_TRUE(dark(0.0, 0.0) && dark(8.0, 0.0) && dark(-8.0, 0.0) && dark(0.0, 8.0) && dark(0.0, -8.0));
+  EXPECT_FALSE(dark(16.0, 0.0) || dark(-16.0, 0.0) || dark(0.0, 16.0) || dark(0.0, -16.0));
+}
+
+TEST(Drawing, DoesNotDrawMarksBeyondTheAxes) {
+  FigureData figure;
+  figure.title = "t";
+  Panel panel;
+  panel.x = {"x", "", {0.0, 1.0}, {}, {}};
+  panel.y = {"y", "", {0.0, 1.0}, {}, {}};
+  const Series inside{"", {kVermillion, 4.0, {}}, {0.5}, {0.5}, false, Marker::kDisc, {}, {}};
+  Series outside = inside;
+  outside.y[0] = 1.1;
+  panel.series = {inside};
+  figure.panels = {panel};
+  const cv::Mat with_one = draw(figure);
+  figure.panels[0].series.push_back(outside);
+  EXPECT_EQ(cv::norm(with_one, draw(figure), cv::NORM_INF), 0.0);
+}
+
+}  // namespace
+}  // namespace gapscope::internal

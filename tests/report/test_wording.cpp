@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include "report/sample_run.h"
+#include "report/wording.h"
+
+namespace gapscope::internal {
+namespace {
+
+TEST(Wording, ShowsTheDigitsThatTheIntervalWarrants) {
+  EXPECT_EQ(with_interval(0.01872, {0.0185, 0.0189}, "rad"), "18.72 mrad (95 %: 18.50 to 18.90)");
+  EXPECT_EQ(plus_minus(0.0188, {0.018771, 0.018829}, "rad"), "18.800 ± 0.029 mrad");
+  EXPECT_EQ(plus_minus(0.0188, {}, "rad"), "18.8 mrad");
+  EXPECT_EQ(interval_text({0.018771, 0.018829}, "rad"), "18.771 to 18.829 mrad");
+  EXPECT_EQ(interval_text({}, "rad"), "");
+}
+
+TEST(Wording, NamesTheUnknownAndTheVerySmall) {
+  EXPECT_EQ(quantity(kNaN, "rad"), "unknown");
+  EXPECT_EQ(quantity(0.0, "rad"), "0 rad");
+  EXPECT_EQ(quantity(8.78e-4, "kg m²"), "8.78e-4 kg m²");
+  EXPECT_EQ(quantity(1.2, "-"), "1.20");
+}
+
+TEST(Wording, SpeaksOfMetresAndNewtonsOnATranslationAxis) {
+  EXPECT_EQ(shown_unit("N m s/rad", true), "N·m s/rad");
+  EXPECT_EQ(shown_unit("N m s/rad", false), "N s/m");
+  EXPECT_EQ(shown_unit("kg m^2", false), "kg");
+  EXPECT_EQ(shown_unit("kg m^2", true), "kg m²");
+  EXPECT_EQ(shown_unit("N m/rad", false), "N/m");
+}
+
+TEST(Headline, TellsEveryVerdict) {
+  RunResult run = sample_run({.samples = 6000});
+  EXPECT_EQ(
+      headline(run),
+      "Without a model: backlash gap 18.91 mrad (95 %: 18.62 to 19.21). Model-based reference: 18.828 mrad "
+      "(95 %: 18.799 to 18.858). They agree: the difference is 84.6 µrad, its standard deviation 151 µrad.");
+  run.comparison->agree = false;
+  EXPECT_NE(headline(run).find("They disagree"), std::string::npos);
+  run.comparison->agree.reset();
+  run.model_free->verdict = GapVerdict::kNone;
+  EXPECT_NE(headline(run).find("no backlash above 400 µrad"), std::string::npos);
+  run.model_free->verdict = GapVerdict::kInconclusive;
+  run.model_free->reason = "no periodic motion";
+  EXPECT_NE(headline(run).find("inconclusive, no periodic motion. "), std::string::npos);
+  run.reference->parameters[4].identifiable = false;
+  EXPECT_NE(headline(run).find("could not determine the gap"), std::string::npos);
+  run.reference->status = FitStatus::kNotConverged;
+  EXPECT_NE(headline(run).find("did not converge"), std::string::npos);
+}
+
+TEST(Accuracy, SaysWhetherTheIntervalHoldsTheTruth) {
+  RunResult run = sample_run({.samples = 6000});
+  EXPECT_EQ(accuracy(run),
+            "The model-free estimate is 0.60 % above the simulated gap; its interval holds it. The reference "
+            "estimate "
+            "is 0.15 % above the simulated gap; its interval holds it.");
+  run.simulated_gap = 0.02;
+  EXPECT_NE(accuracy(run).find("below the simulated gap; its interval misses it"), std::string::npos);
+  run.simulated_gap = kNaN;
+  EXPECT_NE(accuracy(run).find("read off the x1–x2 map"), std::string::npos);
+  run.comparison->true_gap = kNaN;
+  EXPECT_EQ(accuracy(run), "");
+}
+
+}  // namespace
+}  // namespace gapscope::internal
