@@ -90,8 +90,9 @@ class PanelPainter {
       const LineStyle ink{kInk, 2.5, {}};
       for (const double y : {low, high}) canvas_.line({{frame_.right(), y}, {x + kSpace, y}}, ink);
       canvas_.line({{x, low}, {x, high}}, ink);
-      arrow({x, low}, low < high ? -1.0 : 1.0);
-      arrow({x, high}, low < high ? 1.0 : -1.0);
+      const double inwards = std::abs(low - high) > 60.0 ? 1.0 : -1.0;  // a small one is held from outside
+      arrow({x, std::max(low, high)}, -inwards);
+      arrow({x, std::min(low, high)}, inwards);
       const double half = typesetter_.measure(dimension.label, kTextSize).width / 2;
       // Beside the frame; a name longer than the frame hangs down from its top.
       const double middle =

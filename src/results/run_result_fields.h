@@ -106,6 +106,9 @@ void fields(Archive& archive, FitSummary& f) {
   archive("message", f.message);
   archive.named("parameters", f.parameters, &FittedParameter::key);
   archive("floor_rad", f.floor);
+  archive("innovation_rmse_rad", f.innovation_rmse);
+  archive("observer_hz", f.observer_hz);
+  archive("objective_hz", f.objective_hz);
   archive("starts", f.starts);
   archive("simulations", f.simulations);
   archive("lag1_autocorrelation", f.lag1_autocorrelation);

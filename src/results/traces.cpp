@@ -29,6 +29,7 @@ constexpr NumberColumn kNumbers[] = {
     {"e_x_rad", [](TraceSet& s) -> std::vector<double>& { return s.error.error; }},
     {"w1_hat_rad_s", [](TraceSet& s) -> std::vector<double>& { return s.error.velocity; }},
     {"fit_x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.x1; }},
+    {"fit_predicted_x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.predicted_x1; }},
     {"fit_x2_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.x2; }},
 };
 struct ModeColumn {

@@ -70,6 +70,9 @@ FitSummary summary(const RunResult& run) {
   f.message = "100 iterations";
   f.rmse = 1e-5 * kThird;
   f.floor = 1e-6 * kThird;
+  f.innovation_rmse = 1e-7 * kThird;
+  f.observer_hz = 40.0 * kThird;
+  f.objective_hz = 4.0 * kThird;
   f.starts = 8;
   f.simulations = 345;
   f.lag1_autocorrelation = -kThird;
@@ -79,6 +82,7 @@ FitSummary summary(const RunResult& run) {
   FitTrace& trace = f.traces.emplace_back();
   trace.file = "b.csv";
   trace.x1 = run.recordings[1].u;
+  trace.predicted_x1 = run.recordings[1].x1;
   f.mode_errors = {{Mode::kGap, 12, kThird}, {Mode::kEngagementMinus, 0, kNaN}};
   f.start_costs = {kThird, 2.0, kNaN};
   f.warnings = {"advice"};
@@ -189,6 +193,9 @@ TEST(RunResult, TheReferenceComesBackExactly) {
   EXPECT_EQ(a.message, b.message);
   EXPECT_SAME(rmse);
   EXPECT_SAME(floor);
+  EXPECT_SAME(innovation_rmse);
+  EXPECT_SAME(observer_hz);
+  EXPECT_SAME(objective_hz);
   EXPECT_EQ(a.starts, b.starts);
   EXPECT_EQ(a.simulations, b.simulations);
   EXPECT_SAME(lag1_autocorrelation);
@@ -204,6 +211,7 @@ TEST(RunResult, TheReferenceComesBackExactly) {
   ASSERT_EQ(b.traces.size(), 1u);
   EXPECT_EQ(a.traces[0].file, b.traces[0].file);
   EXPECT_EQ(a.traces[0].x1, b.traces[0].x1);
+  EXPECT_EQ(a.traces[0].predicted_x1, b.traces[0].predicted_x1);
   EXPECT_EQ(a.traces[0].x2, b.traces[0].x2);
   EXPECT_EQ(a.traces[0].mode, b.traces[0].mode);
 }
