@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "config/data_reader.h"
+#include "config/field_reader.h"
 #include "config/model_reader.h"
 #include "config/yaml_document.h"
 #include "gapscope/base/errors.h"
@@ -106,8 +107,8 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
 }
 
 Configuration read_configuration(const Value& document) {
-  const Section root(document,
-                     {"name", "recording", "simulation", "encoder", "coordinates", "model", "detector"});
+  const Section root(
+      document, {"name", "recording", "simulation", "encoder", "coordinates", "model", "detector", "fit"});
   Configuration c;
   c.file = document.file();
   c.name = read_name(root, c.file);
@@ -121,6 +122,8 @@ Configuration read_configuration(const Value& document) {
   c.model = resolved_model(model);
   require_bound_from_model(c);
   read_data(root, model, c);
+  if (c.simulation) c.fit.seed = c.simulation->seed;
+  if (const auto fit = root.find("fit")) read_fields(*fit, c.fit);
   return c;
 }
 

@@ -146,6 +146,7 @@ void write_detector(YamlWriter& out, const DetectorConfig& detector) {
 }  // namespace
 
 std::string resolved_yaml(const Configuration& c) {
+  FitOptions fit = c.fit;
   YamlWriter out;
   out.comment("The configuration of this report, every default filled in; paths are those of the original.");
   out.entry("name", yaml_text(c.name));
@@ -159,6 +160,10 @@ std::string resolved_yaml(const Configuration& c) {
   out.entry("coordinates", c.rotation ? "rotation" : "translation");
   write_model(out, c.model);
   write_detector(out, c.detector);
+  FieldWriter fields(out);
+  out.open("fit");
+  fit.fields(fields);
+  out.close();
   return out.text();
 }
 

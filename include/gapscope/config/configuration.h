@@ -27,6 +27,7 @@ struct Configuration {
   bool rotation = true;  ///< false: rad and N·m mean m and N
   ModelConfig model;
   DetectorConfig detector;
+  FitOptions fit;  ///< `fit:` – how the reference is found; optional, every key of it too
 };
 
 /// Reads a configuration strictly: unknown and repeated keys, wrong types, numbers out of range and

@@ -1,0 +1,83 @@
+#include "cli/console.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace gapscope::cli {
+namespace {
+
+void line(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
+
+/// 18.80 mrad: four digits, in thousandths of the coordinate.
+std::string milli(double value, bool rotation) {
+  return std::isnan(value) ? "-" : fmt::format("{:.4g} {}", 1e3 * value, rotation ? "mrad" : "mm");
+}
+
+/// Decimals that show two digits of the interval's half width, all in thousandths.
+int decimals(const Interval& ci95) {
+  const double half = 1e3 * (ci95.high - ci95.low) / 2.0;
+  return half > 0.0 ? static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 7.0)) : 4;
+}
+
+std::string estimate(double value, const Interval& ci95, bool rotation) {
+  const char* unit = rotation ? "mrad" : "mm";
+  if (std::isnan(ci95.low)) return fmt::format("{:<14}{:<20}", milli(value, rotation), "no interval");
+  const int d = decimals(ci95);
+  return fmt::format("{:<14}{:<20}", fmt::format("{:.{}f} {}", 1e3 * value, d, unit),
+                     fmt::format("[{:.{}f}, {:.{}f}]", 1e3 * ci95.low, d, 1e3 * ci95.high, d));
+}
+
+std::string model_free_line(const GapEstimate& g, bool rotation) {
+  if (g.verdict == GapVerdict::kBacklash)
+    return fmt::format("{} {} ({}, {} events)", estimate(g.gap, g.ci95, rotation),
+                       g.quantity == GapQuantity::kGap ? "backlash" : "play at zero torque",
+                       to_string(g.method), g.events.size());
+  if (g.verdict == GapVerdict::kNone)
+    return fmt::format("none: a gap above {} would have shown", milli(g.smallest_visible_gap, rotation));
+  return fmt::format("{}: {}", to_string(g.verdict), g.reason);
+}
+
+std::string reference_line(const FitSummary& f, bool rotation) {
+  const std::string quality =
+      fmt::format("{}, rmse {}", f.converged() ? "converged" : "not converged", milli(f.rmse, rotation));
+  const FittedParameter* gap = f.find("gap");
+  if (gap == nullptr) return "no gap in this model (" + quality + ")";
+  if (!gap->estimated) return fmt::format("{} fixed ({})", milli(gap->value, rotation), quality);
+  if (!gap->identifiable)
+    return fmt::format("{} not identifiable ({})", milli(gap->value, rotation), quality);
+  return fmt::format("{} {}", estimate(gap->value, gap->ci95, rotation), quality);
+}
+
+std::string comparison_line(const Comparison& c, bool rotation) {
+  if (std::isnan(c.difference)) return "-";
+  const char* word = !c.agree ? "not comparable" : *c.agree ? "agree" : "disagree";
+  return fmt::format("{:<14}{} (joint standard error {})", milli(c.difference, rotation), word,
+                     milli(c.joint_std, rotation));
+}
+
+}  // namespace
+
+Progress progress_on_terminal(bool quiet) {
+  if (quiet || isatty(STDERR_FILENO) == 0) return [](const std::string&) {};
+  return [](const std::string& what) { fmt::print(stderr, "{} ...\n", what); };
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+void print_headline(const std::string& folder, const RunResult& r) {
+  line("report", folder);
+  if (r.model_free) line("model-free", model_free_line(*r.model_free, r.rotation));
+  if (r.reference) line("reference", reference_line(*r.reference, r.rotation));
+  if (r.comparison) line("difference", comparison_line(*r.comparison, r.rotation));
+  if (r.comparison && !std::isnan(r.comparison->true_gap))
+    line("load side", fmt::format("{:<14}width of the x1-x2 map", milli(r.comparison->true_gap, r.rotation)));
+  if (!std::isnan(r.simulated_gap)) line("simulated", milli(r.simulated_gap, r.rotation));
+}
+
+}  // namespace gapscope::cli

@@ -1,0 +1,110 @@
+// `run`, `detect` and `fit`: the same pipeline with both estimators, or one of them.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/field_help.h"
+#include "cli/pipeline.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/report/report.h"
+#include "gapscope/results/report_folder.h"
+
+namespace gapscope::cli {
+namespace {
+
+struct Arguments {
+  std::string config;
+  std::string folder;
+  bool quiet = false;
+};
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(path + ": cannot be written, expected a writable folder");
+}
+
+/// The folder is replaced only when everything is in it.
+void write_outcome(const std::string& folder, const Configuration& c, const Outcome& outcome) {
+  ReportFolder report(folder);
+  write_run_result(report.path(), outcome.result);
+  write_timing(report.path(), outcome.timing);
+  write_text(report.path() + "/resolved.yaml", resolved_yaml(c));
+  write_report(report.path());
+  stop_point();
+  report.commit();
+}
+
+void estimate(const Arguments& a, const Estimators& wanted) {
+  const Configuration c = load_configuration(a.config);
+  const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
+  require_folder_name(folder);
+  const Progress progress = progress_on_terminal(a.quiet);
+  const Outcome outcome = run_pipeline(c, wanted, progress);
+  progress("drawing the report");
+  write_outcome(folder, c, outcome);
+  print_warnings(outcome.warnings);
+  print_headline(folder, outcome.result);
+}
+
+void add(CLI::App& app, const char* name, const char* what, const std::string& details, Estimators wanted) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("CONFIG", arguments->config, kConfigHelp)->required();
+  command->add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
+      ->type_name("DIR");
+  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->footer(details);
+  command->callback([arguments, wanted] { estimate(*arguments, wanted); });
+}
+
+std::string fit_details() {
+  std::string text =
+      "Writes the same files as run, with \"model_free\": null.\n\n"
+      "Parameters (model: parameters), each a number or {value, estimate, bounds, prior: {value, std}}; "
+      "gap,\n"
+      "motor_damping and mass_ratio are estimated when their key is absent:\n";
+  for (const DriveParameterSpec& spec : kDriveParameters)
+    text += fmt::format("    {:<42}{}\n", fmt::format("{} [{}]", spec.key, spec.unit), spec.doc);
+  return text + "\nHow it is found (fit:, optional):\n" + field_help(FitOptions{}, "    ") +
+         "\nExample: gapscope fit configs/02_experiment.yaml -o reports/fitted";
+}
+
+}  // namespace
+
+void require_folder_name(const std::string& folder) {
+  namespace fs = std::filesystem;
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw ConfigError(folder, "is a file, expected the folder of a report");
+}
+
+void add_run(CLI::App& app) {
+  add(app, "run", "Both estimators, their comparison, and a report with figures",
+      "Writes DIR/result.json, report.md, figures (PNG), traces/, resolved.yaml and timing.json.\n"
+      "On standard output gaps are in mrad (mm for coordinates: translation), in result.json in rad (m).\n\n"
+      "Example: gapscope run configs/02_experiment.yaml -o reports/experiment",
+      {true, true});
+}
+
+void add_detect(CLI::App& app) {
+  add(app, "detect", "The model-free detector alone: the gap from the motor encoder, without a model",
+      "Writes the same files as run, with \"reference\": null. The bound L of the detector is detector: "
+      "bound\n"
+      "[rad/s^2]: auto, a number, or {from_model: {input_limit [unit of u], load_force_bound [N m]}}.\n\n"
+      "Example: gapscope detect configs/02_experiment.yaml -o reports/detected",
+      {true, false});
+}
+
+void add_fit(CLI::App& app) {
+  add(app, "fit", "The model-based reference alone: parameters of the drive, fitted to u and x1",
+      fit_details(), {false, true});
+}
+
+}  // namespace gapscope::cli

@@ -1,0 +1,129 @@
+// gapscope: one command line for both estimators, their comparison, simulated recordings and reports.
+// Exit status: 0 done, 1 the work failed, 2 the input or the command line is wrong, 130 interrupted.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/version.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+
+namespace gapscope::cli {
+namespace {
+
+constexpr int kDone = 0, kFailed = 1, kWrongInput = 2, kInterrupted = 130;
+
+/// The first Ctrl-C asks, the second one does not wait for the answer.
+extern "C" void on_interrupt(int) {
+  if (stop_requested()) _exit(kInterrupted);
+  request_stop();
+}
+
+void add_commands(CLI::App& app) {
+  app.description("Backlash gap and sim-to-real gap of a drive with a single motor encoder");
+  app.set_version_flag("--version", std::string("gapscope ") + kVersion);
+  app.require_subcommand(1);
+  app.footer(
+      "Angles are in rad, torques in N m, times in s, unless a key or a message says otherwise.\n"
+      "gapscope COMMAND --help tells more.\n\n"
+      "Example: gapscope run configs/02_experiment.yaml");
+  add_run(app);
+  add_detect(app);
+  add_fit(app);
+  add_simulate(app);
+  add_report(app);
+}
+
+std::string command_names(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands(nullptr))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+/// "CONFIG", "-o FILE", "[--quiet]".
+std::string usage_of(const CLI::Option& option) {
+  std::string text = option.get_name();
+  if (!option.get_positional()) {
+    text = option.get_snames().empty() ? "--" + option.get_lnames()[0] : "-" + option.get_snames()[0];
+    if (option.get_items_expected_max() > 0) text += " " + option.get_type_name();
+  }
+  return option.get_required() ? text : "[" + text + "]";
+}
+
+/// "gapscope run CONFIG [-o DIR] [--quiet]" of the command that was being read, else the names of all.
+std::string expectation(const CLI::App& app) {
+  const auto used = app.get_subcommands();
+  if (used.empty()) return "one of the commands " + command_names(app);
+  std::string usage = "gapscope " + used[0]->get_name();
+  for (const CLI::Option* option : used[0]->get_options())
+    if (option != used[0]->get_help_ptr()) usage += " " + usage_of(*option);
+  return usage;
+}
+
+bool is_unknown_command(const CLI::App& app, const std::string& word) {
+  if (!word.empty() && word[0] == '-') return false;
+  const auto commands = app.get_subcommands(nullptr);
+  return std::none_of(commands.begin(), commands.end(), [&](const auto* c) { return c->get_name() == word; });
+}
+
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
+  const bool no_command =
+      app.get_subcommands().empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  std::string what = no_command ? "there is no command" : error.what();
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  return what;
+}
+
+int wrong_command_line(const CLI::App& app, const std::string& what) {
+  fmt::print(stderr, "gapscope: {}, expected {}\n", what, expectation(app));
+  return kWrongInput;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app;
+  app.name("gapscope");
+  add_commands(app);
+  if (argc > 1 && is_unknown_command(app, argv[1]))
+    return wrong_command_line(app, fmt::format("there is no command '{}'", argv[1]));
+  try {
+    app.parse(argc, argv);  // the action of the command runs in here
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return wrong_command_line(app, what_is_wrong(app, error));
+  }
+  return kDone;
+}
+
+int guarded(int argc, char** argv) {
+  try {
+    const int status = parse_and_run(argc, argv);
+    if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
+    return status;
+  } catch (const ConfigError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kWrongInput;
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "gapscope: interrupted\n");
+    return kInterrupted;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "gapscope: {}\n", error.what());
+    return kFailed;
+  }
+}
+
+}  // namespace
+}  // namespace gapscope::cli
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, gapscope::cli::on_interrupt);
+  std::signal(SIGTERM, gapscope::cli::on_interrupt);
+  return gapscope::cli::guarded(argc, argv);
+}

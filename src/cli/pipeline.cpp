@@ -1,0 +1,87 @@
+#include "cli/pipeline.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+
+#include "cli/version.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/diagnosis/comparison.h"
+#include "gapscope/reference/fit.h"
+#include "gapscope/sliding_mode/detector.h"
+
+namespace gapscope::cli {
+namespace {
+
+/// A result of f and how long it took [s].
+template <class Function>
+auto timed(double& seconds, const Function& f) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto result = f();
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+DetectorOptions detector_options(const Configuration& c, std::vector<std::string>& notes) {
+  DetectorOptions options;
+  if (c.detector.bound) options.bound = *c.detector.bound;
+  if (!c.detector.from_model) return options;
+  const Interval bound = bound_from_model(c);
+  options.bound = chosen_bound(bound);
+  options.paper_bound = bound.low;
+  notes.push_back(
+      fmt::format("bound of the detector from the model, eq. (13): {:.4g} < L < {:.4g}, L = {:.4g} "
+                  "rad/s^2 taken",
+                  bound.low, bound.high, options.bound));
+  return options;
+}
+
+/// Parameters that the configuration does not mention and that count as a number all the same.
+void note_defaults(const ModelConfig& model, std::vector<std::string>& notes) {
+  std::vector<std::string> keys;
+  for (int i = 0; i < kDriveParameterCount; ++i)
+    if (model.defaulted[i] && !model.parameters[i].estimate && has_parameter(model.structure, i))
+      keys.emplace_back(kDriveParameters[i].key);
+  if (!keys.empty()) notes.push_back(fmt::format("not given and taken as 0: {}", fmt::join(keys, ", ")));
+}
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Progress& progress) {
+  if (wanted.reference) require_reference_model(c);
+  Outcome out;
+  RunResult& r = out.result;
+  r.name = c.name;
+  r.version = kVersion;
+  r.rotation = c.rotation;
+  r.recordings = load_recordings(c, progress, out);
+  if (c.simulation && c.simulation->plant.structure.has_load) r.simulated_gap = c.simulation->plant.drive.gap;
+  std::vector<MotorTrace> traces;
+  for (const Recording& recording : r.recordings) traces.push_back(recording.motor_trace());
+  if (wanted.model_free) {
+    stop_point();
+    progress("model-free detector");
+    const DetectorOptions options = detector_options(c, r.notes);
+    r.model_free = timed(out.timing.model_free_s, [&] { return detect_gap(traces, options); });
+    append(out.warnings, r.model_free->warnings);
+  }
+  if (wanted.reference) {
+    stop_point();
+    progress("reference fit");
+    note_defaults(c.model, r.notes);
+    r.reference =
+        timed(out.timing.reference_s, [&] { return fit(traces, c.model.reference_model(), c.fit); });
+    append(out.warnings, r.reference->warnings);
+  }
+  if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
+  if (r.comparison) r.comparison->true_gap = gap_from_load_position(r.recordings);
+  stop_point();
+  return out;
+}
+
+}  // namespace gapscope::cli

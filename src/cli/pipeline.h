@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gapscope/config/configuration.h"
+#include "gapscope/results/run_result.h"
+
+namespace gapscope::cli {
+
+/// Which of the two estimators a command asks for.
+struct Estimators {
+  bool model_free = true;
+  bool reference = true;
+};
+
+/// Told what begins: "reading train.csv".
+using Progress = std::function<void(const std::string&)>;
+
+struct Outcome {
+  RunResult result;
+  Timing timing;
+  std::vector<std::string> warnings;  ///< what the user should know beside the result
+};
+
+/// Data, both estimators, comparison: everything of `run`, `detect` and `fit` but the writing.
+/// @throws ConfigError, Interrupted
+Outcome run_pipeline(const Configuration& configuration, const Estimators& wanted, const Progress& progress);
+
+/// The recordings of a configuration, read or simulated, with the encoder's sheet applied. `notes` gets what
+/// was done to them, `warnings` what looks wrong.
+std::vector<Recording> load_recordings(const Configuration& configuration, const Progress& progress,
+                                       Outcome& outcome);
+
+/// The recording that `simulation:` describes.
+Recording simulated_recording(const Configuration& configuration);
+
+}  // namespace gapscope::cli

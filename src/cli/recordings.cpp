@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/pipeline.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/recording/csv.h"
+#include "gapscope/simulation/simulate.h"
+
+namespace gapscope::cli {
+namespace {
+
+/// The file's own name; where two files share it, the path as it was given, without separators.
+std::string name_of(const RecordedFile& file, const std::vector<RecordedFile>& all) {
+  const auto own = [](const RecordedFile& f) { return std::filesystem::path(f.path).filename().string(); };
+  const auto same = std::count_if(all.begin(), all.end(), [&](const auto& f) { return own(f) == own(file); });
+  if (same == 1) return own(file);
+  std::string name = file.given;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+/// The sheet knows better than the samples, but a large difference is worth a word.
+void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>& warnings) {
+  const double sheet = c.encoder.quantum, seen = r.quantum;
+  if (sheet == 0.0) return;
+  r.quantum = sheet;
+  if (seen == 0.0 || (seen < 1.5 * sheet && seen > sheet / 1.5)) return;
+  warnings.push_back(fmt::format("{}: positions step by {:.4g} {} where encoder: says {:.4g}", r.file, seen,
+                                 c.rotation ? "rad" : "m", sheet));
+}
+
+Recording read_one(const RecordedFile& file, const Configuration& c) {
+  if (!std::filesystem::exists(file.path))
+    throw ConfigError(c.file, file.line,
+                      fmt::format("there is no recording {}, expected a CSV file (relative to this "
+                                  "configuration)",
+                                  file.given));
+  return read_csv(file.path, c.recording->csv);
+}
+
+}  // namespace
+
+Recording simulated_recording(const Configuration& c) {
+  const SimulationConfig& s = *c.simulation;
+  SimulationOptions options;
+  options.rate = s.rate;
+  options.seed = s.seed;
+  options.initial = {s.initial.x1, s.initial.w1, s.initial.x2, s.initial.w2};
+  options.encoder = {c.encoder.quantum, s.noise};
+  const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
+  stop_point();
+  Recording r = simulate(stepper_model(s.plant.drive, s.plant.structure), u, options);
+  r.file = c.name;
+  return r;
+}
+
+std::vector<Recording> load_recordings(const Configuration& c, const Progress& progress, Outcome& outcome) {
+  std::vector<Recording> recordings;
+  if (c.simulation) {
+    progress("simulating " + c.name);
+    recordings.push_back(simulated_recording(c));
+    return recordings;
+  }
+  for (const RecordedFile& file : c.recording->files) {
+    stop_point();
+    progress("reading " + file.given);
+    Recording r = read_one(file, c);
+    r.file = name_of(file, c.recording->files);
+    apply_sheet(r, c, outcome.warnings);
+    if (!r.resampling.empty()) outcome.result.notes.push_back(r.file + ": " + r.resampling);
+    recordings.push_back(std::move(r));
+  }
+  return recordings;
+}
+
+}  // namespace gapscope::cli

@@ -1,0 +1,36 @@
+// `report`: draws a report again from what is stored.
+#include "gapscope/report/report.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "gapscope/base/errors.h"
+
+namespace gapscope::cli {
+
+void add_report(CLI::App& app) {
+  struct Arguments {
+    std::string folder;
+    bool quiet = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("report", "Draws a report again from its stored results");
+  command->add_option("DIR", arguments->folder, "folder of a report")->required();
+  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->footer(
+      "Reads DIR/result.json [rad, s] and DIR/traces; writes report.md and the figures (PNG).\n\n"
+      "Example: gapscope report reports/02_experiment");
+  command->callback([arguments] {
+    if (!std::filesystem::is_directory(arguments->folder))
+      throw ConfigError(arguments->folder, "there is no such folder, expected the folder of a report");
+    progress_on_terminal(arguments->quiet)("drawing " + arguments->folder);
+    write_report(arguments->folder);
+    fmt::print("{:<12}{}\n", "report", arguments->folder);
+  });
+}
+
+}  // namespace gapscope::cli

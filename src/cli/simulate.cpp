@@ -1,0 +1,88 @@
+// `simulate`: a recording as CSV from the `simulation:` block.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/field_help.h"
+#include "cli/pipeline.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/recording/csv.h"
+
+namespace gapscope::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string config;
+  std::string file;
+  bool quiet = false;
+};
+
+void require_file_name(const std::string& file, const std::string& config) {
+  if (fs::is_directory(file)) throw ConfigError(file, "is a folder, expected the name of a file to write");
+  if (fs::exists(file) && fs::equivalent(file, config))
+    throw ConfigError(file, "is the configuration itself, expected another file to write");
+  const fs::path parent = fs::path(file).parent_path();
+  if (!parent.empty() && !fs::is_directory(parent))
+    throw ConfigError(file, "cannot be written there, expected a folder that exists");
+}
+
+void simulate_to_file(const Arguments& a) {
+  const Configuration c = load_configuration(a.config);
+  if (!c.simulation)
+    throw ConfigError(c.file, "there is no simulation, expected simulation: to make data from");
+  require_file_name(a.file, a.config);
+  const Progress progress = progress_on_terminal(a.quiet);
+  progress("simulating " + c.name);
+  const Recording r = simulated_recording(c);
+  stop_point();
+  write_csv(a.file, r);
+  if (fs::is_regular_file(a.file))  // not into a pipe that may be standard output itself
+    fmt::print("{}: {} samples at {} Hz\n", a.file, r.size(), c.simulation->rate);
+}
+
+std::string excitation_help() {
+  std::string text = "Excitations (simulation: excitation), one of:\n";
+  for (const auto& spec : excitation_kinds()) {
+    Excitation excitation;
+    excitation.kind = spec.kind;
+    text += fmt::format("  {}: {}\n{}", spec.name, spec.doc, field_help(excitation, "    "));
+  }
+  return text;
+}
+
+std::string details() {
+  InitialState initial;
+  return "Writes t [s], u [unit of u], x1 [rad], x2 [rad] (where there is a load) and mode.\n"
+         "The torque on the motor is torque_constant x u.\n\n"
+         "Keys of simulation:\n"
+         "  rate [Hz], duration [s]   rate x duration from 50 to 2e7 samples\n"
+         "  seed                      whole number, the only source of randomness (default 1)\n"
+         "  excitation                see below\n"
+         "  initial                   state at the first sample, optional\n"
+         "  noise [rad]               rms, before quantisation (default 0)\n"
+         "  model                     the true plant where it differs from model, optional\n\n" +
+         excitation_help() + "\nInitial state (simulation: initial):\n" + field_help(initial, "    ") +
+         "\nExample: gapscope simulate configs/02_experiment.yaml -o experiment.csv";
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("simulate", "A simulated recording as CSV");
+  command->add_option("CONFIG", arguments->config, kConfigHelp)->required();
+  command->add_option("-o,--output", arguments->file, "recording to write (CSV)")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->footer(details());
+  command->callback([arguments] { simulate_to_file(*arguments); });
+}
+
+}  // namespace gapscope::cli

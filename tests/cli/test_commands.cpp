@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/executable.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::text_of;
+using testing::Workplace;
+
+// The paper's rig for two seconds at a coarse rate: quick, and the gap is crossed four times.
+const std::string kConfig = R"(name: quick
+encoder: {bits: 18}
+simulation:
+  rate: 1000
+  duration: 2
+  seed: 3
+  excitation: {sine: {amplitude: 0.58, frequency: 1}}
+model:
+  parameters:
+    motor_inertia: 8.78e-4
+    torque_constant: 0.172
+    motor_damping: {value: 0.062, estimate: true}
+    mass_ratio: 1
+    gap: {value: 0.019, estimate: true}
+    load_damping: 0.035
+    load_coulomb_friction: 0.05
+    contact_stiffness: 200
+    contact_damping: 0.05
+)";
+
+/// All stored files but the one with wall times.
+std::string stored(const std::filesystem::path& folder) {
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != "timing.json") files.insert(entry.path());
+  std::string all;
+  for (const auto& file : files) all += file.lexically_relative(folder).string() + "\n" + text_of(file);
+  return all;
+}
+
+TEST(Commands, HelpAndVersionAreAnswersOnStandardOutput) {
+  const Workplace place;
+  EXPECT_THAT(place.run("--version").out, ::testing::StartsWith("gapscope "));
+  for (const char* command : {"run", "detect", "fit", "simulate", "report"}) {
+    const auto help = place.run(std::string(command) + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.out, HasSubstr(std::string("Example: gapscope ") + command));
+    EXPECT_EQ(help.err, "");
+  }
+  const auto simulate = place.run("simulate --help");
+  for (const char* key :
+       {"sine", "multisine", "swept_sine", "triangle", "trapezoid", "steps", "stop_frequency [Hz]"})
+    EXPECT_THAT(simulate.out, HasSubstr(key));
+}
+
+TEST(Commands, RunLeavesTheWholeReportAndSaysWhatItFound) {
+  Workplace place;
+  place.file("c.yaml", kConfig);
+  const auto run = place.run("run c.yaml");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("reports/quick"));
+  for (const char* word : {"model-free", "reference", "difference", "mrad"})
+    EXPECT_THAT(run.out, HasSubstr(word));
+  EXPECT_THAT(run.err, Not(HasSubstr("...")));  // no terminal, no progress
+  EXPECT_THAT(run.out, Not(HasSubstr("warning")));
+  const auto content = place.content();
+  for (const char* file : {"result.json", "report.md", "resolved.yaml", "timing.json", "traces/1_quick.csv"})
+    EXPECT_TRUE(content.count(std::string("reports/quick/") + file)) << file;
+  EXPECT_THAT(text_of(place.folder() / "reports/quick/result.json"), HasSubstr("gapscope.result/1"));
+}
+
+TEST(Commands, TheSameInputGivesTheSameBytesAlsoFromTheResolvedConfiguration) {
+  Workplace place;
+  place.file("c.yaml", kConfig);
+  ASSERT_EQ(place.run("run c.yaml -o a").status, 0);
+  ASSERT_EQ(place.run("run c.yaml -o b").status, 0);
+  ASSERT_EQ(place.run("run a/resolved.yaml -o c").status, 0);
+  const std::string a = stored(place.folder() / "a");
+  EXPECT_TRUE(a == stored(place.folder() / "b"));
+  EXPECT_TRUE(a == stored(place.folder() / "c"));
+}
+
+TEST(Commands, ARunOverAnOldReportReplacesIt) {
+  Workplace place;
+  place.file("c.yaml", kConfig);
+  place.file("a/result.json", "old");
+  place.file("a/mine.txt", "kept");
+  ASSERT_EQ(place.run("detect c.yaml -o a").status, 0);
+  EXPECT_NE(text_of(place.folder() / "a/result.json"), "old");
+  EXPECT_EQ(text_of(place.folder() / "a/mine.txt"), "kept");
+}
+
+TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {
+  Workplace place;
+  place.file("c.yaml", kConfig);
+  ASSERT_EQ(place.run("detect c.yaml -o d").status, 0);
+  ASSERT_EQ(place.run("fit c.yaml -o f").status, 0);
+  const std::string detected = text_of(place.folder() / "d/result.json");
+  const std::string fitted = text_of(place.folder() / "f/result.json");
+  EXPECT_THAT(detected, HasSubstr("\"reference\": null"));
+  EXPECT_THAT(detected, Not(HasSubstr("\"model_free\": null")));
+  EXPECT_THAT(fitted, HasSubstr("\"model_free\": null"));
+  EXPECT_THAT(fitted, Not(HasSubstr("\"reference\": null")));
+}
+
+TEST(Commands, ASimulatedRecordingReadBackIsDetectedLikeTheSimulationItself) {
+  Workplace place;
+  place.file("c.yaml", kConfig);
+  const auto simulated = place.run("simulate c.yaml -o quick");
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+  EXPECT_THAT(text_of(place.folder() / "quick"), ::testing::StartsWith("t,u,x1,x2,mode\n0,"));
+  place.file("r.yaml", "name: quick\nencoder: {bits: 18}\nrecording: {file: quick}\n");
+  ASSERT_EQ(place.run("detect c.yaml -o a").status, 0);
+  ASSERT_EQ(place.run("detect r.yaml -o b").status, 0);
+  // All that tells them apart is the true gap, which a recording does not know.
+  const auto model_free = [&](const char* folder) {
+    const std::string text = text_of(place.folder() / folder / "result.json");
+    const auto begin = text.find("\"model_free\"");
+    return text.substr(begin, text.find("\n \"", begin) - begin);
+  };
+  EXPECT_EQ(model_free("a"), model_free("b"));
+  EXPECT_THAT(model_free("a"), HasSubstr("events"));
+}
+
+TEST(Commands, ReportDrawsTheSameAgainFromWhatIsStored) {
+  Workplace place;
+  place.file("c.yaml", kConfig);
+  ASSERT_EQ(place.run("run c.yaml -o a").status, 0);
+  const std::string before = stored(place.folder() / "a");
+  for (const auto& entry : std::filesystem::directory_iterator(place.folder() / "a"))
+    if (entry.path().extension() == ".png" || entry.path().extension() == ".md")
+      std::filesystem::remove(entry.path());
+  ASSERT_NE(stored(place.folder() / "a"), before);
+  ASSERT_EQ(place.run("report a").status, 0);
+  EXPECT_TRUE(stored(place.folder() / "a") == before);
+}
+
+TEST(Commands, AnInterruptGivesStatus130AndLeavesNothing) {
+  Workplace place;
+  std::string longer = kConfig;
+  longer.replace(longer.find("duration: 2"), 11, "duration: 2000");
+  place.file("c.yaml", longer);
+  const auto run = place.run("run c.yaml", "timeout --preserve-status -s INT 0.3");
+  EXPECT_EQ(run.status, 130);
+  EXPECT_THAT(run.err, HasSubstr("interrupted"));
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(place.content(), (std::set<std::string>{"c.yaml"}));
+}
+
+TEST(Commands, WorkThatFailsGivesStatusOne) {
+  Workplace place;
+  place.file("c.yaml", kConfig);
+  EXPECT_EQ(place.run("simulate c.yaml -o /dev/full").status, 1);
+  EXPECT_EQ(place.run("simulate c.yaml -o o.csv", "ulimit -f 1; trap '' XFSZ;").status, 1);
+  EXPECT_EQ(place.content(), (std::set<std::string>{"c.yaml"}));
+}
+
+}  // namespace
+}  // namespace gapscope
