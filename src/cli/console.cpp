@@ -20,14 +20,14 @@ std::string milli(double value, bool rotation) {
 /// Decimals that show two digits of the interval's half width, all in thousandths.
 int decimals(const Interval& ci95) {
   const double half = 1e3 * (ci95.high - ci95.low) / 2.0;
-  return half > 0.0 ? static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 7.0)) : 4;
+  return half > 0.0 ? static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 5.0)) : 4;
 }
 
 std::string estimate(double value, const Interval& ci95, bool rotation) {
   const char* unit = rotation ? "mrad" : "mm";
-  if (std::isnan(ci95.low)) return fmt::format("{:<14}{:<20}", milli(value, rotation), "no interval");
+  if (std::isnan(ci95.low)) return fmt::format("{:<17} {:<22}", milli(value, rotation), "no interval");
   const int d = decimals(ci95);
-  return fmt::format("{:<14}{:<20}", fmt::format("{:.{}f} {}", 1e3 * value, d, unit),
+  return fmt::format("{:<17} {:<22}", fmt::format("{:.{}f} {}", 1e3 * value, d, unit),
                      fmt::format("[{:.{}f}, {:.{}f}]", 1e3 * ci95.low, d, 1e3 * ci95.high, d));
 }
 
@@ -55,7 +55,7 @@ std::string reference_line(const FitSummary& f, bool rotation) {
 std::string comparison_line(const Comparison& c, bool rotation) {
   if (std::isnan(c.difference)) return "-";
   const char* word = !c.agree ? "not comparable" : *c.agree ? "agree" : "disagree";
-  return fmt::format("{:<14}{} (joint standard error {})", milli(c.difference, rotation), word,
+  return fmt::format("{:<17} {} (joint standard error {})", milli(c.difference, rotation), word,
                      milli(c.joint_std, rotation));
 }
 
@@ -76,7 +76,8 @@ void print_headline(const std::string& folder, const RunResult& r) {
   if (r.reference) line("reference", reference_line(*r.reference, r.rotation));
   if (r.comparison) line("difference", comparison_line(*r.comparison, r.rotation));
   if (r.comparison && !std::isnan(r.comparison->true_gap))
-    line("load side", fmt::format("{:<14}width of the x1-x2 map", milli(r.comparison->true_gap, r.rotation)));
+    line("load side",
+         fmt::format("{:<17} width of the x1-x2 map", milli(r.comparison->true_gap, r.rotation)));
   if (!std::isnan(r.simulated_gap)) line("simulated", milli(r.simulated_gap, r.rotation));
 }
 

@@ -52,7 +52,7 @@ Recording simulated_recording(const Configuration& c) {
   options.encoder = {c.encoder.quantum, s.noise};
   const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
   stop_point();
-  Recording r = simulate(stepper_model(s.plant.drive, s.plant.structure), u, options);
+  Recording r = simulate(s.plant.plant_model(), u, options);
   r.file = c.name;
   return r;
 }

@@ -101,7 +101,6 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
   c.simulation = read_simulation(*simulation);
   WrittenModel changes;
   if (const auto given = simulated_model(*simulation)) changes = read_model(*given);
-  require_known_effects(changes);
   c.simulation->plant = simulated_plant(overlaid(model, changes), *simulation);
   require_possible_start(c);
 }
@@ -118,7 +117,6 @@ Configuration read_configuration(const Value& document) {
   if (const auto detector = root.find("detector")) c.detector = read_detector(*detector);
   WrittenModel model;
   if (const auto given = root.find("model")) model = read_model(*given);
-  require_known_effects(model);
   c.model = resolved_model(model);
   require_bound_from_model(c);
   read_data(root, model, c);

@@ -56,17 +56,6 @@ std::pair<ContactLaw, double> read_contact(const Value& value) {
   return {ContactLaw::kRigid, rigid.require("restitution", "a number from 0 to 1").number({0.0, 1.0, "-"})};
 }
 
-EffectConfig read_effect(const Value& value) {
-  const char* const form = "one effect, {name: {key: number}}";
-  if (!value.is_map()) value.fail_expecting(form);
-  const auto entries = value.entries();
-  if (entries.size() != 1) value.fail_expecting(form);
-  EffectConfig effect{entries[0].first, {}, entries[0].second.line()};
-  for (const auto& [key, number] : entries[0].second.entries())
-    effect.parameters.emplace_back(key, number.number());
-  return effect;
-}
-
 void read_parameters(const Value& value, WrittenModel& model) {
   std::vector<std::string> keys;
   for (const auto& spec : kDriveParameters) keys.emplace_back(spec.key);

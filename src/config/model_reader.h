@@ -41,7 +41,7 @@ ModelConfig resolved_model(const WrittenModel& written);
 /// @param simulation  the block that needs them, for messages
 SimulatedPlant simulated_plant(const WrittenModel& written, const Value& simulation);
 
-/// Refuses effects that this version does not know.
-void require_known_effects(const WrittenModel& written);
+/// `{name: {key: number, key: {value, estimate, bounds}}}` of a known effect.
+EffectConfig read_effect(const Value& value);
 
 }  // namespace gapscope::internal

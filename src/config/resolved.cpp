@@ -70,9 +70,11 @@ void write_effects(YamlWriter& out, const std::vector<EffectConfig>& effects) {
   std::vector<std::string> list;
   for (const EffectConfig& effect : effects) {
     std::vector<std::string> keys;
-    for (const auto& [key, value] : effect.parameters)
-      keys.push_back(fmt::format("{}: {}", yaml_text(key), value));
-    list.push_back(fmt::format("{{{}: {{{}}}}}", yaml_text(effect.name), joined(keys)));
+    const EffectEntry& entry = *effect.effect.entry;
+    for (std::size_t i = 0; i < entry.parameters.size(); ++i)
+      keys.push_back(
+          fmt::format("{}: {}", entry.parameters[i].key, setting_text(effect.effect.parameters[i])));
+    list.push_back(fmt::format("{{{}: {{{}}}}}", entry.name, joined(keys)));
   }
   out.entry("effects", "[" + joined(list) + "]");
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -90,8 +91,11 @@ Value parse_document(const std::string& text, const std::string& file) {
       throw ConfigError(file, "is empty, expected a map with name, recording or simulation, ...");
     return Value(root, "", name, 1);
   } catch (const YAML::Exception& error) {
+    std::string what = error.msg;  // may quote a character of the file
+    std::replace_if(
+        what.begin(), what.end(), [](unsigned char c) { return c < ' '; }, '?');
     throw ConfigError(file, error.mark.line + 1,
-                      "no valid YAML: " + error.msg + ", expected a map of keys and values");
+                      "no valid YAML: " + what + ", expected a map of keys and values");
   }
 }
 

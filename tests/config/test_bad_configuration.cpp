@@ -55,6 +55,7 @@ const std::vector<BadConfig> kBadDocuments = {
     {"text", "hello\n", "c.yaml:1: the file is 'hello'"},
     {"syntax", "name: a\nmodel: {parameters: [1\nload: 2\n", "c.yaml:3: no valid YAML"},
     {"tab", "name: a\nmodel:\n\tload: free\n", "c.yaml:3: no valid YAML"},
+    {"odd_escape", "name: \"a\\\nb\"\nmodel: \"\\\t\\\x01\"\n", "c.yaml:"},
     {"unknown_alias", "name: *x\n", "c.yaml:1: no valid YAML"},
     {"two_documents", kRecorded + "---\nname: b\n", "c.yaml:25: a second document begins"},
     {"deep", "name: " + std::string(60, '[') + std::string(60, ']'), "c.yaml:1: nested too deep"},

@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "config/model_reader.h"
+#include "gapscope/simulation/simulate.h"
+
+namespace gapscope {
+
+ReferenceModel ModelConfig::reference_model() const {
+  ReferenceModel model{structure, parameters, {}};
+  for (const EffectConfig& e : effects) model.effects.push_back(e.effect);
+  return model;
+}
+
+PlantModel<double> SimulatedPlant::plant_model() const {
+  PlantModel<double> plant = stepper_model(drive, structure);
+  for (const EffectConfig& e : effects) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < e.effect.entry->parameters.size(); ++i)
+      values.push_back(e.effect.parameters[i].value);
+    add_effect<double>(plant, *e.effect.entry, values);
+  }
+  return plant;
+}
+
+namespace internal {
+namespace {
+
+/// What a parameter can be at all. Bounds that scale with the drive keep their sign here; their size is the
+/// fit's concern, who knows the recording.
+Range possible(const EffectParameterSpec& spec) {
+  if (spec.scale == Scale::kOne) return {spec.low, spec.high, spec.unit};
+  return {spec.low >= 0.0 ? 0.0 : -kInfinity, kInfinity, spec.unit};
+}
+
+/// A value that needs no recording to be neutral; NaN where there is none.
+double neutral(const EffectParameterSpec& spec) {
+  return spec.absent == 0.0 || spec.scale == Scale::kOne ? spec.absent : kNaN;
+}
+
+ParameterSetting read_setting(const Value& value, const Range& range) {
+  ParameterSetting p;
+  if (!value.is_map()) {
+    p.value = value.number(range);
+    return p;
+  }
+  const Section section(value, {"value", "estimate", "bounds"});
+  if (const auto given = section.find("estimate")) p.estimate = given->truth();
+  if (const auto given = section.find("bounds")) std::tie(p.low, p.high) = given->rising_pair(range);
+  if (const auto given = section.find("value"))
+    p.value = given->number(std::isnan(p.low) ? range : Range{p.low, p.high, range.unit});
+  if (std::isnan(p.value) && !p.estimate)
+    value.fail("has no value and is not estimated, expected a value or estimate: true");
+  return p;
+}
+
+const EffectEntry& entry_of(const std::string& name, const Value& value) {
+  if (const EffectEntry* entry = find_effect(name)) return *entry;
+  const EffectEntry* nearest = effect_table().front();
+  for (const EffectEntry* entry : effect_table())
+    if (distance(entry->name, name) < distance(nearest->name, name)) nearest = entry;
+  value.fail(fmt::format(
+      "is no effect of the catalogue, expected one of `gapscope effects`; the nearest is {}", nearest->name));
+}
+
+}  // namespace
+
+EffectConfig read_effect(const Value& value) {
+  const char* const form = "one effect, {name: {key: number}}";
+  if (!value.is_map()) value.fail_expecting(form);
+  const auto entries = value.entries();
+  if (entries.size() != 1) value.fail_expecting(form);
+  const Value& written = entries[0].second;
+  EffectConfig effect;
+  effect.line = written.line();
+  effect.effect.entry = &entry_of(entries[0].first, written);
+  std::vector<std::string> keys;
+  for (const EffectParameterSpec& spec : effect.effect.entry->parameters) keys.emplace_back(spec.key);
+  const Section section(written, keys);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const EffectParameterSpec& spec = effect.effect.entry->parameters[i];
+    ParameterSetting& setting = effect.effect.parameters[i];
+    setting.value = neutral(spec);
+    if (const auto given = section.find(keys[i]))
+      setting = read_setting(*given, possible(spec));
+    else if (std::isnan(setting.value))
+      section.require(keys[i], fmt::format("a number in {}", spec.unit));
+  }
+  return effect;
+}
+
+}  // namespace internal
+}  // namespace gapscope
