@@ -42,7 +42,8 @@ const bool kRegistered = [] {
              ->Range(2000, 128000)
              ->Complexity(benchmark::oN));
   repeat(benchmark::RegisterBenchmark("events/tenths_of_amplitude", events)
-             ->Arg(3)
+             ->Arg(1)
+             ->Arg(2)
              ->Arg(6)
              ->Arg(12)
              ->Arg(24)
