@@ -87,7 +87,8 @@ class Comparison {
   long events_ = 0;
 };
 
-void add(const std::string& name, MakePeer make, double accuracy, int repetitions, int iterations) {
+[[maybe_unused]] void add(const std::string& name, MakePeer make, double accuracy, int repetitions,
+                          int iterations) {
   const auto run = [&](const std::string& input, const std::vector<double>& u) {
     const auto comparison = std::make_shared<Comparison>(make, accuracy, u);
     repeat(benchmark::RegisterBenchmark((name + "/" + input).c_str(),
