@@ -57,7 +57,7 @@ Panel loop(const ReportView& view, const DriveSignal& drive, const LineStyle& st
   s.style = style;
   s.style.dashes.clear();  // a loop run through many times fills its dashes
   s.style.width = 3.0;
-  s.x = view.over_time("", {}, drive.values, view.window).y;
+  s.x = view.over_time("", {}, without_noise(view, drive.values), view.window).y;
   s.y = view.over_time("", {}, view.state, view.window).y;
   panel.series.push_back(s);
   return panel;

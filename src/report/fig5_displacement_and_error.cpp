@@ -35,13 +35,21 @@ Series at_events(const ReportView& view, const std::string& label, Marker marker
   return s;
 }
 
+/// The bound of the differentiator that left the error trace.
+std::string at_bound(const ReportView& view) {
+  const GapEstimate& g = *view.run.model_free;
+  const double bound = std::isfinite(g.bound_t1) ? g.bound_t1 : g.bound;
+  if (!std::isfinite(bound)) return "";
+  return " (L = " + quantity(bound, view.length_unit + "/s²") + ")";
+}
+
 std::string reading(const ReportView& view, double offset) {
   const std::size_t used = view.accepted().size();
   std::vector<double> magnitudes;
   for (const double e : view.error->error) magnitudes.push_back(std::abs(e));
   std::string text =
-      fmt::format("e_x peaks at {}, {} times its median size; {} of the gap used, {} set aside",
-                  quantity(largest_magnitude(view.error->error), view.length_unit),
+      fmt::format("e_x{} peaks at {}, {} times its median size; {} of the gap used, {} set aside",
+                  at_bound(view), quantity(largest_magnitude(view.error->error), view.length_unit),
                   plain_number(largest_magnitude(view.error->error) / median(magnitudes)),
                   counted(used, "passage"), std::to_string(view.events.size() - used));
   if (!view.whole)

@@ -67,6 +67,7 @@ struct FigureData {
   std::string title{};
   std::string reading{};             ///< one line: what this figure shows here
   std::string missing{};             ///< why there is no such figure; empty: there is one
+  bool expected = true;              ///< false: nobody would look for it here, so its absence needs no word
   std::vector<std::string> lines{};  ///< text under the title, wrapped
   double width = 1600.0;             ///< [px]
   int columns = 1;

@@ -25,8 +25,11 @@ FigureData lost_motion_loop(const ReportView& view) {
   FigureData figure;
   figure.file = "lost_motion_loop.png";
   figure.title = "Displacement against input";
-  if (!view.recording || !view.run.model_free || view.run.model_free->method != GapMethod::kLostMotion)
-    return missing_figure(figure.file, figure.title, "the gap was not looked for by the lost-motion method");
+  if (!view.recording || !view.run.model_free || view.run.model_free->method != GapMethod::kLostMotion) {
+    figure.missing = "the gap was not looked for by the lost-motion method";
+    figure.expected = false;
+    return figure;
+  }
   const DriveSignal drive = drive_signal(view);
   Panel panel;
   panel.x = drive.axis;
@@ -35,12 +38,11 @@ FigureData lost_motion_loop(const ReportView& view) {
   Series loop;
   loop.style = measured_style();
   loop.style.width = 3.0;
-  loop.x = drive.values;
+  loop.x = without_noise(view, drive.values);
   loop.y = view.recording->x1;
-  panel.series.push_back(loop);
   panel.x_marks.push_back({0.0, guide_style(), ""});
-  const double up = median(positions_at_zero(view, drive.values, true));
-  const double down = median(positions_at_zero(view, drive.values, false));
+  const double up = median(positions_at_zero(view, loop.x, true));
+  const double down = median(positions_at_zero(view, loop.x, false));
   figure.reading = "The branches of the loop have no common zero of the input.";
   if (std::isfinite(up) && std::isfinite(down)) {
     const std::string play = quantity(std::abs(down - up), view.length_unit);
@@ -49,6 +51,7 @@ FigureData lost_motion_loop(const ReportView& view) {
     figure.reading = fmt::format("At zero {} the two branches lie {} apart (medians); the estimate is {}.",
                                  drive.name, play, quantity(view.run.model_free->gap, view.length_unit));
   }
+  panel.series.push_back(loop);
   figure.panels.push_back(panel);
   return figure;
 }

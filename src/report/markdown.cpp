@@ -11,6 +11,11 @@
 namespace gapscope::internal {
 namespace {
 
+/// With a full stop and a blank, ready for the next one; nothing for nothing.
+std::string sentence(const std::string& text) {
+  return text.empty() ? "" : text + (text.ends_with(".") ? " " : ". ");
+}
+
 std::string parameter_row(const FittedParameter& p, bool rotation) {
   const std::string unit = shown_unit(p.unit, rotation);
   const char* known = !p.estimated ? "given" : p.identifiable ? "yes" : "no";
@@ -62,8 +67,7 @@ std::string parameter_table(const RunResult& run) {
       "remark |\n|---|---|---|---|---|\n";
   for (const FittedParameter& p : run.reference->parameters) text += parameter_row(p, run.rotation);
   const FitSummary& fit = *run.reference;
-  text += fmt::format("\n{}{} Free run: {} rms", fit.message, fit.message.ends_with(".") ? "" : ".",
-                      quantity(fit.rmse, position_unit(run)));
+  text += "\n" + sentence(fit.message) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";
   if (std::isfinite(fit.floor))
     text += ", the encoder alone leaves " + quantity(fit.floor, position_unit(run));
   return text + ".\n";
@@ -86,7 +90,8 @@ std::string figure_section(const std::vector<FigureData>& figures) {
   }
   std::string left_out;
   for (const FigureData& figure : figures)
-    if (!figure.missing.empty()) left_out += fmt::format("- `{}`: {}.\n", figure.file, figure.missing);
+    if (!figure.missing.empty() && figure.expected)
+      left_out += fmt::format("- `{}`: {}.\n", figure.file, figure.missing);
   if (!left_out.empty()) text += "\n### Left out\n\n" + left_out;
   return text;
 }
@@ -104,7 +109,10 @@ std::vector<std::string> notes_of(const RunResult& run) {
     notes.push_back(fmt::format("`{}`: {} samples, {} at {:g} Hz, encoder quantum {}.", r.file, r.size(),
                                 quantity(r.duration(), "s"), 1.0 / r.dt,
                                 r.quantum > 0.0 ? quantity(r.quantum, position_unit(run)) : "unknown"));
-    if (!r.resampling.empty()) notes.push_back(fmt::format("`{}`: {}", r.file, r.resampling));
+    const bool told = std::any_of(run.notes.begin(), run.notes.end(), [&](const std::string& note) {
+      return note.find(r.resampling) != std::string::npos;
+    });
+    if (!told) notes.push_back(fmt::format("`{}`: {}", r.file, r.resampling));
   }
   return notes;
 }
@@ -135,8 +143,7 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
   if (const auto lines = warnings_of(run); !lines.empty()) text += bullet_section("Warnings", lines);
   text += "\n## Estimates\n\n" + estimate_rows(run) + comparison_line(run);
   if (run.model_free && !run.model_free->reason.empty())
-    text += "\nModel-free verdict: " + run.model_free->reason +
-            (run.model_free->reason.ends_with(".") ? "" : ".") + "\n";
+    text += "\nModel-free verdict: " + sentence(run.model_free->reason) + "\n";
   text += timing_line(timing) + parameter_table(run) + figure_section(figures);
   text += bullet_section("Notes", notes_of(run));
   return text + fmt::format("\ngapscope {}\n", run.version);

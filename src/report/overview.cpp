@@ -7,13 +7,13 @@
 namespace gapscope::internal {
 namespace {
 
-/// A panel of another figure under a title of its own.
+/// A panel of another figure, under a title of its own where one is given.
 void borrow(FigureData& sheet, const std::vector<FigureData>& figures, const std::string& file,
-            std::size_t index, const std::string& title, double height) {
+            std::size_t index, double height, const std::string& title = "") {
   for (const FigureData& figure : figures) {
     if (figure.file != file || !figure.missing.empty() || index >= figure.panels.size()) continue;
     Panel panel = figure.panels[index];
-    panel.title = title;
+    if (!title.empty()) panel.title = title;
     panel.height = height;
     panel.x_labels = true;
     sheet.panels.push_back(panel);
@@ -30,17 +30,15 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   sheet.columns = 2;
   sheet.lines.push_back(literal(headline(view.run)));
   if (const std::string line = fit_quality(view.run); !line.empty()) sheet.lines.push_back(line);
-  borrow(sheet, figures, "fig2_input_and_displacement.png", 0, "Input", 420.0);
-  borrow(sheet, figures, "fig5_displacement_and_error.png", 0, "Displacement and estimation error", 420.0);
-  if (sheet.panels.size() < 2)
-    borrow(sheet, figures, "fig2_input_and_displacement.png", 1, "Displacement", 420.0);
-  borrow(sheet, figures, "fig6_one_period.png", 0, "One passage of the gap", 480.0);
-  borrow(sheet, figures, "fig6_one_period.png", 1, "Its estimation error", 480.0);
-  borrow(sheet, figures, "lost_motion_loop.png", 0, "Displacement against input", 480.0);
-  borrow(sheet, figures, "estimates.png", 0, "Estimates with 95 % intervals", 400.0);
-  borrow(sheet, figures, "estimates.png", 1, "Passage by passage", 400.0);
-  borrow(sheet, figures, "fig3_backlash_map.png", 1, "Backlash map", 420.0);
-  borrow(sheet, figures, "residuals.png", 0, "Recorded minus fitted displacement", 420.0);
+  borrow(sheet, figures, "fig2_input_and_displacement.png", 0, 420.0);
+  borrow(sheet, figures, "fig5_displacement_and_error.png", 0, 420.0, "Displacement and estimation error");
+  if (sheet.panels.size() < 2) borrow(sheet, figures, "fig2_input_and_displacement.png", 1, 420.0);
+  borrow(sheet, figures, "fig6_one_period.png", 0, 480.0, "One passage of the gap");
+  borrow(sheet, figures, "fig6_one_period.png", 1, 480.0, "Its estimation error");
+  borrow(sheet, figures, "lost_motion_loop.png", 0, 480.0, "Displacement against input");
+  for (const std::size_t i : {0u, 1u}) borrow(sheet, figures, "estimates.png", i, 400.0);
+  borrow(sheet, figures, "fig3_backlash_map.png", 1, 420.0, "Backlash map");
+  borrow(sheet, figures, "residuals.png", 0, 420.0, "Recorded minus fitted displacement");
   if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");
   sheet.reading = accuracy(view.run) + (accuracy(view.run).empty() ? "" : " ") + fit_quality(view.run);
   if (sheet.reading.empty()) sheet.reading = "The true gap is not known here.";

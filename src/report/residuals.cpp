@@ -13,6 +13,7 @@ namespace {
 /// Stretches of the gap mode of the fitted model within an interval.
 std::vector<Band> gap_bands(const ReportView& view, const Interval& interval) {
   std::vector<Band> bands;
+  if (view.fit->x2.empty()) return bands;  // no load behind a gap, no modes
   const std::vector<Mode>& mode = view.fit->mode;
   const std::size_t last = view.index(interval.high);
   for (std::size_t i = view.index(interval.low); i <= last && i < mode.size(); ++i) {
@@ -28,7 +29,8 @@ std::vector<Band> gap_bands(const ReportView& view, const Interval& interval) {
 Panel over_time(const ReportView& view, const std::vector<double>& residual, const Interval& interval,
                 bool shaded) {
   Panel panel;
-  panel.title = view.whole || shaded ? "Residual by mode" : "Residual of the whole recording";
+  panel.title = view.whole || shaded ? (view.fit->x2.empty() ? "Residual" : "Residual by mode")
+                                     : "Residual of the whole recording";
   panel.x = view.time_axis(interval);
   panel.y = {"$x_1$ − fitted $x_1$", view.length_unit, {}, {}, {}};
   panel.height = 400.0;

@@ -17,6 +17,16 @@ std::vector<double> scaled(std::span<const double> a, double factor) {
   return result;
 }
 
+std::vector<double> moving_mean(const std::vector<double>& values, std::size_t reach) {
+  std::vector<double> sums = {0.0}, result;
+  for (const double v : values) sums.push_back(sums.back() + v);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t r = std::min({reach, i, values.size() - 1 - i});
+    result.push_back((sums[i + r + 1] - sums[i - r]) / static_cast<double>(2 * r + 1));
+  }
+  return result;
+}
+
 double robust_middle(const std::vector<double>& values) {
   return (quantile(values, 0.01) + quantile(values, 0.99)) / 2;
 }

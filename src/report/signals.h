@@ -11,6 +11,9 @@ namespace gapscope::internal {
 std::vector<double> difference(std::span<const double> a, std::span<const double> b);  ///< a − b
 std::vector<double> scaled(std::span<const double> a, double factor);
 
+/// Mean over each sample and up to `reach` neighbours on either side, as many on both.
+std::vector<double> moving_mean(const std::vector<double>& values, std::size_t reach);
+
 /// Middle between the 1 % and the 99 % quantile.
 double robust_middle(const std::vector<double>& values);
 /// Largest minus smallest value.

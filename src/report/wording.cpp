@@ -13,7 +13,7 @@ namespace {
 /// Decimals that show `digits` significant digits of the given size.
 int decimals_for(double size, int digits) {
   if (!(size > 0.0)) return 0;
-  return std::clamp(digits - 1 - static_cast<int>(std::floor(std::log10(size))), 0, 6);
+  return std::clamp(digits - 1 - static_cast<int>(std::floor(std::log10(size))), 0, 12);
 }
 
 bool known(const Interval& interval) { return std::isfinite(interval.low) && std::isfinite(interval.high); }
@@ -124,6 +124,7 @@ std::string plus_minus(double value, const Interval& ci95, const std::string& un
 
 std::string plain_number(double value) {
   if (!std::isfinite(value)) return "unknown";
+  if (std::abs(value) >= 1e4) return scientific(value, 2);
   return tick_label(value, decimals_for(std::abs(value), 2));
 }
 

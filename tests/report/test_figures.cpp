@@ -196,6 +196,24 @@ TEST(Residuals, ShadeTheGapModeOfTheFit) {
   EXPECT_NEAR(shaded, counted, 1e-9);
 }
 
+TEST(Residuals, OfADriveWithoutAGapHaveNoModes) {
+  const RunResult run =
+      sample_run({.samples = 7500, .load_recorded = false, .detected = false, .one_inertia = true});
+  EXPECT_TRUE(residuals(ReportView(run)).panels[0].x_bands.empty());
+}
+
+TEST(Overview, KeepsTheTitlesOfThePanelsThatItBorrows) {
+  // No estimate of a gap, but passages that were set aside: there is one panel only.
+  RunResult run =
+      sample_run({.samples = 7500, .load_recorded = false, .fitted = false, .verdict = GapVerdict::kNone});
+  const ReportView view(run);
+  const FigureData sheet = all_figures(view)[0];
+  EXPECT_TRUE(std::any_of(sheet.panels.begin(), sheet.panels.end(),
+                          [](const Panel& p) { return p.title == "Passage by passage"; }));
+  EXPECT_FALSE(std::any_of(sheet.panels.begin(), sheet.panels.end(),
+                           [](const Panel& p) { return p.title == "Estimates with 95 % intervals"; }));
+}
+
 TEST(Residuals, OfWhiteNoiseAreCalledWhite) {
   RunResult run = sample_run({.samples = 6000});
   // Deterministic and white enough: the fractional parts of i² √2.

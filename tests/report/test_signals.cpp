@@ -61,6 +61,18 @@ TEST(RoundFactor, BringsASizeJustBelowItsTarget) {
   EXPECT_DOUBLE_EQ(round_factor(1.0, kNaN), 1.0);
 }
 
+TEST(MovingMean, KeepsStraightLinesAndHalvesWhatAlternates) {
+  std::vector<double> line, alternating;
+  for (int i = 0; i < 50; ++i) {
+    line.push_back(0.3 * i - 2.0);
+    alternating.push_back(i % 2 ? 1.0 : -1.0);
+  }
+  const auto same = moving_mean(line, 4);  // symmetric up to the ends
+  for (std::size_t i = 0; i < 50; ++i) EXPECT_NEAR(same[i], line[i], 1e-12);
+  const auto less = moving_mean(alternating, 4);
+  for (std::size_t i = 4; i < 46; ++i) EXPECT_NEAR(std::abs(less[i]), 1.0 / 9.0, 1e-12);
+}
+
 TEST(PeakToPeak, IgnoresUndefinedSamples) {
   EXPECT_DOUBLE_EQ(peak_to_peak(std::vector<double>{kNaN, 1.0, -2.0, kNaN}), 3.0);
   EXPECT_DOUBLE_EQ(largest_magnitude(std::vector<double>{1.0, kNaN, -2.0}), 2.0);
