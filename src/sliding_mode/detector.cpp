@@ -29,20 +29,41 @@ GapEstimate decide_paper(std::span<const MotorTrace> recordings, std::span<const
   return estimate;
 }
 
-/// Which bounds would have read these recordings, found by trying.
-std::string bounds_to_try(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses) {
-  const auto usable =
-      std::find_if(analyses.begin(), analyses.end(), [](const auto& a) { return a.facts.defect.empty(); });
-  if (usable == analyses.end()) return "";
-  double low = kInfinity, high = 0.0;
+struct Reading {
+  double bound, gap;
+};
+
+/// The bounds of the grid with which one e_x reads these recordings, and what it reads.
+std::vector<Reading> readable_bounds(std::span<const MotorTrace> recordings,
+                                     std::span<const ImpactAnalysis> analyses) {
+  std::vector<Reading> found;
+  const auto usable = std::find_if(analyses.begin(), analyses.end(),
+                                   [](const ImpactAnalysis& a) { return a.facts.defect.empty(); });
+  if (usable == analyses.end()) return found;
   for (const double bound : usable->run.bounds) {
-    if (decide_paper(recordings, analyses, bound).verdict != GapVerdict::kBacklash) continue;
-    low = std::min(low, bound);
-    high = std::max(high, bound);
+    const GapEstimate reading = decide_paper(recordings, analyses, bound);
+    if (reading.verdict == GapVerdict::kBacklash) found.push_back({bound, reading.gap});
   }
-  if (high == 0.0) return "; no single bound reads this recording, use auto";
-  if (low == high) return fmt::format("; try L = {:.2g}", low);
-  return fmt::format("; try L between {:.2g} and {:.2g}", low, high);
+  return found;
+}
+
+std::string bounds_to_try(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses) {
+  const auto found = readable_bounds(recordings, analyses);
+  if (found.empty()) return "; no single bound reads this recording, use auto";
+  if (found.size() == 1) return fmt::format("; try L = {:.2g}", found.front().bound);
+  return fmt::format("; try L between {:.2g} and {:.2g}", found.front().bound, found.back().bound);
+}
+
+/// The bound whose e_x shows t1 and t2 best, for the figures: of those that read the recordings, the one
+/// closest to the estimate; without any, the smallest that slides.
+double bound_that_shows(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
+                        const GapEstimate& estimate, double otherwise) {
+  if (estimate.verdict != GapVerdict::kBacklash) return otherwise;
+  const auto found = readable_bounds(recordings, analyses);
+  const auto best = std::min_element(found.begin(), found.end(), [&](const Reading& a, const Reading& b) {
+    return std::abs(a.gap - estimate.gap) < std::abs(b.gap - estimate.gap);
+  });
+  return best == found.end() ? otherwise : best->bound;
 }
 
 /// e_x and ŵ1 of one bound, for the figures.
@@ -83,7 +104,7 @@ double scale_of(std::span<const ImpactAnalysis> analyses, const std::vector<Erro
   return ratio > 0.0 ? nice_number(ratio) : 1.0;
 }
 
-/// The bound that shows t1: of those that see the impacts, the one just above what the engaged motion needs.
+/// Median over the recordings of a bound that each analysis chose.
 double typical_bound(std::span<const ImpactAnalysis> analyses, std::size_t ImpactAnalysis::*index) {
   std::vector<double> bounds;
   for (const ImpactAnalysis& a : analyses)
@@ -119,13 +140,15 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   }
   if (options.bound > 0.0) {
     estimate = decide_paper(recordings, analyses, options.bound);
-    if (estimate.verdict != GapVerdict::kBacklash) estimate.reason += bounds_to_try(recordings, analyses);
+    if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
+      estimate.reason += bounds_to_try(recordings, analyses);
     keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
     return estimate;
   }
   internal::decide(analyses, intervals, estimate);
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
-  estimate.bound_t1 = typical_bound(analyses, &ImpactAnalysis::sliding);
+  estimate.bound_t1 =
+      bound_that_shows(recordings, analyses, estimate, typical_bound(analyses, &ImpactAnalysis::sliding));
   keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
   if (options.paper_bound > 0.0) warn_of_paper_bound(recordings, analyses, options.paper_bound, estimate);
   return estimate;

@@ -9,7 +9,7 @@
 namespace gapscope::internal {
 namespace {
 
-constexpr double kContrast = 1.2;  ///< ρ
+constexpr double kContrast = 1.6;  ///< ρ
 
 constexpr double kEcho = 2.5;  ///< an earlier impact that is this much weaker is none; a later one is an echo
 constexpr std::size_t kSameSignSteps = 4;

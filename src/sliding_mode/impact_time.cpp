@@ -69,9 +69,10 @@ ImpactTime refine_impact(const TransitionContext& context, const Event& impact, 
     low = std::min(low, fit.time);
     high = std::max(high, fit.time);
   }
+  // A kink far from where e left its floor is to be trusted less.
+  const double half = std::max(0.5 * (high - low), 0.25 * std::abs(best.time - start));
   const double dt = context.trace.dt;
-  result = {true,          best.time,       0.5 * (high - low) * dt,
-            best.position, best.slope / dt, best.curvature / (dt * dt)};
+  result = {true, best.time, half * dt, best.position, best.slope / dt, best.curvature / (dt * dt)};
   return result;
 }
 

@@ -125,48 +125,59 @@ std::string objection(const std::vector<double>& up, const std::vector<double>& 
   return "";
 }
 
+/// All readings together.
+struct Pool {
+  std::vector<double> up, down, lateness, steps;
+  double quiet = 1.0, half_periods = 0.0, travel = kInfinity, noise = 0.0;
+};
+
+void add(Pool& pool, const ImpactAnalysis& analysis, const PaperReading& reading) {
+  for (const GapEvent& event : reading.events)
+    if (event.accepted) (event.direction > 0 ? pool.up : pool.down).push_back(event.gap);
+  pool.lateness.insert(pool.lateness.end(), reading.lateness.begin(), reading.lateness.end());
+  pool.steps.insert(pool.steps.end(), reading.steps.begin(), reading.steps.end());
+  pool.quiet = std::min(pool.quiet, reading.quiet);
+  pool.half_periods += static_cast<double>(analysis.facts.half_periods);
+  pool.travel = std::min(pool.travel, analysis.travel);
+  pool.noise = std::max(pool.noise, analysis.facts.noise);
+}
+
+void fill_estimate(const Pool& pool, GapEstimate& estimate) {
+  const double up = median(pool.up), down = median(pool.down), late = median(pool.lateness);
+  const double n = static_cast<double>(pool.up.size() + pool.down.size());
+  const double scatter = std::max(robust_std(pool.up), robust_std(pool.down)) / std::sqrt(0.5 * n);
+  const double difference = 0.5 * (up - down);
+  const double latency = median(pool.steps);
+  estimate.verdict = GapVerdict::kBacklash;
+  estimate.gap = 0.5 * (up + down);
+  estimate.std = std::sqrt(scatter * scatter + difference * difference + 0.25 * late * late +
+                           latency * latency + 2.0 * pool.noise * pool.noise);
+  estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
+  estimate.reason =
+      fmt::format("{:.0f} of {:.0f} reversals read with L = {:.3g}", n, pool.half_periods, estimate.bound);
+}
+
 }  // namespace
 
 void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const PaperReading> readings,
                        GapEstimate& estimate) {
   estimate.method = GapMethod::kPaper;
-  std::vector<double> up, down, lateness, steps;
-  double quiet = 1.0, half_periods = 0.0, travel = kInfinity, noise = 0.0;
+  estimate.verdict = GapVerdict::kInconclusive;
+  estimate.reason = "no recording";
+  Pool pool;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!analyses[i].facts.defect.empty()) {
       estimate.reason = analyses[i].facts.defect;
       continue;
     }
     estimate.bound = readings[i].bound;
-    for (const GapEvent& event : readings[i].events) {
-      estimate.events.push_back(event);
-      if (event.accepted) (event.direction > 0 ? up : down).push_back(event.gap);
-    }
-    lateness.insert(lateness.end(), readings[i].lateness.begin(), readings[i].lateness.end());
-    steps.insert(steps.end(), readings[i].steps.begin(), readings[i].steps.end());
-    quiet = std::min(quiet, readings[i].quiet);
-    half_periods += static_cast<double>(analyses[i].facts.half_periods);
-    travel = std::min(travel, analyses[i].travel);
-    noise = std::max(noise, analyses[i].facts.noise);
+    estimate.events.insert(estimate.events.end(), readings[i].events.begin(), readings[i].events.end());
+    add(pool, analyses[i], readings[i]);
   }
-  estimate.verdict = GapVerdict::kInconclusive;
-  if (half_periods == 0.0) return;
-  const double late = median(lateness);
-  if (const auto why = objection(up, down, quiet, half_periods, late, travel); !why.empty()) {
-    estimate.reason = why;
-    return;
-  }
-  const double n = static_cast<double>(up.size() + down.size());
-  const double scatter = std::max(robust_std(up), robust_std(down)) / std::sqrt(0.5 * n);
-  const double difference = 0.5 * (median(up) - median(down));
-  const double sampling = median(steps);
-  estimate.verdict = GapVerdict::kBacklash;
-  estimate.gap = 0.5 * (median(up) + median(down));
-  estimate.std = std::sqrt(scatter * scatter + difference * difference + 0.25 * late * late +
-                           sampling * sampling + 2.0 * noise * noise);
-  estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
+  if (pool.half_periods == 0.0) return;
   estimate.reason =
-      fmt::format("{:.0f} of {:.0f} reversals read with L = {:.3g}", n, half_periods, estimate.bound);
+      objection(pool.up, pool.down, pool.quiet, pool.half_periods, median(pool.lateness), pool.travel);
+  if (estimate.reason.empty()) fill_estimate(pool, estimate);
 }
 
 }  // namespace gapscope::internal

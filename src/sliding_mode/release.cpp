@@ -47,7 +47,7 @@ Release find_dwell(const TransitionContext& context, const Reversal& r, const Im
   const double flight = static_cast<double>(t2 - r.first);
   const double rest = fit.time - from;
   const double slope = std::abs(fit.slope) / trace.dt;
-  if (!(fit.sse < cubic) || rest < std::max(2.0, 0.04 * flight) || slope > 0.08 * std::abs(impact.speed))
+  if (!(fit.sse < cubic) || rest < std::max(2.0, 0.12 * flight) || slope > 0.08 * std::abs(impact.speed))
     return release;
   const auto rest_end = static_cast<std::size_t>(fit.time) + 1 - r.first;
   if (leaves_at_once(window.subspan(0, std::min(rest_end, window.size())), r.first, r.rise)) return release;

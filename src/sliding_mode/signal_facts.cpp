@@ -66,7 +66,7 @@ SignalFacts read_facts(const MotorTrace& trace) {
     facts.defect = "recording too short: record at least three periods of a periodic motion";
     return facts;
   }
-  facts.quantum = trace.quantum;
+  facts.quantum = trace.quantum > 0.0 ? trace.quantum : seen_quantum(y);
   facts.noise = std::max(noise_from_differences(y), facts.quantum / std::sqrt(12.0));
   const std::vector<double> all(y.begin(), y.end());
   const double low = quantile(all, 0.02), high = quantile(all, 0.98);

@@ -10,12 +10,16 @@
 namespace gapscope::internal {
 namespace {
 
+constexpr double kVisible =
+    0.4;  ///< largest share of the travel that a statement on smaller gaps may leave open
+
 struct Pool {
   std::vector<const Transition*> accepted;
   std::map<Refusal, int> refused;  // ordered: the same text for the same data
   std::size_t passages = 0;
   double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0;
-  double contrast = 0.0;  // highest of all passages
+  std::vector<double> contrasts;  // of all passages
+  std::size_t events = 0;
 };
 
 std::vector<double> gaps_of(const Pool& pool, int direction) {
@@ -43,9 +47,10 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.dt = std::max(pool.dt, intervals[i]);
     pool.visible = std::max(pool.visible, a.smallest_visible_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
+    pool.events += a.events.size();
     for (const Transition& t : a.passages) {
       ++pool.passages;
-      pool.contrast = std::max(pool.contrast, t.contrast);
+      pool.contrasts.push_back(t.contrast);
       if (t.refusal == Refusal::kNone)
         pool.accepted.push_back(&t);
       else
@@ -125,18 +130,21 @@ std::string objection(const Pool& pool) {
   return "";
 }
 
-/// No impact stands out anywhere, and the gap that would have shown is a small part of the travel.
+/// No impact stands out anywhere, although every stroke left its marks, and the gap that would have shown is
+/// a small part of the travel.
 bool shows_nothing(const Pool& pool) {
   const auto quiet = pool.refused.find(Refusal::kContrast);
   const double contrasted = static_cast<double>(pool.passages) -
                             (quiet == pool.refused.end() ? 0.0 : static_cast<double>(quiet->second));
-  return contrasted < 0.1 * pool.half_periods && pool.contrast < 1.5 && pool.visible < 0.3 * pool.travel;
+  const bool plain = pool.contrasts.empty() || median(pool.contrasts) < 1.1;
+  return plain && contrasted < 0.1 * pool.half_periods &&
+         static_cast<double>(pool.events) >= 0.5 * pool.half_periods && pool.visible < kVisible * pool.travel;
 }
 
 /// Nothing was seen because nothing could have been seen.
 bool too_slow(const Pool& pool) {
   const Refusal refusal = commonest(pool);
-  return pool.accepted.empty() && pool.visible >= 0.3 * pool.travel &&
+  return pool.accepted.empty() && pool.visible >= kVisible * pool.travel &&
          (refusal == Refusal::kContrast || refusal == Refusal::kNoReversal || refusal == Refusal::kNone);
 }
 

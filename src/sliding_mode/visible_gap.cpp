@@ -8,6 +8,8 @@
 namespace gapscope::internal {
 namespace {
 
+constexpr double kShare = 3.0;  ///< v/Δv
+
 /// Median speed at which the motor is `distance` away from its last reversal.
 double speed_away_from_reversals(const MotorTrace& trace, const SignalFacts& facts, double distance) {
   const auto& y = trace.x1;
@@ -33,7 +35,7 @@ double smallest_visible_gap(const MotorTrace& trace, const SignalFacts& facts, c
   const std::size_t j = std::max(sliding, hiding);
   const double k2 = SuperTwistingGains::from_bound(run.bounds[j]).k2;
   const double slowest =
-      2.0 * std::sqrt(2.0 * run.floor[j] * k2 / 0.102);  // v that leaves a visible Δv = v/2
+      kShare * std::sqrt(2.0 * run.floor[j] * k2 / 0.102);  // v of the least visible impact
   double gap = std::max(slowest * slowest / run.bounds[sliding], 8.0 * facts.noise + 2.0 * facts.quantum);
   while (gap < 2.0 * facts.amplitude && speed_away_from_reversals(trace, facts, gap) < slowest) gap *= 1.1;
   return gap < 2.0 * facts.amplitude ? gap : kInfinity;

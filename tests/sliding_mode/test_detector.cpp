@@ -48,6 +48,46 @@ TEST(Detector, OneErrorSignalReadsThePapersExperimentWithABoundBetweenTheAcceler
   }
 }
 
+TEST(Detector, OneErrorSignalReadsAFasterAndStrongerMotionWithItsOwnBound) {
+  // 2 Hz and 0.5 N m: engaged the motor needs up to (0.5 + 0.05 N m)/(m1 + m2) less the damping, about 55
+  // rad/s²; in the gap about 2π 2 Hz 0.5 N m/d1 = 100 rad/s².
+  const TestRecording recording = record(TestDrive{}, sine(0.5 / 0.172, 2.0), {});
+  const GapEstimate estimate = detect(recording, {.bound = 60.0});
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap / 0.0188, 1.0, 0.03);
+  EXPECT_LE(estimate.ci95.low, 0.0188);
+  EXPECT_GE(estimate.ci95.high, 0.0188);
+}
+
+TEST(Detector, ThePapersRigIsReadAtOtherRatesAndFrequencies) {
+  for (const double rate : {1000.0, 5000.0, 10000.0})
+    for (const double frequency : {0.5, 1.0}) {
+      TestEncoder encoder;
+      encoder.rate = rate;
+      encoder.duration = 6.0 / frequency;
+      const GapEstimate estimate = detect(record(TestDrive{}, sine(0.5814, frequency), encoder));
+      ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << rate << " Hz " << estimate.brief_report();
+      EXPECT_NEAR(estimate.gap / 0.0188, 1.0, 0.03) << rate << " Hz, sine " << frequency << " Hz";
+      EXPECT_LE(estimate.ci95.low, 0.0188) << rate << " Hz, sine " << frequency << " Hz";
+      EXPECT_GE(estimate.ci95.high, 0.0188) << rate << " Hz, sine " << frequency << " Hz";
+    }
+}
+
+TEST(Detector, ALoadThatOvertakesTheMotorIsNotReadAsAGap) {
+  TestDrive drive;  // hardly any friction on the load: it coasts through the gap, the source's step S5 reads
+                    // 0.04 rad
+  drive.Fc2 = 0.002;
+  drive.d2 = 0.005;
+  const GapEstimate estimate = detect(record(drive, sine(0.5814, 1.0), {}));
+  if (estimate.verdict == GapVerdict::kBacklash) {
+    EXPECT_LE(estimate.ci95.low, 0.0188);
+    EXPECT_GE(estimate.ci95.high, 0.0188);
+  } else {
+    EXPECT_FALSE(estimate.reason.empty());
+  }
+  EXPECT_NE(estimate.verdict, GapVerdict::kNone);
+}
+
 TEST(Detector, ABoundAboveTheGapAccelerationIsToldAsSuchWithBoundsToTry) {
   for (const double bound : {15.0, 40.0, 100.0}) {
     const GapEstimate estimate = detect(paper_experiment(), {.bound = bound});

@@ -30,7 +30,7 @@ struct GapEvent {
   std::string remark;             ///< why it was not used, or what was corrected
 };
 
-/// The error signal e_x that decided, one per recording; kept for the figures.
+/// The error signal e_x (forward Euler) that shows t1 and t2, one per recording; kept for the figures.
 struct ErrorTrace {
   std::string file;
   std::vector<double> error;     ///< e_x [rad], as long as the recording
@@ -49,7 +49,7 @@ struct GapEstimate {
   Interval ci95;                       ///< [rad]
   double smallest_visible_gap = kNaN;  ///< [rad]; always there for kNone
   double bound = kNaN;                 ///< L that decided t2 [rad/s²]
-  double bound_t1 = kNaN;              ///< L that decided t1 where it is another one [rad/s²]
+  double bound_t1 = kNaN;              ///< L whose e_x is in `traces`, where it is another one [rad/s²]
   double scale = 1.0;                  ///< N of step S2: e_x × N is comparable with x1
   std::vector<GapEvent> events;
   std::vector<ErrorTrace> traces;
