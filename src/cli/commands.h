@@ -11,6 +11,8 @@ void add_detect(CLI::App& app);
 void add_fit(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_report(CLI::App& app);
+void add_effects(CLI::App& app);
+void add_blind(CLI::App& app);
 
 /// What stands in the help of every command that takes a configuration.
 inline constexpr const char* kConfigHelp = "configuration (YAML)";

@@ -38,6 +38,8 @@ void add_commands(CLI::App& app) {
   add_fit(app);
   add_simulate(app);
   add_report(app);
+  add_effects(app);
+  add_blind(app);
 }
 
 std::string command_names(const CLI::App& app) {

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -30,12 +33,24 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Is this something that a report writes?
-bool is_ours(const fs::path& file) {
+/// The figures that the report.md of an earlier report shows.
+std::set<std::string> figures_of(const fs::path& folder) {
+  std::set<std::string> names;
+  std::ifstream in(folder / "report.md");
+  static const std::regex figure(R"rx(\]\(([^)/]+\.png)\))rx");
+  std::smatch match;
+  for (std::string line; std::getline(in, line);)
+    for (std::string rest = line; std::regex_search(rest, match, figure); rest = match.suffix())
+      names.insert(match[1]);
+  return names;
+}
+
+/// Is this something that a report with these figures wrote?
+bool is_ours(const fs::path& file, const std::set<std::string>& figures) {
   if (!file.has_parent_path()) {
     static const char* const names[] = {"report.md", "result.json", "diagnosis.json", "resolved.yaml",
                                         "timing.json"};
-    return file.extension() == ".png" ||
+    return figures.contains(file.string()) ||
            std::any_of(std::begin(names), std::end(names), [&](const char* name) { return file == name; });
   }
   return *file.begin() == "traces" && file.extension() == ".csv";
@@ -70,6 +85,7 @@ ReportFolder::~ReportFolder() {
 void ReportFolder::commit() {
   const std::vector<fs::path> fresh = files_below(partial_);
   const std::vector<fs::path> old = files_below(final_);
+  const std::set<std::string> old_figures = figures_of(final_);
   std::error_code error;
   for (const fs::path& file : fresh) {
     const fs::path target = fs::path(final_) / file;
@@ -78,7 +94,7 @@ void ReportFolder::commit() {
     if (error) fail(target, "cannot be written: " + error.message());
   }
   for (const fs::path& file : old) {
-    if (!is_ours(file) || std::find(fresh.begin(), fresh.end(), file) != fresh.end()) continue;
+    if (!is_ours(file, old_figures) || std::find(fresh.begin(), fresh.end(), file) != fresh.end()) continue;
     fs::remove(fs::path(final_) / file, error);
     if (error) fail(fs::path(final_) / file, "cannot be removed: " + error.message());
   }

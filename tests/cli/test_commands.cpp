@@ -62,6 +62,7 @@ TEST(Commands, RunReplacesAnOldReportAndSaysWhatItFound) {
   place.file("c.yaml", kConfig);
   place.file("reports/quick/result.json", "old");
   place.file("reports/quick/old.png", "old");
+  place.file("reports/quick/report.md", "![old](old.png)");
   place.file("reports/quick/mine.txt", "kept");
   const auto run = place.run("run c.yaml");
   ASSERT_EQ(run.status, 0) << run.err;

@@ -167,7 +167,15 @@ const std::vector<BadConfig> kBadModels = {
     {"load", recorded("load: free", "load: stuck"),
      "c.yaml:12: model.load is 'stuck', expected free or locked"},
     {"effect", recorded("effects: []", "effects: [{stribeck_friction: {level_nm: 1}}]"),
-     "c.yaml:23: effect stribeck_friction"},
+     "c.yaml:23: model.effects[0].stribeck_friction has no stribeck_speed_rad_s, expected a number in rad/s"},
+    {"effect_unknown", recorded("effects: []", "effects: [{coging_torque: {amplitude_nm: 1}}]"),
+     "c.yaml:23: model.effects[0].coging_torque is no effect of the catalogue, expected one of `gapscope "
+     "effects`; "
+     "the nearest is cogging_torque"},
+    {"effect_key", recorded("effects: []", "effects: [{load_unbalance: {amplitude: 1}}]"),
+     "c.yaml:23: unknown key 'amplitude' in model.effects[0].load_unbalance, expected amplitude_nm"},
+    {"effect_negative", recorded("effects: []", "effects: [{motor_coulomb_friction: {level_nm: -1}}]"),
+     "c.yaml:23: model.effects[0].motor_coulomb_friction.level_nm is -1"},
     {"effect_form", recorded("effects: []", "effects: [stribeck_friction]"),
      "c.yaml:23: model.effects[0] is 'stribeck_friction'"},
     {"bound_word", recorded("auto", "automatic"),

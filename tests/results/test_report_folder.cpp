@@ -64,13 +64,15 @@ TEST(ReportFolder, ReplacesAnOldReportAndNothingElse) {
   for (const char* name : {"result.json", "overview.png", "fig3.png", "report.md", "timing.json",
                            "resolved.yaml", "traces/1_a.csv", "traces/2_b.csv"})
     put(target / name, "old");
-  for (const char* name : {"notes.txt", "photos/rig.png", "traces/mine.txt"}) put(target / name, "mine");
+  put(target / "report.md", "![overview](overview.png)\n![map](fig3.png)\n");
+  for (const char* name : {"notes.txt", "photo.png", "photos/rig.png", "traces/mine.txt"})
+    put(target / name, "mine");
   ReportFolder folder(target.string() + "/");
   for (const char* name : {"result.json", "overview.png", "traces/1_a.csv"})
     put(fs::path(folder.path()) / name, "new");
   folder.commit();
   EXPECT_EQ(files_in(target), (Names{"result.json", "overview.png", "traces/1_a.csv", "notes.txt",
-                                     "photos/rig.png", "traces/mine.txt"}));
+                                     "photo.png", "photos/rig.png", "traces/mine.txt"}));
   EXPECT_EQ(text_of(target / "result.json"), "new");
   EXPECT_EQ(text_of(target / "notes.txt"), "mine");
 }

@@ -10,10 +10,9 @@
 
 namespace gapscope {
 
-/// One entry of `effects:`, as it is written.
+/// One entry of `effects:`. A parameter that is not written has its neutral value.
 struct EffectConfig {
-  std::string name;
-  std::vector<std::pair<std::string, double>> parameters;  ///< in the order of the file
+  ModelEffect effect;
   int line = 0;
 };
 
@@ -29,7 +28,7 @@ struct ModelConfig {
   std::vector<EffectConfig> effects;
   int line = 0;
 
-  ReferenceModel reference_model() const { return {structure, parameters, {}}; }
+  ReferenceModel reference_model() const;
 };
 
 /// The plant behind simulated data: `model:` with what `simulation.model:` changes, every number known.
@@ -37,6 +36,8 @@ struct SimulatedPlant {
   DriveStructure structure;
   DriveParameters<double> drive;
   std::vector<EffectConfig> effects;
+
+  PlantModel<double> plant_model() const;
 };
 
 /// Whether a drive of this structure has the parameter with the given place in kDriveParameters: without a

@@ -1,0 +1,50 @@
+// `effects`: the catalogue of unmodelled effects.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "gapscope/plant/effect.h"
+
+namespace gapscope::cli {
+namespace {
+
+/// Names, units and laws hold nothing that JSON would have to escape.
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+std::string json_of(const EffectEntry& e) {
+  std::vector<std::string> parameters, look_alikes;
+  for (const EffectParameterSpec& p : e.parameters)
+    parameters.push_back(fmt::format("{{\"key\": {}, \"unit\": {}}}", quoted(p.key), quoted(p.unit)));
+  for (const char* other : e.look_alikes) look_alikes.push_back(quoted(other));
+  return fmt::format(
+      "{{\"effect\": {}, \"side\": {}, \"law\": {}, \"parameters\": [{}], \"look_alikes\": [{}]}}",
+      quoted(e.name), quoted(to_string(e.side)), quoted(e.law), fmt::join(parameters, ", "),
+      fmt::join(look_alikes, ", "));
+}
+
+void print_json() {
+  std::vector<std::string> rows;
+  for (const EffectEntry* e : effect_table()) rows.push_back("  " + json_of(*e));
+  fmt::print("[\n{}\n]\n", fmt::join(rows, ",\n"));
+}
+
+}  // namespace
+
+void add_effects(CLI::App& app) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command =
+      app.add_subcommand("effects", "Lists the effects that a model or a simulation can have");
+  command->add_flag("--json", *json, "with side, law, parameters and units, and look-alikes");
+  command->footer(
+      "One identifier a line. In a configuration: effects: [{cogging_torque: {amplitude_nm: 0.004,\n"
+      "periods_per_turn: 24}}], under model: (known effects) or simulation: model: (the true plant).\n\n"
+      "Example: gapscope effects --json");
+  command->callback([json] {
+    if (*json) return print_json();
+    for (const EffectEntry* e : effect_table()) fmt::print("{}\n", e->name);
+  });
+}
+
+}  // namespace gapscope::cli
