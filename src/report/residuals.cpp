@@ -35,7 +35,7 @@ Panel over_time(const ReportView& view, const std::vector<double>& residual, con
   panel.y = {"$x_1$ − fitted $x_1$", view.length_unit, {}, {}, {}};
   panel.height = 400.0;
   LineStyle style = measured_style();
-  style.width = 3.0;
+  style.width = 2.5;
   panel.series.push_back(view.over_time("", style, residual, interval));
   if (shaded) panel.x_bands = gap_bands(view, interval);
   return panel;
@@ -53,13 +53,16 @@ Panel autocorrelation_panel(const ReportView& view, const std::vector<double>& r
   panel.title = "Autocorrelation of the residual";
   const double dt = view.recording->dt;
   panel.x = {"lag", "s", {0.0, dt * static_cast<double>(r.size() - 1)}, {}, {}};
-  panel.y = {"autocorrelation", "", {-1.05, 1.05}, {}, {}};
   panel.height = 360.0;
   const double band = 1.96 / std::sqrt(static_cast<double>(samples));
+  // r_0 is always 1; a scale that holds it would flatten what is left of a nearly white residual.
+  const double largest = largest_magnitude(std::span(r).subspan(1));
+  const double limit = largest > 0.3 ? 1.05 : std::max(3.0 * band, 1.3 * largest);
+  panel.y = {"autocorrelation", "", {-limit, limit}, {}, {}};
   panel.y_bands.push_back({{-band, band}, kBandShade, "95 % of white noise"});
   Series s;
   s.style = measured_style();
-  for (std::size_t k = 0; k < r.size(); ++k) {
+  for (std::size_t k = 1; k < r.size(); ++k) {
     s.x.push_back(dt * static_cast<double>(k));
     s.y.push_back(r[k]);
   }
