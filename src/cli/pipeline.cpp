@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "cli/version.h"
 #include "gapscope/base/interrupt.h"
@@ -23,9 +25,25 @@ auto timed(double& seconds, const Function& f) {
   return result;
 }
 
-DetectorOptions detector_options(const Configuration& c, std::vector<std::string>& notes) {
+/// The lower end of (13) from what the model and the input tell; 0 where they do not. The detector estimates
+/// nothing from it: it only says what the published choice of L would have shown.
+double published_bound(const Configuration& c, const std::vector<MotorTrace>& traces) {
+  DriveParameters<double> drive;
+  for (int i = 0; i < kDriveParameterCount; ++i) drive_parameter(drive, i) = c.model.parameters[i].value;
+  BoundKnowledge known;
+  known.load_force_bound = drive.load_coulomb_friction;
+  for (const MotorTrace& trace : traces)
+    for (const double u : trace.u) known.input_limit = std::max(known.input_limit, std::abs(u));
+  const Interval bound = acceleration_bound(drive, known);
+  return c.model.structure.has_load && std::isfinite(bound.low) && std::isfinite(bound.high) ? bound.low
+                                                                                             : 0.0;
+}
+
+DetectorOptions detector_options(const Configuration& c, const std::vector<MotorTrace>& traces,
+                                 std::vector<std::string>& notes) {
   DetectorOptions options;
   if (c.detector.bound) options.bound = *c.detector.bound;
+  if (!c.detector.bound && !c.detector.from_model) options.paper_bound = published_bound(c, traces);
   if (!c.detector.from_model) return options;
   const Interval bound = bound_from_model(c);
   options.bound = chosen_bound(bound);
@@ -66,7 +84,7 @@ Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Pro
   if (wanted.model_free) {
     stop_point();
     progress("model-free detector");
-    const DetectorOptions options = detector_options(c, r.notes);
+    const DetectorOptions options = detector_options(c, traces, r.notes);
     r.model_free = timed(out.timing.model_free_s, [&] { return detect_gap(traces, options); });
     append(out.warnings, r.model_free->warnings);
   }

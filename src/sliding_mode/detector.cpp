@@ -125,7 +125,9 @@ void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const
   const GapEstimate paper = decide_paper(recordings, analyses, bound);
   if (paper.verdict == GapVerdict::kBacklash) return;
   estimate.warnings.push_back(
-      fmt::format("one e_x with L = {:.3g} rad/s² would have missed the passages: {}", bound, paper.reason));
+      fmt::format("the bound of the source paper's eq. (13), one e_x with L = {:.3g} rad/s², would have "
+                  "missed the passages: {}",
+                  bound, paper.reason));
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ std::string advice(Refusal refusal) {
     case Refusal::kNone:
       break;
   }
-  return "";
+  return "record more periods";
 }
 
 Refusal commonest(const Pool& pool) {

@@ -1,35 +1,22 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "gapscope/recording/csv.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "support/data.h"
 
 namespace gapscope {
 namespace {
 
-std::string data_folder() {
-  if (const char* folder = std::getenv("GAPSCOPE_DATA")) return folder;
-  return std::string(GAPSCOPE_SOURCE_DIR) + "/../shared/data";
-}
-
 GapEstimate detect_in(const std::string& file, const CsvOptions& options = {}) {
-  const Recording recording = read_csv(data_folder() + "/" + file, options);
+  const Recording recording = read_csv((testing::data_folder() / file).string(), options);
   const MotorTrace trace = recording.motor_trace();
   return detect_gap({&trace, 1});
 }
 
-class RealRecordings : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(data_folder() + "/emps"))
-      GTEST_SKIP() << "no recordings in " << data_folder();
-  }
-};
-
-TEST_F(RealRecordings, APreloadedScrewHasNoBacklash) {
+TEST(RealRecordings, APreloadedScrewHasNoBacklash) {
+  GAPSCOPE_NEEDS_DATA();
   for (const char* file : {"emps/emps_train.csv", "emps/emps_pulses.csv"}) {
     const GapEstimate estimate = detect_in(file);
     EXPECT_NE(estimate.verdict, GapVerdict::kBacklash) << file << ": " << estimate.brief_report();
@@ -37,7 +24,8 @@ TEST_F(RealRecordings, APreloadedScrewHasNoBacklash) {
   }
 }
 
-TEST_F(RealRecordings, AQuasiStaticReducerWithLockedOutputIsToldAsSuchAndNotGuessed) {
+TEST(RealRecordings, AQuasiStaticReducerWithLockedOutputIsToldAsSuchAndNotGuessed) {
+  GAPSCOPE_NEEDS_DATA();
   CsvOptions options;
   options.resample_rate = 400.0;
   for (const auto& window : {std::pair{0.0, 20.31}, std::pair{20.32, 1e3}})
