@@ -75,9 +75,9 @@ void print_headline(const std::string& folder, const RunResult& r) {
   if (r.model_free) line("model-free", model_free_line(*r.model_free, r.rotation));
   if (r.reference) line("reference", reference_line(*r.reference, r.rotation));
   if (r.comparison) line("difference", comparison_line(*r.comparison, r.rotation));
-  if (r.comparison && !std::isnan(r.comparison->true_gap))
+  if (r.comparison && !std::isnan(r.comparison->map_width))
     line("load side",
-         fmt::format("{:<17} width of the x1-x2 map", milli(r.comparison->true_gap, r.rotation)));
+         fmt::format("{:<17} width of the x1-x2 map", milli(r.comparison->map_width, r.rotation)));
   if (!std::isnan(r.simulated_gap)) line("simulated", milli(r.simulated_gap, r.rotation));
 }
 

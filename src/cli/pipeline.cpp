@@ -97,7 +97,7 @@ Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Pro
     append(out.warnings, r.reference->warnings);
   }
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
-  if (r.comparison) r.comparison->true_gap = gap_from_load_position(r.recordings);
+  if (r.comparison) r.comparison->map_width = map_width(r.recordings);
   stop_point();
   return out;
 }

@@ -17,7 +17,7 @@ Comparison compare(const GapEstimate& model_free, const FitSummary& reference) {
   return c;
 }
 
-double gap_from_load_position(std::span<const Recording> recordings) {
+double map_width(std::span<const Recording> recordings) {
   std::vector<double> delta;
   for (const Recording& r : recordings)
     for (std::size_t i = 0; i < r.x2.size(); ++i) delta.push_back(r.x1[i] - r.x2[i]);

@@ -48,7 +48,7 @@ void add_reference(const ReportView& view, Panel& panel) {
 }
 
 void add_truth(const ReportView& view, Panel& panel) {
-  const double map = view.run.comparison ? view.run.comparison->true_gap : kNaN;
+  const double map = view.run.comparison ? view.run.comparison->map_width : kNaN;
   if (std::isfinite(map))
     add_row(panel, "$x_1$–$x_2$ map", map, kNone, {kBlack, 4.0, {}}, Marker::kTriangleUp,
             quantity(map, view.length_unit));

@@ -24,7 +24,7 @@ Panel map(const ReportView& view, const std::string& title, const std::vector<do
 
 /// The gap read off the map as a dimension, around the middle of the two flanks.
 void mark_gap(const ReportView& view, Panel& panel) {
-  const double gap = view.run.comparison ? view.run.comparison->true_gap : kNaN;
+  const double gap = view.run.comparison ? view.run.comparison->map_width : kNaN;
   const double shown = std::isfinite(gap) ? gap : view.true_gap();
   if (!std::isfinite(shown)) return;
   const double middle = robust_middle(view.state);
@@ -36,7 +36,7 @@ void mark_gap(const ReportView& view, Panel& panel) {
 std::string reading(const ReportView& view) {
   const double spread = quantile(view.state, 0.99) - quantile(view.state, 0.01);
   std::string text = "98 % of the samples of x1 − x2 lie within " + quantity(spread, view.length_unit);
-  const double gap = view.run.comparison ? view.run.comparison->true_gap : kNaN;
+  const double gap = view.run.comparison ? view.run.comparison->map_width : kNaN;
   if (std::isfinite(gap))
     text += "; the gap read off the map is " + quantity(gap, view.length_unit);
   else if (std::isfinite(view.true_gap()))

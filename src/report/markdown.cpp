@@ -43,8 +43,8 @@ std::string estimate_rows(const RunResult& run) {
   if (const FittedParameter* gap = parameter(run, "gap"))
     row("model-based reference", gap->value, gap->ci95,
         "motor position, input, equations and the given parameters");
-  if (run.comparison && std::isfinite(run.comparison->true_gap))
-    row("read off the x1–x2 map", run.comparison->true_gap, {}, "both encoders");
+  if (run.comparison && std::isfinite(run.comparison->map_width))
+    row("read off the x1–x2 map", run.comparison->map_width, {}, "both encoders");
   if (std::isfinite(run.simulated_gap)) row("simulated plant", run.simulated_gap, {}, "");
   return rows > 0 ? text : "No gap was estimated.\n";
 }

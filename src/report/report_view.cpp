@@ -101,7 +101,7 @@ std::vector<GapEvent> ReportView::accepted() const {
 
 double ReportView::true_gap() const {
   if (std::isfinite(run.simulated_gap)) return run.simulated_gap;
-  return run.comparison ? run.comparison->true_gap : kNaN;
+  return run.comparison ? run.comparison->map_width : kNaN;
 }
 
 std::string ReportView::true_gap_name() const {

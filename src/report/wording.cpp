@@ -67,7 +67,7 @@ std::string reference_sentence(const RunResult& run) {
 std::string error_sentence(const RunResult& run, const std::string& name, double value,
                            const Interval& ci95) {
   const bool simulated = std::isfinite(run.simulated_gap);
-  const double truth = simulated ? run.simulated_gap : run.comparison ? run.comparison->true_gap : kNaN;
+  const double truth = simulated ? run.simulated_gap : run.comparison ? run.comparison->map_width : kNaN;
   if (!std::isfinite(value) || !std::isfinite(truth)) return "";
   const bool holds = ci95.low <= truth && truth <= ci95.high;
   const char* interval = !known(ci95) ? "" : holds ? "; its interval holds it" : "; its interval misses it";

@@ -122,7 +122,7 @@ void fields(Archive& archive, Comparison& c) {
   archive("difference_rad", c.difference);
   archive("joint_std_rad", c.joint_std);
   archive("agree", c.agree);
-  archive("x2_map_gap_rad", c.true_gap);
+  archive("x2_map_gap_rad", c.map_width);
 }
 
 template <class Archive>

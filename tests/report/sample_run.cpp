@@ -187,7 +187,7 @@ void to_translation(RunResult& run) {
     for (FitTrace& t : s->traces) shrink(t.x1), shrink(t.x2);
   }
   if (run.comparison)
-    run.comparison->difference *= f, run.comparison->joint_std *= f, run.comparison->true_gap *= f;
+    run.comparison->difference *= f, run.comparison->joint_std *= f, run.comparison->map_width *= f;
 }
 
 }  // namespace
@@ -211,7 +211,7 @@ RunResult sample_run(const SampleOptions& options) {
   if (options.load_recorded && !options.one_inertia) run.simulated_gap = kSampleGap;
   if (options.detected && options.fitted) {
     Comparison& c = run.comparison.emplace();
-    if (options.load_recorded) c.true_gap = 1.01 * kSampleGap;
+    if (options.load_recorded) c.map_width = 1.01 * kSampleGap;
     if (options.verdict == GapVerdict::kBacklash && !options.one_inertia) {
       c.difference = run.model_free->gap - run.reference->parameters[4].value;
       c.joint_std = std::hypot(run.model_free->std, run.reference->parameters[4].std);

@@ -85,7 +85,7 @@ TEST(ErrorFactor, IsTheDetectorsOwnWhereThatShowsTheErrorWell) {
 TEST(Fig3, MarksTheGapReadOffTheMapAroundTheFlanks) {
   const FigureData figure = fig3_backlash_map(ReportView(full_run()));
   const Dimension& gap = figure.panels[1].dimensions.at(0);
-  EXPECT_NEAR(gap.range.high - gap.range.low, full_run().comparison->true_gap, 1e-12);
+  EXPECT_NEAR(gap.range.high - gap.range.low, full_run().comparison->map_width, 1e-12);
   EXPECT_NEAR(gap.range.high + gap.range.low, 0.0, 1e-6);
   EXPECT_NE(figure.reading.find("read off the map is 19.0 mrad"), std::string::npos) << figure.reading;
 }

@@ -59,7 +59,7 @@ TEST(Accuracy, SaysWhetherTheIntervalHoldsTheTruth) {
   EXPECT_NE(accuracy(run).find("below the simulated gap; its interval misses it"), std::string::npos);
   run.simulated_gap = kNaN;
   EXPECT_NE(accuracy(run).find("read off the x1–x2 map"), std::string::npos);
-  run.comparison->true_gap = kNaN;
+  run.comparison->map_width = kNaN;
   EXPECT_EQ(accuracy(run), "");
 }
 

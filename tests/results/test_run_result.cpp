@@ -119,7 +119,7 @@ TEST(RunResult, ComesBackExactly) {
   EXPECT_SAME(simulated_gap);
   EXPECT_SAME(comparison->difference);
   EXPECT_SAME(comparison->joint_std);
-  EXPECT_SAME(comparison->true_gap);
+  EXPECT_SAME(comparison->map_width);
   EXPECT_EQ(a.comparison->agree, b.comparison->agree);
 }
 

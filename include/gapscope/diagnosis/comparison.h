@@ -13,13 +13,14 @@ struct Comparison {
   double difference = kNaN;   ///< model-free − reference [rad]
   double joint_std = kNaN;    ///< √(σ² + σ²) [rad]
   std::optional<bool> agree;  ///< |difference| ≤ 1.96 joint_std; absent when either estimate is missing
-  double true_gap = kNaN;     ///< width of the x1–x2 map where x2 was recorded [rad]
+  double map_width = kNaN;    ///< see map_width(); NaN without x2 [rad]
 };
 
 Comparison compare(const GapEstimate& model_free, const FitSummary& reference);
 
-/// Full width of x1 − x2 over the recordings that carry x2: the measured reference of Fig. 3 [rad].
-/// Robust against single samples and elastic wind-up. NaN without x2.
-double gap_from_load_position(std::span<const Recording> recordings);
+/// The x1–x2 map of Fig. 3 from flank to flank, over the recordings that carry x2 [rad]: the distance of the
+/// medians of both flanks. Single samples and ringing do not matter; the elastic wind-up of a loaded contact
+/// is in it, so that it reads a little more than the gap. NaN without x2.
+double map_width(std::span<const Recording> recordings);
 
 }  // namespace gapscope
