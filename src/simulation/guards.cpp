@@ -14,6 +14,13 @@ struct Deflated {
     for (int n = degree - 1; n >= 0; --n) sum = sum * s + p[n];
     return sum;
   }
+  /// A bound from below: p₀ less all that the falling terms can take away over (0, h].
+  bool may_fall(double h) const {
+    double fall = 0.0, power = h;
+    for (int n = 1; n <= degree; ++n, power *= h)
+      if (p[n] < 0.0) fall -= p[n] * power;
+    return fall >= p[0];
+  }
   double slope(double s) const {
     double sum = degree * p[degree];
     for (int n = degree - 1; n >= 1; --n) sum = sum * s + n * p[n];
@@ -49,8 +56,9 @@ double bracketed_minimum(const Deflated& g, double low, double high) {
 /// First root in (0, h]; a negative number if there is none.
 double first_root(const Deflated& g, double h) {
   constexpr int kPieces = 4;
-  if (g.value(0.0) <= 0.0 && g.value(h / 64.0) <= 0.0) return 0.0;
-  double left = g.value(0.0) > 0.0 ? 0.0 : h / 64.0;
+  if (g.p[0] <= 0.0 && g.value(h / 64.0) <= 0.0) return 0.0;
+  double left = g.p[0] > 0.0 ? 0.0 : h / 64.0;
+  if (!g.may_fall(h)) return -1.0;
   for (int piece = 1; piece <= kPieces; ++piece) {
     const double right = h * piece / kPieces;
     if (g.value(right) <= 0.0) return bracketed_root(g, left, right);
@@ -77,7 +85,7 @@ FirstEvent first_event(const GuardSet& set, double h) {
   FirstEvent first{-1, h};
   for (int i = 0; i < set.count; ++i) {
     const Guard& guard = set.guards[static_cast<std::size_t>(i)];
-    const double root = first_root({guard.p + guard.zeros, kSeriesOrder - guard.zeros}, first.time);
+    const double root = first_root({guard.p + guard.zeros, guard.order - guard.zeros}, first.time);
     if (root >= 0.0 && (first.guard < 0 || root < first.time)) first = {i, root};
   }
   return first;

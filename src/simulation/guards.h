@@ -21,6 +21,7 @@ enum class Event {
 struct Guard {
   Event event = Event::kNone;
   int side = 0;
+  int order = kSeriesOrder;
   int zeros = 0;  ///< leading coefficients that are zero by construction (just after the guard's own event)
   double p[kSeriesOrder + 1] = {};
 };

@@ -9,6 +9,9 @@ namespace gapscope::internal {
 /// rate · h below this the truncated terms of order 15 are below 1e-14 of the state.
 constexpr double kSeriesReach = 0.75;
 constexpr int kSeriesOrder = 14;
+constexpr double kReciprocal[kSeriesOrder + 1] = {0.0,      1.0,      1.0 / 2,  1.0 / 3,  1.0 / 4,
+                                                  1.0 / 5,  1.0 / 6,  1.0 / 7,  1.0 / 8,  1.0 / 9,
+                                                  1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13, 1.0 / 14};
 
 /// Numbers of the flow that do not change from step to step.
 template <class T>
@@ -27,9 +30,22 @@ struct Forcing {
   T decaying{};                              ///< amplitude of a dying torque on the motor [N m]
 };
 
+/// Order at which the truncated terms of a flow of the given rate are below 1e-17 of the state over a step h:
+/// the least n with (rate h)ⁿ⁺¹/(n + 1)! below that, at least 4 for the quadratic torques.
+inline int series_order(double rate_times_h) {
+  double term = rate_times_h;
+  int n = 0;
+  while (n < kSeriesOrder && (term > 1e-17 || n < 4)) {
+    ++n;
+    term *= rate_times_h / (n + 1);
+  }
+  return n;
+}
+
 /// The exact flow of one mode as Taylor polynomials in the time since its start.
 template <class T>
 struct Series {
+  int order = kSeriesOrder;
   T x1[kSeriesOrder + 1], w1[kSeriesOrder + 1], x2[kSeriesOrder + 1], w2[kSeriesOrder + 1];
   T torque[kSeriesOrder +
            1];  ///< contact torque τc; outside a closed contact the torque it would have on `side`
@@ -80,8 +96,8 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w2;
   for (int n = 0;; ++n) {
     z.torque[n] = side != 0 ? torque_term(f, z, n, side, on) : T(0.0);
-    if (n == kSeriesOrder) break;
-    const double next = 1.0 / (n + 1.0);
+    if (n == z.order) break;
+    const double next = kReciprocal[n + 1];
     const T contact = mode.contact != 0 ? z.torque[n] : T(0.0);
     z.x1[n + 1] = z.w1[n] * next;
     z.x2[n + 1] = z.w2[n] * next;
@@ -104,8 +120,8 @@ void rigid_series(const FlowConstants<T>& f, const ContactMode& mode, const Driv
     const T motor = motor_torque.term(n) - d1 * z.w1[n];
     const T acceleration = moves ? T((motor + coefficient(on.load, n) - f.d2 * z.w1[n]) * inverse_m) : T(0.0);
     z.torque[n] = motor - f.m1 * acceleration;
-    if (n == kSeriesOrder) break;
-    const double next = 1.0 / (n + 1.0);
+    if (n == z.order) break;
+    const double next = kReciprocal[n + 1];
     z.x1[n + 1] = z.w1[n] * next;
     z.x2[n + 1] = z.x1[n + 1];
     z.w1[n + 1] = acceleration * next;
@@ -122,16 +138,17 @@ void flow_series(const FlowConstants<T>& f, const ContactMode& mode, const Drive
     compliant_series(f, mode, start, on, z);
 }
 
-template <class T, class S>
-S evaluate(const T (&coefficients)[kSeriesOrder + 1], const S& s) {
-  S sum(coefficients[kSeriesOrder]);
-  for (int n = kSeriesOrder - 1; n >= 0; --n) sum = sum * s + coefficients[n];
+template <class T>
+T evaluate(const T (&coefficients)[kSeriesOrder + 1], int order, const T& s) {
+  T sum(coefficients[order]);
+  for (int n = order - 1; n >= 0; --n) sum = sum * s + coefficients[n];
   return sum;
 }
 
 template <class T>
 DriveState<T> evaluate(const Series<T>& z, const T& s) {
-  return {evaluate(z.x1, s), evaluate(z.w1, s), evaluate(z.x2, s), evaluate(z.w2, s)};
+  return {evaluate(z.x1, z.order, s), evaluate(z.w1, z.order, s), evaluate(z.x2, z.order, s),
+          evaluate(z.w2, z.order, s)};
 }
 
 }  // namespace gapscope::internal

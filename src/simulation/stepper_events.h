@@ -30,7 +30,8 @@ void StepperImpl<T>::collect(const Series<T>& series, const Forcing<T>& on, Guar
   }
   for (int i = 0; i < set.count; ++i) {
     Guard& guard = set.guards[static_cast<std::size_t>(i)];
-    for (int n = 0; n <= kSeriesOrder; ++n) guard.p[n] = value_of(guard_term(guard, series, on, n));
+    guard.order = series.order;
+    for (int n = 0; n <= guard.order; ++n) guard.p[n] = value_of(guard_term(guard, series, on, n));
   }
 }
 
@@ -82,7 +83,7 @@ T StepperImpl<T>::polished(const Guard& guard, const Series<T>& series, const Fo
   } else {
     T value(0.0);
     double slope = 0.0;
-    for (int n = kSeriesOrder; n >= 0; --n) {
+    for (int n = series.order; n >= 0; --n) {
       value = value * time + guard_term(guard, series, on, n);
       if (n > 0) slope = slope * time + n * guard.p[n];
     }

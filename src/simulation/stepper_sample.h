@@ -108,7 +108,8 @@ struct Outlook {
 };
 
 template <class T>
-Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Forcing<T>& on, double s) {
+Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Forcing<T>& on, double s,
+                bool with_accelerations = true) {
   const auto value = [s](const T(&c)[3]) {
     return value_of(c[0]) + s * (value_of(c[1]) + s * value_of(c[2]));
   };
@@ -124,6 +125,7 @@ Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Forcing<T
   q.load = value(on.load), q.load_rate = slope(on.load);
   const double k = value_of(d.f.k), c = value_of(d.f.c);
   if (side != 0) q.torque = k * (q.delta - side * q.half_gap) + c * q.delta_rate;
+  if (!with_accelerations) return q;
   const double acting = d.mode.contact != 0 ? q.torque : 0.0;
   const double d1 = value_of(d.mode.motor < 0 ? d.f.d1_minus : d.f.d1_plus);
   if (d.mode.motor != 0) q.a1 = (q.motor - d1 * q.w1 - acting) / value_of(d.f.m1);
@@ -153,7 +155,8 @@ template <class T>
 bool StepperImpl<T>::may_leave(const DriveState<T>& next, const Forcing<T>& on, double h) const {
   if (!has_load && !motor_friction) return false;
   if ((f.rigid && mode.contact != 0) || mode.outside != 0) return true;  // the exact path decides
-  const Outlook a = outlook(*this, z, on, 0.0), b = outlook(*this, next, on, h);
+  const bool accelerated = mode.contact != 0 || motor_friction || (load_friction && mode.load != 0);
+  const Outlook a = outlook(*this, z, on, 0.0, accelerated), b = outlook(*this, next, on, h, accelerated);
   if (has_load && contact_may_leave(mode.contact, value_of(model.adhesion), a, b, h)) return true;
   const double acting = mode.contact != 0 ? 1.0 : 0.0;
   if (motor_friction && mode.motor != 0 &&
@@ -187,11 +190,11 @@ void StepperImpl<T>::step(double u) {
     remember_start();
     started = true;
   }
-  newest = (newest + 1) % inputs.size();
-  inputs[newest] = u;
-  const std::size_t oldest = (newest + 1) % inputs.size();
   if (varies_inertia) set_inertia();
   if (delayed) {
+    newest = (newest + 1) % inputs.size();
+    inputs[newest] = u;
+    const std::size_t oldest = (newest + 1) % inputs.size();
     segment(delay_rest, inputs[oldest], 0);
     segment(dt - delay_rest, inputs[(oldest + 1) % inputs.size()], 1);
   } else {
@@ -250,12 +253,13 @@ void StepperImpl<T>::advance(T span) {
       healthy = false;
       return;
     }
-    double reach = (smooth ? kSmoothReach : kSeriesReach) /
-                   flow_rate(f, mode.contact != 0 || mode.outside != 0, has_load);
+    const double rate = flow_rate(f, mode.contact != 0 || mode.outside != 0, has_load);
+    double reach = (smooth ? kSmoothReach : kSeriesReach) / rate;
     if (smooth) reach = std::min(reach, kEffectReach / std::max(effect_rate(), 1e-9));
     const double pieces = std::max(1.0, std::ceil(value_of(span) / reach));
     const bool last = pieces == 1.0;
     const T h = span / pieces;
+    series.order = series_order(rate * value_of(h));
     build_series(h, series, on);
     FirstEvent event;
     GuardSet set;
