@@ -7,13 +7,22 @@ namespace {
 
 /// p(s)/s^zeros, which is positive at s = 0 unless the guard's event is due at once.
 struct Deflated {
+  struct Point {
+    double value, slope;
+  };
+
   const double* p;
   int degree;
-  double value(double s) const {
-    double sum = p[degree];
-    for (int n = degree - 1; n >= 0; --n) sum = sum * s + p[n];
-    return sum;
+
+  Point at(double s) const {
+    Point q{p[degree], 0.0};
+    for (int n = degree - 1; n >= 0; --n) {
+      q.slope = q.slope * s + q.value;
+      q.value = q.value * s + p[n];
+    }
+    return q;
   }
+
   /// A bound from below: p₀ less all that the falling terms can take away over (0, h].
   bool may_fall(double h) const {
     double fall = 0.0, power = h;
@@ -21,22 +30,16 @@ struct Deflated {
       if (p[n] < 0.0) fall -= p[n] * power;
     return fall >= p[0];
   }
-  double slope(double s) const {
-    double sum = degree * p[degree];
-    for (int n = degree - 1; n >= 1; --n) sum = sum * s + n * p[n];
-    return sum;
-  }
 };
 
 /// Root in (low, high] by bisection and Newton: value(low) > 0 ≥ value(high).
 double bracketed_root(const Deflated& g, double low, double high) {
   double s = high;
   for (int i = 0; i < 100 && high - low > 1e-16 * high; ++i) {
-    const double v = g.value(s);
-    (v > 0.0 ? low : high) = s;
-    if (v == 0.0) return s;
-    const double slope = g.slope(s);
-    const double newton = slope != 0.0 ? s - v / slope : low;
+    const Deflated::Point q = g.at(s);
+    if (q.value == 0.0) return s;
+    (q.value > 0.0 ? low : high) = s;
+    const double newton = q.slope != 0.0 ? s - q.value / q.slope : low;
     const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
     if (next == s) break;
     s = next;
@@ -48,7 +51,7 @@ double bracketed_root(const Deflated& g, double low, double high) {
 double bracketed_minimum(const Deflated& g, double low, double high) {
   for (int i = 0; i < 48; ++i) {
     const double middle = 0.5 * (low + high);
-    (g.slope(middle) < 0.0 ? low : high) = middle;
+    (g.at(middle).slope < 0.0 ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -56,17 +59,19 @@ double bracketed_minimum(const Deflated& g, double low, double high) {
 /// First root in (0, h]; a negative number if there is none.
 double first_root(const Deflated& g, double h) {
   constexpr int kPieces = 4;
-  if (g.p[0] <= 0.0 && g.value(h / 64.0) <= 0.0) return 0.0;
-  double left = g.p[0] > 0.0 ? 0.0 : h / 64.0;
   if (!g.may_fall(h)) return -1.0;
+  double left = g.p[0] > 0.0 ? 0.0 : h / 64.0;
+  Deflated::Point at_left = g.at(left);
+  if (at_left.value <= 0.0) return 0.0;
   for (int piece = 1; piece <= kPieces; ++piece) {
     const double right = h * piece / kPieces;
-    if (g.value(right) <= 0.0) return bracketed_root(g, left, right);
-    if (g.slope(left) < 0.0 && g.slope(right) > 0.0) {
+    const Deflated::Point at_right = g.at(right);
+    if (at_right.value <= 0.0) return bracketed_root(g, left, right);
+    if (at_left.slope < 0.0 && at_right.slope > 0.0) {
       const double lowest = bracketed_minimum(g, left, right);
-      if (g.value(lowest) <= 0.0) return bracketed_root(g, left, lowest);
+      if (g.at(lowest).value <= 0.0) return bracketed_root(g, left, lowest);
     }
-    left = right;
+    left = right, at_left = at_right;
   }
   return -1.0;
 }

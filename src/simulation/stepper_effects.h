@@ -122,6 +122,7 @@ void StepperImpl<T>::set_inertia() {
     f.m2 = p.motor_inertia * p.mass_ratio * factor;
   else
     f.m1 = p.motor_inertia * factor;
+  inverse_m1 = 1.0 / value_of(f.m1), inverse_m2 = 1.0 / value_of(f.m2);
   for (auto& of_segment : transitions)
     for (auto& of_mode : of_segment)
       for (Transition<T>& t : of_mode) t.ready = false;

@@ -31,7 +31,9 @@ void StepperImpl<T>::collect(const Series<T>& series, const Forcing<T>& on, Guar
   for (int i = 0; i < set.count; ++i) {
     Guard& guard = set.guards[static_cast<std::size_t>(i)];
     guard.order = series.order;
-    for (int n = 0; n <= guard.order; ++n) guard.p[n] = value_of(guard_term(guard, series, on, n));
+    with_terms(guard, series, on, [&guard](const auto& term) {
+      for (int n = 0; n <= guard.order; ++n) guard.p[n] = value_of(term(n));
+    });
   }
 }
 
@@ -45,32 +47,38 @@ T StepperImpl<T>::motor_coefficient(const Forcing<T>& on, int n) const {
   return sum + dying;
 }
 
-/// Coefficient n of a guard polynomial.
+/// Hands the coefficients of a guard's polynomial, as a function of n, to `use`.
 template <class T>
-T StepperImpl<T>::guard_term(const Guard& guard, const Series<T>& series, const Forcing<T>& on, int n) const {
+template <class Use>
+void StepperImpl<T>::with_terms(const Guard& guard, const Series<T>& flow, const Forcing<T>& on,
+                                const Use& use) const {
   const double side = guard.side;
-  const T contact = mode.contact != 0 ? series.torque[n] : T(0.0);
-  const auto constant = [n](const T& value) { return n == 0 ? value : T(0.0); };
+  const bool touching = mode.contact != 0;
+  const auto constant = [](const T& value, int n) { return n == 0 ? value : T(0.0); };
+  const auto contact = [&](int n) { return touching ? flow.torque[n] : T(0.0); };
   switch (guard.event) {
     case Event::kOpen:
-      return constant(model.adhesion) + side * series.torque[n];
+      return use([&](int n) { return constant(model.adhesion, n) + side * flow.torque[n]; });
     case Event::kClose:
-      if (mode.outside != 0) return -side * series.torque[n];
-      return coefficient(on.half_gap, n) - side * (series.x1[n] - series.x2[n]);
+      if (mode.outside != 0) return use([&](int n) { return -side * flow.torque[n]; });
+      return use([&](int n) { return coefficient(on.half_gap, n) - side * (flow.x1[n] - flow.x2[n]); });
     case Event::kInside:
-      return side * (series.x1[n] - series.x2[n]) - coefficient(on.half_gap, n);
+      return use([&](int n) { return side * (flow.x1[n] - flow.x2[n]) - coefficient(on.half_gap, n); });
     case Event::kLoadStops:
-      return side * series.w2[n];
+      return use([&](int n) { return side * flow.w2[n]; });
     case Event::kLoadBreaks:
-      return constant(model.drive.load_coulomb_friction) - side * (coefficient(on.load, n) + contact);
+      return use([&](int n) {
+        return constant(model.drive.load_coulomb_friction, n) - side * (coefficient(on.load, n) + contact(n));
+      });
     case Event::kMotorStops:
-      return side * series.w1[n];
+      return use([&](int n) { return side * flow.w1[n]; });
     case Event::kMotorBreaks:
-      return constant(motor_level(guard.side)) - side * (motor_coefficient(on, n) - contact);
+      return use([&](int n) {
+        return constant(motor_level(guard.side), n) - side * (motor_coefficient(on, n) - contact(n));
+      });
     case Event::kNone:
       break;
   }
-  return T(0.0);
 }
 
 /// The time of an event as a function of everything that it depends on: one Newton step in Jet arithmetic
@@ -83,10 +91,12 @@ T StepperImpl<T>::polished(const Guard& guard, const Series<T>& series, const Fo
   } else {
     T value(0.0);
     double slope = 0.0;
-    for (int n = series.order; n >= 0; --n) {
-      value = value * time + guard_term(guard, series, on, n);
-      if (n > 0) slope = slope * time + n * guard.p[n];
-    }
+    with_terms(guard, series, on, [&](const auto& term) {
+      for (int n = guard.order; n >= 0; --n) {
+        value = value * time + term(n);
+        if (n > 0) slope = slope * time + n * guard.p[n];
+      }
+    });
     if (slope == 0.0) return T(time);
     T polished_time = -value / slope;
     polished_time.a = time;
@@ -165,7 +175,7 @@ void StepperImpl<T>::bounce(int side) {
   if (motor_friction) mode.motor = sign_of(value_of(z.w1));
   touching_side = side;
   contact_zeros = 1;
-  const Outlook next = outlook(*this, z, forcing_now(), 0.0);
+  const Outlook next = outlook(*this, z, acting_at(*this, forcing_now(), 0.0));
   const double parting = -side * next.delta_rate;
   const double pressing = side * (next.a1 - next.a2);
   if (pressing <= 0.0 || 2.0 * parting / pressing > kShortestBounce * dt) return;

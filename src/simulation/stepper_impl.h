@@ -32,6 +32,8 @@ struct Extra {
   T motor{}, load{}, half_gap{};
 };
 
+struct Acting;
+
 template <class T>
 struct StepperImpl {
   // --- what does not change from sample to sample
@@ -47,6 +49,7 @@ struct StepperImpl {
   int decaying = -1;            ///< effect with a dying torque; −1: none
   T decay_share{1.0};           ///< of its amplitude, where its rate had to be limited
   T half_gap{};
+  double inverse_m1 = 0.0, inverse_m2 = 0.0;  ///< of f, for the guards
   T delay_rest{};              ///< part of a sample in which the older of two inputs still acts [s]
   std::vector<double> inputs;  ///< ring of the last inputs, as long as the delay needs
   std::vector<T> memory;       ///< kMostEffectMemory per effect
@@ -106,7 +109,7 @@ struct StepperImpl {
   void respond(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
   void respond_to_slopes(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
   void advance_smoothly(const Transition<T>& step, Forcing<T>& on, DriveState<T>& next) const;
-  bool may_leave(const DriveState<T>& next, const Forcing<T>& on, double h) const;
+  bool may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end, double h) const;
   void accept(const DriveState<T>& next, const T& h);
   void advance(T span);
   void build_series(const T& h, Series<T>& series, Forcing<T>& on) const;
@@ -114,7 +117,8 @@ struct StepperImpl {
   // --- events: stepper_events.h
   // ----------------------------------------------------------------------------------
   void collect(const Series<T>& series, const Forcing<T>& on, GuardSet& set) const;
-  T guard_term(const Guard& guard, const Series<T>& series, const Forcing<T>& on, int n) const;
+  template <class Use>
+  void with_terms(const Guard& guard, const Series<T>& flow, const Forcing<T>& on, const Use& use) const;
   T motor_coefficient(const Forcing<T>& on, int n) const;
   T polished(const Guard& guard, const Series<T>& series, const Forcing<T>& on, double time) const;
   void cross(const Guard& guard);

@@ -26,26 +26,26 @@ template <class T>
 void StepperImpl<T>::respond(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const {
   const auto& r = step.response;
   if (mode.contact == 0) {
-    next.x1 = z.x1 + r[0][1] * z.w1 + r[0][3] * on.motor[0];
-    next.w1 = r[1][1] * z.w1 + r[1][3] * on.motor[0];
+    next.x1 = z.x1 + r[1][0] * z.w1 + r[3][0] * on.motor[0];
+    next.w1 = r[1][1] * z.w1 + r[3][1] * on.motor[0];
     if (decaying >= 0) {
-      next.x1 += r[0][9] * on.decaying;
-      next.w1 += r[1][9] * on.decaying;
+      next.x1 += r[9][0] * on.decaying;
+      next.w1 += r[9][1] * on.decaying;
     }
     if (!has_load || mode.load == 0) {
       next.x2 = z.x2, next.w2 = z.w2;
       return;
     }
-    next.x2 = z.x2 + r[2][2] * z.w2 + r[2][4] * on.load[0];
-    next.w2 = r[3][2] * z.w2 + r[3][4] * on.load[0];
+    next.x2 = z.x2 + r[2][2] * z.w2 + r[4][2] * on.load[0];
+    next.w2 = r[2][3] * z.w2 + r[4][3] * on.load[0];
     return;
   }
   const T depth = z.x1 - z.x2 - static_cast<double>(mode.contact) * on.half_gap[0];
   T out[4];
   for (int i = 0; i < 4; ++i)
-    out[i] = r[i][0] * depth + r[i][1] * z.w1 + r[i][2] * z.w2 + r[i][3] * on.motor[0] + r[i][4] * on.load[0];
+    out[i] = r[0][i] * depth + r[1][i] * z.w1 + r[2][i] * z.w2 + r[3][i] * on.motor[0] + r[4][i] * on.load[0];
   if (decaying >= 0)
-    for (int i = 0; i < 4; ++i) out[i] += r[i][9] * on.decaying;
+    for (int i = 0; i < 4; ++i) out[i] += r[9][i] * on.decaying;
   next = {z.x1 + out[0], out[1], z.x2 + out[2], out[3]};
 }
 
@@ -59,8 +59,8 @@ void StepperImpl<T>::respond_to_slopes(const Transition<T>& step, const Forcing<
   const T load[2] = {on.load[1] - pushing * on.half_gap[1], on.load[2] - pushing * on.half_gap[2]};
   T* const out[4] = {&next.x1, &next.w1, &next.x2, &next.w2};
   for (int i = 0; i < 4; ++i) {
-    const auto& r = step.response[i];
-    *out[i] += r[5] * motor[0] + r[6] * load[0] + r[7] * motor[1] + r[8] * load[1];
+    const auto& r = step.response;
+    *out[i] += r[5][i] * motor[0] + r[6][i] * load[0] + r[7][i] * motor[1] + r[8][i] * load[1];
   }
 }
 
@@ -98,50 +98,56 @@ inline bool dips(double g0, double slope0, double g1, double slope1, double h) {
   return g0 + slope0 * s <= 0.0;
 }
 
-/// What the guards look at, at one end of a step.
-struct Outlook {
-  double delta, delta_rate, half_gap, half_gap_rate;
-  double torque, torque_rate;  ///< of the contact
-  double motor, motor_rate;    ///< torque on the motor without dampers and contact
-  double load, load_rate;
-  double w1, a1, w2, a2;
+/// What acts at one end of a step, without friction, dampers and contact: values and rates.
+struct Acting {
+  double half_gap, half_gap_rate, motor, motor_rate, load, load_rate;
 };
 
 template <class T>
-Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Forcing<T>& on, double s,
-                bool with_accelerations = true) {
+Acting acting_at(const StepperImpl<T>& d, const Forcing<T>& on, double s) {
   const auto value = [s](const T(&c)[3]) {
     return value_of(c[0]) + s * (value_of(c[1]) + s * value_of(c[2]));
   };
   const auto slope = [s](const T(&c)[3]) { return value_of(c[1]) + 2.0 * s * value_of(c[2]); };
-  Outlook q{};
-  const int side = d.mode.contact != 0 ? d.mode.contact : d.mode.outside;
-  q.w1 = value_of(z.w1), q.w2 = value_of(z.w2);
-  q.delta = value_of(z.x1) - value_of(z.x2), q.delta_rate = q.w1 - q.w2;
-  q.half_gap = value(on.half_gap), q.half_gap_rate = slope(on.half_gap);
   const double rate = value_of(d.f.decay_rate);
   const double dying = rate > 0.0 ? value_of(on.decaying) * std::exp(-rate * s) : 0.0;
-  q.motor = value(on.motor) + dying, q.motor_rate = slope(on.motor) - rate * dying;
-  q.load = value(on.load), q.load_rate = slope(on.load);
-  const double k = value_of(d.f.k), c = value_of(d.f.c);
-  if (side != 0) q.torque = k * (q.delta - side * q.half_gap) + c * q.delta_rate;
-  if (!with_accelerations) return q;
-  const double acting = d.mode.contact != 0 ? q.torque : 0.0;
+  return {value(on.half_gap), slope(on.half_gap), value(on.motor) + dying, slope(on.motor) - rate * dying,
+          value(on.load),     slope(on.load)};
+}
+
+/// What the guards look at, at one end of a step.
+struct Outlook {
+  double delta, delta_rate, torque, torque_rate;  ///< contact, where it is closed or beyond the edge
+  double w1, a1, w2, a2;
+};
+
+template <class T>
+Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Acting& on) {
+  Outlook q;
+  const int side = d.mode.contact != 0 ? d.mode.contact : d.mode.outside;
+  const double k = side != 0 ? value_of(d.f.k) : 0.0, c = side != 0 ? value_of(d.f.c) : 0.0;
+  q.w1 = value_of(z.w1), q.w2 = value_of(z.w2);
+  q.delta = value_of(z.x1) - value_of(z.x2), q.delta_rate = q.w1 - q.w2;
+  q.torque = k * (q.delta - side * on.half_gap) + c * q.delta_rate;
+  const double contact = d.mode.contact != 0 ? q.torque : 0.0;
   const double d1 = value_of(d.mode.motor < 0 ? d.f.d1_minus : d.f.d1_plus);
-  if (d.mode.motor != 0) q.a1 = (q.motor - d1 * q.w1 - acting) / value_of(d.f.m1);
-  if (d.mode.load != 0) q.a2 = (q.load - value_of(d.f.d2) * q.w2 + acting) / value_of(d.f.m2);
-  if (side != 0) q.torque_rate = k * (q.delta_rate - side * q.half_gap_rate) + c * (q.a1 - q.a2);
+  q.a1 = d.mode.motor == 0 ? 0.0 : (on.motor - d1 * q.w1 - contact) * d.inverse_m1;
+  q.a2 = d.mode.load == 0 ? 0.0 : (on.load - value_of(d.f.d2) * q.w2 + contact) * d.inverse_m2;
+  q.torque_rate = k * (q.delta_rate - side * on.half_gap_rate) + c * (q.a1 - q.a2);
   return q;
 }
 
 inline bool contact_may_leave(int contact, double adhesion, const Outlook& a, const Outlook& b, double h) {
-  if (contact != 0)
-    return dips(adhesion + contact * a.torque, contact * a.torque_rate, adhesion + contact * b.torque,
-                contact * b.torque_rate, h);
-  return dips(a.half_gap - a.delta, a.half_gap_rate - a.delta_rate, b.half_gap - b.delta,
-              b.half_gap_rate - b.delta_rate, h) ||
-         dips(a.half_gap + a.delta, a.half_gap_rate + a.delta_rate, b.half_gap + b.delta,
-              b.half_gap_rate + b.delta_rate, h);
+  return dips(adhesion + contact * a.torque, contact * a.torque_rate, adhesion + contact * b.torque,
+              contact * b.torque_rate, h);
+}
+
+inline bool gap_may_close(const Outlook& a, const Acting& at_a, const Outlook& b, const Acting& at_b,
+                          double h) {
+  return dips(at_a.half_gap - a.delta, at_a.half_gap_rate - a.delta_rate, at_b.half_gap - b.delta,
+              at_b.half_gap_rate - b.delta_rate, h) ||
+         dips(at_a.half_gap + a.delta, at_a.half_gap_rate + a.delta_rate, at_b.half_gap + b.delta,
+              at_b.half_gap_rate + b.delta_rate, h);
 }
 
 /// A sticking body: level ∓ applied torque.
@@ -152,26 +158,32 @@ inline bool may_break(double plus, double minus, double applied0, double rate0, 
 }
 
 template <class T>
-bool StepperImpl<T>::may_leave(const DriveState<T>& next, const Forcing<T>& on, double h) const {
+bool StepperImpl<T>::may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end,
+                               double h) const {
   if (!has_load && !motor_friction) return false;
   if ((f.rigid && mode.contact != 0) || mode.outside != 0) return true;  // the exact path decides
-  const bool accelerated = mode.contact != 0 || motor_friction || (load_friction && mode.load != 0);
-  const Outlook a = outlook(*this, z, on, 0.0, accelerated), b = outlook(*this, next, on, h, accelerated);
-  if (has_load && contact_may_leave(mode.contact, value_of(model.adhesion), a, b, h)) return true;
-  const double acting = mode.contact != 0 ? 1.0 : 0.0;
+  const Outlook a = outlook(*this, z, at_start), b = outlook(*this, next, at_end);
+  const double closed_now = mode.contact != 0 ? 1.0 : 0.0;
+  if (mode.contact != 0) {
+    if (contact_may_leave(mode.contact, value_of(model.adhesion), a, b, h)) return true;
+  } else if (has_load && gap_may_close(a, at_start, b, at_end, h)) {
+    return true;
+  }
   if (motor_friction && mode.motor != 0 &&
       dips(mode.motor * a.w1, mode.motor * a.a1, mode.motor * b.w1, mode.motor * b.a1, h))
     return true;
   if (motor_friction && mode.motor == 0 &&
-      may_break(value_of(motor_level(1)), value_of(motor_level(-1)), a.motor - acting * a.torque,
-                a.motor_rate - acting * a.torque_rate, b.motor - acting * b.torque,
-                b.motor_rate - acting * b.torque_rate, h))
+      may_break(value_of(motor_level(1)), value_of(motor_level(-1)), at_start.motor - closed_now * a.torque,
+                at_start.motor_rate - closed_now * a.torque_rate, at_end.motor - closed_now * b.torque,
+                at_end.motor_rate - closed_now * b.torque_rate, h))
     return true;
   if (!load_friction) return false;
   if (mode.load != 0) return dips(mode.load * a.w2, mode.load * a.a2, mode.load * b.w2, mode.load * b.a2, h);
+  if (mode.contact == 0 && !smooth) return false;
   const double level = value_of(model.drive.load_coulomb_friction);
-  return may_break(level, level, a.load + acting * a.torque, a.load_rate + acting * a.torque_rate,
-                   b.load + acting * b.torque, b.load_rate + acting * b.torque_rate, h);
+  return may_break(level, level, at_start.load + closed_now * a.torque,
+                   at_start.load_rate + closed_now * a.torque_rate, at_end.load + closed_now * b.torque,
+                   at_end.load_rate + closed_now * b.torque_rate, h);
 }
 
 template <class T>
@@ -209,19 +221,29 @@ template <class T>
 void StepperImpl<T>::segment(const T& span, double u, int index) {
   set_input(u);
   resolve_at_input_change();
-  const Transition<T>& whole = transition(span, index, halvings(value_of(transition(span, index, 0).h)));
+  const Transition<T>* whole = &transition(span, index, 0);
+  if (smooth) whole = &transition(span, index, halvings(value_of(whole->h)));
   DriveState<T> next;
-  for (int piece = 0; piece < whole.pieces; ++piece) {
-    Forcing<T> on = forcing_without_effects();
-    if (smooth)
-      advance_smoothly(whole, on, next);
-    else
-      respond(whole, on, next);
-    if (may_leave(next, on, value_of(whole.h))) {
-      advance(span - static_cast<double>(piece) * whole.h);
+  Forcing<T> on = forcing_without_effects();
+  Acting at_start{value_of(on.half_gap[0]), 0.0, value_of(on.motor[0]), 0.0, value_of(on.load[0]), 0.0};
+  Acting at_end = at_start;
+  for (int piece = 0; piece < whole->pieces; ++piece) {
+    if (smooth) {
+      on = forcing_without_effects();
+      advance_smoothly(*whole, on, next);
+      at_start = acting_at(*this, on, 0.0), at_end = acting_at(*this, on, value_of(whole->h));
+    } else if (decaying >= 0) {
+      on = forcing_without_effects();
+      respond(*whole, on, next);
+      at_start = acting_at(*this, on, 0.0), at_end = acting_at(*this, on, value_of(whole->h));
+    } else {
+      respond(*whole, on, next);
+    }
+    if (may_leave(next, at_start, at_end, value_of(whole->h))) {
+      advance(span - static_cast<double>(piece) * whole->h);
       return;
     }
-    accept(next, whole.h);
+    accept(next, whole->h);
     forget_zeros();
   }
 }

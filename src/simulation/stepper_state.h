@@ -23,6 +23,7 @@ StepperImpl<T>::StepperImpl(const StepperModel<T>& m, double step) : model(m), d
   f.c = p.contact_damping;
   f.rigid = m.structure.contact == ContactLaw::kRigid;
   half_gap = 0.5 * p.gap;
+  inverse_m1 = 1.0 / value_of(f.m1), inverse_m2 = 1.0 / value_of(f.m2);
   T delay(0.0);
   for (const ActiveEffect<T>& e : m.effects) {
     smooth = smooth || e.hooks->torque != nullptr || e.hooks->half_gap != nullptr;

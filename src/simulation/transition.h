@@ -20,9 +20,9 @@ constexpr double kSmoothReach = 0.25;
 template <class T>
 struct Transition {
   bool ready = false;
-  int pieces = 1;  ///< per segment, so that a piece lies within the series' reach
-  T h{};           ///< length of a piece [s]
-  T response[4][kColumns];
+  int pieces = 1;           ///< per segment, so that a piece lies within the series' reach
+  T h{};                    ///< length of a piece [s]
+  T response[kColumns][4];  ///< a column holds what one quantity does to all four
 };
 
 /// Fastest rate of a mode [1/s]: dampers, and in a closed compliant contact its oscillation and damping.
@@ -51,10 +51,10 @@ void response_column(const FlowConstants<T>& f, const ContactMode& mode, int col
   Series<T> z;
   flow_series(f, mode, start, on, z);
   const DriveState<T> end = evaluate(z, transition.h);
-  transition.response[0][column] = end.x1 - start.x1;
-  transition.response[1][column] = end.w1;
-  transition.response[2][column] = end.x2 - start.x2;
-  transition.response[3][column] = end.w2;
+  transition.response[column][0] = end.x1 - start.x1;
+  transition.response[column][1] = end.w1;
+  transition.response[column][2] = end.x2 - start.x2;
+  transition.response[column][3] = end.w2;
 }
 
 /// @param span length of the segment of a sample that the transition is for [s]
@@ -67,8 +67,8 @@ void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, 
       1, static_cast<int>(std::ceil(rate * value_of(span) / (smooth ? kSmoothReach : kSeriesReach))));
   transition.pieces <<= halvings;
   transition.h = span / static_cast<double>(transition.pieces);
-  for (auto& row : transition.response)
-    for (T& r : row) r = T(0.0);
+  for (auto& responses : transition.response)
+    for (T& r : responses) r = T(0.0);
   for (int column = 0; column < kColumns; ++column) {
     const bool used = column < 5 || (column == 9 ? value_of(f.decay_rate) > 0.0 : smooth);
     if (used) response_column(f, mode, column, transition);
