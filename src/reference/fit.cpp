@@ -14,9 +14,12 @@ namespace gapscope {
 namespace internal {
 namespace {
 
-constexpr double kAtFloor = 1.3;           ///< innovations within this many floors need no further start
-constexpr double kSearchTolerance = 1e-6;  ///< relative decrease of the cost
-constexpr double kFinalTolerance = 1e-8;   ///< far below what moves a value by its standard error
+constexpr double kAtFloor = 1.3;           ///< innovations within this many floors, and
+constexpr double kWhite = 0.15;            ///< uncorrelated from sample to sample, need no further start
+constexpr double kSameMinimum = 1.01;      ///< costs within this ratio: found twice
+constexpr Effort kSearch{1e-4, 0.5};       ///< enough to tell minima apart
+constexpr Effort kRejected{1e-6, 1.0};     ///< of a model that is not the drive
+constexpr Effort kFinal{1e-8, 2.0};        ///< far below what moves a value by its standard error
 constexpr double kSlowObserver = 0.2;      ///< of the search's gain, where a free run goes astray
 constexpr double kSecondGain = 1.0 / 3.0;  ///< of rejected_hz
 
@@ -26,21 +29,36 @@ struct SearchResult {
   std::vector<double> costs;
 };
 
-SearchResult search(const FitProblem& problem) {
+Solution local_search(const FitProblem& problem, const Solution& point) {
   const double hz = problem.options.observer_hz;
+  Solution found = solve(problem, point, hz, kSearch);
+  if (!found.usable() || !choose_variants(problem, found, hz)) return found;
+  const Solution again = solve(problem, found, hz, kSearch);
+  return again.mean_square < found.mean_square ? again : found;
+}
+
+/// Whether further starts can be spared: nothing is left in the innovations, or the best minimum was met
+/// twice.
+bool settled(const FitProblem& problem, const Solution& found, const SearchResult& before) {
+  const double best = before.best.mean_square;
+  if (before.best.usable() && found.mean_square < kSameMinimum * best &&
+      best < kSameMinimum * found.mean_square)
+    return true;
+  return found.mean_square < kAtFloor * kAtFloor &&
+         std::abs(lag1_at(problem, found, problem.options.observer_hz)) < kWhite;
+}
+
+SearchResult search(const FitProblem& problem) {
   SearchResult result;
-  for (const Solution& point : starting_points(problem, hz)) {
+  for (const Solution& point : starting_points(problem, problem.options.observer_hz)) {
     stop_point();
     if (!point.usable()) continue;
-    Solution found = solve(problem, point, hz, kSearchTolerance);
-    if (found.usable() && choose_variants(problem, found, hz)) {
-      const Solution again = solve(problem, found, hz, kSearchTolerance);
-      if (again.mean_square < found.mean_square) found = again;
-    }
+    const Solution found = local_search(problem, point);
     if (!found.usable()) continue;
+    const bool done = settled(problem, found, result);
     result.costs.push_back(found.mean_square);
     if (found.mean_square < result.best.mean_square) result.best = found;
-    if (found.mean_square < kAtFloor * kAtFloor) break;
+    if (done) break;
   }
   std::sort(result.costs.begin(), result.costs.end());
   return result;
@@ -71,9 +89,9 @@ void take(const FitProblem& problem, const Solution& solution, double hz, Outcom
 /// Values at one gain, their change to a lower one as an error.
 void take_two_gains(const FitProblem& problem, const Solution& from, double hz, double other_hz,
                     Outcome& outcome) {
-  const Solution found = solve(problem, from, hz, kFinalTolerance);
+  const Solution found = solve(problem, from, hz, kRejected);
   take(problem, found.usable() ? found : from, found.usable() ? hz : problem.options.observer_hz, outcome);
-  const Solution other = solve(problem, outcome.solution, other_hz, kSearchTolerance);
+  const Solution other = solve(problem, outcome.solution, other_hz, kSearch);
   if (!other.usable()) return;
   const std::vector<double> here = values_of(problem, outcome.solution), there = values_of(problem, other);
   for (std::size_t i = 0; i < here.size(); ++i) outcome.shift.push_back(std::abs(here[i] - there[i]));
@@ -94,7 +112,7 @@ Outcome finish(const FitProblem& problem, const Solution& best) {
     take_two_gains(problem, best, o.rejected_hz, kSecondGain * o.rejected_hz, outcome);
     return outcome;
   }
-  const Solution polished = solve(problem, best, 0.0, kFinalTolerance);
+  const Solution polished = solve(problem, best, 0.0, kFinal);
   if (polished.usable() && std::sqrt(polished.mean_square) <= o.rejected_ratio) {
     take(problem, polished, 0.0, outcome);
     return outcome;

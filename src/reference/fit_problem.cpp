@@ -20,9 +20,9 @@ enum Number {
   kContactDamping
 };
 
-/// Rates beyond so many per sample are not tried: the recording could not show them, the simulation would
-/// crawl.
-constexpr double kStiffest = 15.0;
+/// Rates [1/sample] that a recording can still show, for derived bounds, and beyond which no trial is made.
+constexpr double kVisible = 2.0;
+constexpr double kStiffest = 6.0;
 
 bool in_structure(const DriveStructure& s, int number) {
   if (number <= kMotorDamping) return true;
@@ -44,15 +44,18 @@ std::array<double, kDriveParameterCount> suggested(const RoughDrive& rough, cons
   const double peak = std::max(km * rough.peak_input, 1e-300);
   const double speed = std::max(rough.speed, 1e-300), travel = std::max(rough.travel, 1e-300);
   const double inertia = rough.inertia > 0.0 ? km * rough.inertia : 0.01 * peak / speed;
-  const double damping = rough.damping > 0.0 ? km * rough.damping : 0.1 * peak / speed;
+  const double drag =
+      peak / std::max(rough.peak_speed, speed);  // at top speed damping takes the torque at most
+  const bool locked = model.structure.has_load && !free_load;  // whose balance knows nothing of the contact
+  const double damping = rough.damping > 0.0 && !locked ? std::min(km * rough.damping, drag) : 0.3 * drag;
   s[kMotorInertia] = given(kMotorInertia, free_load ? 0.5 * inertia : inertia);
   s[kMotorDamping] = free_load ? 0.5 * damping : damping;
-  s[kMassRatio] = std::clamp(inertia / s[kMotorInertia] - 1.0, 0.1, 10.0);
-  s[kGap] = 0.2 * travel;
+  s[kMassRatio] = given(kMassRatio, std::clamp(inertia / s[kMotorInertia] - 1.0, 0.1, 10.0));
+  s[kGap] = (locked ? 0.5 : 0.2) * travel;
   s[kLoadDamping] = 0.5 * damping;
   s[kLoadCoulomb] = std::clamp(km * rough.friction, 0.02 * peak, 0.6 * peak);
   s[kStiffness] = (free_load ? 30.0 : 4.0) * peak / travel;
-  const double mu = given(kMassRatio, s[kMassRatio]);
+  const double mu = s[kMassRatio];
   const double reduced = s[kMotorInertia] * (free_load ? mu / (1.0 + mu) : 1.0);
   s[kContactDamping] = 0.2 * std::sqrt(given(kStiffness, s[kStiffness]) * reduced);
   return s;
@@ -69,6 +72,25 @@ Interval derived_bounds(int number, double start, double suggestion, const Rough
       return {0.01 * start, 100.0 * start};
     default:
       return {0.0, std::max(100.0 * start, 10.0 * suggestion)};
+  }
+}
+
+/// The value at which a number of dampers and springs is as fast as a recording can show.
+double visible(int number, const std::array<double, kDriveParameterCount>& sizes,
+               const DriveStructure& structure, double dt) {
+  const double m1 = sizes[kMotorInertia], mu = sizes[kMassRatio], rate = kVisible / dt;
+  const double reduced = structure.load == LoadKind::kLocked ? m1 : m1 * mu / (1.0 + mu);
+  switch (number) {
+    case kMotorDamping:
+      return m1 * rate;
+    case kLoadDamping:
+      return m1 * mu * rate;
+    case kStiffness:
+      return reduced * rate * rate;
+    case kContactDamping:
+      return reduced * rate;
+    default:
+      return kInfinity;
   }
 }
 
@@ -95,15 +117,18 @@ void set_bounds(Parameter& p, const ParameterSetting& setting, const Interval& d
   p.start = std::clamp(p.start, p.low, p.high);
 }
 
-Parameter drive_number(int number, const ParameterSetting& setting, double suggestion,
+Parameter drive_number(int number, const ParameterSetting& setting, double suggestion, double most,
                        const RoughDrive& rough) {
   Parameter p = start_parameter(number, setting, suggestion);
   p.key = kDriveParameters[number].key;
   p.unit = kDriveParameters[number].unit;
   if (!p.estimated) return p;
   p.typical = p.start > 0.0 ? p.start : suggestion;
-  set_bounds(p, setting, derived_bounds(number, p.start, suggestion, rough),
-             lowest_sensible(number, p.typical));
+  Interval derived = derived_bounds(number, p.start, suggestion, rough);
+  derived.high = std::min(derived.high, p.given ? std::max(most, 3.0 * p.start) : most);
+  if (number == kGap)
+    p.start = std::min(p.start, 0.9 * derived.high);  // at the travel itself no contact is made
+  set_bounds(p, setting, derived, lowest_sensible(number, p.typical));
   p.coordinate = Coordinate::logarithmic(p.typical);
   return p;
 }
@@ -132,7 +157,8 @@ void add_drive(FitProblem& problem, const ReferenceModel& model,
   for (int n = 0; n < kDriveParameterCount; ++n) {
     if (!in_structure(model.structure, n)) continue;
     const auto i = static_cast<std::size_t>(n);
-    problem.parameters.push_back(drive_number(n, model.parameters[i], sizes[i], problem.rough));
+    const double most = visible(n, sizes, model.structure, problem.recordings.front().dt);
+    problem.parameters.push_back(drive_number(n, model.parameters[i], sizes[i], most, problem.rough));
     const Parameter& p = problem.parameters.back();
     if (n == kLoadCoulomb) problem.load_may_stick = p.estimated || p.start > 0.0;
   }

@@ -117,6 +117,20 @@ void add_priors(const FitProblem& problem, const Solution& at, Information& info
 
 }  // namespace
 
+double lag1_at(const FitProblem& problem, const Solution& at, double observer_hz) {
+  double zero = 0.0, one = 0.0;
+  for (std::size_t r = 0; r < at.starts.size(); ++r) {
+    const RecordingCost cost(problem, r, at.starts[r], observer_hz);
+    std::vector<double> q = at.q;
+    for (const int s : cost.states()) q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
+    Eigen::VectorXd residuals(static_cast<Eigen::Index>(problem.recordings[r].size()));
+    if (!cost.evaluate(q.data(), residuals.data(), nullptr)) return kNaN;
+    zero += residuals.squaredNorm();
+    one += autocovariance(residuals, 1);
+  }
+  return zero > 0.0 ? one / zero : 0.0;
+}
+
 Information information_at(const FitProblem& problem, const Solution& at, double observer_hz) {
   Information information;
   auto used = static_cast<Eigen::Index>(problem.free_count());

@@ -20,6 +20,9 @@ struct Information {
   int window_count = 0;
 };
 
+/// Autocorrelation of the residual at one sample, by plain runs; NaN where the motion diverges.
+double lag1_at(const FitProblem& problem, const Solution& at, double observer_hz);
+
 Information information_at(const FitProblem& problem, const Solution& at, double observer_hz);
 
 }  // namespace gapscope::internal

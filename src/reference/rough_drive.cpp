@@ -12,7 +12,7 @@ namespace gapscope::internal {
 namespace {
 
 constexpr double kSpeedWindow = 0.02;  ///< over which the slope of x1 is taken as the speed [s]
-constexpr std::size_t kFewestInWindow = 7;
+constexpr std::size_t kFewestInWindow = 9;
 constexpr std::size_t kRows = 500;  ///< of the balance, per recording
 
 std::size_t window_of(const MotorTrace& r) {
@@ -108,18 +108,34 @@ RoughDrive rough_drive(std::span<const MotorTrace> recordings) {
   return rough;
 }
 
-LocalMotion local_motion(const MotorTrace& r, double floor) {
-  const auto n = static_cast<Eigen::Index>(window_of(r));
-  Eigen::MatrixXd basis(n, 3);
+namespace {
+
+/// Cubic over the first n samples (a drive at rest starts with t³ under an input that starts at zero);
+/// `misfit` is its rms residual.
+LocalMotion cubic(const MotorTrace& r, std::size_t samples, double floor, double& misfit) {
+  const auto n = static_cast<Eigen::Index>(samples);
+  Eigen::MatrixXd basis(n, 4);
   Eigen::VectorXd x(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double t = static_cast<double>(i);
-    basis.row(i) << 1.0, t, t * t;
+    basis.row(i) << 1.0, t, t * t, t * t * t;
     x[i] = r.x1[static_cast<std::size_t>(i)] - r.x1[0];
   }
-  const Eigen::Matrix3d inverse = (basis.transpose() * basis).inverse();
-  const Eigen::Vector3d fitted = inverse * (basis.transpose() * x);
+  const Eigen::Matrix4d inverse = (basis.transpose() * basis).inverse();
+  const Eigen::Vector4d fitted = inverse * (basis.transpose() * x);
+  misfit = (x - basis * fitted).norm() / std::sqrt(static_cast<double>(n - 4));
   return {r.x1[0] + fitted[0], fitted[1] / r.dt, std::sqrt(inverse(1, 1)) * floor / r.dt};
+}
+
+}  // namespace
+
+LocalMotion local_motion(const MotorTrace& r, double floor) {
+  LocalMotion motion;
+  for (std::size_t n = window_of(r);; n = std::max(2 * n / 3, kFewestInWindow)) {
+    double misfit = 0.0;
+    motion = cubic(r, n, floor, misfit);
+    if (misfit < 1.3 * floor || n <= kFewestInWindow) return motion;
+  }
 }
 
 double encoder_floor(const MotorTrace& r) {

@@ -21,7 +21,8 @@ struct RoughDrive {
 
 RoughDrive rough_drive(std::span<const MotorTrace> recordings);
 
-/// Position and speed at the first sample from a local parabola, with the speed's standard error.
+/// Position and speed at the first sample, with the speed's standard error, from a cubic over as many
+/// samples as one fits.
 struct LocalMotion {
   double x = 0.0, w = 0.0, w_std = 0.0;
 };

@@ -1,6 +1,7 @@
 #include "reference/solve.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,16 +106,27 @@ class Search {
   ceres::Problem ceres_;
 };
 
-ceres::Solver::Options solver_options(const FitOptions& options, double tolerance) {
+/// A search that ends badly is a result here; Ceres would also write it to standard error.
+void silence_ceres() {
+  static const bool silent = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  (void)silent;
+}
+
+ceres::Solver::Options solver_options(const FitOptions& options, const Effort& effort) {
   ceres::Solver::Options o;
   o.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;  // a few columns, scaled by Ceres
-  o.max_num_iterations = options.max_iterations;
-  o.function_tolerance = tolerance;
-  o.parameter_tolerance = 1e-3 * tolerance;
+  o.max_num_iterations = std::max(1, static_cast<int>(effort.iterations * options.max_iterations));
+  o.function_tolerance = effort.tolerance;
+  o.parameter_tolerance = 1e-3 * effort.tolerance;
   o.gradient_tolerance = 0.0;  // in scaled units it has no meaning of its own
   o.max_num_consecutive_invalid_steps = 10;
+  o.max_trust_region_radius = 1e10;  // keeps the normal matrix positive along null directions
   o.logging_type = ceres::SILENT;
   o.num_threads = 1;
+  o.use_nonmonotonic_steps = true;  // valleys bend, and every change in the order of events is a kink
   return o;
 }
 
@@ -150,12 +162,13 @@ double mean_square(const FitProblem& problem, const Solution& at, double observe
   return sum / count;
 }
 
-Solution solve(const FitProblem& problem, const Solution& from, double observer_hz, double tolerance) {
+Solution solve(const FitProblem& problem, const Solution& from, double observer_hz, const Effort& effort) {
   Solution to = from;
   to.mean_square = kInfinity;
   to.converged = false;
+  silence_ceres();
   Search search(problem, from, observer_hz);
-  const ceres::Solver::Summary summary = search.run(solver_options(problem.options, tolerance));
+  const ceres::Solver::Summary summary = search.run(solver_options(problem.options, effort));
   if (summary.termination_type == ceres::FAILURE || !summary.IsSolutionUsable()) return to;
   search.read_back(to);
   to.converged = summary.termination_type == ceres::CONVERGENCE;

@@ -27,7 +27,13 @@ double recording_square(const FitProblem& problem, const std::vector<double>& q,
 /// Mean square residual at a point, in floor², by plain runs. Infinite where the motion diverges.
 double mean_square(const FitProblem& problem, const Solution& at, double observer_hz);
 
+/// When a local search stops.
+struct Effort {
+  double tolerance = 1e-6;  ///< relative decrease of the cost in an iteration
+  double iterations = 1.0;  ///< in FitOptions::max_iterations
+};
+
 /// Levenberg–Marquardt within the bounds from a point, at the given observer gain (0: the free run).
-Solution solve(const FitProblem& problem, const Solution& from, double observer_hz, double tolerance);
+Solution solve(const FitProblem& problem, const Solution& from, double observer_hz, const Effort& effort);
 
 }  // namespace gapscope::internal

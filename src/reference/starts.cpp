@@ -12,6 +12,14 @@ constexpr int kDrawsPerStart = 12;   ///< looked at by plain runs, when a value 
 constexpr double kNearFactor = 1.6;  ///< draws around a given value
 constexpr double kFarFactor = 8.0;   ///< draws around a derived one
 
+/// A later variant must lower the cost to this share. A load that slides to rest within the gap leaves only
+/// the place where it stops, so a start in motion there is not to be preferred for a trifle.
+constexpr double kClearlyBetter = 0.98;
+
+/// A load "at the edge" starts this far inside [scales]: exactly at the edge and at rest, the contact closes
+/// at no definite time, and derivatives with it.
+constexpr double kInside = 0.02;
+
 Interval draw_range(const FitProblem& problem, const Parameter& p) {
   if (p.key == std::string("gap") && !p.given)
     return {0.01 * problem.rough.travel, 0.8 * problem.rough.travel};
@@ -74,8 +82,9 @@ bool choose_variants(const FitProblem& problem, Solution& at, double observer_hz
       RecordingStart start = at.starts[r];
       start.variant = variant;
       start.q.fill(0.0);
+      start.q[2] = -kInside * variant.side;
       const double cost = recording_square(problem, at.q, r, start, observer_hz);
-      if (!(cost < best)) continue;
+      if (!(cost < kClearlyBetter * best)) continue;
       best = cost;
       at.starts[r] = start;
       changed = true;

@@ -25,8 +25,8 @@ struct Prior {
 ///   gap                                            [0, travel of x1, peak to peak]
 ///   motor_inertia, torque_constant, mass_ratio,
 ///   contact_stiffness                              [v/100, 100 v]
-///   dampings, Coulomb frictions                    [0, 100 v], the high end at least 10 × what the
-///   recordings suggest
+///   dampings, Coulomb frictions                    [0, 100 v], and to 10 × what the recordings suggest
+/// but dampings and stiffness at most 3 v, or what is as fast as 2 per sample if that is more.
 struct ParameterSetting {
   double value = kNaN;  ///< NaN: not given, which needs estimate
   bool estimate = false;
