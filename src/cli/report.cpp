@@ -9,8 +9,25 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/results/report_folder.h"
+#include "gapscope/results/run_result.h"
 
 namespace gapscope::cli {
+namespace {
+
+/// Draws aside, so that the old report stands until the new one is complete.
+void redraw(const std::string& folder) {
+  namespace fs = std::filesystem;
+  read_run_result(folder);  // told here, what is wrong has its place in the folder that the user knows
+  ReportFolder fresh(folder);
+  for (const char* stored : {"result.json", "resolved.yaml", "timing.json", "traces"})
+    if (fs::exists(fs::path(folder) / stored))
+      fs::copy(fs::path(folder) / stored, fs::path(fresh.path()) / stored, fs::copy_options::recursive);
+  write_report(fresh.path());
+  fresh.commit();
+}
+
+}  // namespace
 
 void add_report(CLI::App& app) {
   struct Arguments {
@@ -28,7 +45,7 @@ void add_report(CLI::App& app) {
     if (!std::filesystem::is_directory(arguments->folder))
       throw ConfigError(arguments->folder, "there is no such folder, expected the folder of a report");
     progress_on_terminal(arguments->quiet)("drawing " + arguments->folder);
-    write_report(arguments->folder);
+    redraw(arguments->folder);
     fmt::print("{:<12}{}\n", "report", arguments->folder);
   });
 }

@@ -22,7 +22,8 @@ Panel map(const ReportView& view, const std::string& title, const std::vector<do
   return panel;
 }
 
-/// The gap read off the map as a dimension, around the middle of the two flanks.
+/// The width of the map as a dimension, around the middle of the two flanks; it holds the gap and the
+/// wind-up.
 void mark_gap(const ReportView& view, Panel& panel) {
   const double gap = view.run.comparison ? view.run.comparison->map_width : kNaN;
   const double shown = std::isfinite(gap) ? gap : view.true_gap();
@@ -30,7 +31,8 @@ void mark_gap(const ReportView& view, Panel& panel) {
   const double middle = robust_middle(view.state);
   const Interval range{middle - shown / 2, middle + shown / 2};
   for (const double y : {range.low, range.high}) panel.y_marks.push_back({y, truth_style(), ""});
-  panel.dimensions.push_back({range, "$2β$ = " + quantity(shown, view.length_unit)});
+  const std::string what = std::isfinite(gap) ? "flank to flank " : "$2β$ = ";
+  panel.dimensions.push_back({range, what + quantity(shown, view.length_unit)});
 }
 
 std::string reading(const ReportView& view) {
@@ -38,7 +40,8 @@ std::string reading(const ReportView& view) {
   std::string text = "98 % of the samples of x1 − x2 lie within " + quantity(spread, view.length_unit);
   const double gap = view.run.comparison ? view.run.comparison->map_width : kNaN;
   if (std::isfinite(gap))
-    text += "; the gap read off the map is " + quantity(gap, view.length_unit);
+    text += "; from flank to flank the map is " + quantity(gap, view.length_unit) +
+            " wide, the gap and the elastic wind-up of the loaded contact";
   else if (std::isfinite(view.true_gap()))
     text += "; the simulated gap is " + quantity(view.true_gap(), view.length_unit);
   else

@@ -87,7 +87,8 @@ TEST(Fig3, MarksTheGapReadOffTheMapAroundTheFlanks) {
   const Dimension& gap = figure.panels[1].dimensions.at(0);
   EXPECT_NEAR(gap.range.high - gap.range.low, full_run().comparison->map_width, 1e-12);
   EXPECT_NEAR(gap.range.high + gap.range.low, 0.0, 1e-6);
-  EXPECT_NE(figure.reading.find("read off the map is 19.0 mrad"), std::string::npos) << figure.reading;
+  EXPECT_NE(figure.reading.find("from flank to flank the map is 19.0 mrad wide"), std::string::npos)
+      << figure.reading;
 }
 
 TEST(Fig4, UsesTheFittedStateAndSaysSoWhereX2IsNotRecorded) {
