@@ -15,7 +15,7 @@ namespace internal {
 namespace {
 
 constexpr double kAtFloor = 1.3;           ///< innovations within this many floors, and
-constexpr double kWhite = 0.15;            ///< uncorrelated from sample to sample, need no further start
+constexpr double kWhite = 0.15;            ///< no more correlated than a quantiser's, need no further start
 constexpr double kSameMinimum = 1.01;      ///< costs within this ratio: found twice
 constexpr Effort kSearch{1e-4, 0.5};       ///< enough to tell minima apart
 constexpr Effort kRejected{1e-6, 1.0};     ///< of a model that is not the drive
@@ -37,15 +37,15 @@ Solution local_search(const FitProblem& problem, const Solution& point) {
   return again.mean_square < found.mean_square ? again : found;
 }
 
-/// Whether further starts can be spared: nothing is left in the innovations, or the best minimum was met
-/// twice.
+/// Whether further starts can be spared: nothing but the encoder is left in the innovations; or the best
+/// minimum was met twice and the model is not the drive anyway.
 bool settled(const FitProblem& problem, const Solution& found, const SearchResult& before) {
-  const double best = before.best.mean_square;
-  if (before.best.usable() && found.mean_square < kSameMinimum * best &&
-      best < kSameMinimum * found.mean_square)
-    return true;
+  const FitOptions& o = problem.options;
+  const double best = std::min(before.best.mean_square, found.mean_square);
+  const double other = std::max(before.best.mean_square, found.mean_square);
+  if (best > o.rejected_ratio * o.rejected_ratio && other < kSameMinimum * best) return true;
   return found.mean_square < kAtFloor * kAtFloor &&
-         std::abs(lag1_at(problem, found, problem.options.observer_hz)) < kWhite;
+         correlation_at(problem, found, o.observer_hz).excess() < kWhite;
 }
 
 SearchResult search(const FitProblem& problem) {
@@ -115,6 +115,15 @@ Outcome finish(const FitProblem& problem, const Solution& best) {
   const Solution polished = solve(problem, best, 0.0, kFinal);
   if (polished.usable() && std::sqrt(polished.mean_square) <= o.rejected_ratio) {
     take(problem, polished, 0.0, outcome);
+    const Correlation& correlation = outcome.information.correlation;
+    if (correlation.excess() > kWhite)
+      outcome.warnings.push_back(
+          fmt::format("the residual is within the encoder's size but not random (lag-1 autocorrelation "
+                      "{:.2f}, the quantiser "
+                      "explains {:.2f}): something small is missing or another minimum is better, and the "
+                      "intervals assume "
+                      "neither.",
+                      correlation.lag1, correlation.quantiser));
     return outcome;
   }
   outcome.warnings.push_back(
@@ -173,7 +182,7 @@ void report_motion(const FitProblem& problem, const Outcome& outcome, FitSummary
   summary.rmse = free_run_error(problem, summary.traces);
   summary.innovation_rmse = prediction_error(problem, summary.traces);
   summary.mode_errors = errors_by_mode(problem, summary.traces);
-  summary.lag1_autocorrelation = outcome.information.lag1;
+  summary.lag1_autocorrelation = outcome.information.correlation.lag1;
 }
 
 /// A fit without an answer still lists its parameters, at their starts.

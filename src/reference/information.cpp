@@ -54,26 +54,40 @@ Eigen::MatrixXd window_scores(const Part& part, Eigen::Index length, int& count)
   return sum;
 }
 
-/// The error of an encoder on the fitted motion, for counts that lie anywhere. Noise before the quantiser
-/// spreads its error; its first harmonic falls by exp(−2π² (noise/quantum)²).
-Eigen::MatrixXd quantiser_scores(const Part& part, const MotorTrace& recording, double floor) {
-  const Eigen::Index n = part.jacobian.cols(), samples = part.residuals.size();
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
-  const double quantum = recording.quantum;
-  if (!(quantum > 0.0)) return sum;
-  const double square = part.residuals.squaredNorm() / static_cast<double>(samples) * floor * floor;
-  const double noise = std::sqrt(std::max(0.0, square - quantum * quantum / 12.0)) / quantum;
-  const double spread = std::exp(-2.0 * kPi * kPi * noise * noise) * quantum / floor;
-  if (spread < 1e-3) return sum;
-  Eigen::VectorXd error(samples);
-  for (int j = 0; j < kPhases; ++j) {
-    for (Eigen::Index i = 0; i < samples; ++i) {
+/// The error of an encoder on the fitted motion, for counts that lie anywhere, in floors. Noise before the
+/// quantiser spreads its error; the first harmonic falls by exp(−2π² (noise/quantum)²).
+struct Quantiser {
+  double quantum = 0.0, floor = 1.0;
+  double size = 0.0;  ///< of an error of one quantum [floor]; 0: nothing of it is left
+
+  Quantiser(const Eigen::VectorXd& residuals, const MotorTrace& recording, double recording_floor)
+      : quantum(recording.quantum), floor(recording_floor) {
+    if (!(quantum > 0.0)) return;
+    const double square = residuals.squaredNorm() / static_cast<double>(residuals.size()) * floor * floor;
+    const double noise = std::sqrt(std::max(0.0, square - quantum * quantum / 12.0)) / quantum;
+    size = std::exp(-2.0 * kPi * kPi * noise * noise) * quantum / floor;
+    if (size < 1e-3) size = 0.0;
+  }
+
+  Eigen::VectorXd error(const Eigen::VectorXd& residuals, const MotorTrace& recording, double phase) const {
+    Eigen::VectorXd e(residuals.size());
+    for (Eigen::Index i = 0; i < e.size(); ++i) {
       const double counts =
-          (recording.x1[static_cast<std::size_t>(i)] - part.residuals[i] * floor) / quantum +
-          j / double(kPhases);
-      error[i] = (std::nearbyint(counts) - counts) * spread;
+          (recording.x1[static_cast<std::size_t>(i)] - residuals[i] * floor) / quantum + phase;
+      e[i] = (std::nearbyint(counts) - counts) * size;
     }
-    const Eigen::VectorXd score = part.jacobian.transpose() * error;
+    return e;
+  }
+};
+
+Eigen::MatrixXd quantiser_scores(const Part& part, const MotorTrace& recording, double floor) {
+  const Eigen::Index n = part.jacobian.cols();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  const Quantiser quantiser(part.residuals, recording, floor);
+  if (quantiser.size == 0.0) return sum;
+  for (int j = 0; j < kPhases; ++j) {
+    const Eigen::VectorXd score =
+        part.jacobian.transpose() * quantiser.error(part.residuals, recording, j / double(kPhases));
     sum += score * score.transpose() / kPhases;
   }
   return sum;
@@ -85,7 +99,7 @@ double autocovariance(const Eigen::VectorXd& r, std::size_t lag) {
 }
 
 /// 1 + 2 Σ ρ over the initial lags whose pairs stay positive (Geyer's rule).
-void correlation(const std::vector<Part>& parts, Information& information) {
+double inflation_of(const std::vector<Part>& parts) {
   const auto pooled = [&](std::size_t lag) {
     double sum = 0.0;
     for (const Part& p : parts)
@@ -93,16 +107,32 @@ void correlation(const std::vector<Part>& parts, Information& information) {
     return sum;
   };
   const double zero = pooled(0);
-  if (!(zero > 0.0)) return;
+  if (!(zero > 0.0)) return 1.0;
   const double one = pooled(1);
-  information.lag1 = one / zero;
   double sum = zero + one;
   for (std::size_t lag = 2; lag < kMostLags; lag += 2) {
     const double pair = pooled(lag) + pooled(lag + 1);
     if (!(pair > 0.0)) break;
     sum += pair;
   }
-  information.inflation = std::max(1.0, 2.0 * sum / zero - 1.0);
+  return std::max(1.0, 2.0 * sum / zero - 1.0);
+}
+
+Correlation correlation_of(const FitProblem& problem, const std::vector<Eigen::VectorXd>& residuals) {
+  constexpr int kFewPhases = 4;
+  double zero = 0.0, one = 0.0, quantised = 0.0;
+  for (std::size_t r = 0; r < residuals.size(); ++r) {
+    zero += residuals[r].squaredNorm();
+    one += autocovariance(residuals[r], 1);
+    const MotorTrace& recording = problem.recordings[r];
+    const Quantiser quantiser(residuals[r], recording, problem.floors[r]);
+    if (quantiser.size == 0.0) continue;
+    for (int j = 0; j < kFewPhases; ++j)
+      quantised +=
+          autocovariance(quantiser.error(residuals[r], recording, j / double(kFewPhases)), 1) / kFewPhases;
+  }
+  if (!(zero > 0.0)) return {0.0, 0.0};
+  return {one / zero, quantised / zero};
 }
 
 void add_priors(const FitProblem& problem, const Solution& at, Information& information) {
@@ -117,18 +147,16 @@ void add_priors(const FitProblem& problem, const Solution& at, Information& info
 
 }  // namespace
 
-double lag1_at(const FitProblem& problem, const Solution& at, double observer_hz) {
-  double zero = 0.0, one = 0.0;
+Correlation correlation_at(const FitProblem& problem, const Solution& at, double observer_hz) {
+  std::vector<Eigen::VectorXd> residuals;
   for (std::size_t r = 0; r < at.starts.size(); ++r) {
     const RecordingCost cost(problem, r, at.starts[r], observer_hz);
     std::vector<double> q = at.q;
     for (const int s : cost.states()) q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
-    Eigen::VectorXd residuals(static_cast<Eigen::Index>(problem.recordings[r].size()));
-    if (!cost.evaluate(q.data(), residuals.data(), nullptr)) return kNaN;
-    zero += residuals.squaredNorm();
-    one += autocovariance(residuals, 1);
+    residuals.emplace_back(static_cast<Eigen::Index>(problem.recordings[r].size()));
+    if (!cost.evaluate(q.data(), residuals.back().data(), nullptr)) return {};
   }
-  return zero > 0.0 ? one / zero : 0.0;
+  return correlation_of(problem, residuals);
 }
 
 Information information_at(const FitProblem& problem, const Solution& at, double observer_hz) {
@@ -153,7 +181,10 @@ Information information_at(const FitProblem& problem, const Solution& at, double
   }
   add_priors(problem, at, information);
   information.variance = std::max(squares, quantised) / std::max(1.0, samples - static_cast<double>(used));
-  correlation(parts, information);
+  information.inflation = inflation_of(parts);
+  std::vector<Eigen::VectorXd> residuals;
+  for (const Part& p : parts) residuals.push_back(p.residuals);
+  information.correlation = correlation_of(problem, residuals);
   information.valid = information.normal.allFinite();
   return information;
 }

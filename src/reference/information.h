@@ -6,6 +6,14 @@
 
 namespace gapscope::internal {
 
+/// Autocorrelation of the residual at one sample [-]: as it is, and as much as the quantiser explains on this
+/// motion.
+struct Correlation {
+  double lag1 = kNaN;
+  double quantiser = 0.0;
+  double excess() const { return lag1 - quantiser; }
+};
+
 /// What the recordings say about the free numbers at a solution, in solver units. Columns: the free
 /// parameters, then the free initial numbers of each recording. Residuals are in floors.
 struct Information {
@@ -16,12 +24,12 @@ struct Information {
       quantiser;  ///< score·scoreᵀ of the quantiser's error, averaged over where the counts lie (n × n)
   double variance = 1.0;   ///< of a residual [floor²], never below the quantiser's
   double inflation = 1.0;  ///< samples per independent sample, from the autocorrelation
-  double lag1 = kNaN;      ///< autocorrelation of the residual at one sample [-]
+  Correlation correlation;
   int window_count = 0;
 };
 
-/// Autocorrelation of the residual at one sample, by plain runs; NaN where the motion diverges.
-double lag1_at(const FitProblem& problem, const Solution& at, double observer_hz);
+/// By plain runs; NaN where the motion diverges.
+Correlation correlation_at(const FitProblem& problem, const Solution& at, double observer_hz);
 
 Information information_at(const FitProblem& problem, const Solution& at, double observer_hz);
 

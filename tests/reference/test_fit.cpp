@@ -155,6 +155,27 @@ TEST(Fit, AWrongFixedParameterIsSaidNotHidden) {
   EXPECT_LT(std::abs(summary.find("gap")->value - 0.0188), 4.0 * summary.find("gap")->std);
 }
 
+TEST(Fit, ASmallMismatchIsSeenInTheRandomnessOfTheResidualAndAQuantisersPatternIsNot) {
+  BlindRig rig;
+  rig.sensor = blind::BlindSensor::with_bits(16, 0.5);
+  rig.options.duration = 3.0;
+  for (const bool right : {true, false}) {
+    ReferenceModel model = known_model(rig.drive);
+    if (!right) model.parameters[kStiffness].value = 150.0;
+    estimate(model, kGap, 0.02);
+    const FitSummary summary = fit_one(rig.recording(), model);
+    EXPECT_LT(summary.rmse, 3.0 * summary.floor);
+    EXPECT_EQ(summary.full_report().find("not random") == std::string::npos, right) << summary.full_report();
+  }
+  rig.sensor = blind::BlindSensor::with_bits(12);  // correlated by its own coarseness
+  rig.options.rate = 5000.0;
+  ReferenceModel model = known_model(rig.drive);
+  estimate(model, kGap, 0.02);
+  const FitSummary coarse = fit_one(rig.recording(), model);
+  EXPECT_GT(coarse.lag1_autocorrelation, 0.2);
+  EXPECT_EQ(coarse.full_report().find("not random"), std::string::npos) << coarse.full_report();
+}
+
 TEST(Fit, AParameterThatRunsIntoItsBoundIsNamed) {
   BlindRig run;
   ReferenceModel model = known_model(run.drive);
