@@ -152,7 +152,8 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   estimate.bound_t1 =
       bound_that_shows(recordings, analyses, estimate, typical_bound(analyses, &ImpactAnalysis::sliding));
   keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
-  if (options.paper_bound > 0.0) warn_of_paper_bound(recordings, analyses, options.paper_bound, estimate);
+  if (options.paper_bound > 0.0 && estimate.verdict == GapVerdict::kBacklash)
+    warn_of_paper_bound(recordings, analyses, options.paper_bound, estimate);
   return estimate;
 }
 
