@@ -27,11 +27,13 @@ struct CsvOptions {
 constexpr std::size_t kFewestSamples = 50;
 
 /// Reads a CSV with a header; `#` comments and extra columns are ignored.
-/// Sampling is uniform when every step is within 0.1 % of the mean step; anything else is refused with the figure,
-/// or resampled on request: x1 and x2 linearly, u as the mean of the held input over each new interval, so that
-/// its impulse is kept.
-/// @throws ConfigError with file and line: missing or empty file, missing column, a field that is no finite number,
-///   a row with too few fields, time that does not increase, non-uniform time, too few samples, an empty window.
+/// Sampling is uniform when every step is within 0.1 % of the mean step; anything else is refused with the
+/// figure, or resampled on request: x1 and x2 linearly, u as the mean of the held input over each new
+/// interval, so that its impulse is kept.
+/// @throws ConfigError with file and line: missing or empty file, missing column, a field that is no finite
+/// number,
+///   a row with too few fields, time that does not increase, non-uniform time, too few samples, an empty
+///   window.
 Recording read_csv(const std::string& path, const CsvOptions& options = {});
 
 /// Writes t, u, x1 and, where known, x2 and mode, so that read_csv() returns the same numbers.

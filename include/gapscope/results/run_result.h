@@ -13,15 +13,15 @@ namespace gapscope {
 
 /// All that `run`, `detect` and `fit` leave behind, and all that a report is drawn from.
 struct RunResult {
-  std::string name;                           ///< of the configuration
-  std::string version;                        ///< of gapscope
-  bool rotation = true;                       ///< false: rad and N·m mean m and N
-  std::optional<GapEstimate> model_free;      ///< absent: not asked for (`fit`)
-  std::optional<FitSummary> reference;        ///< absent: not asked for (`detect`)
-  std::optional<Comparison> comparison;       ///< absent unless both were asked for
-  double simulated_gap = kNaN;                ///< 2β of the simulated plant [rad]; NaN for recorded data
-  std::vector<Recording> recordings;          ///< stored as traces, not in the JSON
-  std::vector<std::string> notes;             ///< what was done to the data, readings of the configuration
+  std::string name;                       ///< of the configuration
+  std::string version;                    ///< of gapscope
+  bool rotation = true;                   ///< false: rad and N·m mean m and N
+  std::optional<GapEstimate> model_free;  ///< absent: not asked for (`fit`)
+  std::optional<FitSummary> reference;    ///< absent: not asked for (`detect`)
+  std::optional<Comparison> comparison;   ///< absent unless both were asked for
+  double simulated_gap = kNaN;            ///< 2β of the simulated plant [rad]; NaN for recorded data
+  std::vector<Recording> recordings;      ///< stored as traces, not in the JSON
+  std::vector<std::string> notes;         ///< what was done to the data, readings of the configuration
 };
 
 /// Wall times; the only stored result that is not a function of input, seed and version.
@@ -30,14 +30,15 @@ struct Timing {
   double reference_s = kNaN;
 };
 
-/// Writes result.json and traces/<n>_<file>.csv into an existing folder. The columns of a trace are t_s, u, x1_rad,
-/// x2_rad, e_x_rad, w1_hat_rad_s, fit_x1_rad, fit_predicted_x1_rad, fit_x2_rad, mode, fit_mode, those that are
-/// filled. Numbers come out shortest and read back the same.
+/// Writes result.json and traces/<n>_<file>.csv into an existing folder. The columns of a trace are t_s, u,
+/// x1_rad, x2_rad, e_x_rad, w1_hat_rad_s, fit_x1_rad, fit_predicted_x1_rad, fit_x2_rad, mode, fit_mode, those
+/// that are filled. Numbers come out shortest and read back the same.
 /// @throws std::runtime_error naming what cannot be written.
 void write_run_result(const std::string& folder, const RunResult& result);
 void write_timing(const std::string& folder, const Timing& timing);
 
-/// Reads back exactly what write_run_result() wrote.  @throws ConfigError for another schema or a damaged file.
+/// Reads back exactly what write_run_result() wrote.  @throws ConfigError for another schema or a damaged
+/// file.
 RunResult read_run_result(const std::string& folder);
 Timing read_timing(const std::string& folder);  ///< NaN where there is none
 
