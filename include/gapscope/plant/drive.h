@@ -5,7 +5,7 @@ namespace gapscope {
 /// What the fields of DriveParameters are called in YAML and JSON, in their order there.
 inline constexpr int kDriveParameterCount = 9;
 
-/// The nine numbers of the two-inertia drive , in generalised coordinates: on a translational
+/// The nine numbers of the two-inertia drive, in generalised coordinates: on a translational
 /// axis rad reads m and N·m reads N. T is double, or a Jet where derivatives are wanted.
 template <class T>
 struct DriveParameters {
