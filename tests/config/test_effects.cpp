@@ -59,7 +59,8 @@ TEST_P(EveryEffect, CanBeEstimatedWithBounds) {
                "{value: 0.01, estimate: true, bounds: [0, 0.5]}");
   const Configuration c =
       parse_configuration(with(kRecorded, "effects: []", "effects: [" + text + "]"), "c.yaml");
-  const ParameterSetting& setting = c.model.reference_model().effects[0].parameters[0];
+  const ReferenceModel model = c.model.reference_model();
+  const ParameterSetting& setting = model.effects[0].parameters[0];
   EXPECT_TRUE(setting.estimate);
   EXPECT_EQ(setting.high, 0.5);
 }
