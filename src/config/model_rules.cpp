@@ -10,31 +10,9 @@
 namespace gapscope {
 namespace {
 
-enum Place {
-  kInertia,
-  kConstant,
-  kDamping,
-  kRatio,
-  kGapWidth,
-  kLoadDamping,
-  kLoadFriction,
-  kStiffness,
-  kContactDamping
-};
-static_assert(kContactDamping + 1 == kDriveParameterCount);
-
 constexpr double kSmallestRatio = 1e-3;  ///< of an estimated mass ratio: 0 is another structure
 
 }  // namespace
-
-bool has_parameter(const DriveStructure& structure, int index) {
-  if (index <= kDamping) return true;
-  if (!structure.has_load) return false;
-  const bool of_load = index == kRatio || index == kLoadDamping || index == kLoadFriction;
-  const bool of_contact = index == kStiffness || index == kContactDamping;
-  if (of_load && structure.load == LoadKind::kLocked) return false;
-  return !(of_contact && structure.contact == ContactLaw::kRigid);
-}
 
 int drive_parameter_index(const std::string& key) {
   const auto found = std::find_if(std::begin(kDriveParameters), std::end(kDriveParameters),
@@ -50,7 +28,7 @@ DriveStructure structure_of(const WrittenModel& written) {
   DriveStructure s;
   if (written.contact) std::tie(s.contact, s.restitution) = *written.contact;
   if (written.load) s.load = *written.load;
-  const auto& ratio = written.parameters[kRatio];
+  const auto& ratio = written.parameters[place::kMassRatio];
   s.has_load = !(ratio && ratio->value == 0.0 && !ratio->estimate.value_or(false));
   if (!s.has_load && s.load == LoadKind::kLocked)
     ratio->place.fail("is 0, which is a drive without a load, expected a load to be there with load: locked");
@@ -65,8 +43,9 @@ const char* reason_of_absence(const DriveStructure& structure) {
 
 ParameterSetting absent_parameter(int index) {
   ParameterSetting p;
-  p.estimate = index == kGapWidth || index == kDamping || index == kRatio;
-  if (index == kLoadDamping || index == kLoadFriction || index == kContactDamping) p.value = 0.0;
+  p.estimate = index == place::kGap || index == place::kMotorDamping || index == place::kMassRatio;
+  if (index == place::kLoadDamping || index == place::kLoadCoulomb || index == place::kContactDamping)
+    p.value = 0.0;
   return p;
 }
 
@@ -93,7 +72,7 @@ ParameterSetting written_parameter(const WrittenParameter& written, int index) {
       written.place.fail("has a prior without a value, expected prior: {value: ..., std: ...}");
     p.prior = Prior{written.prior->first.value_or(p.value), written.prior->second};
   }
-  if (index == kRatio && p.estimate) keep_ratio_from_zero(p, written.place);
+  if (index == place::kMassRatio && p.estimate) keep_ratio_from_zero(p, written.place);
   return p;
 }
 
@@ -137,8 +116,9 @@ SimulatedPlant simulated_plant(const WrittenModel& written, const Value& simulat
     parameter->bounds.reset();
     parameter->prior.reset();
   }
-  const bool no_ratio = numbers.parameters[kRatio] && !numbers.parameters[kRatio]->value;
-  if (no_ratio) numbers.parameters[kRatio].reset();
+  const bool no_ratio =
+      numbers.parameters[place::kMassRatio] && !numbers.parameters[place::kMassRatio]->value;
+  if (no_ratio) numbers.parameters[place::kMassRatio].reset();
   SimulatedPlant plant;
   plant.structure = structure_of(numbers);
   if (numbers.effects) plant.effects = *numbers.effects;
@@ -147,7 +127,7 @@ SimulatedPlant simulated_plant(const WrittenModel& written, const Value& simulat
     double value = given && given->value ? *given->value : kNaN;
     if (std::isnan(value)) value = absent_parameter(i).value;
     if (std::isnan(value) && !has_parameter(plant.structure, i))
-      value = i == kRatio && plant.structure.has_load ? 1.0 : 0.0;
+      value = i == place::kMassRatio && plant.structure.has_load ? 1.0 : 0.0;
     if (std::isnan(value))
       simulation.fail(
           fmt::format("has no {0}, expected a number [{1}] in model.parameters.{0} or in "

@@ -8,33 +8,15 @@
 namespace gapscope::internal {
 namespace {
 
-enum Number {
-  kMotorInertia,
-  kTorqueConstant,
-  kMotorDamping,
-  kMassRatio,
-  kGap,
-  kLoadDamping,
-  kLoadCoulomb,
-  kStiffness,
-  kContactDamping
-};
+using namespace place;
 
 /// Rates [1/sample] that a recording can still show, for derived bounds, and beyond which no trial is made.
 constexpr double kVisible = 2.0;
 constexpr double kStiffest = 6.0;
 
-bool in_structure(const DriveStructure& s, int number) {
-  if (number <= kMotorDamping) return true;
-  if (!s.has_load) return false;
-  if (number == kGap) return true;
-  if (number == kStiffness || number == kContactDamping) return s.contact == ContactLaw::kCompliant;
-  return s.load == LoadKind::kFree;
-}
-
 /// The size that each number probably has, from the balance of the recordings and the numbers that are given.
 std::array<double, kDriveParameterCount> suggested(const RoughDrive& rough, const ReferenceModel& model) {
-  const auto given = [&](Number n, double otherwise) {
+  const auto given = [&](int n, double otherwise) {
     const double v = model.parameters[static_cast<std::size_t>(n)].value;
     return v > 0.0 ? v : otherwise;
   };
@@ -54,10 +36,10 @@ std::array<double, kDriveParameterCount> suggested(const RoughDrive& rough, cons
   s[kGap] = (locked ? 0.5 : 0.2) * travel;
   s[kLoadDamping] = 0.5 * damping;
   s[kLoadCoulomb] = std::clamp(km * rough.friction, 0.02 * peak, 0.6 * peak);
-  s[kStiffness] = (free_load ? 30.0 : 4.0) * peak / travel;
+  s[kContactStiffness] = (free_load ? 30.0 : 4.0) * peak / travel;
   const double mu = s[kMassRatio];
   const double reduced = s[kMotorInertia] * (free_load ? mu / (1.0 + mu) : 1.0);
-  s[kContactDamping] = 0.2 * std::sqrt(given(kStiffness, s[kStiffness]) * reduced);
+  s[kContactDamping] = 0.2 * std::sqrt(given(kContactStiffness, s[kContactStiffness]) * reduced);
   return s;
 }
 
@@ -68,7 +50,7 @@ Interval derived_bounds(int number, double start, double suggestion, const Rough
     case kMotorInertia:
     case kTorqueConstant:
     case kMassRatio:
-    case kStiffness:
+    case kContactStiffness:
       return {0.01 * start, 100.0 * start};
     default:
       return {0.0, std::max(100.0 * start, 10.0 * suggestion)};
@@ -85,7 +67,7 @@ double visible(int number, const std::array<double, kDriveParameterCount>& sizes
       return m1 * rate;
     case kLoadDamping:
       return m1 * mu * rate;
-    case kStiffness:
+    case kContactStiffness:
       return reduced * rate * rate;
     case kContactDamping:
       return reduced * rate;
@@ -96,8 +78,8 @@ double visible(int number, const std::array<double, kDriveParameterCount>& sizes
 
 /// Least value that the equations of motion allow.
 double lowest_sensible(int number, double typical) {
-  return number == kMotorInertia || number == kMassRatio || number == kStiffness ? 1e-4 * typical
-                                                                                 : -kInfinity;
+  return number == kMotorInertia || number == kMassRatio || number == kContactStiffness ? 1e-4 * typical
+                                                                                        : -kInfinity;
 }
 
 Parameter start_parameter(int number, const ParameterSetting& setting, double suggestion) {
@@ -155,7 +137,7 @@ ReferenceModel with_gap_seed(ReferenceModel model, const FitOptions& options) {
 void add_drive(FitProblem& problem, const ReferenceModel& model,
                const std::array<double, kDriveParameterCount>& sizes) {
   for (int n = 0; n < kDriveParameterCount; ++n) {
-    if (!in_structure(model.structure, n)) continue;
+    if (!has_parameter(model.structure, n)) continue;
     const auto i = static_cast<std::size_t>(n);
     const double most = visible(n, sizes, model.structure, problem.recordings.front().dt);
     problem.parameters.push_back(drive_number(n, model.parameters[i], sizes[i], most, problem.rough));
@@ -210,7 +192,7 @@ double FitProblem::stiffness(const ModelNumbers<double>& n) const {
   if (!structure.has_load) return rate;
   const double inverse = 1.0 / m1 + (locked() ? 0.0 : 1.0 / (m1 * n[kMassRatio]));
   if (!locked()) rate = std::max(rate, n[kLoadDamping] / (m1 * n[kMassRatio]));
-  return rate + std::sqrt(n[kStiffness] * inverse) + n[kContactDamping] * inverse;
+  return rate + std::sqrt(n[kContactStiffness] * inverse) + n[kContactDamping] * inverse;
 }
 
 FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceModel& given,

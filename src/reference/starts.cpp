@@ -57,7 +57,7 @@ Solution start_point(const FitProblem& problem, std::vector<double> q) {
   Solution point;
   point.q = std::move(q);
   const ModelNumbers<double> numbers = problem.numbers(point.q.data());
-  const double gap = numbers[4];
+  const double gap = numbers[place::kGap];
   const double length = std::max(gap, 1e-3 * problem.rough.travel);
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
     const double floor = problem.floors[r];

@@ -8,18 +8,7 @@
 
 namespace gapscope::test {
 
-/// Places in kDriveParameters.
-enum Number {
-  kMotorInertia,
-  kTorqueConstant,
-  kMotorDamping,
-  kMassRatio,
-  kGap,
-  kLoadDamping,
-  kLoadCoulomb,
-  kStiffness,
-  kContactDamping
-};
+using namespace place;
 
 /// The independent plant's default drive is the rig of the source paper; its numbers in our order.
 inline std::array<double, kDriveParameterCount> numbers_of(const blind::BlindDrive& d) {
@@ -42,7 +31,7 @@ inline ReferenceModel known_model(const blind::BlindDrive& d) {
   return model;
 }
 
-inline void estimate(ReferenceModel& model, Number number, double start = kNaN) {
+inline void estimate(ReferenceModel& model, int number, double start = kNaN) {
   model.parameters[number] = {};
   model.parameters[number].value = start;
   model.parameters[number].estimate = true;

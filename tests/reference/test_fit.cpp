@@ -47,7 +47,7 @@ TEST(Fit, RecoversThePaperRigFromPerfectAndPerturbedStarts) {
 
 TEST(Fit, RecoversGapDampingAndMassRatioOfWhichNothingWasSaid) {
   ReferenceModel model = known_model({});
-  for (const Number n : {kGap, kMotorDamping, kMassRatio}) estimate(model, n);
+  for (const int n : {kGap, kMotorDamping, kMassRatio}) estimate(model, n);
   expect_truth(fit_one(paper_recording(), model));
 }
 
@@ -59,7 +59,7 @@ TEST(Fit, RecoversAllButInertiaAndTorqueConstantFromASheetTwentyPercentOff) {
   ReferenceModel model = known_model(run.drive);
   const auto truth = numbers_of(run.drive);
   for (int n = kMotorDamping; n <= kContactDamping; ++n)
-    estimate(model, static_cast<Number>(n), truth[static_cast<std::size_t>(n)] * (n % 2 == 0 ? 1.2 : 0.8));
+    estimate(model, n, truth[static_cast<std::size_t>(n)] * (n % 2 == 0 ? 1.2 : 0.8));
   const FitSummary summary = fit_one(run.recording(), model);
   EXPECT_EQ(summary.status, FitStatus::kConverged);
   // Weakest is the contact's damping: a few dozen impacts of some 20 samples each.
@@ -113,7 +113,7 @@ TEST(Fit, TheSameRecordingGivesTheSameBytesTwice) {
   BlindRig run;
   const Recording recording = run.recording();
   ReferenceModel model = known_model({});
-  for (const Number n : {kGap, kMotorDamping, kMassRatio}) estimate(model, n);
+  for (const int n : {kGap, kMotorDamping, kMassRatio}) estimate(model, n);
   const FitSummary a = fit_one(recording, model), b = fit_one(recording, model);
   EXPECT_EQ(a.full_report(), b.full_report());
   for (std::size_t i = 0; i < a.parameters.size(); ++i)
@@ -145,7 +145,7 @@ TEST(Fit, AWrongFixedParameterIsSaidNotHidden) {
   // Stiffness fixed at a quarter of the truth: every impact is missed by far more than the encoder's floor.
   BlindRig run;
   ReferenceModel model = known_model(run.drive);
-  model.parameters[kStiffness].value = 50.0;
+  model.parameters[kContactStiffness].value = 50.0;
   estimate(model, kGap, 0.02);
   estimate(model, kMassRatio, 1.2);
   const FitSummary summary = fit_one(run.recording(), model);
@@ -161,7 +161,7 @@ TEST(Fit, ASmallMismatchIsSeenInTheRandomnessOfTheResidualAndAQuantisersPatternI
   rig.options.duration = 3.0;
   for (const bool right : {true, false}) {
     ReferenceModel model = known_model(rig.drive);
-    if (!right) model.parameters[kStiffness].value = 150.0;
+    if (!right) model.parameters[kContactStiffness].value = 150.0;
     estimate(model, kGap, 0.02);
     const FitSummary summary = fit_one(rig.recording(), model);
     EXPECT_LT(summary.rmse, 3.0 * summary.floor);
@@ -212,7 +212,7 @@ TEST(Fit, CallersFaultsAreAssertions) {
   const Recording recording = BlindRig{}.recording();
   ReferenceModel model = known_model({});
   EXPECT_THROW(fit({}, model), std::logic_error);
-  model.parameters[kStiffness].value = kNaN;  // neither given nor estimated
+  model.parameters[kContactStiffness].value = kNaN;  // neither given nor estimated
   EXPECT_THROW(fit_one(recording, model), std::logic_error);
 }
 

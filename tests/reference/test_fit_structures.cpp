@@ -42,7 +42,7 @@ TEST(FitStructures, ALockedLoadYieldsTheGapAndItsPlace) {
   model.structure.load = LoadKind::kLocked;
   estimate(model, kGap, 0.03);
   estimate(model, kMotorDamping);
-  estimate(model, kStiffness, 150.0);
+  estimate(model, kContactStiffness, 150.0);
   const FitSummary summary = fit_one(run.recording(), model);
   EXPECT_EQ(summary.find("mass_ratio"), nullptr);
   EXPECT_EQ(summary.find("load_damping"), nullptr);

@@ -26,7 +26,7 @@ TEST(Identifiability, InertiaTorqueConstantAndDampingOfOneInertiaScaleTogether) 
   run.drive.load = blind::LoadKind::kNone;
   ReferenceModel model = known_model(run.drive);
   model.structure.has_load = false;
-  for (const Number n : {kMotorInertia, kTorqueConstant, kMotorDamping})
+  for (const int n : {kMotorInertia, kTorqueConstant, kMotorDamping})
     estimate(model, n, 1.1 * numbers_of(run.drive)[n]);
   const FitSummary summary = fit_one(run.recording(), model);
   for (const char* key : {"motor_inertia", "torque_constant", "motor_damping"})
@@ -58,7 +58,7 @@ TEST(Identifiability, WithoutContactNothingBehindTheGapIsSeen) {
   run.options.duration = 3.0;
   ReferenceModel model = known_model(run.drive);
   estimate(model, kMotorDamping, 0.05);
-  estimate(model, kStiffness, 150.0);
+  estimate(model, kContactStiffness, 150.0);
   estimate(model, kLoadDamping, 0.03);
   const FitSummary summary = fit_one(run.recording(), model);
   EXPECT_TRUE(contains(summary, "motor_damping", 0.062)) << summary.full_report();

@@ -45,8 +45,9 @@ BlindRig short_run() {
 
 ReferenceModel freed(int count) {
   ReferenceModel model = known_model({});
-  const Number order[] = {kGap,       kMotorDamping,   kMassRatio,    kLoadDamping,   kLoadCoulomb,
-                          kStiffness, kContactDamping, kMotorInertia, kTorqueConstant};
+  const int order[] = {kGap,           kMotorDamping,     kMassRatio,      kLoadDamping,
+                       kLoadCoulomb,   kContactStiffness, kContactDamping, kMotorInertia,
+                       kTorqueConstant};
   for (int i = 0; i < count; ++i) model.parameters[order[i]].estimate = true;
   return model;
 }

@@ -40,10 +40,6 @@ struct SimulatedPlant {
   PlantModel<double> plant_model() const;
 };
 
-/// Whether a drive of this structure has the parameter with the given place in kDriveParameters: without a
-/// load only the motor's own, a locked load has no mass_ratio and no load_*, a rigid contact no contact_*.
-bool has_parameter(const DriveStructure& structure, int index);
-
 /// Place of a key in kDriveParameters.  @throws std::logic_error for any other.
 int drive_parameter_index(const std::string& key);
 

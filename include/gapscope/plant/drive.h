@@ -44,6 +44,22 @@ inline constexpr DriveParameterSpec kDriveParameters[kDriveParameterCount] = {
     {"contact_damping", "N m s/rad", "damping of the closed contact, c"},
 };
 
+/// Places in kDriveParameters.
+namespace place {
+enum : int {
+  kMotorInertia,
+  kTorqueConstant,
+  kMotorDamping,
+  kMassRatio,
+  kGap,
+  kLoadDamping,
+  kLoadCoulomb,
+  kContactStiffness,
+  kContactDamping
+};
+static_assert(kContactDamping + 1 == kDriveParameterCount);
+}  // namespace place
+
 /// The parameter with the given place in kDriveParameters.
 template <class T>
 T& drive_parameter(DriveParameters<T>& p, int index) {
@@ -67,5 +83,15 @@ struct DriveStructure {
   LoadKind load = LoadKind::kFree;  ///< locked: the output does not move
   bool has_load = true;             ///< false: mass_ratio 0, one inertia without a gap
 };
+
+/// Whether a drive of this structure has the parameter with the given place in kDriveParameters: without a
+/// load only the motor's own, a locked load has no mass_ratio and no load_*, a rigid contact no contact_*.
+constexpr bool has_parameter(const DriveStructure& structure, int index) {
+  if (index <= place::kMotorDamping) return true;
+  if (!structure.has_load) return false;
+  if (index == place::kGap) return true;
+  if (index >= place::kContactStiffness) return structure.contact == ContactLaw::kCompliant;
+  return structure.load == LoadKind::kFree;
+}
 
 }  // namespace gapscope
