@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/pipeline.h"
+#include "gapscope/campaign/pipeline.h"
 
 namespace gapscope::cli {
 

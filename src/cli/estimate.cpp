@@ -9,9 +9,9 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/field_help.h"
-#include "cli/pipeline.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/campaign/pipeline.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/report_folder.h"
 

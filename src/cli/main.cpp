@@ -10,9 +10,9 @@
 #include <string>
 
 #include "cli/commands.h"
-#include "cli/version.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/version.h"
 
 namespace gapscope::cli {
 namespace {
@@ -27,7 +27,7 @@ extern "C" void on_interrupt(int) {
 
 void add_commands(CLI::App& app) {
   app.description("Backlash gap and sim-to-real gap of a drive with a single motor encoder");
-  app.set_version_flag("--version", std::string("gapscope ") + kVersion);
+  app.set_version_flag("--version", std::string("gapscope ") + version());
   app.require_subcommand(1);
   app.footer(
       "Angles are in rad, torques in N m, times in s, unless a key or a message says otherwise.\n"

@@ -7,9 +7,9 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/field_help.h"
-#include "cli/pipeline.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/campaign/pipeline.h"
 #include "gapscope/recording/csv.h"
 
 namespace gapscope::cli {

@@ -7,7 +7,7 @@
 #include "gapscope/config/configuration.h"
 #include "gapscope/results/run_result.h"
 
-namespace gapscope::cli {
+namespace gapscope {
 
 /// Which of the two estimators a command asks for.
 struct Estimators {
@@ -36,4 +36,4 @@ std::vector<Recording> load_recordings(const Configuration& configuration, const
 /// The recording that `simulation:` describes.
 Recording simulated_recording(const Configuration& configuration);
 
-}  // namespace gapscope::cli
+}  // namespace gapscope

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/pipeline.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/campaign/pipeline.h"
 #include "gapscope/recording/csv.h"
 #include "gapscope/simulation/simulate.h"
 
-namespace gapscope::cli {
+namespace gapscope {
 namespace {
 
 /// The file's own name; where two files share it, the path as it was given, without separators.
@@ -76,4 +76,4 @@ std::vector<Recording> load_recordings(const Configuration& c, const Progress& p
   return recordings;
 }
 
-}  // namespace gapscope::cli
+}  // namespace gapscope

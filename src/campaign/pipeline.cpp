@@ -1,4 +1,4 @@
-#include "cli/pipeline.h"
+#include "gapscope/campaign/pipeline.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,13 +7,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "cli/version.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/version.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/reference/fit.h"
 #include "gapscope/sliding_mode/detector.h"
 
-namespace gapscope::cli {
+namespace gapscope {
 namespace {
 
 /// A result of f and how long it took [s].
@@ -75,7 +75,7 @@ Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Pro
   Outcome out;
   RunResult& r = out.result;
   r.name = c.name;
-  r.version = kVersion;
+  r.version = version();
   r.rotation = c.rotation;
   r.recordings = load_recordings(c, progress, out);
   if (c.simulation && c.simulation->plant.structure.has_load) r.simulated_gap = c.simulation->plant.drive.gap;
@@ -102,4 +102,4 @@ Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Pro
   return out;
 }
 
-}  // namespace gapscope::cli
+}  // namespace gapscope
