@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "config/configuration_reader.h"
 #include "config/data_reader.h"
 #include "config/field_reader.h"
 #include "config/model_reader.h"
@@ -27,17 +28,6 @@ bool is_plain_name(const std::string& name) {
   };
   return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), plain) &&
          name[0] != '.' && name[0] != '-';
-}
-
-std::string read_name(const Section& root, const std::string& file) {
-  if (const auto given = root.find("name")) {
-    const std::string name = given->text();
-    if (!is_plain_name(name)) given->fail_expecting(kNameForm);
-    return name;
-  }
-  const std::string stem = std::filesystem::path(file).stem().string();
-  if (!is_plain_name(stem)) root.require("name", kNameForm);
-  return stem;
 }
 
 /// `bound: auto`, a number, or {from_model: {input_limit, load_force_bound}}.
@@ -105,6 +95,19 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
   require_possible_start(c);
 }
 
+}  // namespace
+
+std::string read_name(const Section& root, const std::string& file) {
+  if (const auto given = root.find("name")) {
+    const std::string name = given->text();
+    if (!is_plain_name(name)) given->fail_expecting(kNameForm);
+    return name;
+  }
+  const std::string stem = std::filesystem::path(file).stem().string();
+  if (!is_plain_name(stem)) root.require("name", kNameForm);
+  return stem;
+}
+
 Configuration read_configuration(const Value& document) {
   const Section root(
       document, {"name", "recording", "simulation", "encoder", "coordinates", "model", "detector", "fit"});
@@ -125,7 +128,6 @@ Configuration read_configuration(const Value& document) {
   return c;
 }
 
-}  // namespace
 }  // namespace internal
 
 Configuration parse_configuration(const std::string& text, const std::string& file) {

@@ -34,6 +34,8 @@ class Value {
   const std::string& path() const { return path_; }  ///< "model.parameters.gap"
   const std::string& file() const { return *file_; }
 
+  YAML::Node node() const { return node_; }  ///< for those who write into the tree before it is read
+
   bool is_map() const { return node_.IsMap(); }
   bool is_list() const { return node_.IsSequence(); }
   bool is_text() const { return node_.IsScalar(); }
