@@ -1,5 +1,6 @@
 #include "gapscope/base/parallel.h"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
@@ -21,6 +22,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(thread_count(threads)));
   tbb::task_arena arena(thread_count(threads));
   arena.execute([&] {
     tbb::parallel_for(

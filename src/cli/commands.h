@@ -13,6 +13,7 @@ void add_simulate(CLI::App& app);
 void add_report(CLI::App& app);
 void add_effects(CLI::App& app);
 void add_blind(CLI::App& app);
+void add_campaign(CLI::App& app);
 
 /// What stands in the help of every command that takes a configuration.
 inline constexpr const char* kConfigHelp = "configuration (YAML)";

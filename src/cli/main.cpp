@@ -39,6 +39,7 @@ void add_commands(CLI::App& app) {
   add_simulate(app);
   add_report(app);
   add_effects(app);
+  add_campaign(app);
   add_blind(app);
 }
 

@@ -7,16 +7,20 @@
 
 #include "config/yaml_writer.h"
 
-namespace gapscope::internal {
+namespace gapscope {
+
+AxisValue axis_value(const std::string& yaml) {
+  AxisValue value{yaml, kNaN};
+  const char* const last = yaml.data() + yaml.size();
+  const auto [end, problem] = std::from_chars(yaml.data(), last, value.number);
+  if (problem != std::errc() || end != last || !std::isfinite(value.number)) value.number = kNaN;
+  return value;
+}
+
+namespace internal {
 namespace {
 
 constexpr int kDigits = 9, kLogDigits = 6;
-
-double number_or_nan(const std::string& text) {
-  double value = kNaN;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return problem == std::errc() && end == text.data() + text.size() && std::isfinite(value) ? value : kNaN;
-}
 
 /// Maps and lists in braces and brackets, on one line.
 void in_one_line(YAML::Node node) {
@@ -27,7 +31,7 @@ void in_one_line(YAML::Node node) {
 
 AxisValue listed_value(const Value& item) {
   const YAML::Node node = item.node();
-  if (node.IsScalar() && node.Tag() == "?") return {node.Scalar(), number_or_nan(node.Scalar())};
+  if (node.IsScalar() && node.Tag() == "?") return axis_value(node.Scalar());
   if (node.IsScalar()) return {yaml_text(node.Scalar()), kNaN};
   YAML::Node copy = YAML::Clone(node);
   in_one_line(copy);
@@ -87,10 +91,7 @@ WrittenAxis read_axis(const std::string& path, const Value& value, bool continuo
   return a;
 }
 
-AxisValue axis_number(double value, int digits) {
-  const std::string text = fmt::format("{:.{}g}", value, digits);
-  return {text, number_or_nan(text)};
-}
+AxisValue axis_number(double value, int digits) { return axis_value(fmt::format("{:.{}g}", value, digits)); }
 
 CampaignAxis filled(WrittenAxis written) {
   CampaignAxis& axis = written.axis;
@@ -120,4 +121,5 @@ CampaignDraw read_draw(const std::string& path, const Value& value) {
           log_uniform.has_value(), value.line()};
 }
 
-}  // namespace gapscope::internal
+}  // namespace internal
+}  // namespace gapscope

@@ -16,6 +16,8 @@ struct AxisValue {
   double number = kNaN;  ///< NaN where it is no number
 };
 
+AxisValue axis_value(const std::string& yaml);
+
 /// `axes: {path: ...}` – what one parameter of the configuration goes through:
 ///   a list                                         its items, of any kind
 ///   {range: [low, high], count: n}                 n numbers in equal steps, ends included

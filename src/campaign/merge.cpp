@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+#include "campaign/store_header.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/campaign/store.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Sameness {
+  std::string text;
+  void operator()(const char*, std::string& value) { text += value + '\n'; }
+  void operator()(const char*, double& value) { text += fmt::format("{}\n", value); }
+  void operator()(const char*, std::optional<bool>& value) {
+    text += !value ? "-\n" : *value ? "1\n" : "0\n";
+  }
+};
+
+/// Everything of a row as one text.
+std::string whole(CampaignRow& row) {
+  Sameness all;
+  fields(all, row);
+  return all.text;
+}
+
+/// Copies what is not there yet; what is there must be the same.
+void copy_rows(const CampaignStore& from, const std::string& folder, CampaignStore& to,
+               std::map<std::uint64_t, std::string>& seen) {
+  from.each(
+      [&](CampaignRow& row, const CampaignTiming& timing) {
+        stop_point();
+        const std::string text = whole(row);
+        const auto [before, is_new] = seen.emplace(row.run, text);
+        if (is_new) return to.add(row, timing);
+        if (before->second != text)
+          throw ConfigError(folder,
+                            fmt::format("has another result for run {} than a store before it, expected the "
+                                        "same from the same campaign",
+                                        row.run + 1));
+      },
+      true);
+}
+
+}  // namespace
+
+std::uint64_t merge_campaigns(const std::vector<std::string>& folders, const std::string& target) {
+  CampaignHeader header = CampaignStore(folders.front()).header();
+  header.shard = {};
+  for (const std::string& folder : folders) {
+    const CampaignHeader other = CampaignStore(folder).header();
+    if (const std::string what = internal::difference(other, header); !what.empty())
+      throw ConfigError(folder, fmt::format("{} (as in {})", what, folders.front()));
+    if (fs::exists(target) && fs::equivalent(folder, target))
+      throw ConfigError(target, "is one of the folders to merge, expected another one to merge into");
+  }
+  if (fs::exists(fs::path(target) / "results.sqlite"))
+    throw ConfigError(target, "has a store already, expected a folder without one to merge into");
+  CampaignStore whole_store(target, header);
+  std::map<std::uint64_t, std::string> seen;
+  for (const std::string& folder : folders) copy_rows(CampaignStore(folder), folder, whole_store, seen);
+  return seen.size();
+}
+
+}  // namespace gapscope

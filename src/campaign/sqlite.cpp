@@ -1,0 +1,95 @@
+#include "campaign/sqlite.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "gapscope/base/statistics.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr int kPatience = 20000;  // for another process that writes [ms]
+
+}  // namespace
+
+Database::Database(const std::string& file, bool create) : file_(file) {
+  const int flags = create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
+  if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
+    const std::string what = handle_ == nullptr ? "out of memory" : sqlite3_errmsg(handle_);
+    sqlite3_close(handle_);
+    throw std::runtime_error(file_ + ": " + what);
+  }
+  sqlite3_busy_timeout(handle_, kPatience);
+}
+
+Database::~Database() { sqlite3_close(handle_); }
+
+void Database::fail() const { throw std::runtime_error(file_ + ": " + sqlite3_errmsg(handle_)); }
+
+void Database::execute(const std::string& sql) {
+  if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+}
+
+Statement::Statement(Database& database, const std::string& sql) : database_(database) {
+  check(sqlite3_prepare_v2(database.handle(), sql.c_str(), -1, &statement_, nullptr));
+}
+
+Statement::~Statement() { sqlite3_finalize(statement_); }
+
+void Statement::check(int code) const {
+  if (code != SQLITE_OK) database_.fail();
+}
+
+void Statement::bind(const std::string& text) {
+  check(
+      sqlite3_bind_text(statement_, ++bound_, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
+}
+void Statement::bind(double value) {
+  ++bound_;
+  check(std::isnan(value) ? sqlite3_bind_null(statement_, bound_)
+                          : sqlite3_bind_double(statement_, bound_, value));
+}
+void Statement::bind(std::int64_t value) { check(sqlite3_bind_int64(statement_, ++bound_, value)); }
+void Statement::bind(const std::optional<bool>& value) {
+  ++bound_;
+  check(value ? sqlite3_bind_int(statement_, bound_, *value ? 1 : 0) : sqlite3_bind_null(statement_, bound_));
+}
+
+bool Statement::step() {
+  read_ = 0;
+  const int code = sqlite3_step(statement_);
+  if (code != SQLITE_ROW && code != SQLITE_DONE) database_.fail();
+  return code == SQLITE_ROW;
+}
+
+void Statement::reset() {
+  check(sqlite3_reset(statement_));
+  bound_ = 0;
+}
+
+void Statement::read(std::string& text) {
+  const int column = read_++;
+  const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+  text.assign(bytes == nullptr ? "" : bytes,
+              static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
+}
+void Statement::read(double& value) {
+  const int column = read_++;
+  value = sqlite3_column_type(statement_, column) == SQLITE_NULL ? kNaN
+                                                                 : sqlite3_column_double(statement_, column);
+}
+void Statement::read(std::int64_t& value) { value = sqlite3_column_int64(statement_, read_++); }
+void Statement::read(std::optional<bool>& value) {
+  const int column = read_++;
+  value.reset();
+  if (sqlite3_column_type(statement_, column) != SQLITE_NULL)
+    value = sqlite3_column_int(statement_, column) != 0;
+}
+
+std::string quoted_name(const std::string& name) {
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace gapscope::internal {
+
+/// A database file. Every failure throws std::runtime_error with the file and what SQLite says.
+class Database {
+ public:
+  /// @param create  false: it must be there, and is only read
+  Database(const std::string& file, bool create);
+  ~Database();
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  void execute(const std::string& sql);
+  [[noreturn]] void fail() const;
+  sqlite3* handle() const { return handle_; }
+
+ private:
+  std::string file_;
+  sqlite3* handle_ = nullptr;
+};
+
+/// A prepared statement. Values are bound, and columns read, from left to right.
+class Statement {
+ public:
+  Statement(Database& database, const std::string& sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  void bind(const std::string& text);
+  void bind(double value);  ///< NaN: NULL
+  void bind(std::int64_t value);
+  void bind(const std::optional<bool>& value);
+
+  /// The next row; false after the last one.
+  bool step();
+  void execute() {  ///< for statements without rows: runs it and makes it ready for the next one
+    step();
+    reset();
+  }
+  void reset();
+
+  void read(std::string& text);
+  void read(double& value);
+  void read(std::int64_t& value);
+  void read(std::optional<bool>& value);
+
+ private:
+  void check(int code) const;
+  Database& database_;
+  sqlite3_stmt* statement_ = nullptr;
+  int bound_ = 0, read_ = 0;
+};
+
+/// A name as SQL has it: in quotes.
+std::string quoted_name(const std::string& name);
+
+}  // namespace gapscope::internal

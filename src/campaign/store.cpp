@@ -1,0 +1,185 @@
+#include "gapscope/campaign/store.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <mutex>
+
+#include "campaign/sqlite.h"
+#include "campaign/store_header.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/require.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::Database;
+using internal::Statement;
+
+std::string file_in(const std::string& folder) { return (fs::path(folder) / "results.sqlite").string(); }
+
+/// Keeps other processes from adding to the store in a folder, for as long as it lives. The system lets go of
+/// it when the process dies, however it dies.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& folder)
+      : handle_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (handle_ >= 0 && flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(handle_);
+      throw ConfigError(file_in(folder), "is being written by another process, expected one at a time");
+    }
+  }
+  ~FolderLock() {
+    if (handle_ >= 0) close(handle_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int handle_;
+};
+
+std::string existing(const std::string& folder) {
+  if (!fs::is_regular_file(file_in(folder)))
+    throw ConfigError(file_in(folder), "there is no such file, expected the store of a campaign");
+  return file_in(folder);
+}
+
+std::string made(const std::string& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem) throw std::runtime_error(folder + ": cannot be created: " + problem.message());
+  return folder;
+}
+
+/// "INSERT INTO runs VALUES (?, ?, ...)"
+std::string insertion(const char* table, std::size_t columns) {
+  return fmt::format("INSERT INTO {} VALUES ({})", table,
+                     fmt::join(std::vector<std::string>(columns, "?"), ", "));
+}
+
+struct Binder {
+  Statement& to;
+  template <class T>
+  void operator()(const char*, T& value) {
+    to.bind(value);
+  }
+};
+
+struct ColumnReader {
+  Statement& from;
+  template <class T>
+  void operator()(const char*, T& value) {
+    from.read(value);
+  }
+};
+
+std::string selection(const CampaignHeader& header, bool configurations) {
+  std::vector<std::string> columns;
+  for (const std::string& name : internal::run_columns(header)) {
+    const bool left_out = name == "configuration" && !configurations;
+    columns.push_back(left_out ? "''" : "runs." + internal::quoted_name(name));
+  }
+  return fmt::format(
+      "SELECT {}, model_free_s, reference_s, run_s FROM runs LEFT JOIN timing ON timing.run = runs.run ORDER "
+      "BY "
+      "runs.run",
+      fmt::join(columns, ", "));
+}
+
+}  // namespace
+
+std::string to_string(const CampaignShard& shard) { return fmt::format("{}/{}", shard.number, shard.of); }
+
+struct CampaignStore::Connection {
+  std::unique_ptr<FolderLock> lock;
+  Database database;
+  std::mutex mutex;
+  std::unique_ptr<Statement> insert_run, insert_timing;
+
+  Connection(const std::string& file, std::unique_ptr<FolderLock> held)
+      : lock(std::move(held)), database(file, lock != nullptr) {}
+};
+
+CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& header) : header_(header) {
+  auto lock = std::make_unique<FolderLock>(made(folder));
+  const std::string file = file_in(folder);
+  connection_ = std::make_unique<Connection>(file, std::move(lock));
+  Database& database = connection_->database;
+  database.execute("PRAGMA journal_mode = WAL");
+  database.execute("PRAGMA synchronous = NORMAL");
+  if (!internal::has_tables(database)) internal::create_tables(database, header);
+  const CampaignHeader stored = internal::read_header(database, file);
+  if (const std::string what = internal::difference(stored, header); !what.empty())
+    throw ConfigError(file, what);
+  if (to_string(stored.shard) != to_string(header.shard))
+    throw ConfigError(file, fmt::format("holds shard {}, expected {} (each shard has a folder of its own)",
+                                        to_string(stored.shard), to_string(header.shard)));
+  connection_->insert_run =
+      std::make_unique<Statement>(database, insertion("runs", internal::run_columns(header).size()));
+  connection_->insert_timing = std::make_unique<Statement>(database, insertion("timing", 4));
+}
+
+CampaignStore::CampaignStore(const std::string& folder)
+    : connection_(std::make_unique<Connection>(existing(folder), nullptr)),
+      header_(internal::read_header(connection_->database, file_in(folder))) {}
+
+CampaignStore::~CampaignStore() = default;
+
+std::set<std::uint64_t> CampaignStore::done() const {
+  std::set<std::uint64_t> runs;
+  Statement select(connection_->database, "SELECT run FROM runs");
+  for (std::int64_t run = 0; select.step();) {
+    select.read(run);
+    runs.insert(static_cast<std::uint64_t>(run));
+  }
+  return runs;
+}
+
+void CampaignStore::each(const std::function<void(CampaignRow&, const CampaignTiming&)>& visit,
+                         bool configurations) const {
+  Statement select(connection_->database, selection(header_, configurations));
+  ColumnReader reader{select};
+  while (select.step()) {
+    CampaignRow row;
+    CampaignTiming timing;
+    std::int64_t run = 0;
+    select.read(run);
+    row.run = static_cast<std::uint64_t>(run);
+    row.point.resize(header_.axes.size() + header_.drawn.size());
+    for (std::string& value : row.point) select.read(value);
+    fields(reader, row);
+    select.read(timing.model_free_s);
+    select.read(timing.reference_s);
+    select.read(timing.run_s);
+    visit(row, timing);
+  }
+}
+
+void CampaignStore::add(CampaignRow row, const CampaignTiming& timing) {
+  GAPSCOPE_REQUIRE(connection_->insert_run != nullptr);
+  GAPSCOPE_REQUIRE(row.point.size() == header_.axes.size() + header_.drawn.size());
+  const std::lock_guard lock(connection_->mutex);
+  connection_->database.execute("BEGIN IMMEDIATE");
+  Statement& run = *connection_->insert_run;
+  run.bind(static_cast<std::int64_t>(row.run));
+  for (const std::string& value : row.point) run.bind(value);
+  Binder binder{run};
+  fields(binder, row);
+  run.execute();
+  Statement& time = *connection_->insert_timing;
+  time.bind(static_cast<std::int64_t>(row.run));
+  time.bind(timing.model_free_s);
+  time.bind(timing.reference_s);
+  time.bind(timing.run_s);
+  time.execute();
+  connection_->database.execute("COMMIT");
+}
+
+}  // namespace gapscope

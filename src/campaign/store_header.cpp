@@ -1,0 +1,192 @@
+#include "campaign/store_header.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sstream>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/version.h"
+
+namespace gapscope {
+
+CampaignHeader campaign_header(const CampaignConfig& c, const CampaignShard& shard) {
+  CampaignHeader h;
+  h.version = version();
+  h.name = c.name;
+  h.identity = campaign_identity(c);
+  h.rotation = campaign_run(c, 0).rotation;
+  h.model_free = c.model_free;
+  h.reference = c.reference;
+  h.runs = c.runs();
+  h.shard = shard;
+  h.axes = c.axes;
+  for (const CampaignDraw& draw : c.draws) h.drawn.push_back(draw.path);
+  return h;
+}
+
+namespace internal {
+namespace {
+
+constexpr const char* kSchema = "gapscope.campaign/1";
+
+std::string joined(const std::vector<AxisValue>& values) {
+  std::vector<std::string> texts;
+  for (const AxisValue& v : values) texts.push_back(v.yaml);
+  return fmt::format("{}", fmt::join(texts, "\n"));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+void write_fact(Database& database, const char* key, const std::string& value) {
+  Statement insert(database, "INSERT INTO campaign VALUES (?, ?)");
+  insert.bind(std::string(key));
+  insert.bind(value);
+  insert.execute();
+}
+
+std::string fact(Database& database, const std::string& file, const char* key) {
+  Statement select(database, "SELECT value FROM campaign WHERE key = ?");
+  select.bind(std::string(key));
+  if (!select.step())
+    throw ConfigError(file, fmt::format("has no {}, expected the store of a campaign", key));
+  std::string value;
+  select.read(value);
+  return value;
+}
+
+void write_axes(Database& database, const CampaignHeader& h) {
+  Statement insert(database, "INSERT INTO axes VALUES (?, ?, ?, ?, ?, ?, ?)");
+  const auto write = [&](const std::string& path, const char* kind, const CampaignAxis& axis) {
+    insert.bind(path);
+    insert.bind(std::string(kind));
+    insert.bind(static_cast<std::int64_t>(axis.logarithmic));
+    insert.bind(axis.range.low);
+    insert.bind(axis.range.high);
+    insert.bind(static_cast<std::int64_t>(axis.values.size()));
+    insert.bind(joined(axis.values));
+    insert.execute();
+  };
+  for (const CampaignAxis& axis : h.axes) write(axis.path, axis.repeat ? "repeat" : "axis", axis);
+  for (const std::string& path : h.drawn) write(path, "drawn", {});
+}
+
+void read_axes(Database& database, CampaignHeader& h) {
+  Statement select(database,
+                   "SELECT path, kind, logarithmic, low, high, count, listed FROM axes ORDER BY rowid");
+  while (select.step()) {
+    CampaignAxis axis;
+    std::string kind, listed;
+    std::int64_t logarithmic = 0, count = 0;
+    select.read(axis.path);
+    select.read(kind);
+    select.read(logarithmic);
+    select.read(axis.range.low);
+    select.read(axis.range.high);
+    select.read(count);
+    select.read(listed);
+    axis.logarithmic = logarithmic != 0;
+    axis.repeat = kind == "repeat";
+    if (count > 0)
+      for (const std::string& text : lines_of(listed)) axis.values.push_back(axis_value(text));
+    if (kind == "drawn")
+      h.drawn.push_back(axis.path);
+    else
+      h.axes.push_back(axis);
+  }
+}
+
+/// Collects the names of the fields of a row with the type of their columns.
+struct FieldNames {
+  std::vector<std::string> names;
+  void operator()(const char* name, std::string&) { names.emplace_back(name); }
+  void operator()(const char* name, double&) { names.emplace_back(name); }
+  void operator()(const char* name, std::optional<bool>&) { names.emplace_back(name); }
+};
+
+}  // namespace
+
+std::vector<std::string> run_columns(const CampaignHeader& header) {
+  FieldNames collect;
+  collect.names.emplace_back("run");
+  for (const CampaignAxis& axis : header.axes) collect.names.push_back(axis.path);
+  for (const std::string& path : header.drawn) collect.names.push_back(path);
+  CampaignRow row;
+  fields(collect, row);
+  return collect.names;
+}
+
+bool has_tables(Database& database) {
+  Statement select(database, "SELECT name FROM sqlite_master WHERE name = 'campaign'");
+  return select.step();
+}
+
+void create_tables(Database& database, const CampaignHeader& h) {
+  database.execute("BEGIN IMMEDIATE");
+  database.execute("CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT)");
+  database.execute(
+      "CREATE TABLE axes (path TEXT, kind TEXT, logarithmic INTEGER, low REAL, high REAL, count INTEGER, "
+      "listed TEXT)");
+  database.execute(
+      "CREATE TABLE timing (run INTEGER PRIMARY KEY, model_free_s REAL, reference_s REAL, run_s REAL)");
+  std::string columns;
+  for (const std::string& name : run_columns(h))
+    columns += name == "run" ? "run INTEGER PRIMARY KEY" : ", " + quoted_name(name);
+  database.execute("CREATE TABLE runs (" + columns + ")");
+  write_fact(database, "schema", kSchema);
+  write_fact(database, "version", h.version);
+  write_fact(database, "name", h.name);
+  write_fact(database, "identity", h.identity);
+  write_fact(database, "coordinates", h.rotation ? "rotation" : "translation");
+  write_fact(database, "estimators",
+             h.model_free && h.reference ? "both"
+             : h.model_free              ? "model_free"
+                                         : "reference");
+  write_fact(database, "runs", fmt::format("{}", h.runs));
+  write_fact(database, "shard", fmt::format("{}", h.shard.number));
+  write_fact(database, "shards", fmt::format("{}", h.shard.of));
+  write_axes(database, h);
+  database.execute("COMMIT");
+}
+
+CampaignHeader read_header(Database& database, const std::string& file) {
+  if (!has_tables(database))
+    throw ConfigError(file, "holds no campaign, expected a store that `campaign` wrote");
+  if (const std::string schema = fact(database, file, "schema"); schema != kSchema)
+    throw ConfigError(file, fmt::format("has the schema {}, expected {}", schema, kSchema));
+  CampaignHeader h;
+  h.version = fact(database, file, "version");
+  h.name = fact(database, file, "name");
+  h.identity = fact(database, file, "identity");
+  h.rotation = fact(database, file, "coordinates") == "rotation";
+  const std::string estimators = fact(database, file, "estimators");
+  h.model_free = estimators != "reference";
+  h.reference = estimators != "model_free";
+  h.runs = std::stoull(fact(database, file, "runs"));
+  h.shard = {std::stoull(fact(database, file, "shard")), std::stoull(fact(database, file, "shards"))};
+  read_axes(database, h);
+  return h;
+}
+
+std::string difference(const CampaignHeader& stored, const CampaignHeader& wanted) {
+  if (stored.version != wanted.version)
+    return fmt::format("is of gapscope {}, expected {}", stored.version, wanted.version);
+  const auto a = lines_of(stored.identity), b = lines_of(wanted.identity);
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+    const auto shown = [i](const std::vector<std::string>& lines) {
+      return i < lines.size() ? "'" + lines[i].substr(lines[i].find_first_not_of(' ')) + "'"
+                              : std::string("nothing");
+    };
+    if (i >= a.size() || i >= b.size() || a[i] != b[i])
+      return fmt::format("belongs to another campaign: it has {}, expected {}", shown(a), shown(b));
+  }
+  return "";
+}
+
+}  // namespace internal
+}  // namespace gapscope

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "campaign/sqlite.h"
+#include "gapscope/campaign/store.h"
+
+namespace gapscope::internal {
+
+/// Makes the tables of an empty database and writes the header, all at once.
+void create_tables(Database& database, const CampaignHeader& header);
+
+bool has_tables(Database& database);
+
+/// @throws ConfigError for another schema
+CampaignHeader read_header(Database& database, const std::string& file);
+
+/// Names of the columns of `runs`: run, axes, drawn, fields of a row.
+std::vector<std::string> run_columns(const CampaignHeader& header);
+
+/// What tells two campaigns apart, "" if nothing does; the shard is not looked at.
+/// @param stored, wanted  as the sentence calls them
+std::string difference(const CampaignHeader& stored, const CampaignHeader& wanted);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,185 @@
+// `campaign`: one configuration, thousands of runs; its export and the merging of its shards.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "cli/commands.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/parallel.h"
+#include "gapscope/campaign/runner.h"
+
+namespace gapscope::cli {
+namespace {
+
+struct Arguments {
+  std::string config;
+  std::string folder;
+  int threads = 0;
+  std::string shard;
+  bool dry_run = false;
+  bool quiet = false;
+};
+
+/// "K/N" with 1 ≤ K ≤ N.
+CampaignShard shard_of(const std::string& text) {
+  if (text.empty()) return {};
+  const std::size_t slash = text.find('/');
+  const auto number = [&](const std::string& part) -> std::uint64_t {
+    const bool digits =
+        !part.empty() && part.size() < 10 && part.find_first_not_of("0123456789") == part.npos;
+    return digits ? std::stoull(part) : 0;
+  };
+  const CampaignShard shard{number(text.substr(0, slash)),
+                            slash == text.npos ? 0 : number(text.substr(slash + 1))};
+  if (shard.number < 1 || shard.number > shard.of)
+    throw ConfigError(fmt::format("gapscope: --shard is '{}', expected K/N with K from 1 to N", text));
+  return shard;
+}
+
+std::string default_folder(const CampaignConfig& c, const CampaignShard& shard) {
+  const std::string folder = "reports/" + c.name;
+  return shard.of == 1 ? folder : fmt::format("{}_shard_{}_of_{}", folder, shard.number, shard.of);
+}
+
+/// "45 s", "12 min", "3.5 h"
+std::string duration(double seconds) {
+  if (seconds < 100.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+/// One line on a terminal that is written over and over, at most five times a second.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
+  ~ProgressLine() {
+    if (begun_) fmt::print(stderr, "\n");
+  }
+  void operator()(const CampaignProgress& p) {
+    const auto now = std::chrono::steady_clock::now();
+    const bool last = p.done == p.runs;
+    if (!shown_ || (!last && begun_ && now - told_ < std::chrono::milliseconds(200))) return;
+    told_ = now;
+    begun_ = true;
+    fmt::print(stderr, "\r{} of {} runs, {:.2f} runs/s, {} left{}\033[K", p.done, p.runs, p.rate(),
+               duration(p.left_s()), p.failed > 0 ? fmt::format(", {} failed", p.failed) : "");
+    std::fflush(stderr);
+  }
+
+ private:
+  bool shown_, begun_ = false;
+  std::chrono::steady_clock::time_point told_;
+};
+
+void say(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
+
+void dry_run(const CampaignConfig& c, const CampaignShard& shard, int threads) {
+  const std::uint64_t runs = shard.size(c.runs());
+  say("runs", shard.of == 1 ? fmt::format("{}", runs)
+                            : fmt::format("{} of {} (shard {})", runs, c.runs(), to_string(shard)));
+  const CampaignForecast f = forecast(c, shard, threads);
+  say("time", fmt::format("about {} on {} threads ({} runs tried, {:.2f} s each)", duration(f.total_s),
+                          thread_count(threads), f.measured, f.run_s));
+  std::uint64_t shown = 0;
+  for (std::uint64_t run = 0; run < c.runs() && shown < 3; ++run)
+    if (shard.holds(run)) {
+      fmt::print("---\n{}", resolved_yaml(campaign_run(c, run)));
+      ++shown;
+    }
+}
+
+void run(const Arguments& a) {
+  const CampaignConfig c = load_campaign(a.config);
+  const CampaignShard shard = shard_of(a.shard);
+  if (a.dry_run) return dry_run(c, shard, a.threads);
+  const std::string folder = a.folder.empty() ? default_folder(c, shard) : a.folder;
+  require_folder_name(folder);
+  CampaignStore store(folder, campaign_header(c, shard));
+  ProgressLine line(a.quiet);
+  const CampaignProgress p = run_campaign(c, store, a.threads, std::ref(line));
+  say("store", folder + "/results.sqlite");
+  say("runs", fmt::format("{} ({} of them now)", p.done, p.fresh));
+}
+
+void add_export(CLI::App& campaign) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command = campaign.add_subcommand("export", "The runs of a campaign as CSV on standard output");
+  command->add_option("DIR", *folder, "folder of a campaign")->required();
+  command->footer(
+      "One row per run, in the order of the runs, whatever order they finished in; no wall times. Gaps in "
+      "rad.\n\n"
+      "Example: gapscope campaign export reports/sampling_resolution > runs.csv");
+  command->callback([folder] {
+    export_campaign(CampaignStore(*folder), [](const std::string& text) { fmt::print("{}", text); });
+  });
+}
+
+void add_merge(CLI::App& campaign) {
+  struct MergeArguments {
+    std::vector<std::string> folders;
+    std::string target;
+  };
+  auto a = std::make_shared<MergeArguments>();
+  CLI::App* command = campaign.add_subcommand("merge", "One store from the shards of a campaign");
+  command->add_option("DIR", a->folders, "folders of the shards")->required();
+  command->add_option("-o,--output", a->target, "folder of the whole campaign")->required()->type_name("DIR");
+  command->footer(
+      "Shards of another campaign or version are refused. Where runs are missing, `gapscope campaign CONFIG "
+      "-o DIR`\n"
+      "does them.\n\n"
+      "Example: gapscope campaign merge shard_1 shard_2 shard_3 -o reports/sampling_resolution");
+  command->callback([a] {
+    require_folder_name(a->target);
+    const std::uint64_t merged = merge_campaigns(a->folders, a->target);
+    const std::uint64_t runs = CampaignStore(a->target).header().runs;
+    say("store", a->target + "/results.sqlite");
+    say("runs", fmt::format("{} of {}", merged, runs));
+  });
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("campaign", "Many runs of one configuration over axes of its parameters");
+  command->add_option("CONFIG", a->config, "campaign (YAML)");
+  command->add_option("-o,--output", a->folder, "folder of the campaign (default: reports/<name>)")
+      ->type_name("DIR");
+  command
+      ->add_option("-j,--threads", a->threads,
+                   "threads (default: all cores); the results do not depend on it")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  command->add_option("--shard", a->shard, "only part K of N, into a folder of its own")->type_name("K/N");
+  command->add_flag("--dry-run", a->dry_run, "number of runs, time, and the first three configurations");
+  command->add_flag("--quiet", a->quiet, "no progress");
+  command->require_subcommand(0, 1);
+  command->footer(
+      "Keys of a campaign:\n"
+      "  name          of the report folder (default: of the file)\n"
+      "  base          a configuration, or the file of one\n"
+      "  axes          {path: values}, e.g. simulation.rate: [1000, 5000]; values are a list,\n"
+      "                {range: [low, high], count: n}, {log_range: [low, high], count: n} or {repeat: n, "
+      "seed: first}\n"
+      "  drawn         {path: {uniform: [low, high]}} or log_uniform: a number of its own for each run\n"
+      "  sampling      full_factorial (default) or {latin_hypercube: {samples: n, seed: s}}\n"
+      "  estimators    [model_free, reference] (default: both)\n\n"
+      "Writes DIR/results.sqlite, a row per run as it finishes. Stopped or killed, the same command goes "
+      "on.\n\n"
+      "Example: gapscope campaign configs/04_sampling_resolution_campaign.yaml -o "
+      "reports/sampling_resolution");
+  add_export(*command);
+  add_merge(*command);
+  command->callback([command, a] {
+    if (!command->get_subcommands().empty()) return;
+    if (a->config.empty()) throw CLI::RequiredError("CONFIG");
+    run(*a);
+  });
+}
+
+}  // namespace gapscope::cli

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "gapscope/campaign/runner.h"
+#include "results/scratch_folder.h"
+
+namespace gapscope::testing {
+
+/// The paper's rig for two seconds at a coarse rate, in a folder of its own.
+class SmallCampaign {
+ public:
+  /// @param variation  the campaign but for its base
+  explicit SmallCampaign(const std::string& variation) {
+    std::ofstream(folder.path / "base.yaml") << R"(encoder: {bits: 18}
+simulation:
+  rate: 1000
+  duration: 2
+  seed: 3
+  excitation: {sine: {amplitude: 0.58, frequency: 1}}
+  noise: 1.0e-5
+model:
+  parameters:
+    motor_inertia: 8.78e-4
+    torque_constant: 0.172
+    motor_damping: {value: 0.062, estimate: true}
+    mass_ratio: 1
+    gap: {value: 0.019, estimate: true}
+    load_damping: 0.035
+    load_coulomb_friction: 0.05
+    contact_stiffness: 200
+    contact_damping: 0.05
+)";
+    std::ofstream(folder.path / "c.yaml") << "name: small\nbase: base.yaml\n" << variation;
+    config = load_campaign((folder.path / "c.yaml").string());
+  }
+
+  std::string place(const std::string& name) const { return (folder.path / name).string(); }
+
+  /// Does the runs of a shard into a store, and gives the export of that.
+  std::string run(const std::string& name, int threads, const CampaignShard& shard = {}) const {
+    CampaignStore store(place(name), campaign_header(config, shard));
+    run_campaign(config, store, threads, [](const CampaignProgress&) {});
+    return exported(store);
+  }
+
+  static std::string exported(const CampaignStore& store) {
+    std::string text;
+    export_campaign(store, [&](const std::string& part) { text += part; });
+    return text;
+  }
+
+  ScratchFolder folder;
+  CampaignConfig config;
+};
+
+}  // namespace gapscope::testing

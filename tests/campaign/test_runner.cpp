@@ -1,0 +1,111 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "campaign/small_campaign.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/campaign/pipeline.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::SmallCampaign;
+
+const std::string kAxes =
+    "axes: {encoder.bits: [12, 16, 20], simulation.seed: {repeat: 3}}\n"
+    "drawn: {simulation.initial.x1: {uniform: [0, 0.006]}}\n";
+
+TEST(Runner, AnyNumberOfThreadsGivesTheSameBytes) {
+  const SmallCampaign small(kAxes);
+  const std::string one = small.run("one", 1);
+  EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), 1 + 9);
+  EXPECT_EQ(one, small.run("three", 3));
+}
+
+TEST(Runner, ARowIsWhatTheCommandGivesForItsResolvedConfiguration) {
+  const SmallCampaign small(kAxes);
+  CampaignTiming timing;
+  const CampaignRow row = run_of_campaign(small.config, 8, timing);
+  EXPECT_EQ(row.error, "");
+  EXPECT_EQ(row.seed, "3");
+  const Outcome again =
+      run_pipeline(parse_configuration(row.configuration, "resolved.yaml"), {}, [](const std::string&) {});
+  EXPECT_EQ(row.reference_gap, again.result.reference->find("gap")->value);
+  EXPECT_EQ(row.verdict, to_string(again.result.model_free->verdict));
+  EXPECT_EQ(row.true_gap, 0.019);
+  EXPECT_GT(timing.run_s, 0.0);
+}
+
+TEST(Runner, ARunThatFailsIsARowWithItsError) {
+  const SmallCampaign small("axes: {simulation.excitation.sine.frequency: [1, 5000, 2]}\n");
+  const std::string table = small.run("store", 2);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 3);
+  EXPECT_THAT(table, HasSubstr("base.yaml:"));
+  EXPECT_THAT(table, ::testing::Not(HasSubstr(small.folder.path.string())));
+  CampaignStore(small.place("store")).each([](CampaignRow& row, const CampaignTiming&) {
+    EXPECT_EQ(row.error.empty(), row.run != 1) << row.error;
+    EXPECT_EQ(std::isnan(row.reference_gap), row.run == 1);
+  });
+}
+
+TEST(Runner, OnlyTheEstimatorsThatWereAskedForAreRun) {
+  const SmallCampaign small("axes: {encoder.bits: [20]}\nestimators: [model_free]\n");
+  CampaignTiming timing;
+  const CampaignRow row = run_of_campaign(small.config, 0, timing);
+  EXPECT_NE(row.verdict, "");
+  EXPECT_EQ(row.status, "");
+  EXPECT_TRUE(std::isnan(timing.reference_s));
+}
+
+TEST(Runner, AStoppedCampaignGoesOnWhereItWas) {
+  const SmallCampaign small(kAxes);
+  const std::string whole = small.run("whole", 1);
+  {
+    CampaignStore store(small.place("stopped"), campaign_header(small.config, {}));
+    EXPECT_THROW(run_campaign(small.config, store, 2,
+                              [](const CampaignProgress& p) {
+                                if (p.fresh == 4) request_stop();
+                              }),
+                 Interrupted);
+    clear_stop_request();
+    EXPECT_GE(store.done().size(), 4u);
+    EXPECT_LT(store.done().size(), 9u);
+  }
+  CampaignStore store(small.place("stopped"), campaign_header(small.config, {}));
+  const auto before = store.done().size();
+  const CampaignProgress p = run_campaign(small.config, store, 2, [](const CampaignProgress&) {});
+  EXPECT_EQ(p.fresh, 9 - before);
+  EXPECT_EQ(SmallCampaign::exported(store), whole);
+}
+
+TEST(Runner, ShardsAreDisjointAndCompleteAndMergeIntoTheWhole) {
+  const SmallCampaign small(kAxes);
+  for (const int k : {1, 2, 3}) small.run("shard" + std::to_string(k), 1, {static_cast<std::uint64_t>(k), 3});
+  EXPECT_EQ(merge_campaigns({small.place("shard3"), small.place("shard1"), small.place("shard2")},
+                            small.place("merged")),
+            9u);
+  EXPECT_EQ(SmallCampaign::exported(CampaignStore(small.place("merged"))), small.run("whole", 2));
+}
+
+TEST(Runner, TheSizeOfAShardIsTheNumberOfItsRuns) {
+  for (const std::uint64_t of : {1u, 2u, 3u, 7u, 20u})
+    for (std::uint64_t k = 1; k <= of; ++k) {
+      std::uint64_t counted = 0;
+      for (std::uint64_t i = 0; i < 16; ++i) counted += CampaignShard{k, of}.holds(i) ? 1 : 0;
+      EXPECT_EQ((CampaignShard{k, of}.size(16)), counted);
+    }
+}
+
+TEST(Runner, AForecastMeasuresRunsFromAllOverTheCampaign) {
+  const SmallCampaign small(kAxes);
+  const CampaignForecast f = forecast(small.config, {}, 1);
+  EXPECT_EQ(f.measured, 8);
+  EXPECT_NEAR(f.total_s, 9.0 * f.run_s, 1e-9);
+}
+
+}  // namespace
+}  // namespace gapscope

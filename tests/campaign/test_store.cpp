@@ -1,0 +1,134 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "campaign/small_campaign.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/campaign/store.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::SmallCampaign;
+
+const std::string kAxes =
+    "axes: {encoder.bits: [16, 20], detector.bound: [auto, 40, {from_model: {input_limit: 1, "
+    "load_force_bound: 0}}]}\n";
+
+/// Why the store in its place is refused to a campaign.
+std::string refusal(const SmallCampaign& small, const CampaignHeader& header) {
+  try {
+    const CampaignStore store(small.place("store"), header);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "(accepted)";
+}
+
+TEST(Store, GivesBackWhatWasAdded) {
+  const SmallCampaign small(kAxes);
+  CampaignRow row;
+  row.run = 2;
+  row.point = {"16", "{from_model: {input_limit: 1, load_force_bound: 0}}"};
+  row.configuration = "name: a\n";
+  row.reason = "said \"no\", twice\nor more";
+  row.gap = 0.1 + 0.2;
+  row.reference_ci95 = {1e-3, 2e-3};
+  row.agree = false;
+  CampaignStore store(small.place("store"), campaign_header(small.config, {}));
+  store.add(row, {0.5, kNaN, 1.0});
+  EXPECT_THAT(store.done(), ::testing::ElementsAre(2u));
+  const CampaignStore reader(small.place("store"));
+  int seen = 0;
+  reader.each(
+      [&](CampaignRow& r, const CampaignTiming& t) {
+        ++seen;
+        EXPECT_EQ(r.run, 2u);
+        EXPECT_EQ(r.point, row.point);
+        EXPECT_EQ(r.configuration, row.configuration);
+        EXPECT_EQ(r.reason, row.reason);
+        EXPECT_EQ(r.gap, row.gap);
+        EXPECT_TRUE(std::isnan(r.std));
+        EXPECT_EQ(r.reference_ci95.high, 2e-3);
+        EXPECT_EQ(r.agree, false);
+        EXPECT_EQ(t.model_free_s, 0.5);
+        EXPECT_TRUE(std::isnan(t.reference_s));
+      },
+      true);
+  EXPECT_EQ(seen, 1);
+}
+
+TEST(Store, KnowsWhatItIsAStoreOf) {
+  const SmallCampaign small(kAxes);
+  { const CampaignStore made(small.place("store"), campaign_header(small.config, {2, 3})); }
+  const CampaignHeader h = CampaignStore(small.place("store")).header();
+  EXPECT_EQ(h.name, "small");
+  EXPECT_EQ(h.runs, 6u);
+  EXPECT_EQ(to_string(h.shard), "2/3");
+  ASSERT_EQ(h.axes.size(), 2u);
+  EXPECT_EQ(h.axes[0].path, "encoder.bits");
+  EXPECT_EQ(h.axes[0].values[1].number, 20.0);
+  EXPECT_EQ(h.axes[1].values[2].yaml, small.config.axes[1].values[2].yaml);
+}
+
+TEST(Store, ACellOfTheExportThatNeedsQuotesHasThem) {
+  const SmallCampaign small(kAxes);
+  CampaignStore store(small.place("store"), campaign_header(small.config, {}));
+  CampaignRow row;
+  row.point = {"16", "auto"};
+  row.reason = "a \"b\", c";
+  store.add(row, {});
+  EXPECT_THAT(SmallCampaign::exported(store), HasSubstr("\n1,16,auto,,,,,\"a \"\"b\"\", c\","));
+}
+
+TEST(Store, AnotherCampaignIsRefusedWithTheDifferenceNamed) {
+  const SmallCampaign small(kAxes), other("axes: {encoder.bits: [16, 18]}\n");
+  { const CampaignStore made(small.place("store"), campaign_header(small.config, {})); }
+  EXPECT_THAT(refusal(small, campaign_header(other.config, {})),
+              AllOf(HasSubstr("results.sqlite: belongs to another campaign"),
+                    HasSubstr("'axis encoder.bits: 16, 20', expected 'axis encoder.bits: 16, 18'")));
+}
+
+TEST(Store, AChangeOfTheBaseIsAnotherCampaign) {
+  const SmallCampaign small(kAxes);
+  { const CampaignStore made(small.place("store"), campaign_header(small.config, {})); }
+  CampaignConfig changed = small.config;
+  changed.base_text.replace(changed.base_text.find("duration: 2"), 11, "duration: 3");
+  EXPECT_THAT(refusal(small, campaign_header(changed, {})),
+              HasSubstr("it has 'duration: 2  # s', expected 'duration: 3  # s'"));
+}
+
+TEST(Store, AnotherVersionAndAnotherShardAreRefused) {
+  const SmallCampaign small(kAxes);
+  CampaignHeader header = campaign_header(small.config, {});
+  { const CampaignStore made(small.place("store"), header); }
+  header.version = "9.9.9";
+  EXPECT_THAT(refusal(small, header), HasSubstr("expected 9.9.9"));
+  EXPECT_THAT(refusal(small, campaign_header(small.config, {1, 2})),
+              HasSubstr("holds shard 1/1, expected 1/2"));
+}
+
+TEST(Store, OnlyOneProcessAddsAtATime) {
+  const SmallCampaign small(kAxes);
+  const CampaignStore first(small.place("store"), campaign_header(small.config, {}));
+  EXPECT_THAT(refusal(small, campaign_header(small.config, {})), HasSubstr("another process"));
+}
+
+TEST(Store, StoresOfDifferentCampaignsAreNotMerged) {
+  const SmallCampaign small(kAxes), other("axes: {encoder.bits: [16, 18]}\n");
+  { const CampaignStore a(small.place("a"), campaign_header(small.config, {1, 2})); }
+  { const CampaignStore b(small.place("b"), campaign_header(other.config, {2, 2})); }
+  EXPECT_THROW(merge_campaigns({small.place("a"), small.place("b")}, small.place("merged")), ConfigError);
+  EXPECT_FALSE(std::filesystem::exists(small.place("merged")));
+}
+
+TEST(Store, AFolderWithoutAStoreIsTold) {
+  const SmallCampaign small(kAxes);
+  EXPECT_THROW(CampaignStore{small.place("nowhere")}, ConfigError);
+}
+
+}  // namespace
+}  // namespace gapscope
