@@ -6,12 +6,15 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/bend.h"
 
 namespace gapscope::internal {
 namespace {
 
 /// S2: a stretch of rest that long, as a share of the half period, is an interval in which e_x has converged.
 constexpr double kQuietShare = 0.02;
+/// S2: e_x is at rest, on its own scale, below this share of what it reaches in every half period.
+constexpr double kRestShare = 0.1;
 /// S4: the fall from the peak through zero takes at most this share of the ramp before it.
 constexpr double kAbruptShare = 0.5;
 /// t1 further from the reversal of x1 than this share of the passage: the divergence was seen too late.
@@ -28,46 +31,78 @@ std::size_t reversal_before(const MotorTrace& trace, const SignalFacts& facts, i
   return at;
 }
 
-/// The last sample before the peak at which e_x still rises nearly as fast as it ever did: the impact lies
-/// between.
-std::size_t steepest_before(const BankRun& run, const Excursion& ramp) {
-  const auto rise = [&](std::size_t i) { return ramp.sign * (run.error(i, 0) - run.error(i - 1, 0)); };
-  double steepest = 0.0;
-  for (std::size_t i = ramp.start + 1; i <= ramp.peak; ++i) steepest = std::max(steepest, rise(i));
-  std::size_t at = ramp.peak;
-  while (at > ramp.start + 1 && rise(at) < 0.7 * steepest) --at;
-  return at;
-}
-
-struct Pair {
-  const Excursion& ramp;
-  const Excursion& flip;
-  std::size_t quiet_from;
+/// What one excursion of e_x shows: t1 and t2 in samples, or why it is no passage.
+struct Marks {
+  double t1 = 0.0, t2 = 0.0;
+  std::string fault;
 };
 
-GapEvent event_of(const MotorTrace& trace, const Pair& pair) {
+double at(std::span<const double> y, double sample) {
+  const auto i = std::min(static_cast<std::size_t>(sample), y.size() - 2);
+  return std::lerp(y[i], y[i + 1], sample - static_cast<double>(i));
+}
+
+/// Soon enough for one reversal of e_x: bounces may hold it near zero for a while.
+bool follows(const Excursion& ramp, const Excursion& next) {
+  const double pause = static_cast<double>(next.start) - static_cast<double>(ramp.end);
+  return pause <= std::max(2.0, 0.1 * static_cast<double>(ramp.peak - ramp.start));
+}
+
+/// First sample after the peak at which e_x has lost this share of its height.
+std::size_t fallen(const BankRun& run, const Excursion& x, double share) {
+  std::size_t i = x.peak;
+  while (i < x.end && x.sign * run.error(i, 0) > (1.0 - share) * x.height) ++i;
+  return i;
+}
+
+/// One ramp of e_x. At rest before it (S2): t1 is the last sample at rest, and e_x flips its sign at the
+/// impact. Away from zero since before the reversal of x1: t1 is where it bends away, and it loses half its
+/// height.
+Marks read_ramp(const MotorTrace& trace, const SignalFacts& facts, const BankRun& run, const Excursion& ramp,
+                std::size_t quiet_from, bool flips) {
+  Marks marks{static_cast<double>(ramp.start), 0.0, ""};
+  const double quiet_samples = std::max(3.0, kQuietShare * facts.half_period / trace.dt);
+  std::size_t down = fallen(run, ramp, 1.0);
+  if (!flips || static_cast<double>(ramp.start - quiet_from) < quiet_samples) {
+    const auto bend = bend_at_release(run, ramp, reversal_before(trace, facts, ramp.sign, ramp.peak));
+    if (!bend) marks.fault = "e_x was not at rest before t1";
+    marks.t1 = bend.value_or(marks.t1);
+    down = fallen(run, ramp, 0.5);
+  }
+  marks.t2 = static_cast<double>(ramp.peak);
+  if (marks.fault.empty() && static_cast<double>(down) - marks.t2 > kAbruptShare * (marks.t2 - marks.t1))
+    marks.fault = "e_x does not reverse abruptly";
+  if (marks.fault.empty()) marks.t2 = bend_before_peak(run, ramp, marks.t1);
+  const double covered = ramp.sign * (at(trace.x1, marks.t2) - at(trace.x1, marks.t1));
+  if (marks.fault.empty() && covered < 8.0 * facts.noise + 2.0 * facts.quantum)
+    marks.fault = "x1 does not move along the gap from t1 to t2";
+  return marks;
+}
+
+GapEvent event_of(const MotorTrace& trace, const Marks& marks, int direction) {
   GapEvent event;
   event.file = trace.file;
-  event.t1 = trace.time(pair.ramp.start);
-  event.t2 = trace.time(pair.ramp.peak);
-  event.x1_t1 = trace.x1[pair.ramp.start];
-  event.x1_t2 = trace.x1[pair.ramp.peak];
-  event.direction = pair.ramp.sign;  // in the gap the motor runs ahead of its estimate
+  event.t1 = trace.start + trace.dt * marks.t1;
+  event.t2 = trace.start + trace.dt * marks.t2;
+  event.x1_t1 = at(trace.x1, marks.t1);
+  event.x1_t2 = at(trace.x1, marks.t2);
+  event.direction = direction;  // in the gap the motor runs ahead of its estimate
   event.gap = event.gap_uncorrected = std::abs(event.x1_t2 - event.x1_t1);
+  event.remark = marks.fault;
+  event.accepted = event.remark.empty();
   return event;
 }
 
-/// Empty, or why this ramp and flip are no passage.
-std::string fault(const MotorTrace& trace, const SignalFacts& facts, const Pair& pair, double quiet_samples) {
-  const double ramp = static_cast<double>(pair.ramp.peak - pair.ramp.start);
-  const double fall = static_cast<double>(pair.flip.start - pair.ramp.peak);
-  if (static_cast<double>(pair.ramp.start - pair.quiet_from) < quiet_samples)
-    return "e_x was not at rest before t1";
-  if (fall > kAbruptShare * ramp) return "e_x does not reverse abruptly";
-  const double covered = pair.ramp.sign * (trace.x1[pair.ramp.peak] - trace.x1[pair.ramp.start]);
-  if (covered < 8.0 * facts.noise + 2.0 * facts.quantum)
-    return "x1 does not move along the gap from t1 to t2";
-  return "";
+/// The excursions that count on the scale of e_x (S2): lower ones than a share of what each half period
+/// reaches are rest.
+std::vector<Excursion> excursions_on_scale(const BankRun& run, std::size_t half_periods) {
+  std::vector<Excursion> all = find_excursions(run, 0);
+  std::vector<double> heights;
+  for (const Excursion& x : all) heights.push_back(x.height);
+  std::sort(heights.rbegin(), heights.rend());
+  const double least = heights.size() < half_periods ? 0.0 : kRestShare * heights[half_periods - 1];
+  std::erase_if(all, [least](const Excursion& x) { return x.height < least; });
+  return all;
 }
 
 }  // namespace
@@ -79,23 +114,21 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
   if (!facts.defect.empty()) return reading;
   const BankRun run = run_bank(trace, facts, {bound}, Discretisation::kForwardEuler);
   reading.quiet = run.quiet[0];
-  const auto excursions = find_excursions(run, 0);
-  const double quiet_samples = std::max(3.0, kQuietShare * facts.half_period / trace.dt);
+  const auto excursions = excursions_on_scale(run, facts.half_periods);
   for (std::size_t i = 1; i + 1 < excursions.size(); ++i) {
-    const Pair pair{excursions[i], excursions[i + 1], excursions[i - 1].end};
-    const bool flips = pair.flip.sign != pair.ramp.sign && pair.flip.start <= pair.ramp.end + 2;
-    if (!flips) {
+    const Excursion &ramp = excursions[i], &next = excursions[i + 1];
+    const bool flips = next.sign != ramp.sign && follows(ramp, next);
+    const Marks marks = read_ramp(trace, facts, run, ramp, excursions[i - 1].end, flips);
+    if (!flips && !marks.fault.empty()) {
       ++reading.spikes;
       continue;
     }
-    GapEvent event = event_of(trace, pair);
-    event.remark = fault(trace, facts, pair, quiet_samples);
-    event.accepted = event.remark.empty();
+    GapEvent event = event_of(trace, marks, ramp.sign);
     if (event.accepted) {
-      const std::size_t turn = reversal_before(trace, facts, event.direction, pair.ramp.peak);
+      const std::size_t turn = reversal_before(trace, facts, event.direction, ramp.peak);
+      const auto i2 = static_cast<std::size_t>(marks.t2);
       reading.lateness.push_back(std::abs(event.x1_t1 - trace.x1[turn]));
-      reading.steps.push_back(0.5 *
-                              std::abs(trace.x1[steepest_before(run, pair.ramp)] - trace.x1[pair.ramp.peak]));
+      reading.steps.push_back(0.5 * std::abs(trace.x1[i2 + 1] - trace.x1[i2]));
       event.std = 0.5 * reading.lateness.back();
     }
     reading.events.push_back(std::move(event));

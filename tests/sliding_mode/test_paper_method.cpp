@@ -1,0 +1,105 @@
+// The source paper's own method, S3 and S4 on one e_x, on recordings of the independent plant.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "blind/plant/simulate.h"
+#include "gapscope/sliding_mode/detector.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Setting {
+  double torque = 0.1;     ///< amplitude [N m]
+  double frequency = 1.0;  ///< [Hz]
+  double rate = 2500.0;    ///< [Hz]
+  int bits = 20;
+};
+
+GapEstimate read(const blind::BlindDrive& drive, const Setting& s, double bound) {
+  blind::BlindExcitation sine;
+  sine.amplitude = s.torque / drive.torque_constant;
+  sine.frequency = s.frequency;
+  blind::BlindOptions options;
+  options.rate = s.rate;
+  options.duration = 8.0 / s.frequency;
+  options.tolerance = blind::kFastTolerance;
+  const Recording recording =
+      simulate_blind(drive, sine, blind::BlindSensor::with_bits(s.bits), options).recording;
+  const MotorTrace trace = recording.motor_trace();
+  return detect_gap({&trace, 1}, {.bound = bound});
+}
+
+void expect_read(const blind::BlindDrive& drive, const Setting& s, double bound, double tolerance) {
+  const GapEstimate estimate = read(drive, s, bound);
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_EQ(estimate.method, GapMethod::kPaper);
+  EXPECT_NEAR(estimate.gap / drive.gap, 1.0, tolerance) << estimate.brief_report();
+  EXPECT_LE(estimate.ci95.low, drive.gap);
+  EXPECT_GE(estimate.ci95.high, drive.gap);
+}
+
+TEST(PaperMethod, ABoundBetweenTheAccelerationsReadsTheExperiment) {
+  for (const double rate : {1000.0, 2500.0, 10000.0})
+    for (const double bound : {3.0, 4.0, 5.0}) {
+      SCOPED_TRACE(testing::Message() << rate << " Hz, L = " << bound);
+      expect_read({}, {.rate = rate}, bound, 0.03);
+    }
+}
+
+TEST(PaperMethod, TheExperimentIsReadWithStifferAndCoarserDrives) {
+  for (const double stiffness : {1000.0, 5000.0}) {
+    blind::BlindDrive drive;
+    drive.contact_stiffness = stiffness;
+    expect_read(drive, {}, 4.0, 0.03);
+  }
+  for (const int bits : {18, 16}) expect_read({}, {.bits = bits}, 4.0, 0.03);
+}
+
+TEST(PaperMethod, ABoundBelowTheEngagedAccelerationReadsWhereTheErrorBendsAway) {
+  // 2 Hz, 0.5 N m: before the reversal the engaged drive decelerates with up to 62 rad/s², more than k₂ = 44
+  // of L = 40, so e_x is 1.6 mrad long when contact is lost; only its bend tells t1.
+  for (const double stiffness : {200.0, 1000.0, 5000.0})
+    for (const double rate : {2500.0, 5000.0, 10000.0, 20000.0}) {
+      SCOPED_TRACE(testing::Message() << stiffness << " N m/rad, " << rate << " Hz");
+      blind::BlindDrive drive;
+      drive.contact_stiffness = stiffness;
+      expect_read(drive, {.torque = 0.5, .frequency = 2.0, .rate = rate}, 40.0, 0.03);
+    }
+}
+
+TEST(PaperMethod, ABoundAboveTheGapAccelerationShowsNoBeginningAndSaysSo) {
+  for (const double bound : {15.0, 40.0, 100.0}) {
+    const GapEstimate estimate = read({}, {}, bound);
+    EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << bound;
+    EXPECT_TRUE(std::isnan(estimate.gap));
+    EXPECT_THAT(estimate.reason, HasSubstr("no t1")) << bound;
+    EXPECT_THAT(estimate.reason, HasSubstr("only the impact shows")) << bound;
+    EXPECT_THAT(estimate.reason, HasSubstr("try L between")) << bound;
+  }
+}
+
+TEST(PaperMethod, ABoundBelowTheEngagedAccelerationThroughoutIsToldAsSuch) {
+  const GapEstimate estimate = read({}, {}, 1.0);
+  EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive);
+  EXPECT_THAT(estimate.reason, HasSubstr("below the engaged acceleration"));
+}
+
+TEST(PaperMethod, NoBoundReadsAGapWhereThereIsNone) {
+  blind::BlindDrive bonded, one_inertia, sticking;
+  bonded.contact = blind::ContactKind::kBonded;
+  one_inertia.load = blind::LoadKind::kNone;
+  one_inertia.motor_inertia *= 2.0;
+  one_inertia.effects.motor.friction.level_nm = 0.05;
+  sticking = one_inertia;
+  sticking.effects.motor.friction.stiction_ratio = 0.6;
+  sticking.effects.motor.friction.stribeck_speed_rad_s = 0.1;
+  for (const blind::BlindDrive& drive : {bonded, one_inertia, sticking})
+    for (const Setting& s : {Setting{}, Setting{.torque = 0.5, .frequency = 2.0}})
+      for (const double bound : {3.0, 5.0, 10.0, 20.0, 40.0, 60.0, 100.0})
+        EXPECT_NE(read(drive, s, bound).verdict, GapVerdict::kBacklash) << bound << " " << s.torque;
+}
+
+}  // namespace
+}  // namespace gapscope
