@@ -5,64 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/interrupt.h"
 #include "reference/free_run.h"
 #include "reference/identifiability.h"
-#include "reference/starts.h"
+#include "reference/polish.h"
+#include "reference/search.h"
 
 namespace gapscope {
 namespace internal {
 namespace {
 
-constexpr double kAtFloor = 1.3;           ///< innovations within this many floors, and
-constexpr double kWhite = 0.15;            ///< no more correlated than a quantiser's, need no further start
-constexpr double kSameMinimum = 1.01;      ///< costs within this ratio: found twice
-constexpr Effort kSearch{1e-4, 0.5};       ///< enough to tell minima apart
 constexpr Effort kRejected{1e-6, 1.0};     ///< of a model that is not the drive
-constexpr Effort kFinal{1e-8, 2.0};        ///< far below what moves a value by its standard error
+constexpr Effort kOtherGain{1e-4, 0.5};    ///< of the change to another gain
 constexpr double kSlowObserver = 0.2;      ///< of the search's gain, where a free run goes astray
 constexpr double kSecondGain = 1.0 / 3.0;  ///< of rejected_hz
-
-/// Result of the starts, best first in costs.
-struct SearchResult {
-  Solution best;
-  std::vector<double> costs;
-};
-
-Solution local_search(const FitProblem& problem, const Solution& point) {
-  const double hz = problem.options.observer_hz;
-  Solution found = solve(problem, point, hz, kSearch);
-  if (!found.usable() || !choose_variants(problem, found, hz)) return found;
-  const Solution again = solve(problem, found, hz, kSearch);
-  return again.mean_square < found.mean_square ? again : found;
-}
-
-/// Whether further starts can be spared: nothing but the encoder is left in the innovations; or the best
-/// minimum was met twice and the model is not the drive anyway.
-bool settled(const FitProblem& problem, const Solution& found, const SearchResult& before) {
-  const FitOptions& o = problem.options;
-  const double best = std::min(before.best.mean_square, found.mean_square);
-  const double other = std::max(before.best.mean_square, found.mean_square);
-  if (best > o.rejected_ratio * o.rejected_ratio && other < kSameMinimum * best) return true;
-  return found.mean_square < kAtFloor * kAtFloor &&
-         correlation_at(problem, found, o.observer_hz).excess() < kWhite;
-}
-
-SearchResult search(const FitProblem& problem) {
-  SearchResult result;
-  for (const Solution& point : starting_points(problem, problem.options.observer_hz)) {
-    stop_point();
-    if (!point.usable()) continue;
-    const Solution found = local_search(problem, point);
-    if (!found.usable()) continue;
-    const bool done = settled(problem, found, result);
-    result.costs.push_back(found.mean_square);
-    if (found.mean_square < result.best.mean_square) result.best = found;
-    if (done) break;
-  }
-  std::sort(result.costs.begin(), result.costs.end());
-  return result;
-}
 
 /// The values that are reported, and how they were had.
 struct Outcome {
@@ -91,7 +46,7 @@ void take_two_gains(const FitProblem& problem, const Solution& from, double hz, 
                     Outcome& outcome) {
   const Solution found = solve(problem, from, hz, kRejected);
   take(problem, found.usable() ? found : from, found.usable() ? hz : problem.options.observer_hz, outcome);
-  const Solution other = solve(problem, outcome.solution, other_hz, kSearch);
+  const Solution other = solve(problem, outcome.solution, other_hz, kOtherGain);
   if (!other.usable()) return;
   const std::vector<double> here = values_of(problem, outcome.solution), there = values_of(problem, other);
   for (std::size_t i = 0; i < here.size(); ++i) outcome.shift.push_back(std::abs(here[i] - there[i]));
@@ -112,7 +67,7 @@ Outcome finish(const FitProblem& problem, const Solution& best) {
     take_two_gains(problem, best, o.rejected_hz, kSecondGain * o.rejected_hz, outcome);
     return outcome;
   }
-  const Solution polished = solve(problem, best, 0.0, kFinal);
+  const Solution polished = polish(problem, best);
   if (polished.usable() && std::sqrt(polished.mean_square) <= o.rejected_ratio) {
     take(problem, polished, 0.0, outcome);
     const Correlation& correlation = outcome.information.correlation;

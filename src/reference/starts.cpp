@@ -4,13 +4,15 @@
 #include <cmath>
 
 #include "gapscope/base/random.h"
+#include "reference/excerpt.h"
 
 namespace gapscope::internal {
 namespace {
 
-constexpr int kDrawsPerStart = 12;   ///< looked at by plain runs, when a value was not given
-constexpr double kNearFactor = 1.6;  ///< draws around a given value
-constexpr double kFarFactor = 8.0;   ///< draws around a derived one
+constexpr std::size_t kDrawsPerPoint = 3;  ///< looked at by plain runs
+constexpr double kLooked = 0.25;           ///< share of the recordings that is looked at
+constexpr double kNearFactor = 3.0;        ///< draws around a given value
+constexpr double kFarFactor = 8.0;         ///< draws around a derived one
 
 /// A later variant must lower the cost to this share. A load that slides to rest within the gap leaves only
 /// the place where it stops, so a start in motion there is not to be preferred for a trifle.
@@ -93,23 +95,27 @@ bool choose_variants(const FitProblem& problem, Solution& at, double observer_hz
   return changed;
 }
 
-std::vector<Solution> starting_points(const FitProblem& problem, double observer_hz) {
-  const int starts = std::max(1, problem.options.starts);
-  bool all_given = true;
-  for (std::size_t i = 0; i < problem.free_count(); ++i) all_given &= problem.free_parameter(i).given;
-  const int draws = problem.free_count() == 0 ? 0 : all_given ? starts - 1 : kDrawsPerStart * starts;
+bool values_are_given(const FitProblem& problem) {
+  for (std::size_t i = 0; i < problem.free_count(); ++i)
+    if (!problem.free_parameter(i).given) return false;
+  return true;
+}
 
+Solution given_point(const FitProblem& problem) { return start_point(problem, given_values(problem)); }
+
+std::vector<Solution> drawn_points(const FitProblem& problem, std::size_t count) {
   auto generator = random_stream(problem.options.seed, "fit starts");
-  std::vector<Solution> points = {start_point(problem, given_values(problem))};
-  for (int i = 0; i < draws; ++i) points.push_back(start_point(problem, drawn(problem, generator)));
-  for (Solution& p : points) {
-    choose_variants(problem, p, observer_hz);
-    p.mean_square = mean_square(problem, p, observer_hz);
+  std::vector<Solution> points;
+  const Excerpt part(problem, kLooked);
+  for (std::size_t i = 0; i < kDrawsPerPoint * count; ++i) {
+    Solution p = start_point(problem, drawn(problem, generator));
+    choose_variants(part.problem(), p, problem.options.observer_hz);
+    p.mean_square = mean_square(part.problem(), p, problem.options.observer_hz);
+    if (p.usable()) points.push_back(std::move(p));
   }
-  // Given values are what the user believes: they go first. Derived ones have no such rank.
-  std::stable_sort(points.begin() + (all_given ? 1 : 0), points.end(),
+  std::stable_sort(points.begin(), points.end(),
                    [](const Solution& a, const Solution& b) { return a.mean_square < b.mean_square; });
-  points.resize(std::min(points.size(), static_cast<std::size_t>(starts)));
+  points.resize(std::min(points.size(), count));
   return points;
 }
 

@@ -16,8 +16,14 @@ Solution start_point(const FitProblem& problem, std::vector<double> q);
 /// are independent of each other in it). @returns whether any recording changed.
 bool choose_variants(const FitProblem& problem, Solution& at, double observer_hz);
 
-/// Starting points, most promising first: the given values, then own draws, log-uniform around given values
-/// (×÷1.6) and over the plausible range of those that were not given. The draws depend on the seed alone.
-std::vector<Solution> starting_points(const FitProblem& problem, double observer_hz);
+/// Whether every free parameter has a value of the user's, not one that the recordings suggest.
+bool values_are_given(const FitProblem& problem);
+
+/// The given (or derived) values.
+Solution given_point(const FitProblem& problem);
+
+/// Draws, log-uniform around given values (×÷3) and over the plausible range of those that were not given:
+/// of several each, the ones that fit the first part of the recordings best. They depend on the seed alone.
+std::vector<Solution> drawn_points(const FitProblem& problem, std::size_t count);
 
 }  // namespace gapscope::internal

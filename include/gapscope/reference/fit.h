@@ -53,7 +53,7 @@ struct ReferenceModel {
 };
 
 struct FitOptions {
-  int starts = 4;                  ///< local searches at most; they stop at the first that reaches the floor
+  int starts = 6;                  ///< local searches at most; they stop at the first that reaches the floor
   int max_iterations = 60;         ///< of each local search
   double observer_hz = 2.5;        ///< poles of the observer in the search [Hz]
   double rejected_hz = 30.0;       ///< poles when the model does not reach the encoder's floor [Hz]

@@ -1,0 +1,82 @@
+#include "reference/polish.h"
+
+#include <algorithm>
+
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/random.h"
+#include "reference/excerpt.h"
+#include "reference/information.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr Effort kFinal{1e-8, 2.0};  ///< far below what moves a value by its standard error
+constexpr Effort kTrial{1e-4, 0.25};
+constexpr double kShares[] = {0.125, 0.25, 0.5};               ///< of the recordings, one after the other
+constexpr int kShakes = 10;                                    ///< points nearby that are tried
+constexpr double kSmallestShake = 1.0, kLargestShake = 100.0;  ///< in standard errors
+
+void keep_better(const Solution& next, Solution& best) {
+  if (next.mean_square < best.mean_square) best = next;
+}
+
+Solution over_growing_parts(const FitProblem& problem, Solution at) {
+  for (const double share : kShares) {
+    const Excerpt part(problem, share);
+    const Solution next = solve(part.problem(), at, 0.0, kTrial);
+    if (next.usable()) at = next;
+  }
+  return solve(problem, at, 0.0, kTrial);
+}
+
+/// A random point around a solution, as far off in every direction as the recordings leave it open.
+Solution shaken(const FitProblem& problem, const Solution& at, const Eigen::MatrixXd& root, double size,
+                std::mt19937_64& generator) {
+  Eigen::VectorXd step(root.cols());
+  for (double& v : step) v = size * normal(generator);
+  step = root * step;
+  Solution to = at;
+  Eigen::Index k = 0;
+  for (std::size_t i = 0; i < to.q.size(); ++i, ++k) {
+    const Parameter& p = problem.free_parameter(i);
+    to.q[i] = std::clamp(to.q[i] + step[k], p.coordinate.solver(p.low), p.coordinate.solver(p.high));
+  }
+  for (RecordingStart& start : to.starts)
+    for (const int s : problem.free_states(start, true)) start.q[static_cast<std::size_t>(s)] += step[k++];
+  return to;
+}
+
+/// A square root of the covariance of all free numbers; empty where there is none.
+Eigen::MatrixXd covariance_root(const FitProblem& problem, const Solution& at) {
+  const Information information = information_at(problem, at, 0.0);
+  if (!information.valid) return {};
+  const Eigen::VectorXd scale = information.normal.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information.normal *
+                                                             scale.asDiagonal());
+  const Eigen::VectorXd roots =
+      (information.variance * eigen.eigenvalues().cwiseMax(1e-9).cwiseInverse()).cwiseSqrt();
+  return scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
+}
+
+void shake(const FitProblem& problem, Solution& best) {
+  Eigen::MatrixXd root = covariance_root(problem, best);
+  if (root.size() == 0) return;
+  auto generator = random_stream(problem.options.seed, "fit polish");
+  for (int i = 0; i < kShakes; ++i) {
+    stop_point();
+    const double size = log_uniform(generator, kSmallestShake, kLargestShake);
+    keep_better(solve(problem, shaken(problem, best, root, size, generator), 0.0, kTrial), best);
+  }
+}
+
+}  // namespace
+
+Solution polish(const FitProblem& problem, const Solution& found) {
+  Solution best = solve(problem, found, 0.0, kFinal);
+  if (best.mean_square <= found.mean_square) return best;
+  keep_better(over_growing_parts(problem, found), best);
+  if (best.usable()) shake(problem, best);
+  return best.usable() ? solve(problem, best, 0.0, kFinal) : best;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "reference/solve.h"
+
+namespace gapscope::internal {
+
+/// Innovations within this many floors, and
+constexpr double kAtFloor = 1.3;
+/// no more correlated than a quantiser's: nothing but the encoder is left.
+constexpr double kWhite = 0.15;
+
+/// Result of the starts.
+struct SearchResult {
+  Solution best;              ///< unusable if none was
+  std::vector<double> costs;  ///< final mean squares [floor²], least first
+};
+
+/// Least squares of the observer's innovations from several starting points. Each search runs on a growing
+/// first part of the recordings, which has few events and so few minima, before it sees all of them. The
+/// given values go first; unless they end at the encoder's floor, draws compete on short parts and the
+/// survivors follow.
+SearchResult search(const FitProblem& problem);
+
+}  // namespace gapscope::internal
