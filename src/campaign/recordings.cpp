@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "blind/plant/simulate.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/campaign/pipeline.h"
@@ -41,6 +42,42 @@ Recording read_one(const RecordedFile& file, const Configuration& c) {
   return read_csv(file.path, c.recording->csv);
 }
 
+/// The plant of a configuration in the terms of the independent code.
+blind::BlindDrive independent_drive(const SimulationConfig& s) {
+  const DriveParameters<double>& p = s.plant.drive;
+  const DriveStructure& structure = s.plant.structure;
+  blind::BlindDrive d;
+  d.load = !structure.has_load                   ? blind::LoadKind::kNone
+           : structure.load == LoadKind::kLocked ? blind::LoadKind::kLocked
+                                                 : blind::LoadKind::kFree;
+  d.contact =
+      structure.contact == ContactLaw::kRigid ? blind::ContactKind::kRigid : blind::ContactKind::kCompliant;
+  d.restitution = structure.restitution;
+  d.motor_inertia = p.motor_inertia;
+  d.torque_constant = p.torque_constant;
+  d.motor_damping = p.motor_damping;
+  d.load_inertia = p.motor_inertia * p.mass_ratio;
+  d.load_damping = p.load_damping;
+  d.load_coulomb = p.load_coulomb_friction;
+  d.gap = p.gap;
+  d.contact_stiffness = p.contact_stiffness;
+  d.contact_damping = p.contact_damping;
+  d.x1 = s.initial.x1, d.w1 = s.initial.w1;
+  d.x2 = s.initial.x2, d.w2 = s.initial.w2;
+  return d;
+}
+
+Recording independent_recording(const Configuration& c, const std::vector<double>& u) {
+  const SimulationConfig& s = *c.simulation;
+  blind::BlindOptions options;
+  options.rate = s.rate;
+  options.duration = s.duration;
+  options.seed = s.seed;
+  options.tolerance = blind::kFastTolerance;
+  return blind::simulate_blind_command(independent_drive(s), u, {c.encoder.quantum, s.noise}, options)
+      .recording;
+}
+
 }  // namespace
 
 Recording simulated_recording(const Configuration& c) {
@@ -52,7 +89,7 @@ Recording simulated_recording(const Configuration& c) {
   options.encoder = {c.encoder.quantum, s.noise};
   const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
   stop_point();
-  Recording r = simulate(s.plant.plant_model(), u, options);
+  Recording r = s.independent ? independent_recording(c, u) : simulate(s.plant.plant_model(), u, options);
   r.file = c.name;
   return r;
 }

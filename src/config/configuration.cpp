@@ -93,6 +93,11 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
   if (const auto given = simulated_model(*simulation)) changes = read_model(*given);
   c.simulation->plant = simulated_plant(overlaid(model, changes), *simulation);
   require_possible_start(c);
+  if (c.simulation->independent && !c.simulation->plant.effects.empty())
+    throw ConfigError(
+        c.file, c.simulation->plant.effects.front().line,
+        "simulation.plant is independent, which knows no effects of the catalogue, expected no effects or "
+        "plant: simulator");
 }
 
 }  // namespace

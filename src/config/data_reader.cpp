@@ -25,8 +25,8 @@ std::size_t SimulationConfig::samples() const {
 namespace internal {
 namespace {
 
-const std::vector<std::string> kSimulationKeys = {"rate",    "duration", "seed", "excitation",
-                                                  "initial", "noise",    "model"};
+const std::vector<std::string> kSimulationKeys = {"rate",    "duration", "seed",  "excitation",
+                                                  "initial", "noise",    "plant", "model"};
 
 std::vector<RecordedFile> read_files(const Value& value, const std::string& folder,
                                      std::set<std::string>& seen) {
@@ -140,6 +140,8 @@ SimulationConfig read_simulation(const Value& value) {
     excitation.fail(std::string(to_string(s.excitation.kind)) + ": " + problem);
   if (const auto initial = section.find("initial")) read_fields(*initial, s.initial);
   if (const auto noise = section.find("noise")) s.noise = noise->number({0.0, 1e3, "rad"});
+  if (const auto plant = section.find("plant"))
+    s.independent = plant->word({"simulator", "independent"}) == 1;
   return s;
 }
 

@@ -125,6 +125,7 @@ void write_simulation(YamlWriter& out, SimulationConfig simulation) {
   simulation.initial.fields(fields);
   out.close();
   out.entry("noise", yaml_number(simulation.noise), "rad");
+  out.entry("plant", simulation.independent ? "independent" : "simulator");
   write_plant(out, simulation.plant);
   out.close();
 }

@@ -52,6 +52,16 @@ TEST(Runner, ARunThatFailsIsARowWithItsError) {
   });
 }
 
+TEST(Runner, TheIndependentPlantMakesTheSameDriveByOtherCode) {
+  const SmallCampaign small("axes: {simulation.plant: [simulator, independent], simulation.noise: [0]}\n");
+  const Recording own = simulated_recording(campaign_run(small.config, 0));
+  const Recording independent = simulated_recording(campaign_run(small.config, 1));
+  ASSERT_EQ(own.size(), independent.size());
+  for (std::size_t i = 0; i < own.size(); ++i)  // a count at most, where a position lies between two
+    EXPECT_NEAR(own.x1[i], independent.x1[i], 1.01 * own.quantum) << i;
+  EXPECT_EQ(independent.u, own.u);
+}
+
 TEST(Runner, OnlyTheEstimatorsThatWereAskedForAreRun) {
   const SmallCampaign small("axes: {encoder.bits: [20]}\nestimators: [model_free]\n");
   CampaignTiming timing;

@@ -79,6 +79,12 @@ const std::vector<BadConfig> kBadDocuments = {
 const std::vector<BadConfig> kBadData = {
     {"neither", "name: a\nmodel: {}\n",
      "c.yaml:1: there is no recording, expected either recording or simulation"},
+    {"unknown_plant", with(kSimulated, "  rate: 1000\n", "  rate: 1000\n  plant: mine\n"),
+     "c.yaml:4: simulation.plant is 'mine', expected simulator or independent"},
+    {"independent_with_effects",
+     with(kSimulated, "  rate: 1000\n", "  rate: 1000\n  plant: independent\n") +
+         "  effects: [{motor_coulomb_friction: {level_nm: 0.01}}]\n",
+     "c.yaml:15: simulation.plant is independent"},
     {"both", kSimulated + "recording: {file: a.csv}\n",
      "c.yaml:2: simulation stands beside recording (line 14)"},
     {"no_file", "name: a\nrecording: {window: [0, 1]}\n", "c.yaml:2: recording has no file"},

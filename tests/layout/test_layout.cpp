@@ -36,7 +36,7 @@ const std::map<std::string, Names>& allowed_modules() {
     Names above;
     for (const std::string& module : order) {
       if (!t.contains(module)) t[module] = above;
-      if (module == "blind") t[module].insert("blind/plant");
+      if (module == "blind" || module == "campaign") t[module].insert("blind/plant");
       above.insert(module);
     }
     return t;

@@ -53,7 +53,8 @@ struct SimulationConfig {
   std::uint64_t seed = 1;  ///< the only source of randomness
   Excitation excitation;
   InitialState initial;
-  double noise = 0.0;  ///< rms, before quantisation [rad]
+  double noise = 0.0;        ///< rms, before quantisation [rad]
+  bool independent = false;  ///< made by the plant code that shares nothing with the estimators
   SimulatedPlant plant;
   int line = 0;
 
