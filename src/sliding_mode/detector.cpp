@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sliding_mode/impact_method.h"
+#include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
 
 namespace gapscope {
@@ -148,6 +149,8 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
     return estimate;
   }
   internal::decide(analyses, intervals, estimate);
+  if (estimate.verdict != GapVerdict::kBacklash)
+    if (auto quasi_static = internal::read_lost_motion(recordings)) return *quasi_static;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
   estimate.bound_t1 =
       bound_that_shows(recordings, analyses, estimate, typical_bound(analyses, &ImpactAnalysis::sliding));

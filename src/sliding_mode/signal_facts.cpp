@@ -13,14 +13,6 @@ namespace {
 
 using Samples = std::span<const double>;
 
-/// σ of white noise from fourth differences: smooth motion drops out, and Σ binomial(4, i)² = 70.
-double noise_from_differences(Samples y) {
-  std::vector<double> d;
-  for (std::size_t i = 4; i < y.size(); ++i)
-    d.push_back(std::abs(y[i] - 4.0 * y[i - 1] + 6.0 * y[i - 2] - 4.0 * y[i - 3] + y[i - 4]));
-  return 1.4826 * median(std::move(d)) / std::sqrt(70.0);
-}
-
 /// Root mean square of the speed, by differences wide enough that noise does not count.
 double rms_speed(Samples y, double dt, double noise, double amplitude) {
   for (std::size_t m = 1; m < y.size() / 8; m *= 2) {
@@ -58,6 +50,13 @@ void read_period(const MotorTrace& trace, SignalFacts& facts) {
 }
 
 }  // namespace
+
+double noise_from_differences(Samples y) {
+  std::vector<double> d;  // Σ binomial(4, i)² = 70
+  for (std::size_t i = 4; i < y.size(); ++i)
+    d.push_back(std::abs(y[i] - 4.0 * y[i - 1] + 6.0 * y[i - 2] - 4.0 * y[i - 3] + y[i - 4]));
+  return 1.4826 * median(std::move(d)) / std::sqrt(70.0);
+}
 
 SignalFacts read_facts(const MotorTrace& trace) {
   SignalFacts facts;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct SignalFacts {
 };
 
 SignalFacts read_facts(const MotorTrace& trace);
+
+/// σ of white noise on a signal, from fourth differences: smooth motion drops out.
+double noise_from_differences(std::span<const double> y);
 
 /// Fewest half periods that make a motion periodic.
 constexpr std::size_t kFewestHalfPeriods = 4;

@@ -1,0 +1,242 @@
+#include "sliding_mode/lost_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/statistics.h"
+#include "sliding_mode/signal_facts.h"
+#include "sliding_mode/torque_cycles.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kFollowing = 0.9;  ///< least share of the travel that goes with the change of u
+constexpr double kSameLevel = 1.3;  ///< amplitudes within this factor are one level
+constexpr std::size_t kBins = 20;   ///< of a branch, over twice the amplitude
+constexpr double kFree = 10.0;      ///< compliance where x1 runs free, over that of the flank
+constexpr double kMostly = 0.5;     ///< share of the play over which x1 runs free, at least
+constexpr double kLeaps =
+    1.5;  ///< x1 runs free over more than this share of the play: it leaps elsewhere too
+constexpr double kFinest = 30.0;  ///< smallest play that is read, in standard deviations of one position
+constexpr std::size_t kFewestLoops = 2;
+
+/// Two successive zeros of the input.
+struct Loop {
+  double amplitude = 0.0;  ///< smaller of the two half cycles that it depends on [unit of u]
+  GapEvent event;
+};
+
+struct Branch {
+  double amplitude = 0.0;
+  const MotorTrace* trace = nullptr;
+  const TorqueCycles* cycles = nullptr;
+  std::size_t crossing = 0;
+};
+
+/// What the loops of one torque amplitude say.
+struct Level {
+  double amplitude = 0.0;             ///< [unit of u]
+  std::vector<double> plays, widths;  ///< of the loops [rad]
+  double play = kNaN, std = kNaN;     ///< P and its standard error [rad]
+  double free_run = 0.0;              ///< travel over which x1 runs free, median over the branches [rad]
+  double visible = kInfinity;         ///< smallest gap that would have stood out [rad]
+  double resolution = 0.0;            ///< of one position [rad]
+  bool shows_play() const {
+    return free_run >= kMostly * play && free_run <= kLeaps * play && play > kFinest * resolution;
+  }
+  bool leaps() const { return free_run > kLeaps * play && play > kFinest * resolution; }
+};
+
+/// The play of each pair of zeros of the input, one after a positive and one after a negative half cycle.
+std::vector<Loop> loops_of(const MotorTrace& trace, const TorqueCycles& cycles) {
+  std::vector<Loop> loops;
+  for (std::size_t i = 1; i < cycles.crossings.size(); ++i) {
+    const ZeroCrossing &a = cycles.crossings[i - 1], &b = cycles.crossings[i];
+    const double smaller = std::min(a.before, b.before), larger = std::max(a.before, b.before);
+    if (a.rising == b.rising || larger > kSameLevel * smaller) continue;
+    Loop loop{smaller, {}};
+    GapEvent& e = loop.event;
+    e.file = trace.file;
+    e.t1 = trace.time(a.sample);
+    e.t2 = trace.time(b.sample);
+    e.x1_t1 = a.x1;
+    e.x1_t2 = b.x1;
+    e.direction = a.rising ? 1 : -1;  // the ramp between them goes this way
+    e.gap = e.direction * (b.x1 - a.x1);
+    e.std = std::hypot(a.half_width, b.half_width) / 2.0;
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+std::vector<Branch> branches_of(const MotorTrace& trace, const TorqueCycles& cycles) {
+  std::vector<Branch> branches;
+  for (std::size_t i = 0; i < cycles.crossings.size(); ++i)
+    branches.push_back({std::min(cycles.crossings[i].before, cycles.crossings[i].after), &trace, &cycles, i});
+  return branches;
+}
+
+bool within(double amplitude, double level) { return amplitude >= level && amplitude <= kSameLevel * level; }
+
+/// Loops by amplitude, the smallest first; loops that are alone at theirs are left out.
+std::vector<Level> levels_of(std::vector<Loop>& loops) {
+  std::sort(loops.begin(), loops.end(),
+            [](const Loop& a, const Loop& b) { return a.amplitude < b.amplitude; });
+  std::vector<Level> levels;
+  for (const Loop& loop : loops) {
+    if (levels.empty() || !within(loop.amplitude, levels.back().amplitude)) {
+      levels.emplace_back();
+      levels.back().amplitude = loop.amplitude;
+    }
+    levels.back().plays.push_back(loop.event.gap);
+    levels.back().widths.push_back(loop.event.std);
+  }
+  std::erase_if(levels, [](const Level& level) { return level.plays.size() < kFewestLoops; });
+  return levels;
+}
+
+void read_branches(Level& level, const std::vector<Branch>& branches) {
+  std::vector<std::vector<double>> steps;  // travel within each bin, along the branch
+  std::vector<double> flanks;              // the same of the last one: the loaded flank
+  for (const Branch& b : branches) {
+    if (!within(b.amplitude, 0.999 * level.amplitude)) continue;
+    const auto x = branch_positions(*b.trace, *b.cycles, b.crossing, 0.98 * level.amplitude, kBins);
+    if (x.empty()) continue;
+    steps.emplace_back();
+    for (std::size_t k = 0; k < kBins; ++k) steps.back().push_back(x[k + 1] - x[k]);
+    flanks.push_back(steps.back().back());
+  }
+  if (steps.empty()) return;
+  const double least = kFree * std::max(median(flanks), 0.0) + 3.0 * level.resolution;  // within one bin
+  std::vector<double> runs;
+  for (const auto& branch : steps) {
+    double run = 0.0;
+    for (const double step : branch) run += step > least ? step : 0.0;
+    runs.push_back(run);
+  }
+  level.free_run = median(runs);
+  level.visible = std::max(2.0 * least, kFinest * level.resolution);  // a gap may end in the next bin
+}
+
+void summarise(Level& level) {
+  const double n = static_cast<double>(level.plays.size());
+  level.play = median(level.plays);
+  // The median absolute deviation of few loops is often zero by chance: half their range is not.
+  const auto [low, high] = std::minmax_element(level.plays.begin(), level.plays.end());
+  const double spread = std::max(robust_std(level.plays), 0.25 * (*high - *low));
+  level.std = std::sqrt(spread * spread / n + std::pow(median(level.widths), 2) +
+                        2.0 * level.resolution * level.resolution);
+}
+
+std::string described(const Level& level) {
+  return fmt::format("{:.3g} rad at |u| = {:.3g} ({} loops)", level.play, level.amplitude,
+                     level.plays.size());
+}
+
+bool disagree(const Level& a, const Level& b) {
+  return std::abs(a.play - b.play) > 2.0 * std::hypot(a.std, b.std);
+}
+
+/// Limit on a gap: it cannot exceed the play at any level, and would have stood out where nothing runs free.
+double limit_of(const std::vector<Level>& levels) {
+  double limit = kInfinity;
+  for (const Level& level : levels) {
+    const double most = std::max(level.play + 1.96 * level.std, kFinest * level.resolution);
+    limit = std::min(limit, level.shows_play() ? most : std::min(most, level.visible));
+  }
+  return limit;
+}
+
+void report_disagreement(const std::vector<Level>& levels, GapEstimate& estimate) {
+  estimate.verdict = GapVerdict::kInconclusive;
+  estimate.reason = "the play at zero torque depends on the torque level:";
+  for (const Level& level : levels)
+    estimate.reason += (&level == &levels.front() ? " " : ", ") + described(level);
+  estimate.reason +=
+      "; friction or compliance makes up the difference and no gap is larger than the smallest; ramp to "
+      "small "
+      "torques just above the friction, or free the output and use the impacts";
+}
+
+void report_play(const std::vector<Level>& levels, GapEstimate& estimate) {
+  double sum = 0.0, variance = 0.0;
+  for (const Level& level : levels) {
+    sum += level.play / static_cast<double>(levels.size());
+    variance = std::max(variance, level.std * level.std);
+  }
+  estimate.verdict = GapVerdict::kBacklash;
+  estimate.smallest_visible_gap = levels.front().visible;
+  estimate.gap = sum;
+  estimate.std = std::sqrt(variance);
+  estimate.ci95 = {std::max(sum - 1.96 * estimate.std, 0.0), sum + 1.96 * estimate.std};
+  if (levels.size() == 1)
+    estimate.warnings.push_back(
+        "the play at zero torque was read at one torque level only; ramp to another amplitude as well: a "
+        "play that "
+        "depends on it is friction or compliance");
+  estimate.reason = "branches of the lost-motion loop: ";
+  for (const Level& level : levels)
+    estimate.reason += (&level == &levels.front() ? "" : ", ") + described(level);
+  estimate.reason += fmt::format("; on each ramp x1 runs free over {:.3g} rad", levels.front().free_run);
+}
+
+/// No play at any level, but hysteresis.
+void report_none(const std::vector<Level>& levels, GapEstimate& estimate) {
+  estimate.verdict = GapVerdict::kNone;
+  estimate.reason = "quasi-static loop without a free run: hysteresis of friction and compliance, ";
+  for (const Level& level : levels)
+    estimate.reason += (&level == &levels.front() ? "" : ", ") + described(level);
+}
+
+void decide(const std::vector<Level>& levels, GapEstimate& estimate) {
+  estimate.smallest_visible_gap = limit_of(levels);
+  if (!std::isfinite(estimate.smallest_visible_gap)) estimate.smallest_visible_gap = kNaN;
+  for (const Level& a : levels)
+    for (const Level& b : levels)
+      if (disagree(a, b)) return report_disagreement(levels, estimate);
+  const auto shown =
+      std::count_if(levels.begin(), levels.end(), [](const Level& l) { return l.shows_play(); });
+  if (shown == static_cast<std::ptrdiff_t>(levels.size())) return report_play(levels, estimate);
+  const bool leaps = std::any_of(levels.begin(), levels.end(), [](const Level& l) { return l.leaps(); });
+  if (shown == 0 && !leaps) return report_none(levels, estimate);
+  estimate.verdict = GapVerdict::kInconclusive;
+  estimate.reason = leaps ? "the drive sticks and leaps within a ramp, which hides or imitates a play; ramp "
+                            "the torque further "
+                            "beyond the friction of the motor, or add a dither"
+                          : "x1 runs free at some torque levels only; ramp the torque further beyond the "
+                            "friction of the motor";
+}
+
+}  // namespace
+
+std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordings) {
+  std::vector<TorqueCycles> cycles;
+  std::vector<Loop> loops;
+  std::vector<Branch> branches;
+  double resolution = 0.0;
+  cycles.reserve(recordings.size());  // branches point into it
+  for (const MotorTrace& trace : recordings) {
+    cycles.push_back(torque_cycles(trace));
+    if (cycles.back().following < kFollowing) return std::nullopt;
+    resolution = std::max(resolution, read_facts(trace).noise);
+    for (Loop& loop : loops_of(trace, cycles.back())) loops.push_back(std::move(loop));
+    for (const Branch& branch : branches_of(trace, cycles.back())) branches.push_back(branch);
+  }
+  GapEstimate estimate;
+  estimate.method = GapMethod::kLostMotion;
+  estimate.quantity = GapQuantity::kPlayAtZeroTorque;
+  for (const Loop& loop : loops) estimate.events.push_back(loop.event);
+  std::vector<Level> levels = levels_of(loops);
+  if (levels.empty()) return std::nullopt;
+  for (Level& level : levels) {
+    level.resolution = resolution;
+    read_branches(level, branches);
+    summarise(level);
+  }
+  decide(levels, estimate);
+  return estimate;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,150 @@
+// Quasi-static drives of the independent plant: slow ramps against a locked or very heavy load.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "blind/plant/simulate.h"
+#include "gapscope/sliding_mode/detector.h"
+#include "sliding_mode/lost_motion.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kTorque = 0.2;  // amplitude [N m]
+
+/// Locked output; 2β = 10 mrad by default, 1 mrad of elastic wind-up at the amplitude.
+blind::BlindDrive locked(double gap = 0.01) {
+  blind::BlindDrive drive;
+  drive.load = blind::LoadKind::kLocked;
+  drive.gap = gap;
+  drive.contact_stiffness = 200.0;
+  return drive;
+}
+
+Recording ramps(const blind::BlindDrive& drive, double torque = kTorque, int bits = 18,
+                std::uint64_t seed = 1) {
+  blind::BlindExcitation triangle;
+  triangle.waveform = blind::Waveform::kTriangle;
+  triangle.amplitude = torque / drive.torque_constant;
+  triangle.frequency = 0.2;
+  blind::BlindOptions options;
+  options.rate = 400.0;
+  options.duration = 25.0;
+  options.seed = seed;
+  options.tolerance = blind::kFastTolerance;
+  return simulate_blind(drive, triangle, blind::BlindSensor::with_bits(bits, 0.5), options).recording;
+}
+
+GapEstimate detect(const std::vector<Recording>& recordings) {
+  std::vector<MotorTrace> traces;
+  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
+  return detect_gap(traces);
+}
+
+void expect_play(const GapEstimate& estimate, double play) {
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_EQ(estimate.method, GapMethod::kLostMotion);
+  EXPECT_EQ(estimate.quantity, GapQuantity::kPlayAtZeroTorque);
+  EXPECT_NEAR(estimate.gap / play, 1.0, 0.02) << estimate.brief_report();
+  EXPECT_LE(estimate.ci95.low, play);
+  EXPECT_GE(estimate.ci95.high, play);
+  EXPECT_LT(estimate.smallest_visible_gap, play);
+}
+
+TEST(LostMotion, WithoutFrictionThePlayIsTheGap) {
+  const GapEstimate estimate = detect({ramps(locked())});
+  expect_play(estimate, 0.01);
+  ASSERT_EQ(estimate.warnings.size(), 1u);
+  EXPECT_THAT(estimate.warnings[0], HasSubstr("one torque level only"));
+}
+
+TEST(LostMotion, FrictionOfTheMotorAddsItsWindUpOnBothFlanks) {
+  for (const double level : {0.02, 0.06}) {
+    blind::BlindDrive drive = locked();
+    drive.effects.motor.friction.level_nm = level;
+    expect_play(detect({ramps(drive)}), 0.01 + 2.0 * level / drive.contact_stiffness);
+  }
+}
+
+TEST(LostMotion, AVeryHeavyLoadIsAsGoodAsALockedOne) {
+  blind::BlindDrive drive = locked();
+  drive.load = blind::LoadKind::kFree;
+  drive.load_inertia = 300.0 * drive.motor_inertia;
+  drive.load_coulomb = 0.5;
+  expect_play(detect({ramps(drive)}), 0.01);
+}
+
+TEST(LostMotion, OnlyTheZeroOfTheInputCountsNotItsUnit) {
+  Recording recording = ramps(locked());
+  const GapEstimate plain = detect({recording});
+  for (double& u : recording.u) u *= 1000.0;
+  EXPECT_DOUBLE_EQ(detect({recording}).gap, plain.gap);
+}
+
+TEST(LostMotion, HysteresisOfFrictionAndComplianceIsNoPlay) {
+  blind::BlindDrive coulomb = locked(0.0), presliding = locked(0.0), soft = locked(0.0);
+  coulomb.effects.motor.friction.level_nm = 0.08;
+  presliding.effects.motor.bristle = {.level_nm = 0.1, .length_rad = 5e-3};
+  soft.contact_stiffness = 10.0;
+  soft.effects.motor.friction.level_nm = 0.15;
+  for (const blind::BlindDrive& drive : {coulomb, presliding, soft}) {
+    const GapEstimate estimate = detect({ramps(drive)});
+    EXPECT_EQ(estimate.verdict, GapVerdict::kNone) << estimate.brief_report();
+    EXPECT_GT(estimate.smallest_visible_gap, 0.0);
+    EXPECT_LT(estimate.smallest_visible_gap, 0.05);
+  }
+}
+
+TEST(LostMotion, ADriveThatSticksAndLeapsIsNotReadAsPlay) {
+  for (const double stiction : {0.5, 1.0}) {
+    blind::BlindDrive drive = locked(0.0);
+    drive.contact_stiffness = 20.0;
+    drive.effects.motor.friction = {
+        .level_nm = 0.04, .stiction_ratio = stiction, .stribeck_speed_rad_s = 0.1};
+    EXPECT_NE(detect({ramps(drive)}).verdict, GapVerdict::kBacklash) << stiction;
+  }
+}
+
+TEST(LostMotion, TorqueLevelsThatAgreeAreReadTogether) {
+  blind::BlindDrive drive = locked();
+  drive.effects.motor.friction.level_nm = 0.02;
+  const GapEstimate estimate = detect({ramps(drive, 0.1), ramps(drive, 0.3, 18, 2)});
+  expect_play(estimate, 0.0102);
+  EXPECT_THAT(estimate.reason, HasSubstr("), 0.0"));  // both levels are listed
+  EXPECT_TRUE(estimate.warnings.empty());
+}
+
+TEST(LostMotion, TorqueLevelsThatDisagreeAreToldAndNotAveraged) {
+  blind::BlindDrive drive = locked(0.0);  // below the friction nothing moves: the small ramps only wind it up
+  drive.contact_stiffness = 20.0;
+  drive.effects.motor.friction.level_nm = 0.08;
+  const GapEstimate estimate = detect({ramps(drive, 0.1), ramps(drive, 0.4)});
+  EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
+  EXPECT_TRUE(std::isnan(estimate.gap));
+  EXPECT_THAT(estimate.reason, HasSubstr("depends on the torque level"));
+}
+
+TEST(LostMotion, AFreeLoadIsNotQuasiStatic) {
+  blind::BlindDrive free;
+  blind::BlindExcitation sine;
+  sine.frequency = 0.2;
+  blind::BlindOptions options;
+  options.rate = 400.0;
+  options.duration = 25.0;
+  options.tolerance = blind::kFastTolerance;
+  const Recording recording =
+      simulate_blind(free, sine, blind::BlindSensor::with_bits(18), options).recording;
+  const MotorTrace trace = recording.motor_trace();
+  EXPECT_FALSE(internal::read_lost_motion({&trace, 1}));
+}
+
+TEST(LostMotion, ARecordingWithoutHalfCyclesHasNoLoop) {
+  const std::vector<double> u(500, 0.1), x1(500, 0.2);
+  const MotorTrace trace{"constant.csv", 0.0, 1e-3, u, x1, 0.0};
+  EXPECT_FALSE(internal::read_lost_motion({&trace, 1}));
+  EXPECT_FALSE(internal::read_lost_motion({}));
+}
+
+}  // namespace
+}  // namespace gapscope
