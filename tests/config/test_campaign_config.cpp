@@ -215,6 +215,21 @@ INSTANTIATE_TEST_SUITE_P(
                     "sampling is 'sobol'"}),
     [](const auto& campaign) { return campaign.param.name; });
 
+TEST(CampaignConfig, EveryCampaignOfTheRepositoryLoads) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(GAPSCOPE_CONFIGS)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() != ".yaml" || !name.ends_with("_campaign")) continue;
+    ++count;
+    CampaignConfig c;
+    ASSERT_NO_THROW(c = load_campaign(entry.path().string())) << entry.path();
+    EXPECT_EQ(c.name + "_campaign", name);
+    for (std::uint64_t run = 0; run < c.runs(); run += c.runs() / 50)
+      EXPECT_NO_THROW(campaign_run(c, run)) << entry.path() << " run " << run;
+  }
+  EXPECT_GT(count, 0);
+}
+
 TEST(CampaignConfig, AMissingBaseIsToldAtItsPlace) {
   const TemporaryFile file("name: a\nbase: nowhere.yaml\naxes: {simulation.rate: [1]}\n", "c.yaml");
   try {

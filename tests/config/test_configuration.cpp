@@ -179,7 +179,8 @@ TEST(Configuration, TheResolvedTextReadsBackAsItself) {
 TEST(Configuration, EveryConfigurationOfTheRepositoryLoads) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(GAPSCOPE_CONFIGS)) {
-    if (entry.path().extension() != ".yaml") continue;
+    const bool is_campaign = entry.path().stem().string().find("campaign") != std::string::npos;
+    if (entry.path().extension() != ".yaml" || is_campaign) continue;
     ++count;
     Configuration c;
     ASSERT_NO_THROW(c = load_configuration(entry.path().string())) << entry.path();
