@@ -11,6 +11,10 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/campaign/runner.h"
+#include "gapscope/campaign/summary.h"
+#include "gapscope/report/campaign_report.h"
+#include "gapscope/results/campaign_summary.h"
+#include "gapscope/results/report_folder.h"
 
 namespace gapscope::cli {
 namespace {
@@ -92,6 +96,20 @@ void dry_run(const CampaignConfig& c, const CampaignShard& shard, int threads) {
     }
 }
 
+/// The report of a campaign of which every run is there.
+void report_whole(const CampaignStore& store, const std::string& folder) {
+  const CampaignSummary summary = summarise(store);
+  if (summary.done < summary.runs) return;
+  ReportFolder report(folder);
+  write_campaign_summary(report.path(), summary);
+  write_campaign_report(report.path());
+  stop_point();
+  report.commit();
+  say("report", folder + "/report.md");
+  for (const SummaryAnswer& a : summary.answers)
+    say(a.estimator.c_str(), fmt::format("for at most {:g} %: {}", 100.0 * a.tolerance, a.needs));
+}
+
 void run(const Arguments& a) {
   const CampaignConfig c = load_campaign(a.config);
   const CampaignShard shard = shard_of(a.shard);
@@ -102,7 +120,9 @@ void run(const Arguments& a) {
   ProgressLine line(a.quiet);
   const CampaignProgress p = run_campaign(c, store, a.threads, std::ref(line));
   say("store", folder + "/results.sqlite");
-  say("runs", fmt::format("{} ({} of them now)", p.done, p.fresh));
+  say("runs", fmt::format("{} ({} of them now{})", p.done, p.fresh,
+                          p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
+  if (shard.of == 1) report_whole(store, folder);
 }
 
 void add_export(CLI::App& campaign) {
@@ -135,9 +155,10 @@ void add_merge(CLI::App& campaign) {
   command->callback([a] {
     require_folder_name(a->target);
     const std::uint64_t merged = merge_campaigns(a->folders, a->target);
-    const std::uint64_t runs = CampaignStore(a->target).header().runs;
+    const CampaignStore store(a->target);
     say("store", a->target + "/results.sqlite");
-    say("runs", fmt::format("{} of {}", merged, runs));
+    say("runs", fmt::format("{} of {}", merged, store.header().runs));
+    report_whole(store, a->target);
   });
 }
 
@@ -169,8 +190,9 @@ void add_campaign(CLI::App& app) {
       "  drawn         {path: {uniform: [low, high]}} or log_uniform: a number of its own for each run\n"
       "  sampling      full_factorial (default) or {latin_hypercube: {samples: n, seed: s}}\n"
       "  estimators    [model_free, reference] (default: both)\n\n"
-      "Writes DIR/results.sqlite, a row per run as it finishes. Stopped or killed, the same command goes "
-      "on.\n\n"
+      "Writes DIR/results.sqlite, a row per run as it finishes, and at the end campaign.json, report.md and "
+      "figures.\n"
+      "Stopped or killed, the same command goes on.\n\n"
       "Example: gapscope campaign configs/04_sampling_resolution_campaign.yaml -o "
       "reports/sampling_resolution");
   add_export(*command);

@@ -9,6 +9,8 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/report/campaign_report.h"
+#include "gapscope/results/campaign_summary.h"
 #include "gapscope/results/report_folder.h"
 #include "gapscope/results/run_result.h"
 
@@ -18,12 +20,20 @@ namespace {
 /// Draws aside, so that the old report stands until the new one is complete.
 void redraw(const std::string& folder) {
   namespace fs = std::filesystem;
-  read_run_result(folder);  // told here, what is wrong has its place in the folder that the user knows
+  const bool campaign = has_campaign_summary(folder);
+  // Read here, so that what is wrong is told with its place in the folder that the user knows.
+  if (campaign)
+    read_campaign_summary(folder);
+  else
+    read_run_result(folder);
   ReportFolder fresh(folder);
-  for (const char* stored : {"result.json", "resolved.yaml", "timing.json", "traces"})
+  for (const char* stored : {"campaign.json", "result.json", "resolved.yaml", "timing.json", "traces"})
     if (fs::exists(fs::path(folder) / stored))
       fs::copy(fs::path(folder) / stored, fs::path(fresh.path()) / stored, fs::copy_options::recursive);
-  write_report(fresh.path());
+  if (campaign)
+    write_campaign_report(fresh.path());
+  else
+    write_report(fresh.path());
   fresh.commit();
 }
 

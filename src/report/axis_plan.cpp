@@ -26,6 +26,22 @@ Interval with_room(Interval range, double share) {
   return {range.low - room, range.high + room};
 }
 
+/// Every place, or every second, third, ... as far as their names stand clear of each other.
+void name_places(const Axis& axis, double length, bool upright, const Typesetter& typesetter,
+                 AxisPlan& plan) {
+  double widest = 0.0;
+  for (const Place& place : axis.places)
+    widest = std::max(widest, typesetter.measure(place.label, kTickSize).width);
+  const double needed = upright ? 1.3 * kTickSize : widest + 0.6 * kTickSize;
+  const double pitch = length / std::max(1.0, static_cast<double>(axis.places.size()));
+  const auto every = static_cast<std::size_t>(std::max(1.0, std::ceil(needed / pitch)));
+  for (std::size_t i = 0; i < axis.places.size(); i += every) {
+    plan.ticks.values.push_back(axis.places[i].at);
+    plan.names.push_back(axis.places[i].label);
+  }
+  plan.label = axis.name + (axis.unit.empty() ? "" : " (" + axis.unit + ")");
+}
+
 double widest_label(const AxisPlan& plan, const Typesetter& typesetter) {
   double widest = 0.0;
   for (std::size_t i = 0; i < plan.ticks.values.size(); ++i)
@@ -42,6 +58,7 @@ Interval x_range(const Panel& panel) {
     for (const Interval& i : s.x_intervals) widen(range, i);
   }
   for (const Mark& mark : panel.x_marks) widen(range, mark.at);
+  for (const Tile& tile : panel.tiles) widen(range, tile.x);
   return range;
 }
 
@@ -54,6 +71,7 @@ Interval y_range(const Panel& panel) {
   for (const Mark& mark : panel.y_marks) widen(range, mark.at);
   for (const Band& band : panel.y_bands) widen(range, band.range);
   for (const Dimension& dimension : panel.dimensions) widen(range, dimension.range);
+  for (const Tile& tile : panel.tiles) widen(range, tile.y);
   return range;
 }
 
@@ -66,6 +84,10 @@ AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
     const double last = static_cast<double>(axis.categories.size()) - 1.0;
     plan.range = {last + 0.6, -0.6};
     plan.label = axis.name;
+    return plan;
+  }
+  if (!axis.places.empty()) {
+    name_places(axis, length, upright, typesetter, plan);
     return plan;
   }
   const UnitScale scale =

@@ -28,6 +28,16 @@ class PanelPainter {
     for (const double v : plan_.y.ticks.values) horizontal(y_of(v * plan_.y.factor), grid);
   }
 
+  void tiles() {
+    for (const Tile& tile : panel_.tiles) {
+      const double x = x_of(tile.x.low), y = y_of(tile.y.high);
+      const Box box{x, y, x_of(tile.x.high) - x, y_of(tile.y.low) - y};
+      canvas_.fill(box.grown(-1.5), tile.colour);
+      canvas_.text({box.centre().x, box.centre().y + 0.36 * kTickSize}, tile.text,
+                   {kTickSize, Align::kCentre, tile.ink});
+    }
+  }
+
   void data() {
     for (const Mark& mark : panel_.x_marks) vertical(x_of(mark.at), mark.style);
     for (const Mark& mark : panel_.y_marks) horizontal(y_of(mark.at), mark.style);
@@ -44,14 +54,14 @@ class PanelPainter {
     const LineStyle tick{kFrame, 2.0, {}};
     for (std::size_t i = 0; i < plan_.x.ticks.values.size(); ++i) {
       const double x = x_of(plan_.x.ticks.values[i] * plan_.x.factor);
-      canvas_.line({{x, frame_.bottom()}, {x, frame_.bottom() - 10.0}}, tick);
+      if (panel_.tiles.empty()) canvas_.line({{x, frame_.bottom()}, {x, frame_.bottom() - 10.0}}, tick);
       if (panel_.x_labels)
         canvas_.text({x, frame_.bottom() + kSpace + 0.8 * kTickSize}, plan_.x.tick_text(i),
                      {kTickSize, Align::kCentre});
     }
     for (std::size_t i = 0; i < plan_.y.ticks.values.size(); ++i) {
       const double y = y_of(plan_.y.ticks.values[i] * plan_.y.factor);
-      canvas_.line({{frame_.x, y}, {frame_.x + 10.0, y}}, tick);
+      if (panel_.tiles.empty()) canvas_.line({{frame_.x, y}, {frame_.x + 10.0, y}}, tick);
       canvas_.text({frame_.x - kSpace, y + 0.36 * kTickSize}, plan_.y.tick_text(i),
                    {kTickSize, Align::kRight});
     }
@@ -217,6 +227,7 @@ void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, const
                 Point corner, double left_margin, const Typesetter& typesetter) {
   PanelPainter painter(canvas, panel, plan, corner, typesetter);
   painter.background();
+  painter.tiles();
   painter.data();
   painter.ticks();
   painter.labels(left_margin);

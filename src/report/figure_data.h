@@ -42,6 +42,20 @@ struct Dimension {
   std::string label{};
 };
 
+/// A named place on an axis.
+struct Place {
+  double at = 0.0;
+  std::string label{};
+};
+
+/// A field of a map, with a text in its middle.
+struct Tile {
+  Interval x{}, y{};
+  Colour colour{};
+  std::string text{};
+  Colour ink = kInk;
+};
+
 struct Axis {
   std::string name{};  ///< "displacement $x_1$"
   std::string unit{};  ///< SI; the drawing chooses the prefix
@@ -49,6 +63,7 @@ struct Axis {
   std::vector<std::string>
       categories{};                    ///< names of the places 0, 1, 2, ... (from above) instead of numbers
   std::vector<std::string> remarks{};  ///< at the right of each category
+  std::vector<Place> places{};         ///< instead of round numbers
 };
 
 struct Panel {
@@ -59,6 +74,7 @@ struct Panel {
   std::vector<Band> x_bands{}, y_bands{};
   std::vector<Mark> x_marks{}, y_marks{};  ///< vertical lines at x, horizontal lines at y
   std::vector<Dimension> dimensions{};     ///< along y
+  std::vector<Tile> tiles{};
   std::vector<Series> series{};
 };
 

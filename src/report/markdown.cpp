@@ -81,28 +81,6 @@ std::string timing_line(const Timing& timing) {
   return text.empty() ? "" : "\nRun times are in `timing.json`.\n";
 }
 
-std::string figure_section(const std::vector<FigureData>& figures) {
-  std::string text = "\n## Figures\n";
-  for (const FigureData& figure : figures) {
-    const std::string title = plain_text(figure.title);
-    if (figure.missing.empty())
-      text += fmt::format("\n### {}\n\n![{}]({})\n\n{}\n", title, title, figure.file, figure.reading);
-  }
-  std::string left_out;
-  for (const FigureData& figure : figures)
-    if (!figure.missing.empty() && figure.expected)
-      left_out += fmt::format("- `{}`: {}.\n", figure.file, figure.missing);
-  if (!left_out.empty()) text += "\n### Left out\n\n" + left_out;
-  return text;
-}
-
-std::string bullet_section(const char* title, const std::vector<std::string>& lines) {
-  if (lines.empty()) return "";
-  std::string text = fmt::format("\n## {}\n\n", title);
-  for (const std::string& line : lines) text += "- " + line + "\n";
-  return text;
-}
-
 std::vector<std::string> notes_of(const RunResult& run) {
   std::vector<std::string> notes = run.notes;
   for (const Recording& r : run.recordings) {
@@ -137,6 +115,28 @@ std::vector<std::string> warnings_of(const RunResult& run) {
 }
 
 }  // namespace
+
+std::string figure_section(const std::vector<FigureData>& figures) {
+  std::string text = "\n## Figures\n";
+  for (const FigureData& figure : figures) {
+    const std::string title = plain_text(figure.title);
+    if (figure.missing.empty())
+      text += fmt::format("\n### {}\n\n![{}]({})\n\n{}\n", title, title, figure.file, figure.reading);
+  }
+  std::string left_out;
+  for (const FigureData& figure : figures)
+    if (!figure.missing.empty() && figure.expected)
+      left_out += fmt::format("- `{}`: {}.\n", figure.file, figure.missing);
+  if (!left_out.empty()) text += "\n### Left out\n\n" + left_out;
+  return text;
+}
+
+std::string bullet_section(const char* title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string text = fmt::format("\n## {}\n\n", title);
+  for (const std::string& line : lines) text += "- " + line + "\n";
+  return text;
+}
 
 std::string report_text(const RunResult& run, const Timing& timing, const std::vector<FigureData>& figures) {
   std::string text = fmt::format("# {}\n\n**{}**\n", run.name, headline(run));

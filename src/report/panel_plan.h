@@ -26,9 +26,12 @@ struct AxisPlan {
   Ticks ticks;  ///< in units of `factor`
   double factor = 1.0;
   std::string label;
+  std::vector<std::string> names;  ///< of the ticks, where they are named places
 
   double fraction(double value) const { return (value - range.low) / (range.high - range.low); }
-  std::string tick_text(std::size_t i) const { return tick_label(ticks.values[i], ticks.decimals); }
+  std::string tick_text(std::size_t i) const {
+    return names.empty() ? tick_label(ticks.values[i], ticks.decimals) : names[i];
+  }
 };
 
 /// @param length of the axis [px]   @param upright true for the y axis

@@ -61,6 +61,10 @@ class JsonWriter {
     for (Struct& value : values) json[key][value.*name] = written(value);
   }
   template <class Struct>
+  void single(const char* key, Struct& value) {
+    json[key] = written(value);
+  }
+  template <class Struct>
   void part(const char* key, std::optional<Struct>& value) {
     json[key] = value ? written(*value) : Json(nullptr);
   }
@@ -113,6 +117,10 @@ class JsonReader {
       read(json, inside(key) + "." + item, values.emplace_back());
       values.back().*name = item;
     }
+  }
+  template <class Struct>
+  void single(const char* key, Struct& value) {
+    read(at(key), inside(key), value);
   }
   template <class Struct>
   void part(const char* key, std::optional<Struct>& value) {

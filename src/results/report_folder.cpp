@@ -26,7 +26,9 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   if (!fs::is_directory(folder)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(folder));
-  const auto is_result = [](const fs::path& f) { return f == "result.json" || f == "diagnosis.json"; };
+  const auto is_result = [](const fs::path& f) {
+    return f == "result.json" || f == "diagnosis.json" || f == "campaign.json";
+  };
   std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
     return std::make_pair(is_result(a), a) < std::make_pair(is_result(b), b);
   });
@@ -48,8 +50,8 @@ std::set<std::string> figures_of(const fs::path& folder) {
 /// Is this something that a report with these figures wrote?
 bool is_ours(const fs::path& file, const std::set<std::string>& figures) {
   if (!file.has_parent_path()) {
-    static const char* const names[] = {"report.md", "result.json", "diagnosis.json", "resolved.yaml",
-                                        "timing.json"};
+    static const char* const names[] = {"report.md",     "result.json",   "diagnosis.json",
+                                        "campaign.json", "resolved.yaml", "timing.json"};
     return figures.contains(file.string()) ||
            std::any_of(std::begin(names), std::end(names), [&](const char* name) { return file == name; });
   }

@@ -10,8 +10,8 @@ namespace gapscope {
 /// folder is removed.
 ///
 /// A folder holds one report: commit() also removes what an earlier report left and the new one does not have
-/// (the figures that its report.md shows, report.md, result.json, diagnosis.json, resolved.yaml, timing.json
-/// and traces/). Any other file in the folder belongs to the user and stays.
+/// (the figures that its report.md shows, report.md, result.json, diagnosis.json, campaign.json,
+/// resolved.yaml, timing.json and traces/). Any other file in the folder belongs to the user and stays.
 class ReportFolder {
  public:
   /// Makes the temporary folder, and the folders above it where they are missing.

@@ -1,0 +1,77 @@
+#include "campaign/axis_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "gapscope/plant/drive.h"
+
+namespace gapscope::internal {
+namespace {
+
+const std::map<std::string, AxisName>& plain_names() {
+  static const std::map<std::string, AxisName> names = {
+      {"simulation.rate", {"sampling rate", "Hz"}}, {"simulation.duration", {"duration", "s"}},
+      {"simulation.noise", {"noise", "rad"}},       {"simulation.plant", {"plant code", ""}},
+      {"recording.file", {"recording", ""}},        {"recording.resample.rate", {"sampling rate", "Hz"}},
+      {"encoder.bits", {"resolution", "bit"}},      {"encoder.quantum", {"quantum", "rad"}},
+      {"detector.bound", {"bound L", "rad/s²"}},
+  };
+  return names;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// "N m s/rad" as a reader expects it, in metres for a translational axis.
+std::string shown_unit(const std::string& unit, bool rotation) {
+  std::string text = unit == "-" ? "" : unit;
+  if (!rotation) text = replaced(replaced(replaced(text, "kg m^2", "kg"), "N m", "N"), "rad", "m");
+  return replaced(replaced(text, "kg m^2", "kg·m²"), "N m", "N·m");
+}
+
+/// The drive parameter that a path such as simulation.model.parameters.gap.value leads to; nullptr for
+/// another.
+const DriveParameterSpec* drive_parameter_at(const std::string& path) {
+  const std::size_t begin = path.find("model.parameters.");
+  if (begin == path.npos) return nullptr;
+  std::string key = path.substr(begin + 17);
+  if (key.ends_with(".value")) key.resize(key.size() - 6);
+  const auto* found = std::find_if(std::begin(kDriveParameters), std::end(kDriveParameters),
+                                   [&](const DriveParameterSpec& spec) { return key == spec.key; });
+  return found == std::end(kDriveParameters) ? nullptr : found;
+}
+
+}  // namespace
+
+AxisName axis_name(const std::string& path, bool rotation) {
+  if (const auto found = plain_names().find(path); found != plain_names().end())
+    return {found->second.name, shown_unit(found->second.unit, rotation)};
+  if (const DriveParameterSpec* spec = drive_parameter_at(path)) {
+    const std::string name = replaced(spec->key, "_", " ");
+    return {path.starts_with("model.") ? "model's " + name : name, shown_unit(spec->unit, rotation)};
+  }
+  if (path.find("excitation.") != path.npos && path.ends_with(".frequency")) return {"frequency", "Hz"};
+  if (path.find("excitation.") != path.npos && path.ends_with(".amplitude")) return {"amplitude", ""};
+  return {path, ""};
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  const bool takes_prefix = unit == "Hz" || unit == "rad" || unit == "m" || unit == "s";
+  std::string prefix;
+  if (takes_prefix && value != 0.0) {
+    const int thousands = static_cast<int>(std::floor(std::log10(std::abs(value) * (1.0 + 1e-12)) / 3.0));
+    const char* const prefixes[] = {"n", "µ", "m", "", "k", "M"};
+    const int place = std::clamp(thousands + 3, 0, 5);
+    prefix = prefixes[place];
+    value /= std::pow(1000.0, place - 3);
+  }
+  return fmt::format("{:.4g}{}{}{}", value, unit.empty() ? "" : " ", prefix, unit);
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/campaign_figures.h"
+#include "report/rich_text.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kAside = 0.04;
+
+using Number = double (*)(const EstimatorScore&);
+
+Axis axis_of(const SummaryAxis& axis) {
+  Axis x{literal(axis.name), "", {-0.4, static_cast<double>(axis.bins.size()) - 0.6}, {}, {}, {}};
+  for (std::size_t i = 0; i < axis.bins.size(); ++i)
+    x.places.push_back({static_cast<double>(i), literal(axis.bins[i].label)});
+  return x;
+}
+
+/// One line per estimator, a point per value of the axis.
+std::vector<Series> series_of(const CampaignSummary& s, const SummaryTable& table, Number number) {
+  std::vector<Series> all;
+  for (const CampaignEstimator& e : estimators_of(s)) {
+    Series line;
+    line.label = e.name;
+    line.style = e.style;
+    line.marker = e.marker;
+    const double aside = all.empty() ? -kAside : kAside;  // so that no mark hides the other
+    for (const SummaryCell& cell : table.cells) {
+      line.x.push_back(cell.a + aside);
+      line.y.push_back(number(cell.*(e.score)));
+    }
+    all.push_back(std::move(line));
+  }
+  return all;
+}
+
+Panel panel(const std::string& title, const SummaryAxis& axis, const std::string& y_name) {
+  Panel p;
+  p.title = title;
+  p.x = axis_of(axis);
+  p.y = {y_name, "%", {}, {}, {}, {}};
+  p.height = 420.0;
+  return p;
+}
+
+double log_percent(double error) { return error > 0.0 ? std::log10(100.0 * error) : kNaN; }
+
+/// Decades of percent, with the error that half of the runs and that nine in ten do not exceed.
+Panel error_panel(const CampaignSummary& s, const SummaryTable& table) {
+  Panel p = panel("Error: median, and what 90 % stay below", s.axes[table.a], "|error|");
+  p.series = series_of(s, table, [](const EstimatorScore& e) { return log_percent(e.median_error); });
+  for (Series& high : series_of(s, table, [](const EstimatorScore& e) { return log_percent(e.error_90); })) {
+    high.label.clear();
+    high.style.width = 2.0;
+    high.marker = Marker::kNone;
+    p.series.push_back(std::move(high));
+  }
+  Interval range{0.0, 0.0};
+  for (const Series& line : p.series)
+    for (const double y : line.y)
+      if (std::isfinite(y)) range = {std::min(range.low, std::floor(y)), std::max(range.high, std::ceil(y))};
+  p.y.range = {range.low - 0.1, std::max(1.0, range.high) + 0.1};
+  for (double decade = range.low; decade <= std::max(1.0, range.high); ++decade)
+    p.y.places.push_back({decade, fmt::format("{:g}", std::pow(10.0, decade))});
+  return p;
+}
+
+Panel share_panel(const std::string& title, const CampaignSummary& s, const SummaryTable& table,
+                  const std::string& name, Number number) {
+  Panel p = panel(title, s.axes[table.a], name);
+  p.series = series_of(s, table, number);
+  p.y.range = {-4.0, 104.0};
+  return p;
+}
+
+Panel coverage_panel(const CampaignSummary& s, const SummaryTable& table) {
+  Panel p = share_panel("Coverage of the 95 % intervals", s, table, "true gap inside",
+                        [](const EstimatorScore& e) { return 100.0 * e.coverage(); });
+  p.y_marks.push_back({95.0, guide_style(), "95 %"});
+  const auto estimators = estimators_of(s);
+  for (std::size_t k = 0; k < p.series.size(); ++k)
+    for (const SummaryCell& cell : table.cells) {
+      const EstimatorScore& e = cell.*(estimators[k].score);
+      const Interval limits = e.judged > 0 ? wilson(e.covered, e.judged) : Interval{};
+      p.series[k].y_intervals.push_back({100.0 * limits.low, 100.0 * limits.high});
+    }
+  return p;
+}
+
+/// "falls from 3 % at 250 Hz to 0.4 % at 8 kHz"
+std::string course(const CampaignSummary& s, const SummaryTable& table, const CampaignEstimator& e) {
+  const SummaryCell *first = nullptr, *last = nullptr;
+  for (const SummaryCell& cell : table.cells) {
+    if (std::isnan((cell.*(e.score)).median_error)) continue;
+    if (first == nullptr) first = &cell;
+    last = &cell;
+  }
+  if (first == nullptr) return fmt::format("{}: no answer anywhere", e.name);
+  const auto& bins = s.axes[table.a].bins;
+  const auto said = [&](const SummaryCell& c) {
+    return fmt::format("{} at {} (no answer in {} of the runs)", percent((c.*(e.score)).median_error),
+                       bins[static_cast<std::size_t>(c.a)].label, percent((c.*(e.score)).refusal()));
+  };
+  return first == last ? fmt::format("{}: median error {}", e.name, said(*first))
+                       : fmt::format("{}: median error {}, {}", e.name, said(*first), said(*last));
+}
+
+}  // namespace
+
+FigureData campaign_line(const CampaignSummary& s, const SummaryTable& table) {
+  const SummaryAxis& axis = s.axes[table.a];
+  FigureData figure;
+  figure.file = fmt::format("along_{}.png", table.a + 1);
+  figure.title = literal(s.name) + ": along the " + literal(axis.name);
+  figure.width = 3200.0;
+  figure.columns = 2;
+  figure.panels = {error_panel(s, table),
+                   share_panel("No answer", s, table, "share of the runs",
+                               [](const EstimatorScore& e) { return 100.0 * e.refusal(); }),
+                   panel("Bias: median of the signed error", axis, "error"), coverage_panel(s, table)};
+  figure.panels[2].series = series_of(s, table, [](const EstimatorScore& e) { return 100.0 * e.bias; });
+  figure.panels[2].y_marks.push_back({0.0, guide_style(), ""});
+  std::vector<std::string> courses;
+  for (const CampaignEstimator& e : estimators_of(s)) courses.push_back(course(s, table, e));
+  figure.reading = fmt::format("All other axes taken together. {}.", fmt::join(courses, "; "));
+  return figure;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/campaign_figures.h"
+#include "report/rich_text.h"
+
+namespace gapscope::internal {
+namespace {
+
+/// What a map shows of a cell, and how bad that is from 0 (white) to 1 (dark); NaN where there is nothing to
+/// show.
+struct Shown {
+  double value = kNaN;  ///< a share
+  double badness = kNaN;
+};
+using Look = Shown (*)(const EstimatorScore&);
+
+constexpr Colour kNothing{214, 214, 214};
+constexpr Colour kDark{8, 48, 107};
+constexpr Colour kLight{247, 251, 255};
+
+Colour shade(double badness) {
+  const auto mix = [&](int light, int dark) {
+    return static_cast<int>(std::lround(light + std::clamp(badness, 0.0, 1.0) * (dark - light)));
+  };
+  return {mix(kLight.red, kDark.red), mix(kLight.green, kDark.green), mix(kLight.blue, kDark.blue)};
+}
+
+/// White at 0.1 %, dark at 20 %, by the logarithm.
+Shown error_look(const EstimatorScore& e) {
+  const double decades = std::log10(std::max(e.median_error, 1e-12) / 1e-3) / std::log10(0.2 / 1e-3);
+  return {e.median_error, std::isnan(e.median_error) ? kNaN : std::clamp(decades, 0.0, 1.0)};
+}
+Shown refusal_look(const EstimatorScore& e) { return {e.refusal(), e.refusal()}; }
+Shown coverage_look(const EstimatorScore& e) { return {e.coverage(), (0.95 - e.coverage()) / 0.95}; }
+
+Tile tile_at(int a, int b, const Shown& shown) {
+  Tile tile{{a - 0.5, a + 0.5}, {b - 0.5, b + 0.5}, kNothing, "–", kInk};
+  if (std::isnan(shown.badness)) return tile;
+  tile.colour = shade(shown.badness);
+  tile.text = percent(shown.value);
+  tile.text.resize(tile.text.size() - 2);  // the title says percent
+  if (shown.badness > 0.45) tile.ink = {255, 255, 255};
+  return tile;
+}
+
+Axis map_axis(const SummaryAxis& axis) {
+  Axis a{literal(axis.name), "", {-0.5, static_cast<double>(axis.bins.size()) - 0.5}, {}, {}, {}};
+  for (std::size_t i = 0; i < axis.bins.size(); ++i)
+    a.places.push_back({static_cast<double>(i), literal(axis.bins[i].label)});
+  return a;
+}
+
+Panel empty_map(const CampaignSummary& s, const SummaryTable& table, const std::string& title) {
+  Panel p;
+  p.title = title;
+  p.x = map_axis(s.axes[table.a]);
+  p.y = map_axis(s.axes[table.b]);
+  p.height = std::max(260.0, 58.0 * static_cast<double>(s.axes[table.b].bins.size()));
+  return p;
+}
+
+void add_row(FigureData& figure, const CampaignSummary& s, const SummaryTable& table, const char* what,
+             Look look) {
+  for (const CampaignEstimator& e : estimators_of(s)) {
+    Panel p = empty_map(s, table, fmt::format("{}: {}", e.name, what));
+    for (const SummaryCell& cell : table.cells)
+      p.tiles.push_back(tile_at(cell.a, cell.b, look(cell.*(e.score))));
+    figure.panels.push_back(std::move(p));
+  }
+}
+
+void add_disagreement(FigureData& figure, const CampaignSummary& s, const SummaryTable& table) {
+  Panel apart = empty_map(s, table, "both answered, and disagree (% of these runs)");
+  Panel nearer = empty_map(s, table, "of these, model-free nearer to the truth (%)");
+  for (const SummaryCell& c : table.cells) {
+    const double share = c.both > 0 ? static_cast<double>(c.disagree) / c.both : kNaN;
+    const double won = c.disagree > 0 ? static_cast<double>(c.model_free_nearer) / c.disagree : kNaN;
+    apart.tiles.push_back(tile_at(c.a, c.b, {share, share}));
+    nearer.tiles.push_back(tile_at(c.a, c.b, {won, std::isnan(won) ? kNaN : 0.0}));
+  }
+  figure.panels.push_back(std::move(apart));
+  figure.panels.push_back(std::move(nearer));
+}
+
+/// How often an estimator is there for nearly every run, and how good it is then.
+std::string reading_of(const SummaryTable& table, const CampaignEstimator& e) {
+  int answering = 0, good = 0;
+  for (const SummaryCell& cell : table.cells) {
+    const EstimatorScore& score = cell.*(e.score);
+    answering += score.refusal() <= 0.1 ? 1 : 0;
+    good += score.within_2 >= 0.9 * cell.runs ? 1 : 0;
+  }
+  return fmt::format(
+      "{}: an answer in at least 90 % of the runs in {} of {} settings, within 2 % of the true gap in {}",
+      e.name, answering, table.cells.size(), good);
+}
+
+}  // namespace
+
+FigureData campaign_map(const CampaignSummary& s, const SummaryTable& table) {
+  FigureData figure;
+  const auto estimators = estimators_of(s);
+  figure.file = fmt::format("map_{}_{}.png", table.a + 1, table.b + 1);
+  figure.title =
+      literal(s.name) + ": " + literal(s.axes[table.a].name) + " × " + literal(s.axes[table.b].name);
+  figure.lines = {"Numbers in percent; dark is bad; – where there is nothing to judge."};
+  figure.columns = static_cast<int>(estimators.size());
+  figure.width = 1600.0 * static_cast<double>(estimators.size());
+  add_row(figure, s, table, "median |error| (%)", error_look);
+  add_row(figure, s, table, "no answer (% of the runs)", refusal_look);
+  add_row(figure, s, table, "95 % interval holds the true gap (%)", coverage_look);
+  if (s.model_free && s.reference) add_disagreement(figure, s, table);
+  std::vector<std::string> readings;
+  for (const CampaignEstimator& e : estimators) readings.push_back(reading_of(table, e));
+  figure.reading = fmt::format("{}.", fmt::join(readings, "; "));
+  return figure;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,124 @@
+#include "gapscope/results/campaign_summary.h"
+
+#include <filesystem>
+
+#include "gapscope/base/errors.h"
+#include "results/json_archive.h"
+
+namespace gapscope {
+namespace internal {
+
+constexpr const char* kCampaignSchema = "gapscope.campaign/1";
+
+template <class Archive>
+void fields(Archive& archive, SummaryBin& b) {
+  archive("label", b.label);
+  archive("value", b.value);
+}
+
+template <class Archive>
+void fields(Archive& archive, SummaryAxis& a) {
+  archive("path", a.path);
+  archive("name", a.name);
+  archive.list("bins", a.bins);
+}
+
+template <class Archive>
+void fields(Archive& archive, EstimatorScore& s) {
+  archive("runs", s.runs);
+  archive("answered", s.answered);
+  archive("denied", s.denied);
+  archive("judged", s.judged);
+  archive("covered", s.covered);
+  archive("within_1_percent", s.within_1);
+  archive("within_2_percent", s.within_2);
+  archive("within_5_percent", s.within_5);
+  archive("median_relative_error", s.median_error);
+  archive("relative_error_of_90_percent", s.error_90);
+  archive("relative_bias", s.bias);
+}
+
+template <class Archive>
+void fields(Archive& archive, SummaryCell& c) {
+  archive("a", c.a);
+  archive("b", c.b);
+  archive("runs", c.runs);
+  archive("failed", c.failed);
+  archive.single("model_free", c.model_free);
+  archive.single("reference", c.reference);
+  archive("both_answered", c.both);
+  archive("disagree", c.disagree);
+  archive("model_free_nearer", c.model_free_nearer);
+}
+
+template <class Archive>
+void fields(Archive& archive, SummaryTable& t) {
+  archive("axis_a", t.a);
+  archive("axis_b", t.b);
+  archive.list("cells", t.cells);
+}
+
+template <class Archive>
+void fields(Archive& archive, SummaryCount& c) {
+  archive("text", c.text);
+  archive("runs", c.runs);
+}
+
+template <class Archive>
+void fields(Archive& archive, SummaryAnswer& a) {
+  archive("tolerance", a.tolerance);
+  archive("estimator", a.estimator);
+  archive("parameters", a.parameters);
+  archive("needs", a.needs);
+}
+
+template <class Archive>
+void fields(Archive& archive, CampaignSummary& s) {
+  archive("name", s.name);
+  archive("version", s.version);
+  archive("runs", s.runs);
+  archive("done", s.done);
+  archive("model_free", s.model_free);
+  archive("reference", s.reference);
+  archive.list("axes", s.axes);
+  archive.single("total", s.total);
+  archive.list("answers", s.answers);
+  archive.list("along_axes", s.lines);
+  archive.list("over_pairs", s.pairs);
+  archive.list("refusals", s.refusals);
+  archive.list("errors", s.errors);
+}
+
+}  // namespace internal
+
+namespace {
+
+std::string file_in(const std::string& folder) { return folder + "/campaign.json"; }
+
+}  // namespace
+
+void write_campaign_summary(const std::string& folder, const CampaignSummary& summary) {
+  CampaignSummary copy = summary;
+  internal::JsonWriter writer;
+  std::string schema = internal::kCampaignSchema;
+  writer("schema", schema);
+  internal::fields(writer, copy);
+  internal::save_json(file_in(folder), writer.json);
+}
+
+CampaignSummary read_campaign_summary(const std::string& folder) {
+  const std::string path = file_in(folder);
+  const internal::Json json = internal::load_json(path);
+  internal::JsonReader reader(json, path, "");
+  std::string schema;
+  reader("schema", schema);
+  if (schema != internal::kCampaignSchema)
+    throw ConfigError(path, "has the schema " + schema + ", expected " + internal::kCampaignSchema);
+  CampaignSummary summary;
+  internal::fields(reader, summary);
+  return summary;
+}
+
+bool has_campaign_summary(const std::string& folder) { return std::filesystem::exists(file_in(folder)); }
+
+}  // namespace gapscope
