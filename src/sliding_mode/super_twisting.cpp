@@ -13,6 +13,8 @@ const char* to_string(Discretisation discretisation) {
       return "forward_euler";
     case Discretisation::kSemiImplicit:
       return "semi_implicit";
+    case Discretisation::kImplicit:
+      return "implicit";
     case Discretisation::kMatched:
       return "matched";
   }
@@ -64,6 +66,9 @@ SuperTwistingDifferentiator::Estimate SuperTwistingDifferentiator::step(double y
       break;
     case Discretisation::kSemiImplicit:
       s = internal::advance<Discretisation::kSemiImplicit>(s, gains, y, dt);
+      break;
+    case Discretisation::kImplicit:
+      s = internal::advance<Discretisation::kImplicit>(s, gains, y, dt);
       break;
     case Discretisation::kMatched:
       s = internal::advance<Discretisation::kMatched>(s, gains, y, dt);

@@ -8,8 +8,22 @@
 
 namespace gapscope {
 
+namespace internal {
+
+/// Gains and states of a bank, one array each.
+struct BankLanes {
+  const double *k1, *k2, *root1, *root2;
+  double *x, *w, *e;
+  std::size_t size;
+};
+
+/// Takes samples that are dt apart through all lanes; writes the errors row by row unless null.
+using BankLoop = void (*)(const BankLanes& lanes, std::span<const double> y, double dt, double* errors);
+
+}  // namespace internal
+
 /// Super-twisting differentiators of one signal, side by side, one for each bound. Every one gives bit for
-/// bit what a SuperTwistingDifferentiator of its bound gives; together they cost about as much as two of
+/// bit what a SuperTwistingDifferentiator of its bound gives; sixteen together cost about as much as one of
 /// them.
 class BoundBank {
  public:
@@ -33,7 +47,9 @@ class BoundBank {
   std::span<const double> positions() const { return x_; }   ///< x̂₁ [rad] of every bound
 
  private:
-  Discretisation discretisation_;
+  internal::BankLanes lanes() noexcept;
+
+  internal::BankLoop loop_;                      // for the discretisation, and for what this processor can do
   std::vector<double> k1_, k2_, root1_, root2_;  // structure of arrays: the loop over bounds vectorises
   std::vector<double> x_, w_, e_;
   bool started_ = false;

@@ -5,11 +5,13 @@ namespace gapscope {
 /// How the differential equations of the differentiator become a step of dt.
 enum class Discretisation {
   kForwardEuler,  ///< the source paper's practice; e chatters at O(L dt²)
-  kSemiImplicit,  ///< sign and root taken at the end of the step: |ÿ| ≤ L leaves e = 0, no chatter
+  kSemiImplicit,  ///< sign at the end of the step, root at its beginning: no chatter
+  kImplicit,      ///< sign and root at the end of the step: |ÿ| ≤ L leaves e = 0, no chatter
   kMatched,       ///< the eigenvalues of the pseudo-linear error dynamics mapped by z = exp(s dt)
 };
 
-const char* to_string(Discretisation discretisation);  ///< "forward_euler", "semi_implicit", "matched"
+const char* to_string(
+    Discretisation discretisation);  ///< "forward_euler", "semi_implicit", "implicit", "matched"
 
 /// Gains of the super-twisting algorithm for a bound L on |ÿ|.
 struct SuperTwistingGains {
@@ -24,11 +26,20 @@ struct SuperTwistingGains {
 /// O(L dt); under noise |n| ≤ ε the error of ŵ₁ is O(√(L ε)). At an impact |ÿ| > L and e leaves zero: a
 /// velocity step Δv leaves a peak of 0.102 Δv²/k₂. That is the signal the detector reads.
 ///
-/// The other two steps, with b = y − x̂₁ − dt ŵ₁ the error of the prediction:
-///   semi-implicit  e + dt k₁ √|e| sign(e) + dt² k₂ sign(e) = b solved for e, the sign set-valued at zero;
+/// The other steps, with b = y − x̂₁ − dt ŵ₁ the error of the prediction and e₋ the error before it:
+///   semi-implicit  e + (dt k₁ √|e₋| + dt² k₂) σ = b,              σ ∈ sign(e), the sign set-valued at zero;
+///   implicit       e + dt k₁ √|e| σ + dt² k₂ σ = b,               σ ∈ sign(e).
+/// Both follow from x̂₁ += dt (ŵ₁ + k₁ √|·| σ), ŵ₁ += dt k₂ σ with ŵ₁ at the end of the step, and have one
+/// solution, because their left side rises with e. For |b| below the factor of σ at e = 0 it is e = 0 and σ
+/// takes up b: the sliding mode is exact at the samples, ŵ₁ the backward difference of y, and nothing
+/// chatters. Beyond it σ = sign(b), and the implicit √|e| is the positive root of r² + dt k₁ r + dt² k₂ − |b|
+/// = 0. (Implicit discretisation of set-valued control: Acary and Brogliato, Systems & Control Letters 59,
+/// 2010; of the super-twisting algorithm: Brogliato, Polyakov and Efimov, IEEE Trans. Automatic Control 65,
+/// 2020.)
 ///   matched        [e, e_w] advanced by gains l₁ = 2 − z₁ − z₂, l₂ = (1 − z₁)(1 − z₂)/dt, zᵢ = exp(pᵢ
 ///   dt/√|e|),
-///                  pᵢ the roots of p² + k₁ p + k₂ (real and negative for the gains above).
+///                  pᵢ the roots of p² + k₁ p + k₂ (real and negative for the gains above; Koch and
+///                  Reichhartinger, Automatica 107, 2019).
 class SuperTwistingDifferentiator {
  public:
   struct Estimate {
