@@ -3,10 +3,10 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <ctime>
 #include <span>
 #include <vector>
 
+#include "benchmark/clock.h"
 #include "gapscope/simulation/stepper.h"
 #include "simulation/drives.h"
 
@@ -15,9 +15,6 @@ namespace gapscope::benchmarks {
 constexpr double kRate = 2000.0;    ///< [Hz]
 constexpr double kDuration = 8.0;   ///< [s]
 constexpr double kAmplitude = 0.6;  ///< [unit of u]
-
-/// CPU time of the process [s]: other programs on the machine count less than in wall time.
-inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// From rest through the whole input.
 template <class T>
