@@ -107,12 +107,13 @@ std::vector<Excursion> excursions_on_scale(const BankRun& run, std::size_t half_
 
 }  // namespace
 
-PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& analysis, double bound) {
+PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& analysis, double bound,
+                             Discretisation discretisation) {
   PaperReading reading;
   reading.bound = bound;
   const SignalFacts& facts = analysis.facts;
   if (!facts.defect.empty()) return reading;
-  const BankRun run = run_bank(trace, facts, {bound}, Discretisation::kForwardEuler);
+  const BankRun run = run_bank(trace, facts, {bound}, discretisation);
   reading.quiet = run.quiet[0];
   const auto excursions = excursions_on_scale(run, facts.half_periods);
   for (std::size_t i = 1; i + 1 < excursions.size(); ++i) {

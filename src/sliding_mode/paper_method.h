@@ -9,7 +9,7 @@
 
 namespace gapscope::internal {
 
-/// What one error signal e_x (forward Euler, one bound) shows of steps S2 to S4.
+/// What one error signal e_x (one bound; forward Euler is the source's practice) shows of steps S2 to S4.
 struct PaperReading {
   double bound = 0.0;            ///< L [rad/s²]
   std::vector<GapEvent> events;  ///< passages, accepted or not
@@ -19,7 +19,8 @@ struct PaperReading {
   std::size_t spikes = 0;        ///< excursions without a ramp before them
 };
 
-PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& analysis, double bound);
+PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& analysis, double bound,
+                             Discretisation discretisation = Discretisation::kForwardEuler);
 
 /// Steps S5 and S6 over all recordings: |x1(t2) − x1(t1)|, averaged robustly over passages of both
 /// directions.
