@@ -71,7 +71,7 @@ std::vector<CampaignEstimator> estimators_of(const CampaignSummary& s) {
 std::string percent(double share) {
   if (!std::isfinite(share)) return "–";
   const double value = 100.0 * share, size = std::abs(value);
-  if (size >= 10.0) return fmt::format("{:.0f} %", value);
+  if (size >= 9.95) return fmt::format("{:.0f} %", value);
   if (size >= 1.0) return fmt::format("{:.1f} %", value);
   if (size == 0.0) return "0 %";
   return size >= 1e-3 ? fmt::format("{:.2g} %", value) : fmt::format("{}0.001 %", value < 0.0 ? "> −" : "< ");

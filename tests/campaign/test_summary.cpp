@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "campaign/answers.h"
+#include "campaign/axis_names.h"
+#include "campaign/score.h"
+#include "campaign/small_campaign.h"
+#include "gapscope/campaign/summary.h"
+
+namespace gapscope {
+namespace {
+
+using internal::answers;
+using internal::axis_name;
+using internal::range_in_words;
+using internal::Scorer;
+using internal::with_unit;
+using testing::SmallCampaign;
+
+/// A run on a drive of 2β = 10 mrad in which both answered.
+CampaignRow answered(double gap, double half, double reference_gap) {
+  CampaignRow row;
+  row.true_gap = 0.01;
+  row.verdict = "backlash";
+  row.gap = gap;
+  row.ci95 = {gap - half, gap + half};
+  row.status = "converged";
+  row.reference_gap = reference_gap;
+  row.reference_ci95 = {reference_gap - 1e-5, reference_gap + 1e-5};
+  row.agree = std::abs(gap - reference_gap) <= half;
+  return row;
+}
+
+TEST(Score, CountsErrorsBiasCoverageAndRefusals) {
+  Scorer scorer(true, true);
+  scorer.add(answered(0.0101, 2e-4, 0.01));
+  scorer.add(answered(0.0104, 2e-4, 0.01));
+  scorer.add(answered(0.0098, 3e-4, 0.0103));
+  CampaignRow silent = answered(0.01, 1e-4, 0.01);
+  silent.verdict = "none";
+  silent.gap = kNaN;
+  silent.ci95 = {};
+  silent.agree.reset();
+  silent.status = "not_converged";
+  scorer.add(silent);
+  CampaignRow failed;
+  failed.error = "no";
+  scorer.add(failed);
+  const SummaryCell cell = scorer.cell();
+  EXPECT_EQ(cell.runs, 5);
+  EXPECT_EQ(cell.failed, 1);
+  EXPECT_EQ(cell.model_free.runs, 4);
+  EXPECT_EQ(cell.model_free.answered, 3);
+  EXPECT_EQ(cell.model_free.denied, 1);
+  EXPECT_EQ(cell.model_free.covered, 2);
+  EXPECT_EQ(cell.model_free.within_1, 0 + 1);
+  EXPECT_EQ(cell.model_free.within_5, 3);
+  EXPECT_NEAR(cell.model_free.median_error, 0.02, 1e-12);
+  EXPECT_NEAR(cell.model_free.bias, 0.01, 1e-12);
+  EXPECT_NEAR(cell.model_free.refusal(), 0.25, 1e-12);
+  EXPECT_EQ(cell.reference.answered, 3);
+  EXPECT_EQ(cell.reference.covered, 2);
+  EXPECT_EQ(cell.both, 3);
+  EXPECT_EQ(cell.disagree, 2);
+  EXPECT_EQ(cell.model_free_nearer, 1);  // 9.8 mrad is nearer to 10 than 10.3
+}
+
+TEST(Score, WithoutATrueGapNothingIsJudged) {
+  Scorer scorer(true, false);
+  CampaignRow row = answered(0.01, 1e-4, 0.01);
+  row.true_gap = kNaN;
+  scorer.add(row);
+  EXPECT_EQ(scorer.cell().model_free.answered, 1);
+  EXPECT_EQ(scorer.cell().model_free.judged, 0);
+  EXPECT_TRUE(std::isnan(scorer.cell().model_free.coverage()));
+  EXPECT_EQ(scorer.cell().reference.runs, 0);
+}
+
+TEST(Words, TellWhichValuesAreGood) {
+  const std::vector<SummaryBin> bits = {{"12 bit", 12}, {"14 bit", 14}, {"16 bit", 16}, {"20 bit", 20}};
+  EXPECT_EQ(range_in_words(bits, {false, false, true, true}), "at least 16 bit");
+  EXPECT_EQ(range_in_words(bits, {false, false, false, true}), "20 bit");
+  EXPECT_EQ(range_in_words(bits, {true, true, false, false}), "at most 14 bit");
+  EXPECT_EQ(range_in_words(bits, {false, true, true, false}), "14 bit to 16 bit");
+  EXPECT_EQ(range_in_words(bits, {true, false, true, false}), "12 bit, 16 bit");
+  EXPECT_EQ(range_in_words(bits, {true, true, true, true}), "any");
+  EXPECT_EQ(range_in_words(bits, {false, false, false, false}), "none");
+  const std::vector<SummaryBin> words = {{"auto", kNaN}, {"40", 40}};
+  EXPECT_EQ(range_in_words(words, {false, true}), "40");
+}
+
+SummaryCell cell_with(int a, int b, int within_2) {
+  SummaryCell cell;
+  cell.a = a;
+  cell.b = b;
+  cell.runs = cell.model_free.runs = 10;
+  cell.model_free.within_2 = cell.model_free.within_5 = within_2;
+  return cell;
+}
+
+TEST(Words, AnAnswerTellsWhatIsNeededOverTwoAxes) {
+  CampaignSummary s;
+  s.reference = false;
+  s.axes = {{"simulation.rate",
+             "sampling rate",
+             {{"1 kHz", 1000}, {"2 kHz", 2000}, {"5 kHz", 5000}, {"10 kHz", 10000}}},
+            {"encoder.bits", "resolution", {{"14 bit", 14}, {"16 bit", 16}}}};
+  SummaryTable pair{0, 1, {}};
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 2; ++b) pair.cells.push_back(cell_with(a, b, a >= 2 || (a == 1 && b == 1) ? 9 : 8));
+  s.pairs = {pair};
+  const auto all = answers(s);
+  ASSERT_EQ(all.size(), 3u);  // three tolerances
+  EXPECT_EQ(all[0].needs, "nothing in this campaign is enough");
+  EXPECT_EQ(all[1].tolerance, 0.02);
+  EXPECT_EQ(all[1].parameters, "resolution by sampling rate");
+  EXPECT_EQ(all[1].needs, "16 bit with 2 kHz; any resolution with at least 5 kHz");
+}
+
+TEST(Words, AxesAreCalledAsPeopleCallThem) {
+  EXPECT_EQ(axis_name("simulation.rate", true).name, "sampling rate");
+  EXPECT_EQ(axis_name("simulation.model.parameters.gap", true).name, "gap");
+  EXPECT_EQ(axis_name("model.parameters.contact_stiffness.value", true).name, "model's contact stiffness");
+  EXPECT_EQ(axis_name("model.parameters.contact_stiffness", true).unit, "N·m/rad");
+  EXPECT_EQ(axis_name("model.parameters.contact_stiffness", false).unit, "N/m");
+  EXPECT_EQ(axis_name("some.other.path", true).name, "some.other.path");
+}
+
+TEST(Words, NumbersTakeThePrefixThatKeepsThemShort) {
+  EXPECT_EQ(with_unit(2000.0, "Hz"), "2 kHz");
+  EXPECT_EQ(with_unit(1000.0, "Hz"), "1 kHz");
+  EXPECT_EQ(with_unit(250.0, "Hz"), "250 Hz");
+  EXPECT_EQ(with_unit(0.019, "rad"), "19 mrad");
+  EXPECT_EQ(with_unit(0.001, "rad"), "1 mrad");
+  EXPECT_EQ(with_unit(2e-6, "rad"), "2 µrad");
+  EXPECT_EQ(with_unit(0.3, ""), "0.3");
+  EXPECT_EQ(with_unit(5000.0, "N·m/rad"), "5000 N·m/rad");
+  EXPECT_EQ(with_unit(0.0, "rad"), "0 rad");
+}
+
+TEST(Summary, ComparesAlongEveryAxisAndEveryPairButRepeats) {
+  const SmallCampaign small(
+      "axes: {encoder.bits: [12, 20], simulation.rate: [500, 1000], simulation.seed: {repeat: 2}}\n"
+      "drawn: {simulation.initial.x1: {uniform: [0, 0.006]}}\n");
+  small.run("store", 2);
+  const CampaignSummary s = summarise(CampaignStore(small.place("store")));
+  EXPECT_EQ(s.done, 8);
+  ASSERT_EQ(s.axes.size(), 2u);
+  ASSERT_EQ(s.lines.size(), 2u);
+  ASSERT_EQ(s.pairs.size(), 1u);
+  EXPECT_EQ(s.axes[s.pairs[0].a].name,
+            "sampling rate");  // sampling × resolution, whatever the order of the axes
+  EXPECT_EQ(s.axes[s.pairs[0].b].name, "resolution");
+  ASSERT_EQ(s.pairs[0].cells.size(), 4u);
+  for (const SummaryCell& cell : s.pairs[0].cells) EXPECT_EQ(cell.runs, 2);
+  int refused = 0;
+  for (const SummaryCount& c : s.refusals) refused += c.runs;
+  EXPECT_EQ(refused, s.total.model_free.runs - s.total.model_free.answered);
+}
+
+TEST(Summary, ARangeWithoutValuesIsCutIntoParts) {
+  const SmallCampaign small(
+      "sampling: {latin_hypercube: {samples: 12, seed: 1}}\n"
+      "axes: {simulation.model.parameters.gap: {log_range: [0.005, 0.05]}}\nestimators: [model_free]\n");
+  small.run("store", 2);
+  const CampaignSummary s = summarise(CampaignStore(small.place("store")));
+  ASSERT_EQ(s.axes[0].bins.size(), 6u);
+  ASSERT_EQ(s.lines[0].cells.size(), 6u);
+  for (const SummaryCell& cell : s.lines[0].cells) EXPECT_EQ(cell.runs, 2);
+}
+
+}  // namespace
+}  // namespace gapscope

@@ -1,0 +1,121 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "report/campaign_figures.h"
+#include "report/draw_figure.h"
+
+namespace gapscope::internal {
+namespace {
+
+using ::testing::HasSubstr;
+
+EstimatorScore score(int answered, double error) {
+  EstimatorScore e;
+  e.runs = 20;
+  e.answered = e.judged = answered;
+  e.covered = answered * 9 / 10;
+  if (answered == 0) return e;
+  e.median_error = error;
+  e.error_90 = 3.0 * error;
+  e.bias = -error;
+  e.within_2 = error < 0.02 ? answered : 0;
+  return e;
+}
+
+SummaryCell cell(int a, int b) {
+  SummaryCell c;
+  c.a = a;
+  c.b = b;
+  c.runs = 20;
+  c.model_free = score(a == 0 ? 0 : 10 + 2 * a, 0.05 / (a + 1));
+  c.reference = score(20, 1e-6 * (std::max(b, 0) + 1));
+  c.both = a == 0 ? 0 : 10;
+  c.disagree = a;
+  return c;
+}
+
+/// Five rates and eight resolutions; nothing of the model-free detector at the lowest rate.
+CampaignSummary sample() {
+  CampaignSummary s;
+  s.name = "sample_of_a_campaign";
+  s.version = "1.2.3";
+  s.runs = s.done = 800;
+  s.axes = {{"simulation.rate", "sampling rate", {}}, {"encoder.bits", "resolution", {}}};
+  for (const char* label : {"250 Hz", "500 Hz", "1 kHz", "2 kHz", "5 kHz"})
+    s.axes[0].bins.push_back({label, 1.0});
+  for (const char* label : {"10 bit", "12 bit", "13 bit", "14 bit", "15 bit", "16 bit", "18 bit", "20 bit"})
+    s.axes[1].bins.push_back({label, 1.0});
+  s.total = cell(2, 0);
+  s.lines = {{0, -1, {}}, {1, -1, {}}};
+  s.pairs = {{0, 1, {}}};
+  for (int a = 0; a < 5; ++a) s.lines[0].cells.push_back(cell(a, -1));
+  for (int b = 0; b < 8; ++b) s.lines[1].cells.push_back(cell(b, -1));
+  for (int a = 0; a < 5; ++a)
+    for (int b = 0; b < 8; ++b) s.pairs[0].cells.push_back(cell(a, b));
+  s.answers = {{0.02, "model-free", "resolution by sampling rate", "at least 16 bit with 2 kHz"}};
+  s.refusals = {{"inconclusive: too coarse", 8}};
+  return s;
+}
+
+TEST(CampaignFigures, HaveNoTextsThatMeetOrAreCut) {
+  for (const bool both : {true, false}) {
+    CampaignSummary s = sample();
+    s.model_free = both;
+    for (const FigureData& figure : campaign_figures(s)) {
+      const Drawing drawing = draw_with_notes(figure);
+      const Box paper{0.0, 0.0, static_cast<double>(drawing.image.cols),
+                      static_cast<double>(drawing.image.rows)};
+      for (std::size_t i = 0; i < drawing.texts.size(); ++i) {
+        EXPECT_TRUE(paper.holds(drawing.texts[i].box))
+            << figure.file << ": cut off: " << drawing.texts[i].markup;
+        for (std::size_t k = 0; k < i; ++k)
+          EXPECT_FALSE(overlap(drawing.texts[i].box, drawing.texts[k].box))
+              << figure.file << ": " << drawing.texts[i].markup << " meets " << drawing.texts[k].markup;
+      }
+    }
+  }
+}
+
+TEST(CampaignFigures, AMapHasATileForEverySettingDarkWhereItIsBad) {
+  const CampaignSummary s = sample();
+  const FigureData map = campaign_map(s, s.pairs[0]);
+  ASSERT_EQ(map.panels.size(), 8u);
+  for (const Panel& panel : map.panels) EXPECT_EQ(panel.tiles.size(), 40u);
+  const auto& refusals = map.panels[2].tiles;
+  EXPECT_EQ(refusals.front().text, "100");
+  EXPECT_EQ(refusals.back().text, "10");
+  EXPECT_LT(refusals.front().colour.red, refusals.back().colour.red);
+  EXPECT_EQ(map.panels[0].tiles.front().text, "–");
+}
+
+TEST(CampaignFigures, ALineHasAPointForEveryValueOfBothEstimators) {
+  const CampaignSummary s = sample();
+  const FigureData line = campaign_line(s, s.lines[0]);
+  ASSERT_EQ(line.panels.size(), 4u);
+  for (const Panel& panel : line.panels) {
+    EXPECT_EQ(panel.x.places.size(), 5u);
+    for (const Series& series : panel.series) EXPECT_EQ(series.y.size(), 5u);
+  }
+  EXPECT_THAT(line.reading, HasSubstr("at 5 kHz"));
+}
+
+TEST(CampaignText, SaysWhatIsNeededAndWhyThereWasNoAnswer) {
+  const CampaignSummary s = sample();
+  const std::string text = campaign_text(s, campaign_figures(s));
+  EXPECT_THAT(text,
+              HasSubstr("| 2 % | resolution by sampling rate | model-free | at least 16 bit with 2 kHz |"));
+  EXPECT_THAT(text, HasSubstr("- 8 runs: inconclusive: too coarse"));
+  EXPECT_THAT(text, HasSubstr("(map_1_2.png)"));
+}
+
+TEST(CampaignText, SharesAreShort) {
+  EXPECT_EQ(percent(0.5), "50 %");
+  EXPECT_EQ(percent(0.0123), "1.2 %");
+  EXPECT_EQ(percent(-0.00123), "-0.12 %");
+  EXPECT_EQ(percent(1e-7), "< 0.001 %");
+  EXPECT_EQ(percent(0.0), "0 %");
+  EXPECT_EQ(percent(kNaN), "–");
+}
+
+}  // namespace
+}  // namespace gapscope::internal
