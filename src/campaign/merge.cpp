@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 
 #include "campaign/store_header.h"
@@ -22,23 +23,23 @@ struct Sameness {
   }
 };
 
-/// Everything of a row as one text.
-std::string whole(CampaignRow& row) {
+/// A number for everything in a row.
+std::size_t digest(CampaignRow& row) {
   Sameness all;
   fields(all, row);
-  return all.text;
+  return std::hash<std::string>()(all.text);
 }
 
 /// Copies what is not there yet; what is there must be the same.
 void copy_rows(const CampaignStore& from, const std::string& folder, CampaignStore& to,
-               std::map<std::uint64_t, std::string>& seen) {
+               std::map<std::uint64_t, std::size_t>& seen) {
   from.each(
       [&](CampaignRow& row, const CampaignTiming& timing) {
         stop_point();
-        const std::string text = whole(row);
-        const auto [before, is_new] = seen.emplace(row.run, text);
+        const std::size_t content = digest(row);
+        const auto [before, is_new] = seen.emplace(row.run, content);
         if (is_new) return to.add(row, timing);
-        if (before->second != text)
+        if (before->second != content)
           throw ConfigError(folder,
                             fmt::format("has another result for run {} than a store before it, expected the "
                                         "same from the same campaign",
@@ -62,7 +63,7 @@ std::uint64_t merge_campaigns(const std::vector<std::string>& folders, const std
   if (fs::exists(fs::path(target) / "results.sqlite"))
     throw ConfigError(target, "has a store already, expected a folder without one to merge into");
   CampaignStore whole_store(target, header);
-  std::map<std::uint64_t, std::string> seen;
+  std::map<std::uint64_t, std::size_t> seen;
   for (const std::string& folder : folders) copy_rows(CampaignStore(folder), folder, whole_store, seen);
   return seen.size();
 }

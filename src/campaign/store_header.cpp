@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "campaign/recorded_data.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 
@@ -14,7 +15,7 @@ CampaignHeader campaign_header(const CampaignConfig& c, const CampaignShard& sha
   CampaignHeader h;
   h.version = version();
   h.name = c.name;
-  h.identity = campaign_identity(c);
+  h.identity = campaign_identity(c) + internal::recorded_data(c);
   h.rotation = campaign_run(c, 0).rotation;
   h.model_free = c.model_free;
   h.reference = c.reference;

@@ -99,6 +99,21 @@ std::string reading_of(const SummaryTable& table, const CampaignEstimator& e) {
       e.name, answering, table.cells.size(), good);
 }
 
+/// Where the estimators contradict each other most often; empty where they never do.
+std::string disagreement_of(const CampaignSummary& s, const SummaryTable& table) {
+  const auto share = [](const SummaryCell& c) {
+    return c.both > 0 ? static_cast<double>(c.disagree) / c.both : 0.0;
+  };
+  const auto most =
+      std::max_element(table.cells.begin(), table.cells.end(),
+                       [&](const SummaryCell& x, const SummaryCell& y) { return share(x) < share(y); });
+  if (most == table.cells.end() || most->disagree == 0) return "";
+  return fmt::format("they disagree most at {} and {} ({} of {} runs in which both answered)",
+                     s.axes[table.a].bins[static_cast<std::size_t>(most->a)].label,
+                     s.axes[table.b].bins[static_cast<std::size_t>(most->b)].label, most->disagree,
+                     most->both);
+}
+
 }  // namespace
 
 FigureData campaign_map(const CampaignSummary& s, const SummaryTable& table) {
@@ -116,6 +131,7 @@ FigureData campaign_map(const CampaignSummary& s, const SummaryTable& table) {
   if (s.model_free && s.reference) add_disagreement(figure, s, table);
   std::vector<std::string> readings;
   for (const CampaignEstimator& e : estimators) readings.push_back(reading_of(table, e));
+  if (const std::string most = disagreement_of(s, table); !most.empty()) readings.push_back(most);
   figure.reading = fmt::format("{}.", fmt::join(readings, "; "));
   return figure;
 }

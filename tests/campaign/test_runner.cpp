@@ -101,6 +101,18 @@ TEST(Runner, ShardsAreDisjointAndCompleteAndMergeIntoTheWhole) {
   EXPECT_EQ(SmallCampaign::exported(CampaignStore(small.place("merged"))), small.run("whole", 2));
 }
 
+TEST(Runner, ARowThatTwoStoresHaveMustBeTheSameInBoth) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 20]}\n");
+  for (const int k : {1, 2}) small.run("shard" + std::to_string(k), 1, {static_cast<std::uint64_t>(k), 2});
+  CampaignRow other;
+  other.run = 0;  // of the first shard
+  other.point = {"16"};
+  other.gap = 0.5;
+  CampaignStore(small.place("shard2"), campaign_header(small.config, {2, 2})).add(other, {});
+  EXPECT_THROW(merge_campaigns({small.place("shard1"), small.place("shard2")}, small.place("merged")),
+               ConfigError);
+}
+
 TEST(Runner, TheSizeOfAShardIsTheNumberOfItsRuns) {
   for (const std::uint64_t of : {1u, 2u, 3u, 7u, 20u})
     for (std::uint64_t k = 1; k <= of; ++k) {

@@ -5,7 +5,9 @@
 
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/campaign/pipeline.h"
 #include "gapscope/campaign/store.h"
+#include "gapscope/recording/csv.h"
 
 namespace gapscope {
 namespace {
@@ -99,6 +101,46 @@ TEST(Store, AChangeOfTheBaseIsAnotherCampaign) {
   changed.base_text.replace(changed.base_text.find("duration: 2"), 11, "duration: 3");
   EXPECT_THAT(refusal(small, campaign_header(changed, {})),
               HasSubstr("it has 'duration: 2  # s', expected 'duration: 3  # s'"));
+}
+
+/// A campaign over two recordings of the same rig.
+class RecordedCampaign {
+ public:
+  RecordedCampaign() : rig_("axes: {simulation.seed: [1, 2]}\n") {
+    for (const int k : {0, 1}) record(k, 1.0);
+    std::ofstream(rig_.folder.path / "recorded.yaml")
+        << "name: recorded\nestimators: [model_free]\naxes: {recording.file: [r0.csv, r1.csv]}\n"
+           "base: {recording: {file: r0.csv}, encoder: {bits: 18}}\n";
+  }
+  /// @param factor  of the position
+  void record(int k, double factor) const {
+    Recording r = simulated_recording(campaign_run(rig_.config, static_cast<std::uint64_t>(k)));
+    for (double& x : r.x1) x *= factor;
+    write_csv(rig_.place("r" + std::to_string(k) + ".csv"), r);
+  }
+  CampaignConfig config() const { return load_campaign(rig_.place("recorded.yaml")); }
+  const SmallCampaign& rig() const { return rig_; }
+
+ private:
+  SmallCampaign rig_;
+};
+
+TEST(Store, RecordedDataMakeACampaignToo) {
+  const RecordedCampaign recorded;
+  CampaignTiming timing;
+  const CampaignRow row = run_of_campaign(recorded.config(), 1, timing);
+  EXPECT_EQ(row.error, "");
+  EXPECT_EQ(row.point, std::vector<std::string>{"r1.csv"});
+  EXPECT_NE(row.verdict, "");
+  EXPECT_TRUE(std::isnan(row.true_gap));
+}
+
+TEST(Store, AnotherRecordingUnderTheSameNameIsAnotherCampaign) {
+  const RecordedCampaign recorded;
+  { const CampaignStore made(recorded.rig().place("store"), campaign_header(recorded.config(), {})); }
+  recorded.record(1, 2.0);
+  EXPECT_THAT(refusal(recorded.rig(), campaign_header(recorded.config(), {})),
+              HasSubstr("it has 'recording r1.csv: "));
 }
 
 TEST(Store, AnotherVersionAndAnotherShardAreRefused) {

@@ -27,7 +27,7 @@ std::string to_string(const CampaignShard& shard);  ///< "2/3"
 struct CampaignHeader {
   std::string version;   ///< of gapscope
   std::string name;      ///< of the campaign
-  std::string identity;  ///< see campaign_identity()
+  std::string identity;  ///< campaign_identity(), and what the recordings are that it reads
   bool rotation = true;
   bool model_free = true, reference = true;
   std::uint64_t runs = 0;  ///< of the whole campaign

@@ -1,0 +1,55 @@
+#include "campaign/recorded_data.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "gapscope/base/errors.h"
+
+namespace gapscope::internal {
+namespace {
+
+std::string line_for(const RecordedFile& file) {
+  std::ifstream in(file.path, std::ios::binary);
+  if (!in) return fmt::format("recording {}: not there\n", file.given);
+  std::uint64_t hash = 14695981039346656037ull, size = 0;  // FNV-1a
+  for (std::istreambuf_iterator<char> byte(in), end; byte != end; ++byte, ++size)
+    hash = (hash ^ static_cast<unsigned char>(*byte)) * 1099511628211ull;
+  return fmt::format("recording {}: {} bytes, hash {:016x}\n", file.given, size, hash);
+}
+
+/// The first run, and for every value of an axis over recordings a run that has it.
+std::vector<std::uint64_t> runs_to_look_at(const CampaignConfig& c) {
+  std::vector<std::uint64_t> runs = {0};
+  std::uint64_t stride = c.runs();
+  for (const CampaignAxis& axis : c.axes) {
+    const bool counts = !c.hypercube && axis.path.starts_with("recording");
+    if (!c.hypercube) stride /= axis.values.size();
+    for (std::size_t k = 1; counts && k < axis.values.size(); ++k) runs.push_back(k * stride);
+  }
+  return runs;
+}
+
+/// A run that cannot be made has none: that is told in its row.
+std::vector<RecordedFile> files_of(const CampaignConfig& c, std::uint64_t run) try {
+  const Configuration configuration = campaign_run(c, run);
+  return configuration.recording ? configuration.recording->files : std::vector<RecordedFile>{};
+} catch (const ConfigError&) {
+  return {};
+}
+
+}  // namespace
+
+std::string recorded_data(const CampaignConfig& c) {
+  std::set<std::string> lines;
+  for (const std::uint64_t run : runs_to_look_at(c)) {
+    for (const RecordedFile& file : files_of(c, run)) lines.insert(line_for(file));
+  }
+  std::string text;
+  for (const std::string& line : lines) text += line;
+  return text;
+}
+
+}  // namespace gapscope::internal
