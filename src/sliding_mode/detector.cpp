@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sliding_mode/folding.h"
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
@@ -131,6 +132,26 @@ void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const
                   bound, paper.reason));
 }
 
+/// Where single periods show too little: the mean period of every recording that repeats itself.
+void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
+                       GapEstimate& estimate) {
+  std::vector<ImpactAnalysis> means;
+  std::vector<double> intervals;
+  for (const MotorTrace& recording : recordings) {
+    const internal::FoldedMotion folded = internal::fold(recording);
+    if (folded.periods == 0) continue;
+    means.push_back(internal::analyse(folded.trace(recording.file), folded.noise));
+    means.back().quantum = recording.quantum;
+    intervals.push_back(folded.dt);
+  }
+  GapEstimate reading;
+  if (!means.empty()) internal::decide(means, intervals, reading);
+  if (reading.verdict != GapVerdict::kBacklash) return;
+  estimate = std::move(reading);
+  estimate.reason += " in the mean of the periods";
+  analyses = std::move(means);
+}
+
 }  // namespace
 
 GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOptions& options) {
@@ -149,6 +170,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
     return estimate;
   }
   internal::decide(analyses, intervals, estimate);
+  if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
   if (estimate.verdict != GapVerdict::kBacklash)
     if (auto quasi_static = internal::read_lost_motion(recordings)) return *quasi_static;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);

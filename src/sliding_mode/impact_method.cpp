@@ -77,9 +77,10 @@ std::size_t deciding_bound(const ImpactAnalysis& a) {
 
 }  // namespace
 
-ImpactAnalysis analyse(const MotorTrace& trace) {
+ImpactAnalysis analyse(const MotorTrace& trace, double noise) {
   ImpactAnalysis a;
-  a.facts = read_facts(trace);
+  a.facts = read_facts(trace, noise);
+  a.quantum = a.facts.quantum;
   if (!a.facts.defect.empty()) return a;
   a.run = run_bank(trace, a.facts, bound_grid(a.facts, trace.dt), Discretisation::kMatched);
   a.sliding = smallest_sliding(a.run);

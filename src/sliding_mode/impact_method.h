@@ -19,10 +19,11 @@ struct ImpactAnalysis {
   double smallest_visible_gap =
       0.0;                  ///< had there been no impact: hidden by the rest of the motion or not [rad]
   double finest_gap = 0.0;  ///< the same where the main events are impacts, and hide nothing [rad]
+  double quantum = 0.0;     ///< of the encoder, also where periods were averaged [rad]
   double travel = 0.0;      ///< peak to peak [rad]
 };
 
-ImpactAnalysis analyse(const MotorTrace& trace);
+ImpactAnalysis analyse(const MotorTrace& trace, double noise = 0.0);
 
 /// Verdict and estimate from all recordings together. Median per direction, mean of both.
 void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,

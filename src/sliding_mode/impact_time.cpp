@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/free_flight.h"
 #include "sliding_mode/kink_fit.h"
 
 namespace gapscope::internal {
 namespace {
 
-constexpr int kDegree = 2;
+constexpr int kDegree = 1;
 constexpr double kAlmostAsGood = 1.5;
 
 struct Window {
@@ -27,10 +28,6 @@ Window fit_window(const TransitionContext& context, const Event& impact, const R
   return {impact.start - before, after, std::min(n, impact.start + after + 1)};
 }
 
-}  // namespace
-
-namespace {
-
 /// Contacts to try: their half period from two samples to four times the window after the impact, light and
 /// heavy damping; the rigid impact is the limit of the fast ones.
 std::vector<KinkShape> contact_shapes(std::size_t after) {
@@ -46,11 +43,18 @@ std::vector<KinkShape> contact_shapes(std::size_t after) {
 
 }  // namespace
 
-ImpactTime refine_impact(const TransitionContext& context, const Event& impact, const Reversal& reversal) {
+ImpactTime refine_impact(const TransitionContext& context, const Event& impact, const Reversal& reversal,
+                         const FlightLaw& law) {
   ImpactTime result;
   const Window w = fit_window(context, impact, reversal);
-  if (w.end < w.first + 9) return result;
-  const KinkScan scan(context.trace.x1.subspan(w.first, w.end - w.first), w.first, kDegree);
+  const std::size_t flight = impact.start - std::min(reversal.last, impact.start);
+  result.core = impact.start - std::max<std::size_t>(2, flight / 10);
+  FlightLaw::Fit fit;
+  if (w.end < w.first + 9 || !law.fit_before(result.core, fit)) return result;
+  std::vector<double> left;
+  for (std::size_t i = w.first; i < w.end; ++i)
+    left.push_back(context.trace.x1[i] - law.state(fit, static_cast<double>(i)).position);
+  const KinkScan scan(left, w.first, kDegree);
   const auto start = static_cast<double>(impact.start);
   const double back =
       std::min(static_cast<double>(3 * w.after + 2), 0.5 * (start - static_cast<double>(w.first)));
@@ -72,7 +76,14 @@ ImpactTime refine_impact(const TransitionContext& context, const Event& impact, 
   // A kink far from where e left its floor is to be trusted less.
   const double half = std::max(0.5 * (high - low), 0.25 * std::abs(best.time - start));
   const double dt = context.trace.dt;
-  result = {true, best.time, half * dt, best.position, best.slope / dt, best.curvature / (dt * dt)};
+  const MotorState before = law.state(fit, best.time);
+  result.found = true;
+  result.time = best.time;
+  result.half_width = half * dt;
+  result.position = before.position + best.position;
+  result.speed = before.speed + best.slope / dt;
+  result.acceleration = before.acceleration;
+  result.drive = law.drive(fit, best.time);
   return result;
 }
 

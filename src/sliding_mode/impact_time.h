@@ -8,15 +8,19 @@ namespace gapscope::internal {
 /// The instant of an impact, by local fits.
 struct ImpactTime {
   bool found = false;
+  std::size_t core = 0;       ///< last sample that is safely before it
   double time = 0.0;          ///< [samples]
   double half_width = 0.0;    ///< over the kinks that fit almost as well [s]
   double position = 0.0;      ///< x1 [rad]
   double speed = 0.0;         ///< of the motor just before [rad/s]
   double acceleration = 0.0;  ///< of the motor just before [rad/s²]
+  double drive = 0.0;         ///< acceleration that the input gives the motor along the passage [rad/s²]
 };
 
-/// Kinks (t − t2)₊^p on a quadratic, p = 1 (rigid), 2 (damped) or 3 (elastic contact), around the event. The
-/// window after it is tied to the excursion, because a light load rings within a millisecond.
-ImpactTime refine_impact(const TransitionContext& context, const Event& impact, const Reversal& reversal);
+/// Where x1 leaves the law of the free motor behind: kinks (t − t2)₊^p, p = 1 (rigid), or the stroke of an
+/// elastic contact, in what the law of the flight leaves over. The window after the impact is tied to the
+/// excursion, because a light load rings within a millisecond.
+ImpactTime refine_impact(const TransitionContext& context, const Event& impact, const Reversal& reversal,
+                         const FlightLaw& law);
 
 }  // namespace gapscope::internal

@@ -6,6 +6,7 @@ namespace gapscope::internal {
 
 struct TransitionContext;
 struct ImpactTime;
+class FlightLaw;
 
 /// Where x1 turned round before an impact.
 struct Reversal {
@@ -31,6 +32,6 @@ struct Release {
 /// at separation the contact torque is zero, so both bodies share speed w and deceleration a there, and a
 /// passive load then travels between w²/2a (constant deceleration) and (w²/a)(1 − e^(−aD/w)) (viscous) within
 /// D.
-Release find_release(const TransitionContext& context, const Reversal& reversal, const ImpactTime& impact);
+Release find_release(const TransitionContext& context, const FlightLaw& law, const ImpactTime& impact);
 
 }  // namespace gapscope::internal

@@ -58,15 +58,15 @@ double noise_from_differences(Samples y) {
   return 1.4826 * median(std::move(d)) / std::sqrt(70.0);
 }
 
-SignalFacts read_facts(const MotorTrace& trace) {
+SignalFacts read_facts(const MotorTrace& trace, double noise) {
   SignalFacts facts;
   const Samples y = trace.x1;
   if (y.size() < 200 || !(trace.dt > 0.0)) {
     facts.defect = "recording too short: record at least three periods of a periodic motion";
     return facts;
   }
-  facts.quantum = trace.quantum > 0.0 ? trace.quantum : seen_quantum(y);
-  facts.noise = std::max(noise_from_differences(y), facts.quantum / std::sqrt(12.0));
+  if (noise <= 0.0) facts.quantum = trace.quantum > 0.0 ? trace.quantum : seen_quantum(y);
+  facts.noise = std::max({noise_from_differences(y), facts.quantum / std::sqrt(12.0), noise});
   const std::vector<double> all(y.begin(), y.end());
   const double low = quantile(all, 0.02), high = quantile(all, 0.98);
   facts.centre = 0.5 * (low + high);

@@ -22,7 +22,9 @@ struct SignalFacts {
   std::string defect;                  ///< why nothing can be detected here; empty if something can
 };
 
-SignalFacts read_facts(const MotorTrace& trace);
+/// @param noise  of one sample where it is known better than from the samples (a mean of periods) [rad]; the
+///               quantum is then taken to be averaged out.
+SignalFacts read_facts(const MotorTrace& trace, double noise = 0.0);
 
 /// σ of white noise on a signal, from fourth differences: smooth motion drops out.
 double noise_from_differences(std::span<const double> y);

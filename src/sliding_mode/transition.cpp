@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/free_flight.h"
 #include "sliding_mode/impact_time.h"
 #include "sliding_mode/release.h"
 
@@ -20,7 +21,7 @@ const char* describe(Refusal refusal) {
     case Refusal::kSmallRise:
       return "too few encoder quanta between reversal and impact";
     case Refusal::kLoadHits:
-      return "the motor was not moving into the gap when it was hit";
+      return "the input did not drive the motor into the gap when it was hit";
     case Refusal::kNoImpactFit:
       return "no kink of x1 at the impact";
     case Refusal::kNoRelease:
@@ -32,6 +33,8 @@ const char* describe(Refusal refusal) {
 }
 
 namespace {
+
+constexpr double kReach = 0.8;  ///< of a half period: nothing before it belongs to the flight
 
 /// Where x1 turned round before the impact, against the direction of the passage.
 Reversal find_reversal(const TransitionContext& context, int direction, std::size_t from, std::size_t to) {
@@ -49,13 +52,21 @@ Reversal find_reversal(const TransitionContext& context, int direction, std::siz
   return r;
 }
 
+FlightWindow flight_window(const TransitionContext& context, const Event& impact, const Reversal& r) {
+  const auto reach = static_cast<std::size_t>(kReach * context.facts.half_period / context.trace.dt);
+  const std::size_t first = impact.start - std::min(impact.start, reach);
+  const std::size_t after = (impact.start - r.last) / 4 + impact.latency + 2;
+  const std::size_t last = std::min(impact.start + after, context.trace.size() - 1);
+  return {first, std::max(r.last, first), last, r.direction};
+}
+
 void fill_event(Transition& t, const TransitionContext& context, const ImpactTime& impact,
                 const Release& release) {
   const auto& trace = context.trace;
   t.event.t1 = trace.start + trace.dt * release.time;
   t.event.x1_t1 = release.position;
-  t.event.gap_uncorrected = std::abs(impact.position - release.position);
   const double s5 = t.event.direction * (impact.position - release.position);
+  t.event.gap_uncorrected = std::abs(s5);
   t.event.gap = s5 + release.load_travel;
   t.load_travel = release.load_travel;
   t.half_width = release.half_width + std::abs(impact.speed) * impact.half_width;
@@ -63,17 +74,15 @@ void fill_event(Transition& t, const TransitionContext& context, const ImpactTim
   if (release.load_travel > 0.0) t.event.remark = "corrected for the travel of the load";
 }
 
-void read_release(Transition& t, const TransitionContext& context, const Reversal& reversal,
+void read_release(Transition& t, const TransitionContext& context, const FlightLaw& law,
                   const ImpactTime& impact) {
-  const Release release = find_release(context, reversal, impact);
+  const Release release = find_release(context, law, impact);
   if (!release.found) {
     t.refusal = Refusal::kNoRelease;
     return;
   }
   fill_event(t, context, impact, release);
-  const double change = std::abs(t.event.gap - t.event.gap_uncorrected);
-  if (!(t.event.gap > 0.0) || change > 0.2 * t.event.gap ||
-      2.0 * release.travel_half_width > 0.4 * t.event.gap)
+  if (!(t.event.gap > 0.0) || release.travel_half_width > 0.15 * t.event.gap)
     t.refusal = Refusal::kLoadMoving;
 }
 
@@ -87,18 +96,14 @@ Transition read_transition(const TransitionContext& context, const Event& impact
   t.event.t2 = trace.time(impact.start);
   t.event.x1_t2 = trace.x1[impact.start];
   const Reversal reversal = find_reversal(context, t.event.direction, from, impact.start);
-  const std::size_t margin = 3;
-  if (reversal.last <= from + margin || reversal.last + margin >= impact.start) {
-    t.refusal = Refusal::kNoReversal;
-    return t;
-  }
   t.event.t1 = trace.time(reversal.last);
   t.event.x1_t1 = reversal.position;
   if (reversal.rise < 8.0 * context.facts.noise + 2.0 * context.facts.quantum) {
     t.refusal = Refusal::kSmallRise;
     return t;
   }
-  const ImpactTime time = refine_impact(context, impact, reversal);
+  const FlightLaw law(trace, flight_window(context, impact, reversal), context.facts.noise);
+  const ImpactTime time = refine_impact(context, impact, reversal, law);
   if (!time.found) {
     t.refusal = Refusal::kNoImpactFit;
     return t;
@@ -107,11 +112,11 @@ Transition read_transition(const TransitionContext& context, const Event& impact
   t.event.x1_t2 = time.position;
   t.speed = t.event.direction * time.speed;
   t.acceleration = t.event.direction * time.acceleration;
-  if (!(t.speed > 0.05 * impact.step)) {
+  if (!(time.drive > 0.0)) {
     t.refusal = Refusal::kLoadHits;
     return t;
   }
-  read_release(t, context, reversal, time);
+  read_release(t, context, law, time);
   return t;
 }
 

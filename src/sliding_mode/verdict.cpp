@@ -13,11 +13,17 @@ namespace {
 constexpr double kVisible =
     0.4;  ///< largest share of the travel that a statement on smaller gaps may leave open
 
+constexpr double kWidest = 0.15;  ///< of the 95 % interval of a gap that is reported, either way
+
+constexpr double kFewestQuanta = 40.0;   ///< in a gap that can be read
+constexpr double kFewestMoving = 100.0;  ///< … where the load travels far within it
+
 struct Pool {
   std::vector<const Transition*> accepted;
   std::map<Refusal, int> refused;  // ordered: the same text for the same data
   std::size_t passages = 0;
-  double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0;
+  double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0,
+         quantum = 0.0;
   std::vector<double> contrasts;  // of all passages
   std::size_t events = 0;
 };
@@ -44,6 +50,7 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.half_periods += static_cast<double>(a.facts.half_periods);
     pool.travel = std::min(pool.travel, a.travel);
     pool.noise = std::max(pool.noise, a.facts.noise);
+    pool.quantum = std::max(pool.quantum, a.quantum);
     pool.dt = std::max(pool.dt, intervals[i]);
     pool.visible = std::max(pool.visible, a.smallest_visible_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
@@ -107,7 +114,8 @@ std::string objection(const Pool& pool) {
   if (plus.size() < 2 || minus.size() < 2)
     return fmt::format("only {} and {} usable passages of the gap in the two directions: {}", plus.size(),
                        minus.size(), advice(commonest(pool)));
-  if (static_cast<double>(pool.accepted.size()) < 0.6 * pool.half_periods)
+  if (static_cast<double>(pool.accepted.size()) <
+      0.6 * std::max(pool.half_periods, static_cast<double>(pool.passages)))
     return fmt::format("only {} of {:.0f} reversals show a usable passage of the gap: {}",
                        pool.accepted.size(), pool.half_periods, advice(commonest(pool)));
   const double up = median(plus), down = median(minus), gap = 0.5 * (up + down);
@@ -126,7 +134,10 @@ std::string objection(const Pool& pool) {
     return fmt::format("the estimate of {:.3g} rad is most of the travel of {:.3g} rad; raise the amplitude",
                        gap, pool.travel);
   const double moved = std::abs(median_of(pool, &Transition::load_travel));
-  if (moved > 0.2 * gap) return advice(Refusal::kLoadMoving);
+  if (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum) return advice(Refusal::kLoadMoving);
+  if (gap < kFewestQuanta * pool.quantum)
+    return fmt::format("a gap of {:.2g} rad is only {:.0f} encoder quanta; use a finer encoder", gap,
+                       gap / pool.quantum);
   return "";
 }
 
@@ -174,6 +185,15 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
                            sampling * sampling + pool.noise * pool.noise);
   estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
   estimate.reason = fmt::format("{} of {} passages of the gap used", pool.accepted.size(), pool.passages);
+  if (1.96 * estimate.std <= kWidest * estimate.gap) return;
+  estimate.verdict = GapVerdict::kInconclusive;
+  estimate.reason = fmt::format(
+      "a gap of {:.2g} rad is seen, but only to {:.0f} %: use a finer encoder, faster sampling or more "
+      "periods, or let "
+      "the motion rest at its reversals",
+      estimate.gap, 196.0 * estimate.std / estimate.gap);
+  estimate.gap = estimate.std = kNaN;
+  estimate.ci95 = {};
 }
 
 void list_events(std::span<const ImpactAnalysis> analyses, GapEstimate& estimate) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gapscope/recording/recording.h"
+
+namespace gapscope::internal {
+
+/// The mean period of a periodic recording, and the same laid end to end a few times.
+struct FoldedMotion {
+  std::size_t periods = 0;      ///< averaged; 0: the recording cannot be folded
+  double period = 0.0;          ///< [s]
+  double start = 0.0;           ///< of the first period used, from the first sample [s]
+  double dt = 0.0;              ///< of the mean [s], within half a sample per period of the recording's
+  double noise = 0.0;           ///< standard deviation of a sample of the mean [rad]
+  std::vector<double> mean;     ///< one period of x1, its own mean removed [rad]
+  std::vector<double> offsets;  ///< mean of x1 in every period [rad]
+  std::vector<double> tiled_u, tiled_x1;  ///< kTiles periods, for a detector that expects a motion
+
+  static constexpr std::size_t kTiles = 4;
+  MotorTrace trace(const std::string& file) const;
+};
+
+/// The period of the input [s], from the lag at which it repeats itself within 0.1 % of its variance; 0 if it
+/// does not, or fewer than `fewest` times.
+double input_period(const MotorTrace& trace, double fewest);
+
+/// Averages the periods of x1 that repeat each other. The sampling need not be a whole fraction of the
+/// period: every sample is carried to the middle of its bin along the local slope.
+FoldedMotion fold(const MotorTrace& trace);
+
+}  // namespace gapscope::internal
