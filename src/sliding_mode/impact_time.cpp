@@ -49,11 +49,11 @@ ImpactTime refine_impact(const TransitionContext& context, const Event& impact, 
   const Window w = fit_window(context, impact, reversal);
   const std::size_t flight = impact.start - std::min(reversal.last, impact.start);
   result.core = impact.start - std::max<std::size_t>(2, flight / 10);
-  FlightLaw::Fit fit;
-  if (w.end < w.first + 9 || !law.fit_before(result.core, fit)) return result;
+  FlightLaw::Fit before_impact;
+  if (w.end < w.first + 9 || !law.fit_before(result.core, before_impact)) return result;
   std::vector<double> left;
   for (std::size_t i = w.first; i < w.end; ++i)
-    left.push_back(context.trace.x1[i] - law.state(fit, static_cast<double>(i)).position);
+    left.push_back(context.trace.x1[i] - law.state(before_impact, static_cast<double>(i)).position);
   const KinkScan scan(left, w.first, kDegree);
   const auto start = static_cast<double>(impact.start);
   const double back =
@@ -76,14 +76,14 @@ ImpactTime refine_impact(const TransitionContext& context, const Event& impact, 
   // A kink far from where e left its floor is to be trusted less.
   const double half = std::max(0.5 * (high - low), 0.25 * std::abs(best.time - start));
   const double dt = context.trace.dt;
-  const MotorState before = law.state(fit, best.time);
+  const MotorState before = law.state(before_impact, best.time);
   result.found = true;
   result.time = best.time;
   result.half_width = half * dt;
   result.position = before.position + best.position;
   result.speed = before.speed + best.slope / dt;
   result.acceleration = before.acceleration;
-  result.drive = law.drive(fit, best.time);
+  result.drive = law.drive(before_impact, best.time);
   return result;
 }
 
