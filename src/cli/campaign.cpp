@@ -107,7 +107,8 @@ void report_whole(const CampaignStore& store, const std::string& folder) {
   report.commit();
   say("report", folder + "/report.md");
   for (const SummaryAnswer& a : summary.answers)
-    say(a.estimator.c_str(), fmt::format("for at most {:g} %: {}", 100.0 * a.tolerance, a.needs));
+    if (a.tolerance == 0.02)  // the other tolerances are in the report
+      say(a.estimator.c_str(), fmt::format("for at most 2 %, {}: {}", a.parameters, a.needs));
 }
 
 void run(const Arguments& a) {
