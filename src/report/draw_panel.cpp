@@ -32,7 +32,8 @@ class PanelPainter {
     for (const Tile& tile : panel_.tiles) {
       const double x = x_of(tile.x.low), y = y_of(tile.y.high);
       const Box box{x, y, x_of(tile.x.high) - x, y_of(tile.y.low) - y};
-      canvas_.fill(box.grown(-1.5), tile.colour);
+      canvas_.fill(tile.text.empty() ? box : box.grown(-1.5), tile.colour);
+      if (tile.text.empty()) continue;
       canvas_.text({box.centre().x, box.centre().y + 0.36 * kTickSize}, tile.text,
                    {kTickSize, Align::kCentre, tile.ink});
     }
@@ -54,14 +55,14 @@ class PanelPainter {
     const LineStyle tick{kFrame, 2.0, {}};
     for (std::size_t i = 0; i < plan_.x.ticks.values.size(); ++i) {
       const double x = x_of(plan_.x.ticks.values[i] * plan_.x.factor);
-      if (panel_.tiles.empty()) canvas_.line({{x, frame_.bottom()}, {x, frame_.bottom() - 10.0}}, tick);
+      if (!has_fields()) canvas_.line({{x, frame_.bottom()}, {x, frame_.bottom() - 10.0}}, tick);
       if (panel_.x_labels)
         canvas_.text({x, frame_.bottom() + kSpace + 0.8 * kTickSize}, plan_.x.tick_text(i),
                      {kTickSize, Align::kCentre});
     }
     for (std::size_t i = 0; i < plan_.y.ticks.values.size(); ++i) {
       const double y = y_of(plan_.y.ticks.values[i] * plan_.y.factor);
-      if (panel_.tiles.empty()) canvas_.line({{frame_.x, y}, {frame_.x + 10.0, y}}, tick);
+      if (!has_fields()) canvas_.line({{frame_.x, y}, {frame_.x + 10.0, y}}, tick);
       canvas_.text({frame_.x - kSpace, y + 0.36 * kTickSize}, plan_.y.tick_text(i),
                    {kTickSize, Align::kRight});
     }
@@ -114,6 +115,8 @@ class PanelPainter {
   }
 
  private:
+  /// Named fields need no ticks.
+  bool has_fields() const { return !panel_.tiles.empty() && !panel_.tiles.front().text.empty(); }
   double x_of(double x) const { return frame_.x + plan_.x.fraction(x) * frame_.width; }
   double y_of(double y) const { return frame_.bottom() - plan_.y.fraction(y) * frame_.height; }
   void vertical(double x, const LineStyle& style) {

@@ -11,6 +11,10 @@ namespace {
 
 constexpr Interval kNone{};
 
+bool is_play(const ReportView& view) {
+  return view.run.model_free && view.run.model_free->quantity == GapQuantity::kPlayAtZeroTorque;
+}
+
 /// One row of the upper panel.
 void add_row(Panel& panel, const std::string& name, double value, const Interval& ci95,
              const LineStyle& style, Marker marker, const std::string& remark) {
@@ -61,7 +65,7 @@ void add_truth(const ReportView& view, Panel& panel) {
 Panel side_by_side(const ReportView& view) {
   Panel panel;
   panel.title = "Estimates with 95 % intervals";
-  panel.x = {"backlash gap $2β$", view.length_unit, {}, {}, {}};
+  panel.x = {is_play(view) ? "play at zero torque, gap" : "backlash gap $2β$", view.length_unit, {}, {}, {}};
   add_model_free(view, panel);
   add_reference(view, panel);
   add_truth(view, panel);
@@ -97,15 +101,21 @@ Series passages(const ReportView& view, const std::string& label, int direction,
     if (!same || !(e.gap >= range.low && e.gap <= range.high)) continue;
     s.x.push_back(e.t2);
     s.y.push_back(e.gap);
+    const double half = std::isfinite(e.std) ? 1.96 * e.std : 0.0;
+    s.y_intervals.push_back({std::max(e.gap - half, range.low), std::min(e.gap + half, range.high)});
   }
   return s;
 }
 
 Panel over_time(const ReportView& view) {
   Panel panel;
-  panel.title = "Passage by passage";
+  panel.title = is_play(view) ? "Loop by loop" : "Passage by passage";
   panel.x = view.time_axis({view.time.front(), view.time.back()});
-  panel.y = {"estimate of $2β$", view.length_unit, event_range(view), {}, {}};
+  panel.y = {is_play(view) ? "play at zero torque" : "estimate of $2β$",
+             view.length_unit,
+             event_range(view),
+             {},
+             {}};
   panel.height = 520.0;
   for (const Series& s : {passages(view, "$x_1$ rising", 1, true, Marker::kTriangleUp),
                           passages(view, "$x_1$ falling", -1, true, Marker::kTriangleDown),

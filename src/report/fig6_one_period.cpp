@@ -114,6 +114,11 @@ FigureData fig6_one_period(const ReportView& view) {
   FigureData figure;
   figure.file = "fig6_one_period.png";
   figure.title = "One passage of the gap";
+  if (view.run.model_free && view.run.model_free->method == GapMethod::kLostMotion) {
+    figure.missing = "the lost-motion loop has no instants at which contact is lost or regained";
+    figure.expected = false;
+    return figure;
+  }
   const std::optional<OnePassage> passage = typical_passage(view);
   if (!passage)
     return missing_figure(figure.file, figure.title,

@@ -48,7 +48,8 @@ struct Place {
   std::string label{};
 };
 
-/// A field of a map, with a text in its middle.
+/// A field of a map. With a text in its middle it stands apart from its neighbours, without one it touches
+/// them.
 struct Tile {
   Interval x{}, y{};
   Colour colour{};

@@ -14,6 +14,7 @@ FigureData fig3_backlash_map(const ReportView& view);
 FigureData fig4_backlash_state_and_input(const ReportView& view);
 FigureData fig5_displacement_and_error(const ReportView& view);
 FigureData fig6_one_period(const ReportView& view);
+FigureData bound_time_map(const ReportView& view);
 FigureData lost_motion_loop(const ReportView& view);
 FigureData estimates(const ReportView& view);
 FigureData residuals(const ReportView& view);

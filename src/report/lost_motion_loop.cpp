@@ -10,12 +10,12 @@
 namespace gapscope::internal {
 namespace {
 
-/// Where x1 stands as the input passes zero on its way up or down.
-std::vector<double> positions_at_zero(const ReportView& view, const std::vector<double>& drive, bool rising) {
+/// Where x1 stands as the input passes zero on its way up or down: a loop with rising x1 starts on the branch
+/// of the rising input.
+std::vector<double> positions_at_zero(const ReportView& view, bool rising) {
   std::vector<double> positions;
-  for (std::size_t i = 1; i < drive.size(); ++i)
-    if (rising ? drive[i - 1] < 0.0 && drive[i] >= 0.0 : drive[i - 1] > 0.0 && drive[i] <= 0.0)
-      positions.push_back(view.recording->x1[i]);
+  for (const GapEvent& e : view.accepted())
+    positions.push_back((e.direction > 0) == rising ? e.x1_t1 : e.x1_t2);
   return positions;
 }
 
@@ -41,15 +41,15 @@ FigureData lost_motion_loop(const ReportView& view) {
   loop.x = without_noise(view, drive.values);
   loop.y = view.recording->x1;
   panel.x_marks.push_back({0.0, guide_style(), ""});
-  const double up = median(positions_at_zero(view, loop.x, true));
-  const double down = median(positions_at_zero(view, loop.x, false));
-  figure.reading = "The branches of the loop have no common zero of the input.";
-  if (std::isfinite(up) && std::isfinite(down)) {
+  const double up = median(positions_at_zero(view, true)), down = median(positions_at_zero(view, false));
+  const double estimate = view.run.model_free->gap;
+  figure.reading = "There is no one play at zero input: the loops disagree, or are hysteresis alone.";
+  if (std::isfinite(up) && std::isfinite(down) && std::isfinite(estimate)) {
     const std::string play = quantity(std::abs(down - up), view.length_unit);
     panel.dimensions.push_back({{std::min(up, down), std::max(up, down)}, "play " + play});
     for (const double y : {up, down}) panel.y_marks.push_back({y, guide_style(), ""});
     figure.reading = fmt::format("At zero {} the two branches lie {} apart (medians); the estimate is {}.",
-                                 drive.name, play, quantity(view.run.model_free->gap, view.length_unit));
+                                 drive.name, play, quantity(estimate, view.length_unit));
   }
   panel.series.push_back(loop);
   figure.panels.push_back(panel);

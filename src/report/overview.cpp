@@ -51,6 +51,7 @@ std::vector<FigureData> all_figures(const ReportView& view) {
                                      fig4_backlash_state_and_input(view),
                                      fig5_displacement_and_error(view),
                                      fig6_one_period(view),
+                                     bound_time_map(view),
                                      lost_motion_loop(view),
                                      estimates(view),
                                      residuals(view)};

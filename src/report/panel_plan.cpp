@@ -73,8 +73,10 @@ void add_marks(const Panel& panel, PanelPlan& plan) {
 }
 
 /// Inside where it hides nothing, else in rows above the frame.
-void place_legend(PanelPlan& plan, const Typesetter& typesetter) {
+void place_legend(PanelPlan& plan, bool filled, const Typesetter& typesetter) {
   if (plan.entries.empty()) return;
+  plan.legend = flowing_legend(plan.entries, plan.width, typesetter);
+  if (filled) return;  // a map leaves no empty place
   const Box frame{0.0, 0.0, plan.width, plan.height};
   for (Legend legend : {stacked_legend(plan.entries, typesetter),
                         flowing_legend(plan.entries, plan.width - 4 * kSpace, typesetter)}) {
@@ -85,7 +87,6 @@ void place_legend(PanelPlan& plan, const Typesetter& typesetter) {
     plan.legend_inside = true;
     return;
   }
-  plan.legend = flowing_legend(plan.entries, plan.width, typesetter);
 }
 
 }  // namespace
@@ -162,7 +163,7 @@ PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
   add_points(panel, plan);
   add_marks(panel, plan);
   plan.entries = legend_entries(panel);
-  place_legend(plan, typesetter);
+  place_legend(plan, !panel.tiles.empty(), typesetter);
   if (!title.empty()) plan.above += typesetter.measure(title, kTextSize, true).height() + kTitleGap;
   if (!plan.entries.empty() && !plan.legend_inside) plan.above += plan.legend.box.height;
   if (has_mark_labels(panel)) plan.above += 1.35 * kTextSize;

@@ -92,6 +92,8 @@ void write_run_result(const std::string& folder, const RunResult& result) {
   document.coordinates = result.rotation ? "rotation" : "translation";
   for (std::size_t i = 0; i < result.recordings.size(); ++i)
     document.recordings.push_back(store_recording(folder, i, result.recordings[i], errors[i], fits[i]));
+  if (result.model_free && result.model_free->map && !result.recordings.empty())
+    internal::write_bound_map(folder + "/traces/" + internal::kBoundMapName, *result.model_free->map);
   JsonWriter writer;
   fields(writer, document);
   save(folder + "/result.json", writer);
@@ -111,6 +113,8 @@ RunResult read_run_result(const std::string& folder) {
   RunResult& run = document.run;
   run.rotation = document.coordinates == "rotation";
   for (const StoredRecording& stored : document.recordings) load_recording(folder, stored, run);
+  if (run.model_free && run.model_free->map && !run.recordings.empty())
+    internal::read_bound_map(folder + "/traces/" + internal::kBoundMapName, *run.model_free->map);
   return std::move(run);
 }
 

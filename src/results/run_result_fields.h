@@ -43,6 +43,15 @@ void fields(Archive& archive, GapEvent& e) {
   archive("remark", e.remark);
 }
 
+/// Its levels are in a file of their own.
+template <class Archive>
+void fields(Archive& archive, BoundMap& m) {
+  archive("file", m.file);
+  archive("start_s", m.start);
+  archive("column_s", m.dt);
+  archive("bounds_rad_s2", m.bounds);
+}
+
 template <class Archive>
 void fields(Archive& archive, GapEstimate& g) {
   archive.choice("verdict", g.verdict,
@@ -63,9 +72,11 @@ void fields(Archive& archive, GapEstimate& g) {
   archive("smallest_visible_gap_rad", g.smallest_visible_gap);
   archive("bound_rad_s2", g.bound);
   archive("bound_t1_rad_s2", g.bound_t1);
+  archive("paper_bound_rad_s2", g.paper_bound);
   archive("scale", g.scale);
   archive("warnings", g.warnings);
   archive.list("events", g.events);
+  archive.part("bound_map", g.map);
 }
 
 template <class Archive>

@@ -25,4 +25,13 @@ void write_trace(const std::string& path, const Recording& recording, const Erro
 /// Fills the columns of a set.  @throws ConfigError with file and line for a damaged file.
 void read_trace(const std::string& path, TraceSet& set);
 
+/// A map of bounds as a table of |e_x|/floor: a row for each column of time, a field for each bound.
+inline constexpr const char* kBoundMapName = "bound_map.csv";
+
+/// @throws std::runtime_error
+void write_bound_map(const std::string& path, const BoundMap& map);
+
+/// Fills the levels of a map whose bounds are known.  @throws ConfigError for a damaged file.
+void read_bound_map(const std::string& path, BoundMap& map);
+
 }  // namespace gapscope::internal

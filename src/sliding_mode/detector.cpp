@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sliding_mode/bound_map.h"
 #include "sliding_mode/folding.h"
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/lost_motion.h"
@@ -122,6 +123,21 @@ void keep_traces(std::span<const MotorTrace> recordings, std::span<const ImpactA
   estimate.scale = scale_of(analyses, estimate.traces);
 }
 
+/// The map of the recording with the most accepted passages.
+void keep_map(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
+              const DetectorOptions& options, GapEstimate& estimate) {
+  if (options.paper_bound > 0.0) estimate.paper_bound = options.paper_bound;
+  std::size_t shown = 0;
+  std::ptrdiff_t most = -1;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const auto accepted =
+        std::count_if(estimate.events.begin(), estimate.events.end(),
+                      [&](const GapEvent& e) { return e.accepted && e.file == recordings[i].file; });
+    if (accepted > most) most = accepted, shown = i;
+  }
+  if (!recordings.empty()) estimate.map = internal::bound_map(recordings[shown], analyses[shown], estimate);
+}
+
 void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
                          double bound, GapEstimate& estimate) {
   const GapEstimate paper = decide_paper(recordings, analyses, bound);
@@ -167,6 +183,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
     if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
       estimate.reason += bounds_to_try(recordings, analyses);
     keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
+    keep_map(recordings, analyses, options, estimate);
     return estimate;
   }
   internal::decide(analyses, intervals, estimate);
@@ -177,6 +194,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   estimate.bound_t1 =
       bound_that_shows(recordings, analyses, estimate, typical_bound(analyses, &ImpactAnalysis::sliding));
   keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
+  keep_map(recordings, analyses, options, estimate);
   if (options.paper_bound > 0.0 && estimate.verdict == GapVerdict::kBacklash)
     warn_of_paper_bound(recordings, analyses, options.paper_bound, estimate);
   return estimate;

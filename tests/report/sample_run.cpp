@@ -87,6 +87,14 @@ std::vector<GapEvent> passages(const Recording& r, const std::vector<Mode>& mode
   return events;
 }
 
+/// A second of ramps: bounds above 10 rest, lower ones the less, the lower they are.
+BoundMap sample_map(const Recording& r) {
+  BoundMap map{r.file, r.start + 0.5, 0.01, {1.0, 3.0, 10.0, 30.0}, {}};
+  for (int i = 0; i < 100; ++i)
+    for (const double bound : map.bounds) map.levels.push_back(bound < 10.0 ? (i % 25) / bound : 0.9);
+  return map;
+}
+
 GapEstimate estimate(const Recording& r, const std::vector<Mode>& mode, GapVerdict verdict) {
   GapEstimate g;
   g.verdict = verdict;
@@ -96,6 +104,8 @@ GapEstimate estimate(const Recording& r, const std::vector<Mode>& mode, GapVerdi
   g.smallest_visible_gap = 4e-4;
   g.traces.push_back(differentiate(r, g.bound));
   g.events = passages(r, mode);
+  g.map = sample_map(r);
+  g.paper_bound = 20.0;
   if (verdict == GapVerdict::kBacklash) {
     g.reason = "passages in both directions, of one size.";
     g.gap = 1.006 * kSampleGap;

@@ -231,14 +231,59 @@ TEST(LostMotionLoop, MeasuresThePlayBetweenTheBranchesAtZeroInput) {
   RunResult run = full_run();
   EXPECT_FALSE(lost_motion_loop(ReportView(run)).missing.empty());
   run.model_free->method = GapMethod::kLostMotion;
-  for (std::size_t i = 0; i < run.recordings[0].size(); ++i) {  // a play of 5 mrad and a spring
-    const double u = run.recordings[0].u[i], du = std::cos(2.0 * kPi * run.recordings[0].time(i));
-    run.recordings[0].x1[i] = 0.01 * u + (du > 0.0 ? -2.5e-3 : 2.5e-3);
+  run.model_free->quantity = GapQuantity::kPlayAtZeroTorque;
+  run.model_free->events.clear();
+  for (const double t : {1.0, 2.0, 3.0})  // loops of 5 mrad, up and down
+    for (const int direction : {1, -1})
+      run.model_free->events.push_back({run.recordings[0].file, t, t + 0.5, -2.5e-3 * direction + 1e-3,
+                                        2.5e-3 * direction + 1e-3, 5e-3, 5e-3, 1e-5, direction, true, ""});
+  const ReportView view(run);
+  const FigureData figure = lost_motion_loop(view);
+  ASSERT_EQ(figure.panels[0].dimensions.size(), 1u);
+  EXPECT_NEAR(figure.panels[0].dimensions[0].range.low, -1.5e-3, 1e-12);
+  EXPECT_NEAR(figure.panels[0].dimensions[0].range.high, 3.5e-3, 1e-12);
+  EXPECT_FALSE(fig6_one_period(view).missing.empty()) << "a loop has no t1 and t2";
+  EXPECT_EQ(estimates(view).panels[1].title, "Loop by loop");
+  run.model_free->verdict = GapVerdict::kInconclusive;
+  run.model_free->gap = kNaN;
+  EXPECT_TRUE(lost_motion_loop(ReportView(run)).panels[0].dimensions.empty())
+      << "levels that disagree have no play";
+}
+
+TEST(BoundTimeMap, ShowsEveryBoundAtItsLogarithmAndMarksThoseThatMatter) {
+  const ReportView view(full_run());
+  const FigureData figure = bound_time_map(view);
+  ASSERT_EQ(figure.panels.size(), 3u);
+  const Panel& map = figure.panels[1];
+  EXPECT_NEAR(map.x.range.high - map.x.range.low, 1.0, 1e-9);
+  EXPECT_LT(map.y.range.low, 0.0);
+  EXPECT_GT(map.y.range.high, std::log10(30.0));
+  std::vector<double> marked;
+  for (const Mark& mark : map.y_marks) marked.push_back(std::pow(10.0, mark.at));
+  ASSERT_EQ(marked.size(), 2u);
+  EXPECT_NEAR(marked[0], 4.1, 1e-9) << "decides t2";
+  EXPECT_NEAR(marked[1], 20.0, 1e-9) << "bound (13)";
+  double covered = 0.0;
+  for (const Tile& tile : map.tiles) covered += (tile.x.high - tile.x.low) * (tile.y.high - tile.y.low);
+  EXPECT_NEAR(covered, map.y.range.high - map.y.range.low, 1e-9) << "no place is left white";
+  EXPECT_NE(figure.reading.find("bound (13) is 20"), std::string::npos) << figure.reading;
+}
+
+TEST(BoundTimeMap, GetsDarkerWithEveryDecadeAlsoInGrey) {
+  const FigureData figure = bound_time_map(ReportView(full_run()));
+  double last = 256.0;
+  for (const Tile& tile : figure.panels[2].tiles) {
+    const double grey = 0.299 * tile.colour.red + 0.587 * tile.colour.green + 0.114 * tile.colour.blue;
+    EXPECT_LT(grey, last);
+    last = grey;
   }
-  const FigureData figure = lost_motion_loop(ReportView(run));
-  // The first sample past zero, where u is still within one step: 0.01 · 0.58 · 2π/2500 = 1.5e-5.
-  EXPECT_NEAR(figure.panels[0].dimensions[0].range.high - figure.panels[0].dimensions[0].range.low, 5e-3,
-              3e-5);
+  EXPECT_LT(last, 60.0);
+}
+
+TEST(BoundTimeMap, IsMissingWithoutABank) {
+  RunResult run = full_run();
+  run.model_free->map.reset();
+  EXPECT_FALSE(bound_time_map(ReportView(run)).missing.empty());
 }
 
 TEST(MissingFigures, SayWhy) {

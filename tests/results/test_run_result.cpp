@@ -61,6 +61,9 @@ GapEstimate estimate(const RunResult& run) {
   g.traces = {{"a.csv", run.recordings[0].x1, run.recordings[0].u}, {"b.csv", run.recordings[1].x1, {}}};
   g.traces[0].error[3] = kNaN;
   g.warnings = {"one", "two"};
+  g.paper_bound = 98.0 * kThird;
+  g.map =
+      BoundMap{"a.csv", 0.5 * kThird, 1e-3 * kThird, {1.0, kThird}, {0.12, 3.45, 6.78, 1e-3, 0.0, 9999.0}};
   return g;
 }
 
@@ -155,7 +158,14 @@ TEST(RunResult, TheModelFreeEstimateComesBackExactly) {
   EXPECT_SAME(smallest_visible_gap);
   EXPECT_SAME(bound);
   EXPECT_SAME(bound_t1);
+  EXPECT_SAME(paper_bound);
   EXPECT_SAME(scale);
+  ASSERT_TRUE(b.map);
+  EXPECT_EQ(a.map->file, b.map->file);
+  EXPECT_SAME(map->start);
+  EXPECT_SAME(map->dt);
+  EXPECT_EQ(a.map->bounds, b.map->bounds);
+  EXPECT_EQ(a.map->levels, b.map->levels);
   EXPECT_EQ(a.warnings, b.warnings);
   ASSERT_EQ(b.traces.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -285,6 +295,8 @@ TEST(RunResult, ADamagedFileIsRefusedWithItsPlace) {
       {"result.json", "\"schema\"", "schema", "result.json: is damaged"},
       {"traces/1_a.csv", "t_s,u", "t_s,v", "1_a.csv:1: unknown column v"},
       {"traces/1_a.csv", ",impact\n", ",bang\n", "\"bang\" is not a mode"},
+      {"traces/bound_map.csv", "0.12,", "", "bound_map.csv:1: has 1 fields, expected one for each of 2"},
+      {"traces/bound_map.csv", "3.45", "x", "bound_map.csv:1: \"x\" is not a number"},
       {"traces/2_b.csv", "\n0.1,", "\n0.1,0.5,", "2_b.csv:2: another number of fields"},
   };
   for (const Damage& damage : damages) {

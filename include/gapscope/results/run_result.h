@@ -30,9 +30,10 @@ struct Timing {
   double reference_s = kNaN;
 };
 
-/// Writes result.json and traces/<n>_<file>.csv into an existing folder. The columns of a trace are t_s, u,
-/// x1_rad, x2_rad, e_x_rad, w1_hat_rad_s, fit_x1_rad, fit_predicted_x1_rad, fit_x2_rad, mode, fit_mode, those
-/// that are filled. Numbers come out shortest and read back the same.
+/// Writes result.json, traces/<n>_<file>.csv and, where a bank of bounds was run, traces/bound_map.csv (a row
+/// for each column of time, a field for each bound: |e_x| over its floor) into an existing folder. The
+/// columns of a trace are t_s, u, x1_rad, x2_rad, e_x_rad, w1_hat_rad_s, fit_x1_rad, fit_predicted_x1_rad,
+/// fit_x2_rad, mode, fit_mode, those that are filled. Numbers come out shortest and read back the same.
 /// @throws std::runtime_error naming what cannot be written.
 void write_run_result(const std::string& folder, const RunResult& result);
 void write_timing(const std::string& folder, const Timing& timing);

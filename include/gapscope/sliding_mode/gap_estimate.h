@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,16 @@ struct ErrorTrace {
   std::vector<double> velocity;  ///< ŵ1 [rad/s]
 };
 
+/// How far each bound's |e_x| is above its floor, over a few strokes of one recording; kept for the figures.
+struct BoundMap {
+  std::string file;
+  double start = 0.0;          ///< beginning of the first column [s]
+  double dt = 0.0;             ///< width of a column [s]
+  std::vector<double> bounds;  ///< L, rising [rad/s²]
+  std::vector<double> levels;  ///< largest |e_x|/floor within a column (n_columns × n_bounds) [-]
+  std::size_t columns() const { return bounds.empty() ? 0 : levels.size() / bounds.size(); }
+};
+
 /// What the model-free detector says. A default-built one says that it was not run.
 struct GapEstimate {
   GapVerdict verdict = GapVerdict::kNotRun;
@@ -50,9 +61,11 @@ struct GapEstimate {
   double smallest_visible_gap = kNaN;  ///< [rad]; always there for kNone
   double bound = kNaN;                 ///< L that decided t2 [rad/s²]
   double bound_t1 = kNaN;              ///< L whose e_x is in `traces`, where it is another one [rad/s²]
+  double paper_bound = kNaN;           ///< lower end of (13), where a model gave one [rad/s²]
   double scale = 1.0;                  ///< N of step S2: e_x × N is comparable with x1
   std::vector<GapEvent> events;
   std::vector<ErrorTrace> traces;
+  std::optional<BoundMap> map;
   std::vector<std::string> warnings;
 
   std::string brief_report() const;  ///< one line: log, command line
