@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sliding_mode/bank_run.h"
+#include "sliding_mode/signal_facts.h"
+
 namespace gapscope::internal {
 namespace {
 
@@ -33,10 +36,10 @@ double middle_of_interest(const MotorTrace& trace, const GapEstimate& estimate) 
 
 }  // namespace
 
-std::optional<BoundMap> bound_map(const MotorTrace& trace, const ImpactAnalysis& analysis,
-                                  const GapEstimate& estimate) {
-  if (!analysis.facts.defect.empty()) return std::nullopt;
-  const double half = analysis.facts.half_period / trace.dt;
+std::optional<BoundMap> bound_map(const MotorTrace& trace, const GapEstimate& estimate) {
+  const SignalFacts facts = read_facts(trace);
+  if (!facts.defect.empty()) return std::nullopt;
+  const double half = facts.half_period / trace.dt;
   const double shown = std::min(kHalfPeriods * half, static_cast<double>(trace.size()));
   const double centre = (middle_of_interest(trace, estimate) - trace.start) / trace.dt + 0.1 * half;
   const double most = static_cast<double>(trace.size()) - shown;
@@ -45,8 +48,8 @@ std::optional<BoundMap> bound_map(const MotorTrace& trace, const ImpactAnalysis&
   const auto width = static_cast<std::size_t>(std::ceil(shown / static_cast<double>(kColumns)));
   const auto columns = static_cast<std::size_t>(shown) / width;
   const BankRun run =
-      run_bank(part(trace, first - lead, lead + columns * width), analysis.facts,
-               fine_grid(analysis.run.bounds, estimate.paper_bound), Discretisation::kMatched);
+      run_bank(part(trace, first - lead, lead + columns * width), facts,
+               fine_grid(bound_grid(facts, trace.dt), estimate.paper_bound), Discretisation::kMatched);
   BoundMap map{trace.file, trace.time(first), trace.dt * static_cast<double>(width), run.bounds, {}};
   map.levels.assign(columns * kRows, 0.0);
   for (std::size_t i = 0; i < columns * width; ++i)

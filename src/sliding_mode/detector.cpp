@@ -124,8 +124,7 @@ void keep_traces(std::span<const MotorTrace> recordings, std::span<const ImpactA
 }
 
 /// The map of the recording with the most accepted passages.
-void keep_map(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
-              const DetectorOptions& options, GapEstimate& estimate) {
+void keep_map(std::span<const MotorTrace> recordings, const DetectorOptions& options, GapEstimate& estimate) {
   if (options.paper_bound > 0.0) estimate.paper_bound = options.paper_bound;
   std::size_t shown = 0;
   std::ptrdiff_t most = -1;
@@ -135,7 +134,7 @@ void keep_map(std::span<const MotorTrace> recordings, std::span<const ImpactAnal
                       [&](const GapEvent& e) { return e.accepted && e.file == recordings[i].file; });
     if (accepted > most) most = accepted, shown = i;
   }
-  if (!recordings.empty()) estimate.map = internal::bound_map(recordings[shown], analyses[shown], estimate);
+  if (!recordings.empty()) estimate.map = internal::bound_map(recordings[shown], estimate);
 }
 
 void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
@@ -183,7 +182,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
     if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
       estimate.reason += bounds_to_try(recordings, analyses);
     keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
-    keep_map(recordings, analyses, options, estimate);
+    keep_map(recordings, options, estimate);
     return estimate;
   }
   internal::decide(analyses, intervals, estimate);
@@ -194,7 +193,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   estimate.bound_t1 =
       bound_that_shows(recordings, analyses, estimate, typical_bound(analyses, &ImpactAnalysis::sliding));
   keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
-  keep_map(recordings, analyses, options, estimate);
+  keep_map(recordings, options, estimate);
   if (options.paper_bound > 0.0 && estimate.verdict == GapVerdict::kBacklash)
     warn_of_paper_bound(recordings, analyses, options.paper_bound, estimate);
   return estimate;
