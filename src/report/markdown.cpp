@@ -59,6 +59,19 @@ std::string comparison_line(const RunResult& run) {
                                 : "; they differ by more than 1.96 of it");
 }
 
+/// Which bound decided what; empty where none did.
+std::string bounds_line(const RunResult& run) {
+  if (!run.model_free || !std::isfinite(run.model_free->bound)) return "";
+  const GapEstimate& g = *run.model_free;
+  const char* unit = run.rotation ? "rad/s²" : "m/s²";
+  std::string text = fmt::format("\nBounds: L = {:.3g} {} {}", g.bound, unit,
+                                 g.method == GapMethod::kPaper ? "was given" : "decides t2");
+  if (std::isfinite(g.bound_t1)) text += fmt::format(", L = {:.3g} {} shows t1", g.bound_t1, unit);
+  if (std::isfinite(g.paper_bound))
+    text += fmt::format("; the published bound (13) is {:.3g} {}", g.paper_bound, unit);
+  return text + ".\n";
+}
+
 std::string parameter_table(const RunResult& run) {
   if (!run.reference || run.reference->parameters.empty()) return "";
   std::string text =
@@ -144,6 +157,7 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
   text += "\n## Estimates\n\n" + estimate_rows(run) + comparison_line(run);
   if (run.model_free && !run.model_free->reason.empty())
     text += "\nModel-free verdict: " + sentence(run.model_free->reason) + "\n";
+  text += bounds_line(run);
   text += timing_line(timing) + parameter_table(run) + figure_section(figures);
   text += bullet_section("Notes", notes_of(run));
   return text + fmt::format("\ngapscope {}\n", run.version);

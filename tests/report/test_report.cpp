@@ -74,6 +74,16 @@ TEST(Report, DrawnAgainGivesTheSameBytesAndRemovesFiguresThatNoLongerAre) {
   EXPECT_TRUE(fs::exists(scratch.path / "photo.png"));
 }
 
+TEST(Report, TellsWhichBoundDecidedAndWhatThePublishedOneIs) {
+  ScratchFolder scratch;
+  write_run_result(scratch.path.string(),
+                   sample_run({.samples = 6000, .load_recorded = false, .fitted = false}));
+  write_report(scratch.path.string());
+  const std::string text = text_of(scratch.path / "report.md");
+  EXPECT_NE(text.find("L = 4.1 rad/s² decides t2; the published bound (13) is 20 rad/s²."),
+            std::string::npos);
+}
+
 TEST(Report, OfAFolderWithoutAResultIsAnErrorOfTheInput) {
   ScratchFolder scratch;
   EXPECT_THROW(write_report(scratch.path.string()), ConfigError);
