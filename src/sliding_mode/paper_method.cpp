@@ -35,6 +35,7 @@ std::size_t reversal_before(const MotorTrace& trace, const SignalFacts& facts, i
 struct Marks {
   double t1 = 0.0, t2 = 0.0;
   std::string fault;
+  bool restless = false;  ///< e_x was away from zero since before the reversal of x1, and shows no bend
 };
 
 double at(std::span<const double> y, double sample) {
@@ -60,12 +61,14 @@ std::size_t fallen(const BankRun& run, const Excursion& x, double share) {
 /// height.
 Marks read_ramp(const MotorTrace& trace, const SignalFacts& facts, const BankRun& run, const Excursion& ramp,
                 std::size_t quiet_from, bool flips) {
-  Marks marks{static_cast<double>(ramp.start), 0.0, ""};
+  Marks marks{static_cast<double>(ramp.start), 0.0, "", false};
   const double quiet_samples = std::max(3.0, kQuietShare * facts.half_period / trace.dt);
   std::size_t down = fallen(run, ramp, 1.0);
   if (!flips || static_cast<double>(ramp.start - quiet_from) < quiet_samples) {
-    const auto bend = bend_at_release(run, ramp, reversal_before(trace, facts, ramp.sign, ramp.peak));
+    const std::size_t turn = reversal_before(trace, facts, ramp.sign, ramp.peak);
+    const auto bend = bend_at_release(run, ramp, turn);
     if (!bend) marks.fault = "e_x was not at rest before t1";
+    marks.restless = !bend && turn > ramp.start;
     marks.t1 = bend.value_or(marks.t1);
     down = fallen(run, ramp, 0.5);
   }
@@ -120,10 +123,8 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
     const Excursion &ramp = excursions[i], &next = excursions[i + 1];
     const bool flips = next.sign != ramp.sign && follows(ramp, next);
     const Marks marks = read_ramp(trace, facts, run, ramp, excursions[i - 1].end, flips);
-    if (!flips && !marks.fault.empty()) {
-      ++reading.spikes;
-      continue;
-    }
+    reading.restless += marks.restless;
+    if (!flips && !marks.fault.empty()) continue;  // a spike
     GapEvent event = event_of(trace, marks, ramp.sign);
     if (event.accepted) {
       const std::size_t turn = reversal_before(trace, facts, event.direction, ramp.peak);
@@ -139,31 +140,34 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
 
 namespace {
 
-std::string objection(const std::vector<double>& up, const std::vector<double>& down, double quiet,
-                      double half_periods, double lateness, double travel) {
-  if (quiet < 0.2) return "e_x is never at rest: the bound is below the engaged acceleration";
+/// All readings together.
+struct Pool {
+  std::vector<double> up, down, lateness, steps;
+  double quiet = 1.0, half_periods = 0.0, travel = kInfinity, noise = 0.0, restless = 0.0;
+};
+
+std::string objection(const Pool& pool) {
+  const auto &up = pool.up, &down = pool.down;
+  if (pool.quiet < 0.2) return "e_x is never at rest: the bound is below the engaged acceleration";
   const double n = static_cast<double>(up.size() + down.size());
-  if (up.size() < 2 || down.size() < 2 || n < 0.5 * half_periods)
-    return "no t1: the bound is above the gap-mode acceleration, only the impact shows";
-  const double gap = 0.5 * (median(up) + median(down));
+  if (up.size() < 2 || down.size() < 2 || n < 0.5 * pool.half_periods)
+    return pool.restless < 0.5 * pool.half_periods
+               ? "no t1: the bound is above the gap-mode acceleration, only the impact shows"
+               : "no t1: the bound is below the engaged acceleration before the reversal, and where contact "
+                 "is lost e_x does not bend visibly; use a finer encoder or a higher bound";
+  const double gap = 0.5 * (median(up) + median(down)), lateness = median(pool.lateness);
   if (lateness > kLatest * gap)
     return fmt::format(
         "t1 comes {:.0f} % of the passage late: the bound is close to the gap-mode acceleration",
         100.0 * lateness / gap);
-  if (gap > 0.66 * travel)
+  if (gap > 0.66 * pool.travel)
     return fmt::format("the estimate of {:.3g} rad is most of the travel of {:.3g} rad; raise the amplitude",
-                       gap, travel);
+                       gap, pool.travel);
   const double spread = std::max(robust_std(up), robust_std(down));
   if (spread > 0.25 * gap || std::abs(median(up) - median(down)) > 0.25 * gap)
     return "the passages contradict each other; record more periods of one steady motion";
   return "";
 }
-
-/// All readings together.
-struct Pool {
-  std::vector<double> up, down, lateness, steps;
-  double quiet = 1.0, half_periods = 0.0, travel = kInfinity, noise = 0.0;
-};
 
 void add(Pool& pool, const ImpactAnalysis& analysis, const PaperReading& reading) {
   for (const GapEvent& event : reading.events)
@@ -171,6 +175,7 @@ void add(Pool& pool, const ImpactAnalysis& analysis, const PaperReading& reading
   pool.lateness.insert(pool.lateness.end(), reading.lateness.begin(), reading.lateness.end());
   pool.steps.insert(pool.steps.end(), reading.steps.begin(), reading.steps.end());
   pool.quiet = std::min(pool.quiet, reading.quiet);
+  pool.restless += static_cast<double>(reading.restless);
   pool.half_periods += static_cast<double>(analysis.facts.half_periods);
   pool.travel = std::min(pool.travel, analysis.travel);
   pool.noise = std::max(pool.noise, analysis.facts.noise);
@@ -209,8 +214,7 @@ void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const
     add(pool, analyses[i], readings[i]);
   }
   if (pool.half_periods == 0.0) return;
-  estimate.reason =
-      objection(pool.up, pool.down, pool.quiet, pool.half_periods, median(pool.lateness), pool.travel);
+  estimate.reason = objection(pool);
   if (estimate.reason.empty()) fill_estimate(pool, estimate);
 }
 

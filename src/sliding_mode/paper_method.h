@@ -16,7 +16,7 @@ struct PaperReading {
   std::vector<double> lateness;  ///< |x1(t1) − x1(reversal)| of the accepted ones [rad]
   std::vector<double> steps;     ///< |x1| covered in one sample at t2 [rad]
   double quiet = 0.0;            ///< share of samples within twice the floor
-  std::size_t spikes = 0;        ///< excursions without a ramp before them
+  std::size_t restless = 0;      ///< excursions that began before the reversal of x1 and show no bend at it
 };
 
 PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& analysis, double bound,

@@ -94,8 +94,16 @@ TEST(RealRecordings, ABallScrewAxisOfOneInertiaHasNoBacklash) {
   EXPECT_EQ(r.reference->find("gap"), nullptr);
 }
 
-void expect_told_as_quasi_static(const std::string& file) {
-  GAPSCOPE_NEEDS_DATA();
+TEST(Configurations, RampsAgainstALockedOutputAreReadAsPlayAtZeroTorqueAndTheReferenceTakesTheGapOutOfIt) {
+  const RunResult r = run_config("06_locked_output.yaml");
+  ASSERT_EQ(r.model_free->verdict, GapVerdict::kBacklash) << r.model_free->reason;
+  EXPECT_EQ(r.model_free->quantity, GapQuantity::kPlayAtZeroTorque);
+  EXPECT_TRUE(holds(r.model_free->ci95, 0.01 + 2.0 * 0.02 / 300.0));
+  EXPECT_TRUE(holds(r.reference->find("gap")->ci95, 0.01));
+  EXPECT_FALSE(r.comparison->agree) << "a play is not compared with a gap";
+}
+
+RunResult run_locked(const std::string& file) {
   Workplace place;
   place.file("locked.yaml", "recording: {file: " + (data_folder() / file).string() +
                                 ", window: [0, 20.31], resample: {rate: 400}}\n"
@@ -105,18 +113,23 @@ void expect_told_as_quasi_static(const std::string& file) {
                                 "    gap: {value: 0.02, estimate: true, bounds: [0, 0.2]}\n"
                                 "    contact_stiffness: {value: 500, estimate: true, bounds: [10, 10000]}\n"
                                 "    contact_damping: 1\n");
-  const RunResult r = run(place, "locked.yaml");
-  EXPECT_EQ(r.model_free->verdict, GapVerdict::kInconclusive);
-  EXPECT_THAT(r.model_free->reason, ::testing::HasSubstr("quasi-static"));
+  return run(place, "locked.yaml");
+}
+
+TEST(RealRecordings, AReducerWithPlayAndALockedOutputIsReadAtZeroTorque) {
+  GAPSCOPE_NEEDS_DATA();
+  const RunResult r = run_locked("cycloidal/baseline_pos1.csv");
+  ASSERT_EQ(r.model_free->verdict, GapVerdict::kBacklash) << r.model_free->reason;
+  EXPECT_EQ(r.model_free->method, GapMethod::kLostMotion);
+  EXPECT_LT(share_off(r.model_free->gap, 0.0335), 0.1);
   EXPECT_FALSE(r.recordings.front().resampling.empty());
 }
 
-TEST(RealRecordings, AReducerWithPlayAndALockedOutputIsToldAsQuasiStatic) {
-  expect_told_as_quasi_static("cycloidal/baseline_pos1.csv");
-}
-
-TEST(RealRecordings, APreloadedReducerWithALockedOutputIsToldAsQuasiStatic) {
-  expect_told_as_quasi_static("cycloidal/splitpreload3_pos1.csv");
+TEST(RealRecordings, APreloadedReducerWithALockedOutputHasNoPlay) {
+  GAPSCOPE_NEEDS_DATA();
+  const RunResult r = run_locked("cycloidal/splitpreload3_pos1.csv");
+  EXPECT_EQ(r.model_free->verdict, GapVerdict::kNone) << r.model_free->reason;
+  EXPECT_LT(r.model_free->smallest_visible_gap, 0.006);
 }
 
 }  // namespace

@@ -86,6 +86,12 @@ TEST(PaperMethod, ABoundBelowTheEngagedAccelerationThroughoutIsToldAsSuch) {
   EXPECT_THAT(estimate.reason, HasSubstr("below the engaged acceleration"));
 }
 
+TEST(PaperMethod, ABendThatACoarseEncoderHidesIsToldAsSuch) {
+  const GapEstimate estimate = read({}, {.torque = 0.5, .frequency = 2.0, .bits = 15}, 40.0);
+  EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive);
+  EXPECT_THAT(estimate.reason, HasSubstr("e_x does not bend visibly"));
+}
+
 TEST(PaperMethod, NoBoundReadsAGapWhereThereIsNone) {
   blind::BlindDrive bonded, one_inertia, sticking;
   bonded.contact = blind::ContactKind::kBonded;
