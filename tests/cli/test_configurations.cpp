@@ -29,10 +29,11 @@ double share_off(double estimate, double truth) { return std::abs(estimate / tru
 
 bool holds(const Interval& interval, double value) { return interval.low <= value && value <= interval.high; }
 
-/// Passages that begin within half a second after the given time.
+/// Passages that begin at the given time, within what t1 is good for (10 ms), and end within half a second.
 int passages_just_after(const GapEstimate& estimate, double time) {
   int count = 0;
-  for (const GapEvent& e : estimate.events) count += e.accepted && e.t1 > time && e.t1 < time + 0.5 ? 1 : 0;
+  for (const GapEvent& e : estimate.events)
+    count += e.accepted && std::abs(e.t1 - time) < 0.01 && e.t2 > time && e.t2 < time + 0.5 ? 1 : 0;
   return count;
 }
 
