@@ -65,6 +65,14 @@ std::string needs_over_line(const CampaignSummary& s, const SummaryTable& table,
                           : words;
 }
 
+/// "14" of "14 bit" beside "18 bit"; with its unit beside another one.
+std::string without_unit(const std::string& label, const std::string& beside) {
+  const std::size_t space = label.rfind(' '), other = beside.rfind(' ');
+  const bool same =
+      space != label.npos && other != beside.npos && label.substr(space) == beside.substr(other);
+  return same ? label.substr(0, space) : label;
+}
+
 }  // namespace
 
 std::string range_in_words(const std::vector<SummaryBin>& bins, const std::vector<bool>& good) {
@@ -78,7 +86,8 @@ std::string range_in_words(const std::vector<SummaryBin>& bins, const std::vecto
   if (in_one_piece && rises(bins)) {
     if (high + 1 == bins.size()) return low == high ? bins[low].label : "at least " + bins[low].label;
     if (low == 0) return low == high ? bins[low].label : "at most " + bins[high].label;
-    return low == high ? bins[low].label : bins[low].label + " to " + bins[high].label;
+    return low == high ? bins[low].label
+                       : without_unit(bins[low].label, bins[high].label) + " to " + bins[high].label;
   }
   std::vector<std::string> names;
   for (std::size_t i = 0; i < bins.size(); ++i)

@@ -83,12 +83,15 @@ Panel coverage_panel(const CampaignSummary& s, const SummaryTable& table) {
                         [](const EstimatorScore& e) { return 100.0 * e.coverage(); });
   p.y_marks.push_back({95.0, guide_style(), "95 %"});
   const auto estimators = estimators_of(s);
+  double lowest = 90.0;
   for (std::size_t k = 0; k < p.series.size(); ++k)
     for (const SummaryCell& cell : table.cells) {
       const EstimatorScore& e = cell.*(estimators[k].score);
       const Interval limits = e.judged > 0 ? wilson(e.covered, e.judged) : Interval{};
       p.series[k].y_intervals.push_back({100.0 * limits.low, 100.0 * limits.high});
+      lowest = std::fmin(lowest, 100.0 * limits.low);
     }
+  p.y.range.low = 10.0 * std::floor(lowest / 10.0) - 4.0;
   return p;
 }
 

@@ -83,7 +83,7 @@ TEST(Words, TellWhichValuesAreGood) {
   EXPECT_EQ(range_in_words(bits, {false, false, true, true}), "at least 16 bit");
   EXPECT_EQ(range_in_words(bits, {false, false, false, true}), "20 bit");
   EXPECT_EQ(range_in_words(bits, {true, true, false, false}), "at most 14 bit");
-  EXPECT_EQ(range_in_words(bits, {false, true, true, false}), "14 bit to 16 bit");
+  EXPECT_EQ(range_in_words(bits, {false, true, true, false}), "14 to 16 bit");
   EXPECT_EQ(range_in_words(bits, {true, false, true, false}), "12 bit, 16 bit");
   EXPECT_EQ(range_in_words(bits, {true, true, true, true}), "any");
   EXPECT_EQ(range_in_words(bits, {false, false, false, false}), "none");
