@@ -16,6 +16,14 @@ template <class T>
 DriveStepper<T>::DriveStepper(DriveStepper&&) noexcept = default;
 template <class T>
 DriveStepper<T>& DriveStepper<T>::operator=(DriveStepper&&) noexcept = default;
+template <class T>
+DriveStepper<T>::DriveStepper(const DriveStepper& other)
+    : impl_(std::make_unique<internal::StepperImpl<T>>(*other.impl_)) {}
+template <class T>
+DriveStepper<T>& DriveStepper<T>::operator=(const DriveStepper& other) {
+  *impl_ = *other.impl_;
+  return *this;
+}
 
 template <class T>
 void DriveStepper<T>::reset(const DriveState<T>& state) {

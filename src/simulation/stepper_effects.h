@@ -31,7 +31,8 @@ Forcing<T> StepperImpl<T>::forcing_without_effects() const {
   on.motor[0] = torque;
   if (motor_friction && mode.motor != 0)
     on.motor[0] -= static_cast<double>(mode.motor) * motor_level(mode.motor);
-  if (load_friction) on.load[0] = -static_cast<double>(mode.load) * model.drive.load_coulomb_friction;
+  on.load[0] = model.load_torque;
+  if (load_friction) on.load[0] -= static_cast<double>(mode.load) * model.drive.load_coulomb_friction;
   on.half_gap[0] = half_gap;
   if (decaying >= 0) {
     const auto effect = static_cast<std::size_t>(decaying);
@@ -55,19 +56,21 @@ Forcing<T> StepperImpl<T>::forcing_now() const {
   return on;
 }
 
-/// Slope and curvature of the quadratic through three equally spaced values.
+/// Slope and curvature of the quadratic through three equally spaced values, 1/inverse_h from end to end.
 template <class T>
-void quadratic(T (&c)[3], const T& start, const T& middle, const T& end, const T& h) {
-  c[1] = (4.0 * middle - 3.0 * start - end) / h;
-  c[2] = 2.0 * (start - 2.0 * middle + end) / (h * h);
+void quadratic(T (&c)[3], const T& start, const T& middle, const T& end, const T& inverse_h) {
+  c[1] = (4.0 * middle - 3.0 * start - end) * inverse_h;
+  c[2] = 2.0 * (start - 2.0 * middle + end) * (inverse_h * inverse_h);
 }
 
 template <class T>
 void StepperImpl<T>::bend(Forcing<T>& on, const Extra<T>& start, const Extra<T>& middle, const Extra<T>& end,
-                          const T& h) const {
-  quadratic(on.motor, start.motor, middle.motor, end.motor, h);
-  quadratic(on.load, start.load, middle.load, end.load, h);
-  quadratic(on.half_gap, start.half_gap, middle.half_gap, end.half_gap, h);
+                          const T& inverse_h) const {
+  if (adds_torque) {
+    quadratic(on.motor, start.motor, middle.motor, end.motor, inverse_h);
+    if (has_load) quadratic(on.load, start.load, middle.load, end.load, inverse_h);
+  }
+  if (moves_gap) quadratic(on.half_gap, start.half_gap, middle.half_gap, end.half_gap, inverse_h);
 }
 
 template <class T>

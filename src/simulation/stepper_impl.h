@@ -42,12 +42,13 @@ struct StepperImpl {
   FlowConstants<T> f;
   double dt = 0.0;
   bool has_load = true, locked = false, load_friction = true, motor_friction = false;
-  bool smooth = false;          ///< an effect adds torque or gap
-  bool remembers = false;       ///< an effect has memory
-  bool varies_inertia = false;  ///< an effect changes the inertia
-  bool delayed = false;         ///< an effect delays the input
-  int decaying = -1;            ///< effect with a dying torque; −1: none
-  T decay_share{1.0};           ///< of its amplitude, where its rate had to be limited
+  bool smooth = false;                          ///< an effect adds torque or gap
+  bool adds_torque = false, moves_gap = false;  ///< which of both
+  bool remembers = false;                       ///< an effect has memory
+  bool varies_inertia = false;                  ///< an effect changes the inertia
+  bool delayed = false;                         ///< an effect delays the input
+  int decaying = -1;                            ///< effect with a dying torque; −1: none
+  T decay_share{1.0};                           ///< of its amplitude, where its rate had to be limited
   T half_gap{};
   double inverse_m1 = 0.0, inverse_m2 = 0.0;  ///< of f, for the guards
   T delay_rest{};              ///< part of a sample in which the older of two inputs still acts [s]
@@ -93,7 +94,7 @@ struct StepperImpl {
   Forcing<T> forcing_without_effects() const;
   Forcing<T> forcing_now() const;  ///< constant terms only, effects included
   void bend(Forcing<T>& on, const Extra<T>& start, const Extra<T>& middle, const Extra<T>& end,
-            const T& h) const;
+            const T& inverse_h) const;
   double effect_rate() const;
   void remember_start();
   void advance_memory(const DriveState<T>& to, const T& end_time);

@@ -54,21 +54,35 @@ void StepperImpl<T>::respond(const Transition<T>& step, const Forcing<T>& on, Dr
 template <class T>
 void StepperImpl<T>::respond_to_slopes(const Transition<T>& step, const Forcing<T>& on,
                                        DriveState<T>& next) const {
-  const T pushing = f.rigid ? T(0.0) : T(static_cast<double>(mode.contact) * f.k);
-  const T motor[2] = {on.motor[1] + pushing * on.half_gap[1], on.motor[2] + pushing * on.half_gap[2]};
-  const T load[2] = {on.load[1] - pushing * on.half_gap[1], on.load[2] - pushing * on.half_gap[2]};
-  T* const out[4] = {&next.x1, &next.w1, &next.x2, &next.w2};
-  for (int i = 0; i < 4; ++i) {
-    const auto& r = step.response;
-    *out[i] += r[5][i] * motor[0] + r[6][i] * load[0] + r[7][i] * motor[1] + r[8][i] * load[1];
+  const auto& r = step.response;
+  if (mode.contact == 0) {
+    next.x1 += r[5][0] * on.motor[1] + r[7][0] * on.motor[2];
+    next.w1 += r[5][1] * on.motor[1] + r[7][1] * on.motor[2];
+    if (!has_load || mode.load == 0) return;
+    next.x2 += r[6][2] * on.load[1] + r[8][2] * on.load[2];
+    next.w2 += r[6][3] * on.load[1] + r[8][3] * on.load[2];
+    return;
   }
+  T motor[2] = {on.motor[1], on.motor[2]}, load[2] = {on.load[1], on.load[2]};
+  if (moves_gap && !f.rigid) {
+    const T pushing = static_cast<double>(mode.contact) * f.k;
+    for (int n = 0; n < 2; ++n) {
+      motor[n] += pushing * on.half_gap[n + 1];
+      load[n] -= pushing * on.half_gap[n + 1];
+    }
+  }
+  T* const out[4] = {&next.x1, &next.w1, &next.x2, &next.w2};
+  for (int i = 0; i < 4; ++i)
+    *out[i] += r[5][i] * motor[0] + r[6][i] * load[0] + r[7][i] * motor[1] + r[8][i] * load[1];
 }
 
 /// The state half-way on the cubics through both ends.
 template <class T>
-DriveState<T> middle_between(const DriveState<T>& a, const DriveState<T>& b, const T& h) {
-  return {0.5 * (a.x1 + b.x1) + 0.125 * h * (a.w1 - b.w1), 1.5 * (b.x1 - a.x1) / h - 0.25 * (a.w1 + b.w1),
-          0.5 * (a.x2 + b.x2) + 0.125 * h * (a.w2 - b.w2), 1.5 * (b.x2 - a.x2) / h - 0.25 * (a.w2 + b.w2)};
+DriveState<T> middle_between(const DriveState<T>& a, const DriveState<T>& b, const T& h, const T& inverse_h) {
+  return {0.5 * (a.x1 + b.x1) + 0.125 * h * (a.w1 - b.w1),
+          1.5 * (b.x1 - a.x1) * inverse_h - 0.25 * (a.w1 + b.w1),
+          0.5 * (a.x2 + b.x2) + 0.125 * h * (a.w2 - b.w2),
+          1.5 * (b.x2 - a.x2) * inverse_h - 0.25 * (a.w2 + b.w2)};
 }
 
 /// A whole piece with smooth effects: constant torques predict the motion, their quadratic along it corrects
@@ -81,8 +95,8 @@ void StepperImpl<T>::advance_smoothly(const Transition<T>& step, Forcing<T>& on,
   const DriveState<T> constant = next;
   const T& h = step.h;
   for (int pass = 0; pass < kCorrections; ++pass) {
-    const DriveState<T> middle = middle_between(z, next, h);
-    bend(on, start, extra_at(middle, now + 0.5 * h), extra_at(next, now + h), h);
+    const DriveState<T> middle = middle_between(z, next, h, step.inverse_h);
+    bend(on, start, extra_at(middle, now + 0.5 * h), extra_at(next, now + h), step.inverse_h);
     next = constant;
     respond_to_slopes(step, on, next);
   }
@@ -257,9 +271,10 @@ void StepperImpl<T>::build_series(const T& h, Series<T>& series, Forcing<T>& on)
   add_constant(on, start);
   flow_series(f, mode, z, on, series);
   if (value_of(h) <= 0.0) return;
+  const T inverse_h = 1.0 / h;
   for (int pass = 0; pass < kCorrections + 1; ++pass) {
     const Extra<T> middle = extra_at(evaluate(series, T(0.5 * h)), now + 0.5 * h);
-    bend(on, start, middle, extra_at(evaluate(series, h), now + h), h);
+    bend(on, start, middle, extra_at(evaluate(series, h), now + h), inverse_h);
     flow_series(f, mode, z, on, series);
   }
 }

@@ -26,7 +26,9 @@ StepperImpl<T>::StepperImpl(const StepperModel<T>& m, double step) : model(m), d
   inverse_m1 = 1.0 / value_of(f.m1), inverse_m2 = 1.0 / value_of(f.m2);
   T delay(0.0);
   for (const ActiveEffect<T>& e : m.effects) {
-    smooth = smooth || e.hooks->torque != nullptr || e.hooks->half_gap != nullptr;
+    adds_torque = adds_torque || e.hooks->torque != nullptr;
+    moves_gap = moves_gap || e.hooks->half_gap != nullptr;
+    smooth = adds_torque || moves_gap;
     remembers = remembers || e.hooks->advance != nullptr;
     varies_inertia = varies_inertia || e.hooks->load_inertia != nullptr;
     if (e.hooks->decay != nullptr) decaying = static_cast<int>(&e - m.effects.data());

@@ -11,7 +11,7 @@ constexpr int kColumns = 10;
 
 /// With smooth effects a piece is at most this long per unit of 1/rate, so that the torques along the motion
 /// are nearly quadratic in it.
-constexpr double kSmoothReach = 0.25;
+constexpr double kSmoothReach = 0.4;
 
 /// The flow of one mode over a whole piece h of a sample, as numbers: with δ̃ = δ − sβ the distance into the
 /// contact and torques M(s) = Σ M_n sⁿ (motor), L(s) (load),
@@ -22,6 +22,7 @@ struct Transition {
   bool ready = false;
   int pieces = 1;           ///< per segment, so that a piece lies within the series' reach
   T h{};                    ///< length of a piece [s]
+  T inverse_h{};            ///< [1/s]
   T response[kColumns][4];  ///< a column holds what one quantity does to all four
 };
 
@@ -67,6 +68,7 @@ void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, 
       1, static_cast<int>(std::ceil(rate * value_of(span) / (smooth ? kSmoothReach : kSeriesReach))));
   transition.pieces <<= halvings;
   transition.h = span / static_cast<double>(transition.pieces);
+  if (smooth && value_of(transition.h) > 0.0) transition.inverse_h = 1.0 / transition.h;
   for (auto& responses : transition.response)
     for (T& r : responses) r = T(0.0);
   for (int column = 0; column < kColumns; ++column) {

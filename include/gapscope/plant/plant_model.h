@@ -31,6 +31,7 @@ struct PlantModel {
   T motor_damping_excess{};   ///< d1 is larger by this for w1 > 0, smaller for w1 < 0 [N m s/rad]
   T adhesion{};               ///< tensile torque at which a closed contact parts [N m]
   T motor_torque{};           ///< constant torque on the motor beside Km u [N m]
+  T load_torque{};            ///< constant torque on the load [N m]
   bool motor_sticks = false;  ///< the motor's direction matters: reversals are events
   bool load_sticks = true;    ///< false: no set-valued friction on the load
   std::vector<ActiveEffect<T>> effects;

@@ -41,6 +41,8 @@ class DriveStepper {
   ~DriveStepper();
   DriveStepper(DriveStepper&&) noexcept;
   DriveStepper& operator=(DriveStepper&&) noexcept;
+  DriveStepper(const DriveStepper&);  ///< a twin that goes on from the same state, time and memory
+  DriveStepper& operator=(const DriveStepper&);
 
   void reset(const DriveState<T>& state);
 

@@ -16,9 +16,8 @@ struct ConstantLoadTorque {
   static constexpr std::array<const char*, 2> look_alikes = {"friction_asymmetry", "load_unbalance"};
 
   template <class T>
-  static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
-    if (!at.plant.structure.has_load) return {.motor = p[0]};
-    return {.load = p[0]};
+  static void shape(PlantModel<T>& plant, const T* p) {
+    (plant.structure.has_load ? plant.load_torque : plant.motor_torque) += p[0];
   }
 };
 

@@ -33,12 +33,13 @@ struct StribeckFriction {
     return {.motor = static_cast<double>(at.motor_direction) * p[0] * p[1] * (1.0 - exp(-v * v))};
   }
 
-  /// Speed passes through the law's width at this rate, at the most that the torque in force can do.
+  /// Speed passes through the law's width at this rate, at the most that the torque in force can do;
+  /// half as fast again, since the law bends twice within its width.
   template <class T>
   static double rate(const EffectPoint<T>& at, const T* p) {
     if (std::abs(value_of(at.state.w1)) > 4.0 * value_of(p[2])) return 0.0;
     const double torque = std::abs(value_of(at.drive_torque)) + value_of(p[0]) * (1.0 + value_of(p[1]));
-    return torque / (value_of(at.plant.drive.motor_inertia) * value_of(p[2]));
+    return 1.5 * torque / (value_of(at.plant.drive.motor_inertia) * value_of(p[2]));
   }
 };
 
