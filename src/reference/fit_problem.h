@@ -105,7 +105,9 @@ struct FitProblem {
     DriveState<T> z;
     z.x1 = start.x1 + start.scale[0] * q[0];
     z.w1 = start.w1 + start.scale[1] * q[1];
+    z.x2 = z.x1, z.w2 = z.w1;  // an effect may divide the one inertia
     if (!structure.has_load) return z;
+    z.w2 = T(0.0);
     z.x2 = z.x1 - static_cast<double>(start.variant.side) * half_gap - start.scale[2] * q[2];
     if (start.variant.load_moves && !locked()) z.w2 = z.w1 + start.scale[3] * q[3];
     return z;

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+#include "gapscope/recording/recording.h"
+#include "gapscope/reference/fit.h"
+
+namespace gapscope {
+
+enum class DiagnosisVerdict { kNotRun, kEffect, kNone, kUnknown };
+
+/// Where the floor of the mismatch comes from: the encoder's quantum, its noise, or how far a drive that
+/// repeats its input repeats its motion.
+enum class FloorSource { kEncoder, kNoise, kRepeatability };
+
+/// A number with its name: a parameter of an effect or of the drive.
+struct NamedValue {
+  std::string key;
+  std::string unit;
+  double value = kNaN;
+};
+
+/// One size of the mismatch on held-out data, as the median over windows.
+struct MismatchMeasure {
+  std::string name;  ///< "restarted free run 0.5 s", "predictions at 3 Hz", ...
+  std::string unit;
+  double before = kNaN;  ///< nominal model, refitted
+  double after = kNaN;   ///< with the effects that were accepted; equal to before without
+  double floor = kNaN;   ///< NaN: there is none
+};
+
+/// How large the mismatch is and how far it shrinks; the first of the measures.
+struct MismatchSize {
+  std::string measure;
+  double before = kNaN, after = kNaN, floor = kNaN;  ///< [rad]
+  FloorSource floor_from = FloorSource::kEncoder;
+  double shrink = kNaN;   ///< (before − after)/(before − floor); NaN while before < 1.3 floors
+  Interval shrink_ci95;   ///< for the next recording of the same drive
+  double remains = kNaN;  ///< after/floor
+};
+
+/// A candidate of one step, really refitted.
+struct RankedEffect {
+  std::string effect;
+  double probability = kNaN;     ///< preliminary: of being the missing effect, softmax of the score
+  double held_out = kNaN;        ///< the gap's measure with this effect [rad]
+  double shrink = kNaN;          ///< of that measure
+  double score = kNaN;           ///< S, see diagnose(); lower is better
+  double rel = kNaN;             ///< share of the log distance to the floor
+  double windows_better = kNaN;  ///< share of the windows above the floor that improve
+  std::vector<NamedValue> parameters;
+  std::string remark;  ///< why it was listed and not added, where that needs a word
+};
+
+/// What a nominal parameter reads with and without the effect: what it had to take the blame for.
+struct BlameShift {
+  std::string key;
+  std::string unit;
+  double without = kNaN, with = kNaN;
+};
+
+/// One bin of a map: its share of the squared error and the share that an error without a place would have.
+struct MapShare {
+  std::string bin;
+  double share = 0.0;
+  double expected = 0.0;
+};
+
+/// Where the mismatch of the nominal model is: the residual torque, spread over seven quantities.
+struct MismatchPlace {
+  std::string headline;
+  std::vector<MapShare> mode, direction, speed, angle, input, frequency, time;
+  double periods_per_turn = kNaN;  ///< of a residual that repeats with the motor angle [1/rev]
+};
+
+/// Errors beside one held-out recording, for figures. Columns of equal length.
+struct MismatchTrace {
+  std::string file;
+  double start = 0.0, dt = 0.0;
+  std::size_t scored_from = 0;  ///< samples before it were fitted
+  std::vector<double> u, x1;
+  std::vector<double> error_before, error_after;    ///< restarted free runs [rad]
+  std::vector<double> torque_before, torque_after;  ///< residual torque [N m]
+  std::vector<Mode> mode;                           ///< of the nominal model
+};
+
+/// What the diagnosis says. A default-built one says that it was not run.
+struct Diagnosis {
+  DiagnosisVerdict verdict = DiagnosisVerdict::kNotRun;
+  std::string sentence = "diagnose() was not called.";
+  std::vector<std::string> effects;  ///< what was added, in order
+  std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
+  MismatchSize gap;
+  std::vector<MismatchMeasure> measures;
+  std::vector<RankedEffect> ranking;             ///< first step, best first
+  std::vector<std::vector<RankedEffect>> steps;  ///< the later steps
+  MismatchPlace where;
+  MismatchPlace remaining;  ///< of what the accepted effects leave
+  std::vector<BlameShift> blame;
+  std::vector<std::string> warnings;
+  std::vector<MismatchTrace> traces;
+  ReferenceModel fitted;  ///< the model as fitted, accepted effects included
+  double observer_hz = kNaN;
+
+  std::string brief_report() const;  ///< one line: log, command line
+};
+
+struct DiagnosisOptions {
+  FitOptions fit;                     ///< of the nominal model
+  std::vector<std::string> excluded;  ///< effects that are no candidates
+  int threads = 0;                    ///< 0: all cores; the answer is the same for any number
+  bool rotation = true;               ///< false: rad and N·m mean m and N in texts
+  std::function<void(const std::string&)> progress = [](const std::string&) {};
+};
+
+/// Why does the fitted model not move like the recorded drive?
+///
+/// The nominal model is fitted to `train`, then every effect of the catalogue that it could have is added in
+/// turn and everything refitted, from several magnitudes of the effect and from the given values as well as
+/// the nominal fit. What counts is `held_out`:
+///   S = ½ mean log(W_inn + 0.3) + ½ mean log(W_free + 0.3) + 0.04 · (extra parameters),
+/// W_inn the mean square of an observer's innovations in windows of 0.25 s, W_free that of free runs
+/// restarted every 0.5 s from the observer's state, both in floors squared.
+///
+/// With no held-out recordings the last third of each file is held out.
+/// @throws std::logic_error for an empty span or an unknown excluded effect; Interrupted.
+Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
+                   const ReferenceModel& model, const DiagnosisOptions& options = {});
+
+}  // namespace gapscope

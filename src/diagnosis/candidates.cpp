@@ -1,0 +1,225 @@
+#include "diagnosis/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "reference/search.h"
+#include "reference/starts.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr int kRaceSteps = 2;           ///< to tell which start is worth more
+constexpr Work kLight{2, 8, 1e-3};      ///< to tell whether a candidate helps at all
+constexpr Work kThorough{5, 25, 3e-4};  ///< of those that do
+constexpr Work kNominal{8, 40, 1e-5};
+constexpr Work kRetry{8, 40, 1e-4};    ///< of the few that came nearest
+constexpr double kPromising = 0.9;     ///< of the mean square without the effect
+constexpr double kFurther = 0.995;     ///< of the mean square: a retry that got further
+constexpr double kFloorSquare = 1.25;  ///< mean square [floor²] at which no other start can be better
+constexpr double kClose = 30.0;        ///< a start from elsewhere is followed while it is within this ratio
+
+ParameterSetting& setting(ReferenceModel& model, int number) {
+  if (number < kDriveParameterCount) return model.parameters[static_cast<std::size_t>(number)];
+  const int rest = number - kDriveParameterCount;
+  return model.effects[static_cast<std::size_t>(rest / kMostEffectParameters)]
+      .parameters[static_cast<std::size_t>(rest % kMostEffectParameters)];
+}
+
+FittedModel with_values(ReferenceModel model, const FitProblem& problem, const Solution& at) {
+  const ModelNumbers<double> numbers = problem.numbers(at.q.data());
+  for (const Parameter& p : problem.parameters)
+    setting(model, p.number).value = numbers[static_cast<std::size_t>(p.number)];
+  return model;
+}
+
+/// The solver's vector of a model's own values, as far as it has them; else where the problem starts.
+std::vector<double> point_of(const FitProblem& problem, ReferenceModel values) {
+  std::vector<double> q;
+  const std::size_t known = kDriveParameterCount + values.effects.size() * kMostEffectParameters;
+  for (std::size_t i = 0; i < problem.free_count(); ++i) {
+    const Parameter& p = problem.free_parameter(i);
+    const bool has = static_cast<std::size_t>(p.number) < known;
+    const double value = has ? setting(values, p.number).value : p.start;
+    q.push_back(p.coordinate.solver(std::clamp(std::isnan(value) ? p.start : value, p.low, p.high)));
+  }
+  return q;
+}
+
+Fitted fitted_of(const ReferenceModel& model, const FitProblem& problem, const Solution& best) {
+  if (!best.usable()) return {model, {}, kInfinity};
+  return {with_values(model, problem, best), best.starts, best.mean_square};
+}
+
+/// A point after the race, and the values that it set out from.
+struct Raced {
+  Solution at;
+  std::size_t origin = 0;
+};
+
+/// A refinement that goes on only while it promises to beat the model without the effect.
+Solution follow(const FitProblem& problem, const Solution& from, double hz, double without) {
+  const Solution light = refine(problem, from, hz, kLight);
+  if (!light.usable()) return from;
+  if (!(light.mean_square < kPromising * without)) return light;
+  const Solution found = refine(problem, light, hz, kThorough);
+  return found.mean_square < light.mean_square ? found : light;
+}
+
+/// Follows the best of the race, then the best from elsewhere.
+/// @param without mean square of the model without the effect
+Solution best_of(const FitProblem& problem, std::vector<Raced> raced, double hz, double without) {
+  std::stable_sort(raced.begin(), raced.end(),
+                   [](const Raced& a, const Raced& b) { return a.at.mean_square < b.at.mean_square; });
+  const Raced* first = &raced.front();
+  if (!first->at.usable()) return first->at;
+  Solution best = follow(problem, first->at, hz, without);
+  for (const Raced& other : raced) {
+    if (best.mean_square < kFloorSquare) break;
+    if (other.origin == first->origin || other.at.mean_square > kClose * first->at.mean_square) continue;
+    const Solution found = follow(problem, other.at, hz, without);
+    if (found.mean_square < best.mean_square) best = found;
+    break;
+  }
+  return best;
+}
+
+/// Physical values of an effect's start.
+std::vector<double> effect_values(const FitProblem& problem, const EffectEntry& entry,
+                                  const EffectStart& start) {
+  std::vector<double> values;
+  const std::size_t first = problem.parameters.size() - entry.parameters.size();
+  for (std::size_t i = 0; i < entry.parameters.size(); ++i) {
+    const Parameter& p = problem.parameters[first + i];
+    values.push_back(std::clamp(start[i] * p.high / entry.parameters[i].high, p.low, p.high));
+  }
+  return values;
+}
+
+ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry) {
+  ModelEffect effect;
+  effect.entry = &entry;
+  for (std::size_t i = 0; i < entry.parameters.size(); ++i) effect.parameters[i].estimate = true;
+  model.effects.push_back(effect);
+  return model;
+}
+
+/// A model with the values of another drive: its own effects stay.
+ReferenceModel with_drive(ReferenceModel model, const ReferenceModel& drive) {
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    if (!std::isnan(drive.parameters[i].value)) model.parameters[i].value = drive.parameters[i].value;
+  return model;
+}
+
+/// The parent's fit carried over: its drive, and its first parameter for ours.
+ReferenceModel from_parent(const ReferenceModel& extended, const Fitted& parent, std::vector<double> values) {
+  ReferenceModel point = with_drive(extended, parent.model);
+  values[0] = parent.model.effects.back().parameters[0].value;
+  for (std::size_t i = 0; i < values.size(); ++i) point.effects.back().parameters[i].value = values[i];
+  return point;
+}
+
+}  // namespace
+
+Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
+                   double hz) {
+  const FitProblem problem = make_problem(train, model, options);
+  Solution best;
+  const auto follow = [&](const Solution& point) {
+    Solution found = refine(problem, point, hz, kNominal);
+    if (found.usable() && choose_variants(problem, found, hz)) {
+      const Solution again = refine(problem, found, hz, kNominal);
+      if (again.mean_square < found.mean_square) found = again;
+    }
+    if (found.mean_square < best.mean_square) best = found;
+  };
+  if (values_are_given(problem)) {
+    Solution point = given_point(problem);
+    choose_variants(problem, point, hz);
+    follow(point);
+  }
+  if (best.mean_square > kFloorSquare)
+    if (const Solution found = search(problem).best; found.usable()) follow(found);
+  return fitted_of(model, problem, best);
+}
+
+Fitted refit(std::span<const MotorTrace> train, const Fitted& fitted, const FittedModel& from,
+             const FitOptions& options, double hz) {
+  const FitProblem problem = make_problem(train, fitted.model, options);
+  Solution point;
+  point.q = point_of(problem, with_drive(fitted.model, from));
+  point.starts = fitted.starts;
+  const Solution found = refine(problem, point, hz, kNominal);
+  return found.mean_square < fitted.mean_square ? fitted_of(fitted.model, problem, found) : fitted;
+}
+
+std::vector<Base> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,
+                           const ReferenceModel& sheet, const FitOptions& options, double hz) {
+  const FitProblem problem = make_problem(train, nominal.model, options);
+  std::vector<Base> bases;
+  for (const ReferenceModel& values : {nominal.model, with_drive(nominal.model, sheet)}) {
+    Base base{point_of(problem, values), {}};
+    base.recordings = linearise(problem, {base.q, nominal.starts, kInfinity, false}, hz);
+    if (!base.recordings.empty()) bases.push_back(std::move(base));
+  }
+  return bases;
+}
+
+Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, std::span<const Base> bases,
+                     const EffectEntry& entry, std::span<const EffectStart> starts, const Fitted* parent,
+                     const FitOptions& options, double hz) {
+  const ReferenceModel extended = with_effect(nominal.model, entry);
+  const FitProblem problem = make_problem(train, extended, options);
+  std::vector<Raced> raced;
+  const auto race = [&](const ReferenceModel& values, const Base* base) {
+    Solution point{point_of(problem, values), nominal.starts, kInfinity, false};
+    if (base != nullptr) std::copy(base->q.begin(), base->q.end(), point.q.begin());
+    const Base& borrowed = base != nullptr ? *base : bases.front();
+    const std::size_t origin = base != nullptr ? static_cast<std::size_t>(base - bases.data()) : bases.size();
+    raced.push_back({adjust(problem, point, borrowed.recordings, hz, kRaceSteps), origin});
+  };
+  for (const EffectStart& start : starts) {
+    const std::vector<double> values = effect_values(problem, entry, start);
+    ReferenceModel point = extended;
+    for (std::size_t i = 0; i < values.size(); ++i) point.effects.back().parameters[i].value = values[i];
+    for (const Base& base : bases) race(point, &base);
+    if (parent != nullptr) race(from_parent(extended, *parent, values), nullptr);
+  }
+  return fitted_of(extended, problem, best_of(problem, std::move(raced), hz, nominal.mean_square));
+}
+
+Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& drive,
+             const FitOptions& options, double hz) {
+  const FitProblem problem = make_problem(train, candidate.model, options);
+  Solution best{{}, candidate.starts, candidate.mean_square, false};
+  for (const ReferenceModel& values : {candidate.model, with_drive(candidate.model, drive)}) {
+    const Solution found =
+        refine(problem, {point_of(problem, values), candidate.starts, kInfinity, false}, hz, kRetry);
+    if (found.mean_square < kFurther * best.mean_square) best = found;
+    if (best.mean_square < kFloorSquare) break;
+  }
+  return best.q.empty() ? candidate : fitted_of(candidate.model, problem, best);
+}
+
+bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
+  const std::string_view name = entry.name;
+  const auto estimated = [&](int i) { return model.parameters[static_cast<std::size_t>(i)].estimate; };
+  const bool has_load = model.structure.has_load;
+  const bool compliant = has_load && model.structure.contact == ContactLaw::kCompliant;
+  const ParameterSetting& gap = model.parameters[place::kGap];
+  if (name == "encoder_quantization") return false;  // seen on the samples themselves, never fitted
+  if (name == "backlash") return !has_load || (!gap.estimate && !(gap.value > 0.0));
+  if (name == "shaft_compliance") return compliant && !estimated(place::kContactStiffness);
+  if (name == "impact_damping") return compliant && !estimated(place::kContactDamping);
+  if (name == "contact_adhesion") return compliant;
+  if (name == "gap_eccentricity" || name == "gap_growth")
+    return has_load && (gap.estimate || gap.value > 0.0);
+  if (name == "load_inertia_variation" || name == "load_unbalance" || name == "constant_load_torque")
+    return !has_load || model.structure.load == LoadKind::kFree;
+  for (const ModelEffect& e : model.effects)
+    if (e.entry == &entry) return false;
+  return true;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnosis/effect_starts.h"
+#include "diagnosis/held_out.h"
+
+namespace gapscope::internal {
+
+/// A model fitted to the training recordings, and the state that each of them begins with.
+struct Fitted {
+  FittedModel model;
+  std::vector<RecordingStart> starts;
+  double mean_square = kInfinity;  ///< of the innovations [floor²]
+};
+
+/// The nominal model, from the given values and, where needed, others.
+Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
+                   double observer_hz);
+
+/// The same model again from other values of its parameters (of the first that `model` shares with it).
+Fitted refit(std::span<const MotorTrace> train, const Fitted& fitted, const FittedModel& from,
+             const FitOptions& options, double observer_hz);
+
+/// A point of the fitted model's parameters with its residuals and their derivatives there: what every
+/// candidate's race borrows, since a small effect hardly changes how the drive's own numbers act.
+struct Base {
+  std::vector<double> q;  ///< in the solver units of the fitted model
+  std::vector<Linear> recordings;
+};
+
+/// Bases at the fitted values and at those of the sheet; the latter is left out where the motion diverges.
+std::vector<Base> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,
+                           const ReferenceModel& sheet, const FitOptions& options, double observer_hz);
+
+/// One effect added to a fitted model and everything refitted.
+///
+/// Race: from every base and every start of the effect the drive's numbers are adjusted with the base's
+/// derivatives, by plain runs alone. The best go through refine().
+/// @param starts of the effect, in units of its scales
+/// @param parent a fitted model with the simpler effect that this one contains as its last; may be nullptr
+Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, std::span<const Base> bases,
+                     const EffectEntry& entry, std::span<const EffectStart> starts, const Fitted* parent,
+                     const FitOptions& options, double observer_hz);
+
+/// A fitted candidate once more with more work, from where it stands and from the numbers of another drive.
+Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& drive,
+             const FitOptions& options, double observer_hz);
+
+/// Whether the effect can be added to this model at all: contact effects need a contact, backlash a drive
+/// without, and what the fit estimates anyway cannot be missing.
+bool is_candidate(const EffectEntry& entry, const ReferenceModel& model);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,104 @@
+#include "diagnosis/harmonics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace gapscope::internal {
+namespace {
+
+constexpr std::size_t kBins = 2048;
+constexpr double kFirstCycles = 0.75, kLastCycles = 400.0;  ///< over the travel
+constexpr double kStep = 0.2;                               ///< of cycles over the travel
+constexpr double kApart = 0.7;                              ///< cycles between two lines
+
+/// Sums over bins of the motor angle; a line is regressed on these.
+struct AngleSums {
+  double low = 0.0, width = 0.0, square = 0.0;
+  std::vector<double> product = std::vector<double>(kBins), weight = std::vector<double>(kBins);
+
+  double travel() const { return width * kBins; }
+};
+
+AngleSums angle_sums(const std::vector<Playback>& playbacks, std::span<const MotorTrace> traces,
+                     double torque_constant) {
+  double low = kInfinity, high = -kInfinity;
+  for (const MotorTrace& t : traces) {
+    const auto [least, most] = std::minmax_element(t.x1.begin(), t.x1.end());
+    low = std::min(low, *least), high = std::max(high, *most);
+  }
+  AngleSums sums;
+  sums.low = low;
+  sums.width = std::max(high - low, 1e-300) / kBins;
+  for (std::size_t r = 0; r < traces.size(); ++r)
+    for (std::size_t i = 0; i < traces[r].size(); ++i) {
+      const double place = (traces[r].x1[i] - low) / sums.width;
+      const std::size_t bin = std::min(kBins - 1, static_cast<std::size_t>(place));
+      const double w = torque_constant != 0.0 ? torque_constant * traces[r].u[i] : 1.0;
+      const double torque = playbacks[r].torque[i];
+      sums.product[bin] += w * torque;
+      sums.weight[bin] += w * w;
+      sums.square += torque * torque;
+    }
+  return sums;
+}
+
+Harmonic regress(const AngleSums& sums, double periods) {
+  double ss = 0.0, sc = 0.0, cc = 0.0, rs = 0.0, rc = 0.0;
+  const double first = periods * (sums.low + 0.5 * sums.width), turn = periods * sums.width;
+  double s = std::sin(first), c = std::cos(first);
+  const double ds = std::sin(turn), dc = std::cos(turn);
+  for (std::size_t i = 0; i < kBins; ++i) {
+    const double w = sums.weight[i], p = sums.product[i];
+    ss += w * s * s, sc += w * s * c, cc += w * c * c;
+    rs += p * s, rc += p * c;
+    const double next = s * dc + c * ds;
+    c = c * dc - s * ds, s = next;
+  }
+  const double determinant = ss * cc - sc * sc;
+  Harmonic line{periods};
+  if (determinant <= 1e-9 * ss * cc) return line;
+  line.sine = (rs * cc - rc * sc) / determinant;
+  line.cosine = (rc * ss - rs * sc) / determinant;
+  line.explained = (line.sine * rs + line.cosine * rc) / std::max(sums.square, 1e-300);
+  return line;
+}
+
+}  // namespace
+
+std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
+                                      std::span<const MotorTrace> traces, double torque_constant,
+                                      std::size_t count) {
+  if (playbacks.size() != traces.size()) return {};
+  const AngleSums sums = angle_sums(playbacks, traces, torque_constant);
+  std::vector<Harmonic> lines;
+  const double per_cycle = 2.0 * kPi / sums.travel();
+  for (double cycles = kFirstCycles; cycles < kLastCycles; cycles += kStep)
+    lines.push_back(regress(sums, cycles * per_cycle));
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const Harmonic& a, const Harmonic& b) { return a.explained > b.explained; });
+  std::vector<Harmonic> best;
+  for (const Harmonic& line : lines) {
+    const bool beside = std::any_of(best.begin(), best.end(), [&](const Harmonic& b) {
+      return std::abs(b.periods - line.periods) < kApart * per_cycle;
+    });
+    if (!beside) best.push_back(line);
+    if (best.size() == count) break;
+  }
+  return best;
+}
+
+std::vector<EffectStart> line_starts(const EffectEntry& entry, std::span<const Harmonic> lines,
+                                     double peak_torque, double travel) {
+  const bool follows_torque = entry.name == std::string_view("torque_ripple");
+  const double sign = follows_torque ? 1.0 : -1.0;
+  std::vector<EffectStart> starts;
+  for (const Harmonic& line : lines) {
+    const double size = std::hypot(line.sine, line.cosine) / (follows_torque ? 1.0 : peak_torque);
+    starts.push_back({std::clamp(size, 0.01, 0.5), line.periods * travel / (2.0 * kPi),
+                      std::atan2(sign * line.cosine, sign * line.sine)});
+  }
+  return starts;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnosis/effect_starts.h"
+#include "diagnosis/held_out.h"
+
+namespace gapscope::internal {
+
+/// A torque that repeats with the motor angle: w(x1) (a sin N x1 + b cos N x1), w = 1 or the drive's torque.
+struct Harmonic {
+  double periods = kNaN;  ///< N [1/rad · rad = cycles per turn]
+  double sine = 0.0, cosine = 0.0;
+  double explained = 0.0;  ///< share of the squared residual torque
+};
+
+/// The strongest lines of the residual torque over the motor angle, by regression on a grid of N from half a
+/// cycle to hundreds over the travel, best first, none beside a stronger one.
+/// @param torque_constant multiplies u where the line follows the drive's torque; 0: it does not
+std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
+                                      std::span<const MotorTrace> traces, double torque_constant,
+                                      std::size_t count);
+
+/// Starts of cogging_torque or torque_ripple at these lines, in units of the effect's scales.
+std::vector<EffectStart> line_starts(const EffectEntry& entry, std::span<const Harmonic> lines,
+                                     double peak_torque, double travel);
+
+}  // namespace gapscope::internal

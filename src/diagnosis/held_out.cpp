@@ -1,0 +1,157 @@
+#include "diagnosis/held_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/rollout.h"
+#include "reference/starts.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kRestart = 0.5;       ///< [s]
+constexpr double kFewestRestarts = 8;  ///< short recordings are divided into so many
+constexpr Work kStateWork{3, 8, 1e-3};
+constexpr double kMostSquare = 1e12;  ///< of a window, in floors squared: as wrong as can be
+
+Mode mode_of(const DriveStepper<double>& stepper) {
+  if (stepper.closed_in_last_step()) return Mode::kImpact;
+  const int contact = stepper.mode().contact;
+  return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;
+}
+
+/// What an error is beyond the half count that a coarser encoder explains.
+double beyond_count(double error, double quantum) {
+  if (quantum <= 0.0) return error;
+  return std::copysign(std::max(0.0, std::abs(error) - 0.5 * quantum), error);
+}
+
+/// The quantum that the model itself gives the encoder; 0 without such an effect.
+double model_quantum(const PlantModel<double>& model) {
+  for (const ActiveEffect<double>& e : model.effects)
+    if (e.hooks->quantum != nullptr) return e.hooks->quantum(e.parameters);
+  return 0.0;
+}
+
+bool play_scored(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
+                 std::size_t restart, double hz, Playback& out) {
+  const ObserverGain gain = ObserverGain::poles(hz, trace.dt);
+  const double quantum = model_quantum(model);
+  DriveStepper<double> runner(model, trace.dt);
+  out.innovation.resize(trace.size());
+  out.free.resize(trace.size());
+  bool healthy = true;
+  const bool done =
+      roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+        if (i % restart == 0) runner = observer;
+        out.innovation[i] = beyond_count(trace.x1[i] - observer.measured(), quantum);
+        out.free[i] = beyond_count(trace.x1[i] - runner.measured(), quantum);
+        runner.step(trace.u[i]);
+        healthy = healthy && runner.healthy();
+      });
+  return done && healthy;
+}
+
+bool play_slow(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
+               Playback& out) {
+  return roll_out(model, start, trace, ObserverGain::poles(kSlowHz, trace.dt),
+                  [&](std::size_t i, const DriveStepper<double>& observer) {
+                    out.slow.push_back(trace.x1[i] - observer.measured());
+                  });
+}
+
+bool play_fast(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
+               Playback& out) {
+  const ObserverGain gain = ObserverGain::poles(kFastHz, trace.dt);
+  const double m1 = model.drive.motor_inertia;
+  const double both = model.structure.has_load && model.structure.load == LoadKind::kFree
+                          ? m1 * (1.0 + model.drive.mass_ratio)
+                          : m1;
+  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+    const double e = trace.x1[i] - observer.measured();
+    out.fast.push_back(e);
+    out.torque.push_back((observer.mode().contact != 0 ? both : m1) * gain.speed * e / trace.dt);
+    out.w1.push_back(observer.state().w1);
+    out.mode.push_back(model.structure.has_load ? mode_of(observer) : Mode::kEngagementPlus);
+  });
+}
+
+/// Every number given, nothing estimated.
+FittedModel all_fixed(FittedModel model) {
+  for (ParameterSetting& p : model.parameters) p.estimate = false;
+  for (ModelEffect& e : model.effects)
+    for (ParameterSetting& p : e.parameters) p.estimate = false;
+  return model;
+}
+
+/// Mean squares over windows of `length` samples of the scored part, over `floor`².
+void append_windows(const std::vector<double>& errors, std::size_t from, std::size_t length, double floor,
+                    std::vector<double>& squares) {
+  for (std::size_t i = from; i + length <= errors.size(); i += length) {
+    double sum = 0.0;
+    for (std::size_t k = i; k < i + length; ++k) sum += errors[k] * errors[k];
+    const double square = sum / static_cast<double>(length) / (floor * floor);
+    squares.push_back(std::isfinite(square) ? std::min(square, kMostSquare) : kMostSquare);
+  }
+}
+
+double mean_log(const std::vector<double>& squares) {
+  double sum = 0.0;
+  for (const double w : squares) sum += std::log(w + kScoreOffset);
+  return sum / static_cast<double>(squares.size());
+}
+
+}  // namespace
+
+std::size_t HeldOut::restart(std::size_t r) const {
+  const double scored = traces[r].dt * static_cast<double>(traces[r].size() - scored_from[r]);
+  double length = std::min(kRestart, scored / kFewestRestarts);
+  // A whole number of restarts in a period: periods can then be compared.
+  if (const double period = traces[r].dt * static_cast<double>(periods[r]); period > length)
+    length = period / std::round(period / length);
+  return 2 * std::max<std::size_t>(5, static_cast<std::size_t>(0.5 * length / traces[r].dt + 0.5));
+}
+
+std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all) {
+  const FitProblem problem = make_problem(held_out.traces, all_fixed(model), {});
+  Solution point = start_point(problem, {});
+  choose_variants(problem, point, observer_hz);
+  if (const Solution better = refine(problem, point, observer_hz, kStateWork); better.usable())
+    point.starts = better.starts;
+  const PlantModel<double> plant = problem.stepper_model(problem.numbers<double>(nullptr));
+  std::vector<Playback> playbacks(held_out.traces.size());
+  for (std::size_t r = 0; r < playbacks.size(); ++r) {
+    const RecordingStart& start = point.starts[r];
+    const DriveState<double> state = problem.state(start, 0.5 * plant.drive.gap, start.q.data());
+    const MotorTrace& trace = held_out.traces[r];
+    if (!play_scored(plant, state, trace, held_out.restart(r), observer_hz, playbacks[r])) return {};
+    if (!all) continue;
+    if (!play_slow(plant, state, trace, playbacks[r]) || !play_fast(plant, state, trace, playbacks[r]))
+      return {};
+  }
+  return playbacks;
+}
+
+Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out) {
+  Windows w;
+  for (std::size_t r = 0; r < playbacks.size(); ++r) {
+    const std::size_t restart = held_out.restart(r), half = restart / 2;
+    // The first restart is left to the observer, which does not know the load's place yet.
+    const std::size_t from = (held_out.scored_from[r] + restart) / restart * restart;
+    append_windows(playbacks[r].innovation, from, half, held_out.innovation_floor(r), w.innovation);
+    append_windows(playbacks[r].free, from, restart, held_out.free_floor(r), w.free);
+    append_windows(playbacks[r].slow, from, half, held_out.floors[r], w.slow);
+    append_windows(playbacks[r].fast, from, half, held_out.floors[r], w.fast);
+    append_windows(playbacks[r].torque, from, half, 1.0, w.torque);
+  }
+  return w;
+}
+
+double log_score(const Windows& w) {
+  if (w.innovation.empty() || w.free.empty()) return kInfinity;
+  return 0.5 * mean_log(w.innovation) + 0.5 * mean_log(w.free);
+}
+
+double median_size(const std::vector<double>& squares) { return std::sqrt(median(squares)); }
+
+}  // namespace gapscope::internal

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "diagnosis/refine.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope::internal {
+
+/// Poles of the two observers [Hz]: slow drifts show at the lower gain, ripple at the higher one.
+constexpr double kSlowHz = 3.0, kFastHz = 30.0;
+
+/// A model whose numbers are all known.
+using FittedModel = ReferenceModel;
+
+/// What is held out: whole recordings, or the last part of each (the model is run from its beginning then).
+struct HeldOut {
+  std::vector<MotorTrace> traces;
+  std::vector<std::size_t> scored_from;
+  std::vector<double> floors;        ///< of the encoder, per recording [rad]
+  std::vector<std::size_t> periods;  ///< of the input in samples, 0: it does not repeat
+  /// Where the drive repeats its motion worse than its encoder reads: how far, for each measure [rad].
+  double innovation_repeats = 0.0, free_repeats = 0.0;
+
+  std::size_t restart(std::size_t r) const;  ///< samples from one restart to the next, even
+  double innovation_floor(std::size_t r) const { return std::max(floors[r], innovation_repeats); }
+  double free_floor(std::size_t r) const { return std::max(floors[r], free_repeats); }
+};
+
+/// A model beside one recording.
+struct Playback {
+  std::vector<double> innovation;  ///< at the gain that the model was fitted with [rad]
+  std::vector<double> free;        ///< error of free runs restarted from that observer's state [rad]
+  std::vector<double> slow, fast;  ///< innovations at kSlowHz and kFastHz [rad]
+  std::vector<double> torque;      ///< residual torque from the fast ones [N m]
+  std::vector<double> w1;          ///< of the observer at kFastHz [rad/s]
+  std::vector<Mode> mode;
+};
+
+/// Mean squares over windows, in floors squared, all recordings one after the other.
+struct Windows {
+  std::vector<double> innovation;  ///< half a restart long
+  std::vector<double> free;        ///< a restart long
+  std::vector<double> slow, fast;  ///< half a restart long, in floors of the encoder squared
+  std::vector<double> torque;      ///< the same [(N m)²]
+};
+
+/// Plays a model on what is held out, the load's initial position fitted. Empty if the motion diverges.
+/// @param all false: only what the score needs, innovations and free runs
+std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all);
+
+Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
+
+/// ½ mean log(W_inn + 0.3) + ½ mean log(W_free + 0.3); infinite where the motion diverged.
+double log_score(const Windows& windows);
+constexpr double kScoreOffset = 0.3;
+constexpr double kScorePerParameter = 0.04;
+
+/// √ of the median of mean squares.
+double median_size(const std::vector<double>& mean_squares);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,149 @@
+#include "diagnosis/mismatch_size.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/random.h"
+#include "reference/rollout.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kLeastRatio = 1.3;   ///< a gap smaller than this many floors has no shrink
+constexpr double kTemperature = 0.3;  ///< of the softmax over S
+constexpr int kResamples = 200;
+constexpr double kInflation = 2.0;  ///< windows of one recording vary less than recordings do
+constexpr double kFlatters = 0.15;  ///< change of a log mean that counts
+
+/// √ of the variance that white noise of variance 1 leaves in the innovations of an observer on a free mass:
+/// (1 − z⁻¹)²/(1 − p z⁻¹)².
+double noise_gain(double hz, double dt) {
+  const double p = std::exp(-2.0 * kPi * hz * dt);
+  double sum = 0.0, e1 = 0.0, e2 = 0.0;
+  for (int k = 0; k < 5000; ++k) {
+    const double input = k == 0 ? 1.0 : k == 1 ? -2.0 : k == 2 ? 1.0 : 0.0;
+    const double e = input + 2.0 * p * e1 - p * p * e2;
+    sum += e * e;
+    e2 = e1, e1 = e;
+  }
+  return std::sqrt(sum);
+}
+
+/// Shrink of medians over the windows of one draw.
+double drawn_shrink(std::mt19937_64& generator, const std::vector<double>& before,
+                    const std::vector<double>& after) {
+  std::vector<double> b, a;
+  const std::size_t n = before.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t k =
+        std::min(n - 1, static_cast<std::size_t>(uniform(generator, 0.0, static_cast<double>(n))));
+    b.push_back(before[k]), a.push_back(after[k]);
+  }
+  return shrink_of(median_size(b), median_size(a));
+}
+
+Interval shrink_interval(const std::vector<double>& before, const std::vector<double>& after, double shrink) {
+  if (!std::isfinite(shrink) || before.size() != after.size()) return {};
+  auto generator = random_stream(1, "shrink interval");
+  std::vector<double> values;
+  for (int i = 0; i < kResamples; ++i)
+    if (const double s = drawn_shrink(generator, before, after); std::isfinite(s)) values.push_back(s);
+  if (values.size() < kResamples / 2) return {};
+  const double low = std::min(shrink, quantile(values, 0.025)),
+               high = std::max(shrink, quantile(values, 0.975));
+  return {shrink - kInflation * (shrink - low), shrink + kInflation * (high - shrink)};
+}
+
+double mean_log(const std::vector<double>& squares) {
+  double sum = 0.0;
+  for (const double w : squares) sum += std::log(w + kScoreOffset);
+  return sum / static_cast<double>(std::max<std::size_t>(1, squares.size()));
+}
+
+}  // namespace
+
+double pooled_floor(const HeldOut& held_out) {
+  double sum = 0.0;
+  for (const double floor : held_out.floors) sum += floor * floor;
+  return std::sqrt(sum / static_cast<double>(held_out.floors.size()));
+}
+
+double shrink_of(double before, double after) {
+  return before >= kLeastRatio ? (before - after) / (before - 1.0) : kNaN;
+}
+
+std::vector<double> Windows::*judged_windows(const Study& study) {
+  // Free runs of a drive that does not repeat itself drift.
+  return study.repeats_badly() ? &Windows::innovation : &Windows::free;
+}
+
+double judged_floor(const Study& study) {
+  const double encoder = pooled_floor(study.held_out);
+  return study.repeats_badly() ? std::max(encoder, study.held_out.innovation_repeats) : encoder;
+}
+
+MismatchSize mismatch_size(const Study& study, const Judged& before, const Judged& after) {
+  const HeldOut& held = study.held_out;
+  const bool predicted = study.repeats_badly();
+  const auto windows = judged_windows(study);
+  const double encoder = pooled_floor(held);
+  const double restart = held.traces.front().dt * static_cast<double>(held.restart(0));
+  MismatchSize size;
+  size.measure =
+      predicted ? fmt::format("prediction of an observer at {:g} Hz, median over windows of the rms",
+                              study.observer_hz)
+                : fmt::format("free run restarted every {:.3g} s, median over windows of the rms", restart);
+  size.floor = judged_floor(study);
+  const double b = median_size(before.windows.*windows), a = median_size(after.windows.*windows);
+  size.before = size.floor * b;
+  size.after = size.floor * a;
+  const bool noisy = encoder > 1.1 * held.traces.front().quantum / std::sqrt(12.0);
+  size.floor_from = predicted ? FloorSource::kRepeatability
+                    : noisy   ? FloorSource::kNoise
+                              : FloorSource::kEncoder;
+  size.shrink = shrink_of(b, a);
+  size.shrink_ci95 = shrink_interval(before.windows.*windows, after.windows.*windows, size.shrink);
+  size.remains = a;
+  return size;
+}
+
+std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<Playback>& before,
+                                         const std::vector<Playback>& after) {
+  if (before.empty() || after.empty()) return {};
+  const HeldOut& held = study.held_out;
+  const Windows b = windows_of(before, held), a = windows_of(after, held);
+  const double encoder = pooled_floor(held), dt = held.traces.front().dt;
+  const double free = std::max(encoder, held.free_repeats);
+  const auto row = [&](const std::string& name, double unit, double floor,
+                       std::vector<double> Windows::*squares) {
+    return MismatchMeasure{name, study.options.rotation ? "rad" : "m", unit * median_size(b.*squares),
+                           unit * median_size(a.*squares), floor};
+  };
+  const double slow_floor = study.repeats_badly() ? kNaN : encoder * noise_gain(kSlowHz, dt);
+  const double fast_floor = std::max(encoder * noise_gain(kFastHz, dt), held.innovation_repeats);
+  return {row(fmt::format("free run restarted every {:.3g} s", dt * static_cast<double>(held.restart(0))),
+              free, free, &Windows::free),
+          row(fmt::format("prediction at {:g} Hz", kSlowHz), encoder, slow_floor, &Windows::slow),
+          row(fmt::format("prediction at {:g} Hz", kFastHz), encoder, fast_floor, &Windows::fast),
+          {"residual torque", study.options.rotation ? "N m" : "N", median_size(b.torque),
+           median_size(a.torque), kNaN}};
+}
+
+double weight_of(const Judged& candidate, const Judged& best) {
+  return std::isfinite(candidate.score)
+             ? std::exp(-std::max(0.0, candidate.score - best.score) / kTemperature)
+             : 0.0;
+}
+
+std::string remark_on(const Judged& c, const Judged& before) {
+  if (!std::isfinite(c.score)) return "the motion with it diverges";
+  const double innovation = mean_log(c.windows.innovation) - mean_log(before.windows.innovation);
+  const double free = mean_log(c.windows.free) - mean_log(before.windows.free);
+  if (innovation < -kFlatters && free > kFlatters) return "flatters the predictions, spoils the free runs";
+  if (free < -kFlatters && innovation > kFlatters) return "flatters the free runs, spoils the predictions";
+  return "";
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "diagnosis/pipeline.h"
+
+namespace gapscope::internal {
+
+/// Encoder floor of all held-out recordings together [rad].
+double pooled_floor(const HeldOut& held_out);
+
+/// (before − after)/(before − 1) of two sizes in floors; NaN while before < 1.3.
+double shrink_of(double before, double after);
+
+/// The windows that the gap is measured by, and their floor [rad].
+std::vector<double> Windows::*judged_windows(const Study& study);
+double judged_floor(const Study& study);
+
+MismatchSize mismatch_size(const Study& study, const Judged& before, const Judged& after);
+
+/// Restarted free runs, innovations at both gains and the residual torque, side by side.
+std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<Playback>& before,
+                                         const std::vector<Playback>& after);
+
+/// Weight of a candidate against the best one: exp(−ΔS/T).
+double weight_of(const Judged& candidate, const Judged& best);
+
+/// Why a candidate that helps in one measure is not to be trusted; empty if nothing speaks against it.
+std::string remark_on(const Judged& candidate, const Judged& before);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/ranking.h"
+
+namespace gapscope::internal {
+
+/// What all steps of a diagnosis share.
+struct Study {
+  std::vector<MotorTrace> train;
+  HeldOut held_out;
+  ReferenceModel sheet;  ///< as given
+  std::vector<const EffectEntry*> catalogue;
+  double observer_hz = kSlowHz;  ///< kFastHz where unmodelled torque, not the encoder, is the floor
+  const DiagnosisOptions& options;
+
+  bool repeats_badly() const { return held_out.innovation_repeats > 0.0; }
+};
+
+/// @throws std::logic_error, see diagnose().
+Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
+                 const ReferenceModel& model, const DiagnosisOptions& options);
+
+/// Every effect of a list that the model could have, refitted and judged, best first.
+std::vector<Judged> candidates_of(const Study& study, const Judged& before,
+                                  const std::vector<const EffectEntry*>& catalogue);
+
+/// What the steps came to.
+struct Findings {
+  Judged before;
+  std::vector<Judged> candidates;        ///< best first; empty at the floor
+  std::vector<Judged> excluded_parents;  ///< of the first candidate
+  Decision decision;
+};
+/// A drive that repeats its own motion far worse than its encoder reads cannot be explained to the encoder's
+/// floor by any model: the study goes on with its repeatability as the floor and a faster observer.
+Findings investigate(Study& study);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,114 @@
+#include "diagnosis/ranking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kFloorRatio = 1.3;         ///< medians within it: at the floor
+constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate
+constexpr double kIndistinct = 0.08;        ///< the same for effects that no table calls alike
+constexpr double kLeastRel = 0.4;           ///< share of the log distance to the floor that a step closes
+constexpr double kLeastMargin = 0.3;        ///< S by which it beats all others
+constexpr double kLeastGain = 0.3;          ///< S, of a step that cannot reach the floor
+constexpr double kLeastWindows = 0.6;       ///< share of the windows that such a step improves
+constexpr double kNestedShare = 0.8;        ///< of the child's gain: the parent is enough
+constexpr double kNestedShareOfSize = 0.5;  ///< the same of what the prediction error shrinks by
+constexpr double kLeastDistance = 0.3;      ///< S to the floor of which a share can be told
+const double kFloorScore = std::log(1.0 + kScoreOffset);
+
+bool names(std::span<const char* const> list, std::string_view name) {
+  return std::any_of(list.begin(), list.end(), [&](const char* other) { return name == other; });
+}
+
+bool look_alike(const EffectEntry& a, const EffectEntry& b) {
+  return names(a.look_alikes, b.name) || names(b.look_alikes, a.name);
+}
+
+double probability_of(double rel, double margin, double gain) {
+  if (!(gain > 0.0)) return 0.0;
+  const double z = -2.5 + 4.4 * rel + 1.2 * std::log(std::max(margin, 0.0) + 0.05) - 0.4 * std::log(gain);
+  return 1.0 / (1.0 + std::exp(-z));
+}
+
+}  // namespace
+
+Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, double hz) {
+  Judged j;
+  j.entry = entry;
+  if (fitted.mean_square < kInfinity) {
+    if (const auto playbacks = play(fitted.model, held_out, hz, false); !playbacks.empty()) {
+      j.windows = windows_of(playbacks, held_out);
+      const double parameters = entry != nullptr ? static_cast<double>(entry->parameters.size()) : 0.0;
+      j.score = log_score(j.windows) + kScorePerParameter * parameters;
+      j.median_free = median_size(j.windows.free);
+      j.median_innovation = median_size(j.windows.innovation);
+    }
+  }
+  j.fitted = std::move(fitted);
+  return j;
+}
+
+bool at_floor(const Judged& j) { return j.median_free < kFloorRatio && j.median_innovation < kFloorRatio; }
+
+double relative_gain(const Judged& before, const Judged& after) {
+  return (before.score - after.score) / std::max(before.score - kFloorScore, kLeastDistance);
+}
+
+double share_of_windows_better(const Judged& before, const Judged& after) {
+  double above = 0.0, better = 0.0;
+  for (std::size_t i = 0; i < std::min(before.windows.free.size(), after.windows.free.size()); ++i) {
+    if (before.windows.free[i] < kFloorRatio * kFloorRatio) continue;
+    above += 1.0;
+    better += after.windows.free[i] < before.windows.free[i] ? 1.0 : 0.0;
+  }
+  return above > 0.0 ? better / above : kNaN;
+}
+
+void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_badly) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Judged& a, const Judged& b) { return a.score < b.score; });
+  if (candidates.empty()) return;
+  const Judged& best = candidates.front();
+  const EffectEntry* parent = nested_parent(*best.entry);
+  const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const Judged& c) { return parent != nullptr && c.entry == parent; });
+  if (found == candidates.end() || at_floor(best)) return;
+  const double share = repeats_badly ? (before.median_innovation - found->median_innovation) /
+                                           (before.median_innovation - best.median_innovation)
+                                     : (before.score - found->score) / (before.score - best.score);
+  if (share > (repeats_badly ? kNestedShareOfSize : kNestedShare))
+    std::rotate(candidates.begin(), found, std::next(found));
+}
+
+Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
+                std::span<const Judged> excluded_parents) {
+  Decision d;
+  if (ranked.empty() || !std::isfinite(ranked.front().score)) return d;
+  const Judged& best = ranked.front();
+  d.gain = before.score - best.score;
+  d.rel = relative_gain(before, best);
+  d.windows_better = share_of_windows_better(before, best);
+  double other = before.score;
+  for (const Judged& c : ranked) {
+    if (nested_parent(*c.entry) == best.entry) continue;  // it contains the best: parsimony has decided
+    const bool alike = &c == &best || look_alike(*c.entry, *best.entry);
+    if (c.score - best.score < (alike ? kAlike : kIndistinct))
+      d.group.push_back(c.entry);
+    else
+      other = std::min(other, c.score);
+  }
+  d.margin = other - best.score;
+  d.probability = probability_of(d.rel, d.margin, d.gain);
+  const bool enough =
+      repeats_badly ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows : d.rel >= kLeastRel;
+  d.accepted = enough && d.margin >= kLeastMargin;
+  for (const Judged& parent : excluded_parents)
+    if (nested_parent(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)
+      d.accepted = false;
+  return d;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnosis/candidates.h"
+
+namespace gapscope::internal {
+
+/// A fitted model with what it does on held-out data.
+struct Judged {
+  const EffectEntry* entry = nullptr;  ///< the last effect; nullptr: the model before
+  Fitted fitted;
+  Windows windows;
+  double score = kInfinity;   ///< S, extra parameters included
+  double median_free = kNaN;  ///< [floor]
+  double median_innovation = kNaN;
+};
+
+Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, double observer_hz);
+
+/// Both medians within 1.3 floors.
+bool at_floor(const Judged& judged);
+
+/// How sure a step is.
+struct Decision {
+  bool accepted = false;
+  std::vector<const EffectEntry*> group;  ///< all that the first cannot be told from, itself first
+  double rel = kNaN;                      ///< share of the log distance to the floor
+  double gain = kNaN;                     ///< S before − S after
+  double margin = kNaN;                   ///< S of the best outside the group − S of the best
+  double windows_better = kNaN;           ///< of those above the floor
+  double probability = kNaN;              ///< preliminary
+};
+
+/// Best first: by score; a nested parent goes before its child unless the child gains much more.
+/// @param repeats_badly the floor is the drive's repeatability: no child is right to the floor, so a parent
+///   that takes most of the error goes first and the rest is left to a further step
+void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_badly);
+
+/// Whether the first candidate is what is missing. A step is taken that closes much of the log distance to
+/// the floor and stands clear of all others; or, where no model can reach the floor, one that gains clearly
+/// and nearly everywhere and stands clear.
+/// @param excluded_parents simpler effects that are no candidates, fitted all the same: a child that does no
+///   better than its parent alone is the parent under another name, and is not accepted
+Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
+                std::span<const Judged> excluded_parents);
+
+double relative_gain(const Judged& before, const Judged& after);
+double share_of_windows_better(const Judged& before, const Judged& after);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/held_out.h"
+
+namespace gapscope::internal {
+
+/// Samples from one period of the input to the next; 0 if it does not repeat at least twice.
+std::size_t input_period(const MotorTrace& trace);
+
+/// What a drive that is driven alike leaves of an error that a model could explain: its rms difference from
+/// one period to the next, over √2 (the model's own error, however large, is the same in both).
+struct Repeatability {
+  double innovation = kNaN, free = kNaN;  ///< [rad]; NaN: no recording repeats its input
+  bool stationary = true;                 ///< periods two apart differ no more than neighbours do
+};
+
+/// @param playbacks of one model; restarts are those of held_out
+Repeatability repeatability_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "diagnosis/harmonics.h"
+#include "diagnosis/pipeline.h"
+#include "diagnosis/ranking.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/parallel.h"
+#include "gapscope/base/require.h"
+#include "reference/rough_drive.h"
+
+namespace gapscope {
+namespace internal {
+namespace {
+
+constexpr std::size_t kSecondRound = 4;
+constexpr std::size_t kLines = 3;  ///< of the residual torque that periodic effects begin with
+
+/// Starts of every candidate; those of periodic effects from the residual torque of the model so far.
+std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judged& before,
+                                                 std::span<const EffectEntry* const> entries) {
+  HeldOut own;
+  own.traces = study.train;
+  own.scored_from.assign(own.traces.size(), 0);
+  own.periods = own.scored_from;
+  const std::vector<Playback> playbacks = play(before.fitted.model, own, study.observer_hz, true);
+  const RoughDrive rough = rough_drive(study.train);
+  const double km = before.fitted.model.parameters[place::kTorqueConstant].value;
+  std::vector<std::vector<EffectStart>> starts;
+  for (const EffectEntry* entry : entries) {
+    starts.push_back(effect_starts(*entry));
+    if (!std::isnan(starts.back().front()[1])) continue;
+    const bool ripple = entry->name == std::string_view("torque_ripple");
+    const auto lines = strongest_lines(playbacks, study.train, ripple ? km : 0.0, kLines);
+    starts.back() = line_starts(*entry, lines, km * rough.peak_input, rough.travel);
+  }
+  return starts;
+}
+
+/// The best few that are not at the floor try again, also from the numbers of the very best.
+void second_round(const Study& study, std::vector<Judged>& ranked) {
+  const std::size_t count = std::min(kSecondRound, ranked.size());
+  const FittedModel drive = ranked.empty() ? FittedModel{} : ranked.front().fitted.model;
+  parallel_for(count, study.options.threads, [&](std::size_t i) {
+    Judged& candidate = ranked[i];
+    if (!std::isfinite(candidate.score) || at_floor(candidate)) return;
+    Fitted again = retry(study.train, candidate.fitted, drive, study.options.fit, study.observer_hz);
+    if (!(again.mean_square < candidate.fitted.mean_square)) return;
+    candidate = judge(candidate.entry, std::move(again), study.held_out, study.observer_hz);
+  });
+}
+
+}  // namespace
+
+std::vector<Judged> candidates_of(const Study& study, const Judged& before,
+                                  const std::vector<const EffectEntry*>& catalogue) {
+  std::vector<const EffectEntry*> entries;
+  for (const EffectEntry* entry : catalogue)
+    if (is_candidate(*entry, before.fitted.model)) entries.push_back(entry);
+  const auto starts = all_starts(study, before, entries);
+  const std::vector<Base> bases =
+      bases_of(study.train, before.fitted, study.sheet, study.options.fit, study.observer_hz);
+  std::vector<Judged> judged(entries.size());
+  std::mutex saying;
+  const auto run = [&](std::size_t i, const Fitted* parent) {
+    {
+      const std::lock_guard lock(saying);
+      study.options.progress(fmt::format("fitting {}", entries[i]->name));
+    }
+    judged[i] = judge(entries[i],
+                      fit_candidate(study.train, before.fitted, bases, *entries[i], starts[i], parent,
+                                    study.options.fit, study.observer_hz),
+                      study.held_out, study.observer_hz);
+  };
+  const auto place_of = [&](const EffectEntry* entry) {
+    return static_cast<std::size_t>(std::find(entries.begin(), entries.end(), entry) - entries.begin());
+  };
+  const auto wave = [&](bool children) {
+    std::vector<std::size_t> now;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if ((nested_parent(*entries[i]) != nullptr) == children) now.push_back(i);
+    parallel_for(now.size(), study.options.threads, [&](std::size_t k) {
+      const std::size_t parent = place_of(nested_parent(*entries[now[k]]));
+      const bool has = parent < entries.size() && judged[parent].fitted.mean_square < kInfinity;
+      run(now[k], has ? &judged[parent].fitted : nullptr);
+    });
+  };
+  wave(false);
+  wave(true);
+  rank(judged, before, study.repeats_badly());
+  second_round(study, judged);
+  rank(judged, before, study.repeats_badly());
+  return judged;
+}
+
+}  // namespace internal
+}  // namespace gapscope

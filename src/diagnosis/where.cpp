@@ -1,0 +1,187 @@
+#include "diagnosis/where.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+
+#include "diagnosis/harmonics.h"
+#include "diagnosis/headline.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr int kBins = 8;
+constexpr double kLine =
+    0.25;  ///< share of the residual torque that makes a cycle over the angle worth a word
+
+/// One scored sample.
+struct Sample {
+  double torque, weight, w1, x1, u, time;
+  Mode mode;
+};
+
+std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const HeldOut& held_out, double km) {
+  std::vector<Sample> samples;
+  for (std::size_t r = 0; r < playbacks.size(); ++r) {
+    const MotorTrace& t = held_out.traces[r];
+    const Playback& p = playbacks[r];
+    for (std::size_t i = std::max(held_out.scored_from[r], held_out.restart(r)); i < t.size(); ++i)
+      samples.push_back(
+          {p.torque[i], 1.0, p.w1[i], t.x1[i], km * t.u[i], t.dt * static_cast<double>(i), p.mode[i]});
+  }
+  return samples;
+}
+
+using Quantity = std::function<double(const Sample&)>;
+
+std::string range_key(double low, double high, int decimals, const char* unit) {
+  return fmt::format("{:.{}f}..{:.{}f} {}", low, decimals, high, decimals, unit);
+}
+
+/// Bins of equal width between the extremes.
+std::vector<MapShare> range_map(const std::vector<Sample>& samples, const Quantity& of, const char* unit) {
+  double low = kInfinity, high = -kInfinity;
+  for (const Sample& s : samples) low = std::min(low, of(s)), high = std::max(high, of(s));
+  if (!(high > low)) high = low + 1e-9;
+  const double width = (high - low) / kBins;
+  const int decimals = std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(width))), 0, 9);
+  std::vector<MapShare> map(kBins);
+  for (int b = 0; b < kBins; ++b)
+    map[static_cast<std::size_t>(b)].bin = range_key(low + b * width, low + (b + 1) * width, decimals, unit);
+  for (const Sample& s : samples) {
+    const int b = std::min(kBins - 1, static_cast<int>((of(s) - low) / width));
+    map[static_cast<std::size_t>(b)].share += s.torque * s.torque;
+    map[static_cast<std::size_t>(b)].expected += 1.0;
+  }
+  return map;
+}
+
+std::vector<MapShare> class_map(const std::vector<Sample>& samples, const std::vector<std::string>& names,
+                                const std::function<std::size_t(const Sample&)>& of) {
+  std::vector<MapShare> map;
+  for (const std::string& name : names) map.push_back({name, 0.0, 0.0});
+  for (const Sample& s : samples) {
+    map[of(s)].share += s.torque * s.torque;
+    map[of(s)].expected += 1.0;
+  }
+  return map;
+}
+
+/// Power of the residual torque in octaves, by a plain Fourier sum over a thinned series of each recording.
+std::vector<MapShare> frequency_map(const std::vector<Playback>& playbacks, const HeldOut& held_out) {
+  const std::vector<double> edges = {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
+  std::vector<MapShare> map;
+  for (std::size_t b = 0; b + 1 < edges.size(); ++b)
+    map.push_back({fmt::format("{:g}..{:g} Hz", edges[b], edges[b + 1]), 0.0, edges[b + 1] - edges[b]});
+  for (std::size_t r = 0; r < playbacks.size(); ++r) {
+    const double dt = held_out.traces[r].dt;
+    const auto step = static_cast<std::size_t>(std::max(1.0, std::floor(1.0 / (130.0 * dt))));
+    std::vector<double> thin;
+    const std::vector<double>& torque = playbacks[r].torque;
+    for (std::size_t i = held_out.scored_from[r]; i + step <= torque.size(); i += step) {
+      double sum = 0.0;
+      for (std::size_t k = i; k < i + step; ++k) sum += torque[k];
+      thin.push_back(sum / static_cast<double>(step));
+    }
+    const double length = dt * static_cast<double>(step * thin.size());
+    for (std::size_t line = 0; line < thin.size() / 2; ++line) {
+      const double hz = static_cast<double>(line) / length;
+      if (hz >= edges.back()) break;
+      const double turn = 2.0 * kPi * static_cast<double>(line) / static_cast<double>(thin.size());
+      const std::complex<double> unit = std::polar(1.0, -turn);
+      std::complex<double> phase = 1.0, sum = 0.0;
+      for (const double v : thin) sum += v * phase, phase *= unit;
+      const auto above = std::upper_bound(edges.begin(), edges.end(), hz);
+      map[static_cast<std::size_t>(above - edges.begin()) - 1].share +=
+          (line == 0 ? 1.0 : 2.0) * std::norm(sum);
+    }
+  }
+  return map;
+}
+
+void normalise(std::vector<MapShare>& map) {
+  double shares = 0.0, expected = 0.0;
+  for (const MapShare& s : map) shares += s.share, expected += s.expected;
+  for (MapShare& s : map) {
+    s.share = shares > 0.0 ? s.share / shares : 1.0 / static_cast<double>(map.size());
+    s.expected = expected > 0.0 ? s.expected / expected : 1.0 / static_cast<double>(map.size());
+  }
+}
+
+void fill_maps(const std::vector<Sample>& samples, bool rotation, MismatchPlace& place) {
+  const char* speed = rotation ? "rad/s" : "m/s";
+  const char* angle = rotation ? "rad" : "m";
+  place.mode = class_map(samples, {"gap", "engagement", "impact"}, [](const Sample& s) -> std::size_t {
+    return s.mode == Mode::kGap ? 0 : s.mode == Mode::kImpact ? 2 : 1;
+  });
+  place.direction = class_map(samples, {"backward", "forward"},
+                              [](const Sample& s) -> std::size_t { return s.w1 > 0.0 ? 1 : 0; });
+  place.speed = range_map(
+      samples, [](const Sample& s) { return std::abs(s.w1); }, speed);
+  place.angle = range_map(
+      samples, [](const Sample& s) { return s.x1; }, angle);
+  place.input = range_map(
+      samples, [](const Sample& s) { return std::abs(s.u); }, rotation ? "N m" : "N");
+  place.time = range_map(
+      samples, [](const Sample& s) { return s.time; }, "s");
+}
+
+/// Share of the squared residual torque that its means over bins of a quantity explain.
+double explained(const std::vector<Sample>& samples, const Quantity& of, int bins) {
+  double low = kInfinity, high = -kInfinity, square = 0.0;
+  for (const Sample& s : samples) low = std::min(low, of(s)), high = std::max(high, of(s));
+  std::vector<double> sum(static_cast<std::size_t>(bins)), count(sum.size());
+  const double width = std::max(high - low, 1e-300) / bins;
+  for (const Sample& s : samples) {
+    const auto b = static_cast<std::size_t>(std::min(bins - 1, static_cast<int>((of(s) - low) / width)));
+    sum[b] += s.torque, count[b] += 1.0, square += s.torque * s.torque;
+  }
+  double between = 0.0;
+  for (std::size_t b = 0; b < sum.size(); ++b)
+    if (count[b] > 0.0) between += sum[b] * sum[b] / count[b];
+  return square > 0.0 ? between / square : 0.0;
+}
+
+/// Half the summed difference of the shares from those of an error without a place.
+double displaced(const std::vector<MapShare>& map) {
+  double sum = 0.0;
+  for (const MapShare& s : map) sum += 0.5 * std::abs(s.share - s.expected);
+  return sum;
+}
+
+std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples, const MismatchPlace& place,
+                                         double line_explained) {
+  return {{Pattern::kAngle, line_explained},
+          {Pattern::kDirection, explained(
+                                    samples, [](const Sample& s) { return s.w1 > 0.0 ? 1.0 : 0.0; }, 2)},
+          {Pattern::kSpeed, explained(
+                                samples, [](const Sample& s) { return s.w1; }, kBins)},
+          {Pattern::kInput, explained(
+                                samples, [](const Sample& s) { return s.u; }, kBins)},
+          {Pattern::kTime, displaced(place.time)}};
+}
+
+}  // namespace
+
+MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& held_out,
+                       double torque_constant, bool rotation, const EffectEntry* effect) {
+  MismatchPlace place;
+  if (playbacks.empty()) return place;
+  const std::vector<Sample> samples = samples_of(playbacks, held_out, torque_constant);
+  fill_maps(samples, rotation, place);
+  place.frequency = frequency_map(playbacks, held_out);
+  for (auto* map : {&place.mode, &place.direction, &place.speed, &place.angle, &place.input, &place.frequency,
+                    &place.time})
+    normalise(*map);
+  const auto lines = strongest_lines(playbacks, held_out.traces, 0.0, 1);
+  const double line_explained = lines.empty() ? 0.0 : lines.front().explained;
+  const bool angular = effect != nullptr && pattern_of(*effect) == Pattern::kAngle;
+  if (!lines.empty() && (angular || line_explained > kLine)) place.periods_per_turn = lines.front().periods;
+  place.headline = headline_of(place, patterns_of(samples, place, line_explained), effect);
+  return place;
+}
+
+}  // namespace gapscope::internal

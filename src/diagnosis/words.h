@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope::internal {
+
+/// The answer in one sentence.
+std::string sentence_of(const Diagnosis& diagnosis, bool rotation);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,99 @@
+#include "diagnosis/blind_case.h"
+
+#include <array>
+#include <cmath>
+
+#include "gapscope/base/random.h"
+
+namespace gapscope::test {
+namespace {
+
+using blind::BlindCase;
+using blind::BlindDrive;
+using blind::Waveform;
+
+BlindCase rig_case(const std::string& rig) {
+  BlindCase c;
+  BlindDrive& d = c.drive;
+  c.options.duration = 6.0;
+  c.options.tolerance = blind::kFastTolerance;
+  if (rig == "geared") {
+    d.load_inertia = 3.0 * d.motor_inertia;
+    d.motor_damping = 0.02, d.load_damping = 0.02, d.load_coulomb = 0.03;
+    d.gap = 30e-3, d.contact_stiffness = 120.0, d.contact_damping = 0.08;
+    c.sensor = blind::BlindSensor::with_bits(14, 0.5);
+    c.options.rate = 1000.0;
+  } else if (rig == "heavy") {
+    d.load_inertia = 8.0 * d.motor_inertia;
+    d.motor_damping = 0.03, d.load_damping = 0.03, d.load_coulomb = 0.06;
+    d.gap = 6e-3, d.contact_stiffness = 600.0, d.contact_damping = 0.15;
+    c.sensor = blind::BlindSensor::with_bits(17);
+    c.options.rate = 2000.0;
+  } else {
+    c.sensor = blind::BlindSensor::with_bits(20);
+    c.options.rate = 1250.0;
+  }
+  return c;
+}
+
+void vary(BlindDrive& d, std::uint64_t seed) {
+  auto g = random_stream(seed, "diagnosis rig");
+  for (double* v : {&d.motor_damping, &d.load_inertia, &d.load_damping, &d.load_coulomb, &d.gap,
+                    &d.contact_stiffness, &d.contact_damping})
+    *v *= 1.0 + uniform(g, -0.2, 0.2);
+}
+
+/// Torque from two to eight times the load's friction; slow enough for several radians in half of the cases.
+void excite(BlindCase& c, Waveform waveform, std::mt19937_64& g) {
+  c.excitation.waveform = waveform;
+  c.excitation.amplitude = c.drive.load_coulomb * log_uniform(g, 3.0, 8.0) / c.drive.torque_constant;
+  c.excitation.frequency = log_uniform(g, 0.25, 1.5);
+  if (waveform == Waveform::kMultisine || waveform == Waveform::kSweptSine)
+    c.excitation.frequency_end = log_uniform(g, 3.0, 8.0), c.excitation.frequency = log_uniform(g, 0.2, 0.5);
+}
+
+constexpr std::array kWaveforms{Waveform::kSine,     Waveform::kMultisine, Waveform::kSweptSine,
+                                Waveform::kTriangle, Waveform::kTrapezoid, Waveform::kSteps};
+
+void set(ReferenceModel& model, int index, double value, bool estimate) {
+  ParameterSetting& p = model.parameters[static_cast<std::size_t>(index)];
+  p.value = value;
+  p.estimate = estimate;
+}
+
+/// Contact stiffness and damping are known, the rest is a start.
+ReferenceModel sheet_model(const BlindDrive& true_drive, std::uint64_t seed) {
+  const BlindDrive sheet = blind::data_sheet(true_drive, seed);
+  ReferenceModel model;
+  set(model, 0, sheet.motor_inertia, false);
+  set(model, 1, sheet.torque_constant, false);
+  set(model, 2, sheet.motor_damping, true);
+  set(model, 3, sheet.load_inertia / sheet.motor_inertia, true);
+  set(model, 4, sheet.gap, true);
+  set(model, 5, sheet.load_damping, true);
+  set(model, 6, sheet.load_coulomb, true);
+  set(model, 7, true_drive.contact_stiffness, false);
+  set(model, 8, true_drive.contact_damping, false);
+  return model;
+}
+
+}  // namespace
+
+BlindPair blind_pair(const std::string& rig, const std::string& effect, double severity, std::uint64_t seed) {
+  auto g = random_stream(seed, "diagnosis excitation");
+  BlindCase c = rig_case(rig);
+  vary(c.drive, seed);
+  const auto first = static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size()));
+  const auto other = static_cast<std::size_t>(uniform(g, 1.0, kWaveforms.size()));
+  BlindPair pair{rig, effect, severity, {}, {}, sheet_model(c.drive, seed)};
+  excite(c, kWaveforms[first], g);
+  c.options.seed = 2 * seed;
+  if (effect != "none") give_effect(c, effect, severity, seed);
+  pair.train = simulate_blind(c).recording;
+  excite(c, kWaveforms[(first + other) % kWaveforms.size()], g);
+  c.options.seed = 2 * seed + 1;
+  pair.held_out = simulate_blind(c).recording;
+  return pair;
+}
+
+}  // namespace gapscope::test

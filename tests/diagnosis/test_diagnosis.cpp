@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/blind_case.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope {
+namespace {
+
+Diagnosis diagnosis_of(const test::BlindPair& pair, const DiagnosisOptions& options = {}) {
+  const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
+  return diagnose(train, held_out, pair.sheet, options);
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+TEST(Diagnosis, SaysThatItWasNotRun) {
+  EXPECT_EQ(Diagnosis{}.verdict, DiagnosisVerdict::kNotRun);
+  EXPECT_EQ(Diagnosis{}.brief_report(), "diagnose() was not called.");
+}
+
+TEST(Diagnosis, FindsNothingMissingWhereNothingIs) {
+  const Diagnosis d = diagnosis_of(test::blind_pair("geared", "none", 0.0, 500001));
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kNone) << d.sentence;
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_LT(d.gap.before, 1.3 * d.gap.floor);
+  EXPECT_TRUE(std::isnan(d.gap.shrink));
+}
+
+const Diagnosis& of_motor_friction() {
+  static const Diagnosis d = diagnosis_of(test::blind_pair("geared", "motor_coulomb_friction", 0.7, 500002));
+  return d;
+}
+
+TEST(Diagnosis, NamesMotorFrictionAndWhatTookTheBlameForIt) {
+  const Diagnosis& d = of_motor_friction();
+  ASSERT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
+  EXPECT_EQ(d.effects, std::vector<std::string>{"motor_coulomb_friction"});
+  EXPECT_EQ(d.group.front(), "motor_coulomb_friction");
+  EXPECT_GT(d.gap.shrink, 0.9);
+  EXPECT_LE(d.gap.shrink_ci95.low, d.gap.shrink);
+  EXPECT_GE(d.gap.shrink_ci95.high, d.gap.shrink);
+  EXPECT_EQ(d.blame.size(), 5u);  // one row for each estimated parameter of the drive
+  EXPECT_EQ(d.fitted.effects.size(), 1u);
+}
+
+TEST(Diagnosis, SpreadsTheSquaredErrorOverEachQuantity) {
+  const Diagnosis& d = of_motor_friction();
+  for (const auto* map : {&d.where.mode, &d.where.direction, &d.where.speed, &d.where.angle, &d.where.input,
+                          &d.where.frequency, &d.where.time}) {
+    double share = 0.0, expected = 0.0;
+    for (const MapShare& s : *map) share += s.share, expected += s.expected;
+    EXPECT_NEAR(share, 1.0, 1e-9);
+    EXPECT_NEAR(expected, 1.0, 1e-9);
+  }
+  EXPECT_FALSE(d.where.headline.empty());
+}
+
+TEST(Diagnosis, BlamesNoNeighbourWhenTheEffectAndItsLookAlikesAreNoCandidates) {
+  DiagnosisOptions options;
+  options.excluded = {"motor_coulomb_friction", "input_dead_zone", "stribeck_friction",
+                      "presliding_friction"};
+  const Diagnosis d = diagnosis_of(test::blind_pair("geared", "input_dead_zone", 0.7, 500003), options);
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kUnknown) << d.sentence;
+  EXPECT_TRUE(d.group.empty());
+  for (const RankedEffect& e : d.ranking) EXPECT_FALSE(contains(options.excluded, e.effect)) << e.effect;
+}
+
+TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
+  const test::BlindPair pair = test::blind_pair("geared", "actuator_lag", 0.6, 500004);
+  DiagnosisOptions one, three;
+  one.threads = 1, three.threads = 3;
+  const Diagnosis a = diagnosis_of(pair, one), b = diagnosis_of(pair, three);
+  ASSERT_EQ(a.ranking.size(), b.ranking.size());
+  for (std::size_t i = 0; i < a.ranking.size(); ++i) {
+    EXPECT_EQ(a.ranking[i].effect, b.ranking[i].effect);
+    EXPECT_EQ(a.ranking[i].score, b.ranking[i].score);
+  }
+}
+
+TEST(Diagnosis, RefusesAnUnknownExclusion) {
+  DiagnosisOptions options;
+  options.excluded = {"gremlins"};
+  EXPECT_THROW(diagnosis_of(test::blind_pair("geared", "none", 0.0, 500001), options), std::logic_error);
+}
+
+// The tempting wrong answers.
+
+TEST(TemptingAnswers, ACompliantShaftIsNotCalledADelay) {
+  const Diagnosis d = diagnosis_of(test::blind_pair("geared", "shaft_compliance", 0.8, 500005));
+  for (const char* wrong : {"input_delay", "actuator_lag", "measurement_lag"}) {
+    EXPECT_FALSE(contains(d.effects, wrong)) << d.sentence;
+    EXPECT_FALSE(contains(d.group, wrong)) << d.sentence;
+  }
+}
+
+/// A drive without a load behind a gap, so that backlash is a candidate.
+test::BlindPair one_inertia(double friction, std::uint64_t seed) {
+  blind::BlindCase c;
+  c.drive.load = blind::LoadKind::kNone;
+  c.drive.motor_inertia *= 2.0;
+  c.drive.effects.motor.friction.level_nm = friction;
+  c.options = {1000.0, 5.0, seed, blind::kFastTolerance};
+  c.sensor = blind::BlindSensor::with_bits(16, 0.5);
+  c.excitation.amplitude = 1.2;
+  test::BlindPair pair;
+  pair.train = simulate_blind(c).recording;
+  c.excitation.waveform = blind::Waveform::kSteps;
+  pair.held_out = simulate_blind(c).recording;
+  pair.sheet.structure.has_load = false;
+  pair.sheet.parameters[place::kMotorInertia] = {1.6 * 8.78e-4, true, kNaN, kNaN, {}};
+  pair.sheet.parameters[place::kTorqueConstant].value = 0.172;
+  pair.sheet.parameters[place::kMotorDamping] = {0.05, true, kNaN, kNaN, {}};
+  return pair;
+}
+
+TEST(TemptingAnswers, CoulombFrictionIsNotCalledBacklash) {
+  const Diagnosis d = diagnosis_of(one_inertia(0.03, 500006));
+  EXPECT_EQ(d.effects, std::vector<std::string>{"motor_coulomb_friction"}) << d.sentence;
+  EXPECT_FALSE(contains(d.group, "backlash"));
+}
+
+}  // namespace
+}  // namespace gapscope

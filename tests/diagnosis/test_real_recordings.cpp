@@ -1,0 +1,58 @@
+// Recordings of real machines, where they are at hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/recording/csv.h"
+#include "support/data.h"
+
+namespace gapscope {
+namespace {
+
+Recording ball_screw(const char* name) {
+  Recording r = read_csv((testing::data_folder() / "emps" / name).string());
+  r.quantum = 5e-8;
+  return r;
+}
+
+/// Inertia and viscous damping, nothing else.
+ReferenceModel plain_axis() {
+  ReferenceModel model;
+  model.structure.has_load = false;
+  model.parameters[place::kMotorInertia] = {90.0, true, kNaN, kNaN, {}};
+  model.parameters[place::kTorqueConstant].value = 1.0;
+  model.parameters[place::kMotorDamping] = {200.0, true, kNaN, kNaN, {}};
+  return model;
+}
+
+void expect_friction(const Diagnosis& d) {
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
+  ASSERT_FALSE(d.effects.empty());
+  EXPECT_EQ(d.effects.front(), "motor_coulomb_friction");
+  EXPECT_EQ(d.gap.floor_from, FloorSource::kRepeatability);
+  EXPECT_GE(d.gap.shrink, 0.55);
+  for (const char* wrong : {"backlash", "input_delay", "actuator_lag", "measurement_lag"}) {
+    EXPECT_EQ(std::count(d.effects.begin(), d.effects.end(), wrong), 0) << d.sentence;
+    EXPECT_EQ(std::count(d.group.begin(), d.group.end(), wrong), 0) << d.sentence;
+  }
+}
+
+TEST(RealRecordings, ABallScrewAxisLacksCoulombFrictionAndNoBacklash) {
+  GAPSCOPE_NEEDS_DATA();
+  const Recording whole = ball_screw("emps_train.csv");
+  const Recording first = part(whole, 0, whole.size() / 2),
+                  second = part(whole, whole.size() / 2, whole.size() / 2);
+  const MotorTrace train[] = {first.motor_trace()}, held_out[] = {second.motor_trace()};
+  expect_friction(diagnose(train, held_out, plain_axis()));
+}
+
+TEST(RealRecordings, TheSameOnARecordingWithForcePulses) {
+  GAPSCOPE_NEEDS_DATA();
+  const Recording plain = ball_screw("emps_train.csv"), pulses = ball_screw("emps_pulses.csv");
+  const MotorTrace train[] = {plain.motor_trace()}, held_out[] = {pulses.motor_trace()};
+  expect_friction(diagnose(train, held_out, plain_axis()));
+}
+
+}  // namespace
+}  // namespace gapscope
