@@ -78,6 +78,21 @@ Recording independent_recording(const Configuration& c, const std::vector<double
       .recording;
 }
 
+std::vector<Recording> read_all(const Configuration& c, const std::vector<RecordedFile>& files,
+                                const Progress& progress, Outcome& outcome) {
+  std::vector<Recording> recordings;
+  for (const RecordedFile& file : files) {
+    stop_point();
+    progress("reading " + file.given);
+    Recording r = read_one(file, c);
+    r.file = name_of(file, files);
+    apply_sheet(r, c, outcome.warnings);
+    if (!r.resampling.empty()) outcome.result.notes.push_back(r.file + ": " + r.resampling);
+    recordings.push_back(std::move(r));
+  }
+  return recordings;
+}
+
 }  // namespace
 
 Recording simulated_recording(const Configuration& c) {
@@ -95,22 +110,16 @@ Recording simulated_recording(const Configuration& c) {
 }
 
 std::vector<Recording> load_recordings(const Configuration& c, const Progress& progress, Outcome& outcome) {
-  std::vector<Recording> recordings;
   if (c.simulation) {
     progress("simulating " + c.name);
-    recordings.push_back(simulated_recording(c));
-    return recordings;
+    return {simulated_recording(c)};
   }
-  for (const RecordedFile& file : c.recording->files) {
-    stop_point();
-    progress("reading " + file.given);
-    Recording r = read_one(file, c);
-    r.file = name_of(file, c.recording->files);
-    apply_sheet(r, c, outcome.warnings);
-    if (!r.resampling.empty()) outcome.result.notes.push_back(r.file + ": " + r.resampling);
-    recordings.push_back(std::move(r));
-  }
-  return recordings;
+  return read_all(c, c.recording->files, progress, outcome);
+}
+
+std::vector<Recording> load_held_out(const Configuration& c, const Progress& progress, Outcome& outcome) {
+  if (!c.recording) return {};
+  return read_all(c, c.recording->held_out, progress, outcome);
 }
 
 }  // namespace gapscope

@@ -14,9 +14,13 @@ void add_report(CLI::App& app);
 void add_effects(CLI::App& app);
 void add_blind(CLI::App& app);
 void add_campaign(CLI::App& app);
+void add_diagnose(CLI::App& app);
 
 /// What stands in the help of every command that takes a configuration.
 inline constexpr const char* kConfigHelp = "configuration (YAML)";
+
+/// @throws std::runtime_error naming what cannot be written
+void write_text(const std::string& path, const std::string& text);
 
 /// @throws ConfigError if something other than a folder has this name already, or it is no name
 void require_folder_name(const std::string& folder);

@@ -81,4 +81,15 @@ void print_headline(const std::string& folder, const RunResult& r) {
   if (!std::isnan(r.simulated_gap)) line("simulated", milli(r.simulated_gap, r.rotation));
 }
 
+void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {
+  const Diagnosis& d = r.diagnosis;
+  line("report", folder);
+  line("verdict", d.verdict == DiagnosisVerdict::kEffect ? "effect"
+                  : d.verdict == DiagnosisVerdict::kNone ? "none"
+                                                         : "unknown");
+  for (const std::string& effect : d.effects) line("effect", effect);
+  line("answer", d.sentence);
+  if (d.verdict != DiagnosisVerdict::kNone) line("place", d.where.headline);
+}
+
 }  // namespace gapscope::cli

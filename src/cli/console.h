@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/campaign/pipeline.h"
+#include "gapscope/results/diagnosis_result.h"
 
 namespace gapscope::cli {
 
@@ -14,5 +15,8 @@ void print_warnings(const std::vector<std::string>& warnings);
 
 /// The headline of a run on standard output: the report, both estimates with intervals, and how they compare.
 void print_headline(const std::string& folder, const RunResult& result);
+
+/// The answer of a diagnosis on standard output: the report, the verdict, the sentence and the place.
+void print_diagnosis(const std::string& folder, const DiagnosisResult& result);
 
 }  // namespace gapscope::cli

@@ -24,16 +24,10 @@ struct Arguments {
   bool quiet = false;
 };
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written, expected a writable folder");
-}
-
 /// The folder is replaced only when everything is in it.
 void write_outcome(const std::string& folder, const Configuration& c, const Outcome& outcome) {
   ReportFolder report(folder);
+  report.keep_diagnosis();
   write_run_result(report.path(), outcome.result);
   write_timing(report.path(), outcome.timing);
   write_text(report.path() + "/resolved.yaml", resolved_yaml(c));
@@ -78,6 +72,13 @@ std::string fit_details() {
 }
 
 }  // namespace
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(path + ": cannot be written, expected a writable folder");
+}
 
 void require_folder_name(const std::string& folder) {
   namespace fs = std::filesystem;

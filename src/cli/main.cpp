@@ -36,6 +36,7 @@ void add_commands(CLI::App& app) {
   add_run(app);
   add_detect(app);
   add_fit(app);
+  add_diagnose(app);
   add_simulate(app);
   add_report(app);
   add_effects(app);

@@ -11,11 +11,20 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/report/campaign_report.h"
 #include "gapscope/results/campaign_summary.h"
+#include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/report_folder.h"
 #include "gapscope/results/run_result.h"
 
 namespace gapscope::cli {
 namespace {
+
+/// An estimate, a diagnosis or both.
+void read_what_is_stored(const std::string& folder) {
+  const bool diagnosed = std::filesystem::exists(std::filesystem::path(folder) / "diagnosis.json");
+  if (diagnosed) read_diagnosis_result(folder);
+  if (!diagnosed || std::filesystem::exists(std::filesystem::path(folder) / "result.json"))
+    read_run_result(folder);
+}
 
 /// Draws aside, so that the old report stands until the new one is complete.
 void redraw(const std::string& folder) {
@@ -25,9 +34,10 @@ void redraw(const std::string& folder) {
   if (campaign)
     read_campaign_summary(folder);
   else
-    read_run_result(folder);
+    read_what_is_stored(folder);
   ReportFolder fresh(folder);
-  for (const char* stored : {"campaign.json", "result.json", "resolved.yaml", "timing.json", "traces"})
+  for (const char* stored : {"campaign.json", "result.json", "diagnosis.json", "fitted.yaml", "resolved.yaml",
+                             "timing.json", "traces"})
     if (fs::exists(fs::path(folder) / stored))
       fs::copy(fs::path(folder) / stored, fs::path(fresh.path()) / stored, fs::copy_options::recursive);
   if (campaign)
@@ -49,7 +59,8 @@ void add_report(CLI::App& app) {
   command->add_option("DIR", arguments->folder, "folder of a report")->required();
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->footer(
-      "Reads DIR/result.json [rad, s] and DIR/traces; writes report.md and the figures (PNG).\n\n"
+      "Reads DIR/result.json, DIR/diagnosis.json [rad, s] and DIR/traces; writes report.md and the figures "
+      "(PNG).\n\n"
       "Example: gapscope report reports/02_experiment");
   command->callback([arguments] {
     if (!std::filesystem::is_directory(arguments->folder))

@@ -1,17 +1,47 @@
 #include "gapscope/report/report.h"
 
+#include <filesystem>
+
+#include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/run_result.h"
+#include "report/diagnosis_figures.h"
 #include "report/figures.h"
 #include "report/markdown.h"
 #include "report/report_files.h"
 
 namespace gapscope {
+namespace {
 
-void write_report(const std::string& folder) {
+void append(std::vector<internal::FigureData>& all, const std::vector<internal::FigureData>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+std::string report_run(const std::string& folder, std::vector<internal::FigureData>& all) {
   const RunResult run = read_run_result(folder);
   const internal::ReportView view(run);
   const std::vector<internal::FigureData> figures = internal::all_figures(view);
-  internal::write_report_files(folder, figures, internal::report_text(run, read_timing(folder), figures));
+  append(all, figures);
+  return internal::report_text(run, read_timing(folder), figures);
+}
+
+std::string report_diagnosis(const std::string& folder, std::vector<internal::FigureData>& all) {
+  const DiagnosisResult result = read_diagnosis_result(folder);
+  const std::vector<internal::FigureData> figures = internal::diagnosis_figures(result);
+  append(all, figures);
+  return internal::diagnosis_text(result, figures);
+}
+
+}  // namespace
+
+void write_report(const std::string& folder) {
+  const auto stored = [&](const char* name) {
+    return std::filesystem::exists(std::filesystem::path(folder) / name);
+  };
+  std::vector<internal::FigureData> figures;
+  std::string text;
+  if (stored("result.json") || !stored("diagnosis.json")) text = report_run(folder, figures);
+  if (stored("diagnosis.json")) text += (text.empty() ? "" : "\n") + report_diagnosis(folder, figures);
+  internal::write_report_files(folder, figures, text);
 }
 
 }  // namespace gapscope

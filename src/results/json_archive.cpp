@@ -57,7 +57,7 @@ const Json& JsonReader::at(const char* key) const {
 }
 
 void JsonReader::fail(const char* key, const std::string& what) const {
-  throw ConfigError(file_, inside(key) + " " + what);
+  throw ConfigError(file_, place_of(key) + " " + what);
 }
 
 double JsonReader::number(const Json& json, const char* key) const {

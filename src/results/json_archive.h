@@ -22,6 +22,7 @@ using Words = std::initializer_list<std::pair<Enum, const char*>>;
 
 /// NaN and infinities become null: a number that could not be had.
 Json to_json(double value);
+inline Json to_json(const std::string& text) { return text; }
 
 /// Text of a JSON document with a final newline; doubles come out shortest and read back the same.
 void save_json(const std::string& path, const Json& json);
@@ -59,6 +60,13 @@ class JsonWriter {
   void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {
     json[key] = Json::object();
     for (Struct& value : values) json[key][value.*name] = written(value);
+  }
+  /// One member of each item by the item's name, as an object.
+  template <class Struct, class Member>
+  void named_members(const char* key, std::vector<Struct>& values, std::string Struct::*name,
+                     Member Struct::*member) {
+    json[key] = Json::object();
+    for (Struct& value : values) json[key][value.*name] = to_json(value.*member);
   }
   template <class Struct>
   void single(const char* key, Struct& value) {
@@ -106,7 +114,7 @@ class JsonReader {
     const Json& array = at(key);
     if (!array.is_array()) fail(key, "is not a list");
     values.clear();
-    for (const Json& item : array) read(item, inside(key), values.emplace_back());
+    for (const Json& item : array) read(item, place_of(key), values.emplace_back());
   }
   template <class Struct>
   void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {
@@ -114,23 +122,37 @@ class JsonReader {
     if (!object.is_object()) fail(key, "is not an object");
     values.clear();
     for (const auto& [item, json] : object.items()) {
-      read(json, inside(key) + "." + item, values.emplace_back());
+      read(json, place_of(key) + "." + item, values.emplace_back());
       values.back().*name = item;
+    }
+  }
+  /// Items that are there already keep their other members.
+  template <class Struct, class Member>
+  void named_members(const char* key, std::vector<Struct>& values, std::string Struct::*name,
+                     Member Struct::*member) {
+    const Json& object = at(key);
+    if (!object.is_object()) fail(key, "is not an object");
+    values.resize(object.size());
+    JsonReader inner(object, file_, place_of(key));
+    std::size_t i = 0;
+    for (const auto& [item, json] : object.items()) {
+      values[i].*name = item;
+      inner(item.c_str(), values[i++].*member);
     }
   }
   template <class Struct>
   void single(const char* key, Struct& value) {
-    read(at(key), inside(key), value);
+    read(at(key), place_of(key), value);
   }
   template <class Struct>
   void part(const char* key, std::optional<Struct>& value) {
     value.reset();
-    if (!at(key).is_null()) read(at(key), inside(key), value.emplace());
+    if (!at(key).is_null()) read(at(key), place_of(key), value.emplace());
   }
 
  private:
   const Json& at(const char* key) const;
-  std::string inside(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
+  std::string place_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
   [[noreturn]] void fail(const char* key, const std::string& what) const;
   double number(const Json& json, const char* key) const;
 

@@ -50,8 +50,8 @@ std::set<std::string> figures_of(const fs::path& folder) {
 /// Is this something that a report with these figures wrote?
 bool is_ours(const fs::path& file, const std::set<std::string>& figures) {
   if (!file.has_parent_path()) {
-    static const char* const names[] = {"report.md",     "result.json",   "diagnosis.json",
-                                        "campaign.json", "resolved.yaml", "timing.json"};
+    static const char* const names[] = {"report.md",     "result.json", "diagnosis.json", "campaign.json",
+                                        "resolved.yaml", "timing.json", "fitted.yaml"};
     return figures.contains(file.string()) ||
            std::any_of(std::begin(names), std::end(names), [&](const char* name) { return file == name; });
   }
@@ -83,6 +83,22 @@ ReportFolder::~ReportFolder() {
   std::error_code ignored;
   if (!partial_.empty()) fs::remove_all(partial_, ignored);
 }
+
+void ReportFolder::keep(const char* result, const std::vector<const char*>& others, bool held_out_traces) {
+  const fs::path from = final_, to = partial_;
+  if (!fs::exists(from / result)) return;
+  fs::create_directories(to / "traces");
+  std::error_code error;
+  fs::copy_file(from / result, to / result, error);
+  for (const char* other : others)
+    if (fs::exists(from / other)) fs::copy_file(from / other, to / other, error);
+  for (const fs::path& file : files_below(from / "traces"))
+    if (file.string().starts_with("held_out_") == held_out_traces)
+      fs::copy_file(from / "traces" / file, to / "traces" / file, error);
+}
+
+void ReportFolder::keep_estimate() { keep("result.json", {"timing.json"}, false); }
+void ReportFolder::keep_diagnosis() { keep("diagnosis.json", {"fitted.yaml"}, true); }
 
 void ReportFolder::commit() {
   const std::vector<fs::path> fresh = files_below(partial_);

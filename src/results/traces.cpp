@@ -31,6 +31,10 @@ constexpr NumberColumn kNumbers[] = {
     {"fit_x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.x1; }},
     {"fit_predicted_x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.predicted_x1; }},
     {"fit_x2_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.x2; }},
+    {"error_before_rad", [](TraceSet& s) -> std::vector<double>& { return s.error_before; }},
+    {"error_after_rad", [](TraceSet& s) -> std::vector<double>& { return s.error_after; }},
+    {"torque_before_nm", [](TraceSet& s) -> std::vector<double>& { return s.torque_before; }},
+    {"torque_after_nm", [](TraceSet& s) -> std::vector<double>& { return s.torque_after; }},
 };
 struct ModeColumn {
   const char* name;
@@ -140,12 +144,16 @@ std::string trace_name(std::size_t index, const std::string& recording_file) {
   return "traces/" + std::to_string(index + 1) + "_" + (stem.empty() ? "recording" : stem) + ".csv";
 }
 
-void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
-                 const FitTrace* fit) {
-  TraceSet set{recording, error ? *error : ErrorTrace{}, fit ? *fit : FitTrace{}};
+void write_trace(const std::string& path, TraceSet set) {
   std::ofstream out(path, std::ios::binary);
   out << text_of(set);
   if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
+void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
+                 const FitTrace* fit) {
+  write_trace(path,
+              TraceSet{recording, error ? *error : ErrorTrace{}, fit ? *fit : FitTrace{}, {}, {}, {}, {}});
 }
 
 void read_trace(const std::string& path, TraceSet& set) {

@@ -13,6 +13,8 @@ struct TraceSet {
   Recording recording;  ///< start, dt and the texts are the caller's, the columns are in the file
   ErrorTrace error;     ///< empty columns where there is none
   FitTrace fit;
+  /// Of a diagnosis: errors of restarted free runs [rad] and residual torques [N m].
+  std::vector<double> error_before, error_after, torque_before, torque_after;
 };
 
 /// "traces/3_train.csv" for the third recording, of a file train.csv.
@@ -21,6 +23,8 @@ std::string trace_name(std::size_t index, const std::string& recording_file);
 /// Writes the filled columns only; an undefined number is an empty field.  @throws std::runtime_error
 void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
                  const FitTrace* fit);
+
+void write_trace(const std::string& path, TraceSet set);
 
 /// Fills the columns of a set.  @throws ConfigError with file and line for a damaged file.
 void read_trace(const std::string& path, TraceSet& set);

@@ -45,7 +45,7 @@ std::string stored(const std::filesystem::path& folder) {
 TEST(Commands, HelpAndVersionAreAnswersOnStandardOutput) {
   const Workplace place;
   EXPECT_THAT(place.run("--version").out, ::testing::StartsWith("gapscope "));
-  for (const char* command : {"run", "detect", "fit", "simulate", "report"}) {
+  for (const char* command : {"run", "detect", "fit", "diagnose", "simulate", "report"}) {
     const auto help = place.run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("Example: gapscope ") + command));
@@ -90,6 +90,31 @@ TEST(Commands, TheSameInputGivesTheSameBytes) {
   ASSERT_FALSE(a == stored(place.folder() / "b"));
   ASSERT_EQ(place.run("report b").status, 0);  // drawn again from what is stored
   EXPECT_TRUE(a == stored(place.folder() / "b"));
+}
+
+TEST(Commands, DiagnoseNamesWhatTheModelLacksBesideTheEstimates) {
+  Workplace place;
+  std::string config = kConfig;
+  config.replace(config.find("  excitation"), 0,
+                 "  model: {effects: [{motor_coulomb_friction: {level_nm: 0.02}}]}\n");
+  place.file("c.yaml", config);
+  ASSERT_EQ(place.run("run c.yaml").status, 0);
+  const auto diagnosed = place.run("diagnose c.yaml");
+  ASSERT_EQ(diagnosed.status, 0) << diagnosed.err;
+  EXPECT_THAT(diagnosed.out, HasSubstr("motor_coulomb_friction"));
+  EXPECT_THAT(diagnosed.err, HasSubstr("last third"));
+  const auto content = place.content();
+  for (const char* file : {"diagnosis.json", "fitted.yaml", "diagnosis.png", "result.json", "overview.png",
+                           "traces/held_out_1_quick.csv", "traces/1_quick.csv"})
+    EXPECT_TRUE(content.count(std::string("reports/quick/") + file)) << file;
+  const std::string report = text_of(place.folder() / "reports/quick/report.md");
+  EXPECT_THAT(report, HasSubstr("what the simulation lacks"));
+  EXPECT_THAT(report, HasSubstr("## Estimates"));
+  const auto simulated = place.run("simulate reports/quick/fitted.yaml -o f.csv");
+  EXPECT_EQ(simulated.status, 0) << simulated.err;
+  const auto wrong = place.run("diagnose c.yaml --exclude gremlins");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("gremlins"));
 }
 
 TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {

@@ -33,6 +33,10 @@ Outcome run_pipeline(const Configuration& configuration, const Estimators& wante
 std::vector<Recording> load_recordings(const Configuration& configuration, const Progress& progress,
                                        Outcome& outcome);
 
+/// The recordings of `held_out:`, read likewise; empty where there are none.
+std::vector<Recording> load_held_out(const Configuration& configuration, const Progress& progress,
+                                     Outcome& outcome);
+
 /// The recording that `simulation:` describes.
 Recording simulated_recording(const Configuration& configuration);
 

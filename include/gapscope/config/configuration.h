@@ -50,4 +50,10 @@ Interval bound_from_model(const Configuration& configuration);
 /// same folder: paths stay as they were given) and gives the same text again.
 std::string resolved_yaml(const Configuration& configuration);
 
+/// A fitted model as a configuration that `simulate` runs: every number known, its effects included. The
+/// excitation is that of the configuration where it simulates, else a sine of the given recording's peak and
+/// most frequent zero crossings.
+std::string fitted_yaml(const Configuration& configuration, const ReferenceModel& fitted,
+                        const MotorTrace& recording);
+
 }  // namespace gapscope

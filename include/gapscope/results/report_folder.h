@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace gapscope {
 
@@ -9,9 +10,10 @@ namespace gapscope {
 /// final folder, and whatever an earlier run left in it, stays as it was; without commit() the temporary
 /// folder is removed.
 ///
-/// A folder holds one report: commit() also removes what an earlier report left and the new one does not have
-/// (the figures that its report.md shows, report.md, result.json, diagnosis.json, campaign.json,
-/// resolved.yaml, timing.json and traces/). Any other file in the folder belongs to the user and stays.
+/// A folder holds one report, of an estimate and a diagnosis where both were made: commit() also removes what
+/// an earlier report left and the new one does not have (the figures that its report.md shows, report.md,
+/// result.json, diagnosis.json, fitted.yaml, campaign.json, resolved.yaml, timing.json and traces/). Any
+/// other file in the folder belongs to the user and stays.
 class ReportFolder {
  public:
   /// Makes the temporary folder, and the folders above it where they are missing.
@@ -24,10 +26,17 @@ class ReportFolder {
   /// Where to write; exists and is empty at the start.
   const std::string& path() const { return partial_; }
 
+  /// Takes over what the other kind of command stored here, so that the new report shows it too; nothing
+  /// where there is none.
+  void keep_estimate();   ///< of run, detect or fit
+  void keep_diagnosis();  ///< of diagnose
+
   /// @throws std::runtime_error with the path of what could not be moved or removed.
   void commit();
 
  private:
+  void keep(const char* result, const std::vector<const char*>& others, bool held_out_traces);
+
   std::string final_;
   std::string partial_;
 };

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope {
+
+/// All that `diagnose` leaves behind, and all that its report is drawn from.
+struct DiagnosisResult {
+  std::string name;      ///< of the configuration
+  std::string version;   ///< of gapscope
+  bool rotation = true;  ///< false: rad and N·m mean m and N
+  Diagnosis diagnosis;   ///< the fitted model is not stored here but in fitted.yaml
+};
+
+/// Writes diagnosis.json and traces/held_out_<n>_<file>.csv into an existing folder. The columns of a trace
+/// are t_s, u, x1_rad, error_before_rad, error_after_rad, torque_before_nm, torque_after_nm and mode.
+/// @throws std::runtime_error naming what cannot be written.
+void write_diagnosis_result(const std::string& folder, const DiagnosisResult& result);
+
+/// Reads back what write_diagnosis_result() wrote.  @throws ConfigError for another schema or a damaged file.
+DiagnosisResult read_diagnosis_result(const std::string& folder);
+
+}  // namespace gapscope

@@ -1,0 +1,101 @@
+// `diagnose`: what the simulation of a drive lacks, from recordings of it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/version.h"
+#include "gapscope/campaign/pipeline.h"
+#include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/report/report.h"
+#include "gapscope/results/diagnosis_result.h"
+#include "gapscope/results/report_folder.h"
+
+namespace gapscope::cli {
+namespace {
+
+struct Arguments {
+  std::string config;
+  std::string folder;
+  std::vector<std::string> excluded;
+  bool quiet = false;
+};
+
+void require_known(const std::vector<std::string>& effects) {
+  for (const std::string& name : effects)
+    if (find_effect(name) == nullptr)
+      throw ConfigError(
+          fmt::format("gapscope: --exclude is '{}', expected an effect that `gapscope effects` lists", name));
+}
+
+std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
+  std::vector<MotorTrace> traces;
+  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
+  return traces;
+}
+
+void write_outcome(const std::string& folder, const Configuration& c, const DiagnosisResult& result,
+                   const MotorTrace& recording) {
+  ReportFolder report(folder);
+  report.keep_estimate();
+  write_diagnosis_result(report.path(), result);
+  write_text(report.path() + "/resolved.yaml", resolved_yaml(c));
+  write_text(report.path() + "/fitted.yaml", fitted_yaml(c, result.diagnosis.fitted, recording));
+  write_report(report.path());
+  stop_point();
+  report.commit();
+}
+
+void diagnose_configuration(const Arguments& a) {
+  require_known(a.excluded);
+  const Configuration c = load_configuration(a.config);
+  require_reference_model(c);
+  const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
+  require_folder_name(folder);
+  DiagnosisOptions options;
+  options.fit = c.fit;
+  options.excluded = a.excluded;
+  options.rotation = c.rotation;
+  options.progress = progress_on_terminal(a.quiet);
+  Outcome loaded;
+  const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
+  const std::vector<Recording> held_out = load_held_out(c, options.progress, loaded);
+  const std::vector<MotorTrace> train_traces = traces_of(train), held_out_traces = traces_of(held_out);
+  DiagnosisResult result{c.name, version(), c.rotation,
+                         diagnose(train_traces, held_out_traces, c.model.reference_model(), options)};
+  auto& warnings = result.diagnosis.warnings;
+  warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
+  options.progress("drawing the report");
+  write_outcome(folder, c, result, train_traces.front());
+  print_warnings(warnings);
+  print_diagnosis(folder, result);
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("diagnose", "Why the simulated drive does not move like the real one");
+  command->add_option("CONFIG", arguments->config, kConfigHelp)->required();
+  command->add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
+      ->type_name("DIR");
+  command->add_option("--exclude", arguments->excluded, "an effect that is no candidate; may be repeated")
+      ->type_name("EFFECT")
+      ->allow_extra_args(false);
+  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->footer(
+      "Fits the model to recording: file, adds every effect of `gapscope effects` in turn, and judges on\n"
+      "recording: held_out (a file or a list; without it on the last third of each file).\n"
+      "Writes DIR/diagnosis.json [rad, N m, s], fitted.yaml, report.md, figures (PNG), traces/held_out_*.\n"
+      "The verdict is effect, none (the model is at the floor) or unknown (nothing in the catalogue explains "
+      "it).\n\n"
+      "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance");
+  command->callback([arguments] { diagnose_configuration(*arguments); });
+}
+
+}  // namespace gapscope::cli

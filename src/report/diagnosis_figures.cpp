@@ -1,0 +1,231 @@
+#include "report/diagnosis_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/rich_text.h"
+#include "report/wording.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr std::size_t kShownCandidates = 12;
+
+LineStyle before_style() { return {kVermillion, 4.0, {}}; }
+LineStyle after_style() { return {kBlue, 4.0, {16, 9}}; }
+
+const MismatchTrace* shown_trace(const DiagnosisResult& r) {
+  const auto& traces = r.diagnosis.traces;
+  return traces.empty() || traces.front().x1.size() < 2 ? nullptr : &traces.front();
+}
+
+std::string length_unit(const DiagnosisResult& r) { return r.rotation ? "rad" : "m"; }
+std::string torque_unit_of(const DiagnosisResult& r) { return r.rotation ? "N·m" : "N"; }
+bool added(const DiagnosisResult& r) { return !r.diagnosis.effects.empty(); }
+
+std::string readable(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+Series over_time(const std::string& label, const LineStyle& style, const MismatchTrace& t,
+                 const std::vector<double>& values) {
+  Series s{label, style, {}, {}};
+  for (std::size_t i = t.scored_from; i < values.size(); ++i) {
+    s.x.push_back(t.start + t.dt * static_cast<double>(i));
+    s.y.push_back(values[i]);
+  }
+  return s;
+}
+
+Panel time_panel(const std::string& title, const std::string& name, const std::string& unit,
+                 const MismatchTrace& t) {
+  Panel panel;
+  panel.title = title;
+  const double last = t.start + t.dt * static_cast<double>(t.x1.size() - 1);
+  panel.x = {"time $t$", "s", {t.start + t.dt * static_cast<double>(t.scored_from), last}, {}, {}};
+  panel.y = {name, unit, {}, {}, {}};
+  panel.height = 400.0;
+  return panel;
+}
+
+/// A pair of lines, before and after; the one line alone where nothing was added.
+Panel pair_panel(const DiagnosisResult& r, const MismatchTrace& t, const std::string& title,
+                 const std::string& name, const std::string& unit, const std::vector<double>& before,
+                 const std::vector<double>& after) {
+  Panel panel = time_panel(title, name, unit, t);
+  panel.series.push_back(over_time(added(r) ? "nominal model" : "", before_style(), t, before));
+  if (added(r))
+    panel.series.push_back(
+        over_time("with " + readable(r.diagnosis.effects.back()), after_style(), t, after));
+  return panel;
+}
+
+/// Bars as a band from zero to the share, and the expected share as a mark.
+Panel map_panel(const std::string& title, const std::vector<MapShare>& map) {
+  Panel panel;
+  panel.title = title;
+  panel.x = {"share of the squared residual torque", "", {0.0, 1.0}, {}, {}};
+  Series share{"share", {kVermillion, 4.0, {}}, {}, {}},
+      expected{"of an error without a place", {kGrey, 4.0, {}}, {}, {}};
+  share.joined = expected.joined = false;
+  share.marker = Marker::kDisc, expected.marker = Marker::kCircle;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    panel.y.categories.push_back(map[i].bin);
+    panel.y.remarks.push_back(fmt::format("{:.0f} %", 100.0 * map[i].share));
+    const double row = static_cast<double>(i);
+    share.x.push_back(map[i].share), share.y.push_back(row);
+    share.x_intervals.push_back({0.0, map[i].share});
+    expected.x.push_back(map[i].expected), expected.y.push_back(row);
+  }
+  panel.series = {share, expected};
+  panel.height = 60.0 + 62.0 * static_cast<double>(map.size());
+  return panel;
+}
+
+}  // namespace
+
+FigureData diagnosis_traces(const DiagnosisResult& r) {
+  FigureData figure;
+  figure.file = "diagnosis_traces.png";
+  figure.title = "Errors on held-out data";
+  const MismatchTrace* t = shown_trace(r);
+  if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
+  figure.panels.push_back(pair_panel(r, *t, "Error of free runs, restarted from the observer",
+                                     "$x_1$ − free run", length_unit(r), t->error_before, t->error_after));
+  figure.panels.push_back(pair_panel(r, *t, "Residual torque", "residual torque", torque_unit_of(r),
+                                     t->torque_before, t->torque_after));
+  Panel input = time_panel("Held-out recording", "displacement $x_1$", length_unit(r), *t);
+  input.series.push_back(over_time("", measured_style(), *t, t->x1));
+  figure.panels.push_back(input);
+  const MismatchSize& g = r.diagnosis.gap;
+  figure.reading = fmt::format("On {} the error is {} (median over windows), the floor {}", t->file,
+                               quantity(g.before, length_unit(r)), quantity(g.floor, length_unit(r)));
+  figure.reading += added(r) ? fmt::format("; with {} it is {}.", readable(r.diagnosis.effects.back()),
+                                           quantity(g.after, length_unit(r)))
+                             : ".";
+  return figure;
+}
+
+FigureData diagnosis_ranking(const DiagnosisResult& r) {
+  FigureData figure;
+  figure.file = "diagnosis_ranking.png";
+  figure.title = "Candidates, each refitted";
+  const auto& ranking = r.diagnosis.ranking;
+  if (ranking.empty())
+    return missing_figure(figure.file, figure.title, "the model is at the floor, nothing was looked for");
+  Panel panel;
+  panel.title = "Share of the log distance to the floor that each closes on held-out data";
+  panel.x = {"closed share", "", {-0.25, 1.1}, {}, {}};
+  Series s{"", {kBlue, 4.0, {}}, {}, {}};
+  s.joined = false, s.marker = Marker::kDisc;
+  for (std::size_t i = 0; i < std::min(kShownCandidates, ranking.size()); ++i) {
+    panel.y.categories.push_back(readable(ranking[i].effect));
+    panel.y.remarks.push_back(std::isfinite(ranking[i].rel) ? fmt::format("{:.2f}", ranking[i].rel)
+                                                            : "diverges");
+    const double rel = std::isfinite(ranking[i].rel) ? std::clamp(ranking[i].rel, -0.25, 1.1) : -0.25;
+    s.x.push_back(rel), s.y.push_back(static_cast<double>(i));
+    s.x_intervals.push_back({std::min(0.0, rel), std::max(0.0, rel)});
+  }
+  panel.series.push_back(s);
+  panel.x_marks.push_back({0.0, guide_style(), ""});
+  panel.x_marks.push_back({1.0, guide_style(), "floor"});
+  panel.height = 80.0 + 70.0 * static_cast<double>(s.x.size());
+  figure.panels.push_back(panel);
+  figure.reading =
+      fmt::format("{} comes first of {} candidates", readable(ranking.front().effect), ranking.size());
+  if (ranking.size() > 1) figure.reading += fmt::format(", {} second", readable(ranking[1].effect));
+  figure.reading += ".";
+  return figure;
+}
+
+FigureData diagnosis_where(const DiagnosisResult& r) {
+  FigureData figure;
+  figure.file = "diagnosis_where.png";
+  figure.title = "Where the nominal model errs";
+  const MismatchPlace& w = r.diagnosis.where;
+  if (w.mode.empty()) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
+  figure.width = 3200.0;
+  figure.columns = 2;
+  figure.panels = {map_panel("Mode", w.mode),
+                   map_panel("Direction of motion", w.direction),
+                   map_panel("Speed", w.speed),
+                   map_panel("Motor angle", w.angle),
+                   map_panel("Torque of the input", w.input),
+                   map_panel("Frequency", w.frequency),
+                   map_panel("Time", w.time)};
+  figure.reading = "The residual torque is " + w.headline + ".";
+  return figure;
+}
+
+FigureData diagnosis_torque_map(const DiagnosisResult& r) {
+  FigureData figure;
+  figure.file = "diagnosis_torque_map.png";
+  figure.title = "Residual torque of the nominal model";
+  const MismatchTrace* t = shown_trace(r);
+  if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
+  const auto scatter = [&](const std::string& title, const Axis& x, const auto& of) {
+    Panel panel;
+    panel.title = title;
+    panel.x = x;
+    panel.y = {"residual torque", torque_unit_of(r), {}, {}, {}};
+    panel.height = 520.0;
+    Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}};
+    plus.joined = minus.joined = false;
+    plus.marker = Marker::kTriangleUp, minus.marker = Marker::kTriangleDown;
+    const std::size_t step = std::max<std::size_t>(1, (t->x1.size() - t->scored_from) / 600);
+    for (std::size_t i = std::max<std::size_t>(1, t->scored_from + step); i < t->x1.size(); i += step) {
+      Series& s = t->x1[i] >= t->x1[i - step] ? plus : minus;
+      s.x.push_back(of(i)), s.y.push_back(t->torque_before[i]);
+    }
+    for (Series& s : std::vector<Series>{plus, minus})
+      if (!s.x.empty()) panel.series.push_back(s);
+    return panel;
+  };
+  figure.panels.push_back(scatter("Over the motor angle", {"displacement $x_1$", length_unit(r), {}, {}, {}},
+                                  [&](std::size_t i) { return t->x1[i]; }));
+  figure.panels.push_back(
+      scatter("Over the input", {"input $u$", "", {}, {}, {}}, [&](std::size_t i) { return t->u[i]; }));
+  const double periods = r.diagnosis.where.periods_per_turn;
+  figure.reading = std::isfinite(periods)
+                       ? fmt::format("It repeats with the motor angle, {:.3g} cycles per turn.", periods)
+                       : "No cycle over the motor angle stands out.";
+  return figure;
+}
+
+namespace {
+
+FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
+  FigureData sheet;
+  sheet.file = "diagnosis.png";
+  sheet.title = literal(r.name) + ": what the simulation lacks";
+  sheet.lines.push_back(literal(r.diagnosis.sentence));
+  sheet.width = 3200.0;
+  sheet.columns = 2;
+  for (const auto& [file, index] :
+       std::vector<std::pair<std::string, std::size_t>>{{"diagnosis_traces.png", 0},
+                                                        {"diagnosis_traces.png", 1},
+                                                        {"diagnosis_ranking.png", 0},
+                                                        {"diagnosis_torque_map.png", 0},
+                                                        {"diagnosis_where.png", 0},
+                                                        {"diagnosis_where.png", 1}})
+    for (const FigureData& figure : figures)
+      if (figure.file == file && figure.missing.empty() && index < figure.panels.size())
+        sheet.panels.push_back(figure.panels[index]);
+  sheet.reading = r.diagnosis.sentence;
+  if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");
+  return sheet;
+}
+
+}  // namespace
+
+std::vector<FigureData> diagnosis_figures(const DiagnosisResult& r) {
+  std::vector<FigureData> figures = {diagnosis_traces(r), diagnosis_ranking(r), diagnosis_where(r),
+                                     diagnosis_torque_map(r)};
+  figures.insert(figures.begin(), sheet(r, figures));
+  return figures;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "report/diagnosis_figures.h"
+#include "report/markdown.h"
+#include "report/wording.h"
+
+namespace gapscope::internal {
+namespace {
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
+
+std::string measures_table(const DiagnosisResult& r) {
+  std::string text =
+      "\n## How large, on held-out data\n\n| measure (median over windows) | nominal model | with the effect "
+      "| "
+      "floor |\n|---|---|---|---|\n";
+  for (const MismatchMeasure& m : r.diagnosis.measures)
+    text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, m.unit),
+                        quantity(m.after, m.unit), std::isfinite(m.floor) ? quantity(m.floor, m.unit) : "–");
+  const MismatchSize& g = r.diagnosis.gap;
+  static const char* const kFrom[] = {"the encoder's quantum", "the encoder's noise",
+                                      "the drive's repeatability"};
+  text += fmt::format("\nThe floor is that of {}.", kFrom[static_cast<int>(g.floor_from)]);
+  if (std::isfinite(g.shrink)) {
+    text += fmt::format(" The error shrinks by {:.3g}", g.shrink);
+    if (std::isfinite(g.shrink_ci95.low))
+      text += fmt::format(" (95 %: {:.3g} to {:.3g}, for this kind of excitation)", g.shrink_ci95.low,
+                          g.shrink_ci95.high);
+    text += fmt::format("; what remains is {:.3g} times the floor, {}.", g.remains,
+                        r.diagnosis.remaining.headline);
+  }
+  return text + "\n";
+}
+
+std::string parameters_of(const RankedEffect& e) {
+  std::vector<std::string> parts;
+  for (const NamedValue& p : e.parameters)
+    parts.push_back(fmt::format("{} {:.4g} {}", p.key, p.value, p.unit));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string ranking_table(const DiagnosisResult& r) {
+  if (r.diagnosis.ranking.empty()) return "";
+  std::string text =
+      "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive. Probabilities are "
+      "preliminary.\n\n| effect | probability | closed share (log) | shrink | windows better | parameters | "
+      "remark "
+      "|\n|---|---|---|---|---|---|---|\n";
+  for (const RankedEffect& e : r.diagnosis.ranking)
+    text +=
+        fmt::format("| `{}` | {:.2f} | {} | {} | {} | {} | {} |\n", e.effect, e.probability, number(e.rel),
+                    number(e.shrink), number(e.windows_better), parameters_of(e), e.remark);
+  return text;
+}
+
+std::string blame_table(const DiagnosisResult& r) {
+  if (r.diagnosis.blame.empty()) return "";
+  std::string text =
+      "\n## What the model took the blame for\n\n| parameter | without the effect | with it | without it "
+      "reads "
+      "|\n|---|---|---|---|\n";
+  for (const BlameShift& b : r.diagnosis.blame) {
+    const double percent = 100.0 * (b.without - b.with) / std::abs(b.with);
+    text += fmt::format(
+        "| `{}` | {} | {} | {} |\n", b.key, quantity(b.without, shown_unit(b.unit, r.rotation)),
+        quantity(b.with, shown_unit(b.unit, r.rotation)),
+        std::isfinite(percent) ? fmt::format("{:.3g} % {}", std::abs(percent), percent > 0 ? "high" : "low")
+                               : "–");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string diagnosis_text(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
+  std::string text = fmt::format("# {}: what the simulation lacks\n\n**{}**\n", r.name, r.diagnosis.sentence);
+  text += bullet_section("Warnings", r.diagnosis.warnings);
+  text += measures_table(r) + ranking_table(r) + blame_table(r) + figure_section(figures);
+  text += "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
+  return text + fmt::format("\ngapscope {}\n", r.version);
+}
+
+}  // namespace gapscope::internal

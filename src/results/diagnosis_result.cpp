@@ -1,0 +1,89 @@
+#include "gapscope/results/diagnosis_result.h"
+
+#include <filesystem>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/require.h"
+#include "results/diagnosis_result_fields.h"
+#include "results/traces.h"
+
+namespace gapscope {
+namespace {
+
+using internal::DiagnosisDocument;
+using internal::JsonReader;
+using internal::JsonWriter;
+using internal::StoredMismatch;
+using internal::TraceSet;
+
+/// What the contract of the file promises; another state is a bug of the caller.
+void require_consistent(const Diagnosis& d) {
+  GAPSCOPE_REQUIRE(d.verdict != DiagnosisVerdict::kNotRun);
+  GAPSCOPE_REQUIRE((d.verdict == DiagnosisVerdict::kEffect) == !d.effects.empty());
+  GAPSCOPE_REQUIRE(d.effects.empty() == d.group.empty());
+}
+
+TraceSet set_of(const MismatchTrace& m) {
+  Recording r{m.file, m.start, m.dt, m.u, m.x1, {}, m.mode, 0.0, ""};
+  return {std::move(r), {}, {}, m.error_before, m.error_after, m.torque_before, m.torque_after};
+}
+
+StoredMismatch store(const std::string& folder, std::size_t index, const MismatchTrace& m) {
+  StoredMismatch stored;
+  stored.trace = internal::trace_name(index, m.file).insert(7, "held_out_");  // after "traces/"
+  stored.samples = static_cast<int>(m.x1.size());
+  stored.scored_from = static_cast<int>(m.scored_from);
+  stored.mismatch.file = m.file, stored.mismatch.start = m.start, stored.mismatch.dt = m.dt;
+  internal::write_trace(folder + "/" + stored.trace, set_of(m));
+  return stored;
+}
+
+MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
+  const std::string path = folder + "/" + stored.trace;
+  TraceSet set;
+  internal::read_trace(path, set);
+  if (static_cast<int>(set.recording.size()) != stored.samples)
+    throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
+                                std::to_string(stored.samples));
+  MismatchTrace m = stored.mismatch;
+  m.scored_from = static_cast<std::size_t>(stored.scored_from);
+  m.u = std::move(set.recording.u), m.x1 = std::move(set.recording.x1),
+  m.mode = std::move(set.recording.mode);
+  m.error_before = std::move(set.error_before), m.error_after = std::move(set.error_after);
+  m.torque_before = std::move(set.torque_before), m.torque_after = std::move(set.torque_after);
+  return m;
+}
+
+}  // namespace
+
+void write_diagnosis_result(const std::string& folder, const DiagnosisResult& result) {
+  require_consistent(result.diagnosis);
+  std::filesystem::create_directories(folder + "/traces");
+  DiagnosisDocument document;
+  document.result = result;
+  document.coordinates = result.rotation ? "rotation" : "translation";
+  for (std::size_t i = 0; i < result.diagnosis.traces.size(); ++i)
+    document.held_out.push_back(store(folder, i, result.diagnosis.traces[i]));
+  JsonWriter writer;
+  fields(writer, document);
+  internal::save_json(folder + "/diagnosis.json", writer.json);
+}
+
+DiagnosisResult read_diagnosis_result(const std::string& folder) {
+  const std::string path = folder + "/diagnosis.json";
+  const internal::Json json = internal::load_json(path);
+  JsonReader reader(json, path, "");
+  DiagnosisDocument document;
+  reader("schema", document.schema);
+  if (document.schema != internal::kDiagnosisSchema)
+    throw ConfigError(path, "has the schema " + document.schema + ", expected " + internal::kDiagnosisSchema);
+  fields(reader, document);
+  if (document.coordinates != "rotation" && document.coordinates != "translation")
+    throw ConfigError(path, "coordinates is " + document.coordinates + ", expected rotation or translation");
+  document.result.rotation = document.coordinates == "rotation";
+  for (const StoredMismatch& stored : document.held_out)
+    document.result.diagnosis.traces.push_back(load(folder, stored));
+  return std::move(document.result);
+}
+
+}  // namespace gapscope

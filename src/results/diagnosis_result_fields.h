@@ -1,0 +1,161 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/results/diagnosis_result.h"
+#include "results/json_archive.h"
+
+/// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
+namespace gapscope::internal {
+
+inline constexpr const char* kDiagnosisSchema = "gapscope.diagnosis/1";
+
+/// A trace without its columns, which are in the trace file.
+struct StoredMismatch {
+  std::string trace;
+  int samples = 0;
+  int scored_from = 0;
+  MismatchTrace mismatch;
+};
+
+struct DiagnosisDocument {
+  std::string schema = kDiagnosisSchema;
+  DiagnosisResult result;
+  std::string coordinates;
+  std::vector<StoredMismatch> held_out;
+};
+
+/// The later steps, each with its own ranking.
+struct StoredStep {
+  std::vector<RankedEffect> ranking;
+};
+
+/// Units of the values of a list, by their keys.
+template <class Archive>
+void units(Archive& archive, const char* key, std::vector<NamedValue>& values) {
+  archive.named_members(key, values, &NamedValue::key, &NamedValue::unit);
+}
+
+template <class Archive>
+void fields(Archive& archive, RankedEffect& r) {
+  archive("effect", r.effect);
+  archive("probability", r.probability);
+  archive("held_out_rmse_rad", r.held_out);
+  archive("shrink", r.shrink);
+  archive.named_members("parameters", r.parameters, &NamedValue::key, &NamedValue::value);
+  units(archive, "units", r.parameters);
+  archive("score", r.score);
+  archive("relative_gain", r.rel);
+  archive("windows_better", r.windows_better);
+  archive("remark", r.remark);
+}
+
+template <class Archive>
+void fields(Archive& archive, StoredStep& s) {
+  archive.list("ranking", s.ranking);
+}
+
+template <class Archive>
+void fields(Archive& archive, MismatchSize& g) {
+  archive("measure", g.measure);
+  archive("before_rad", g.before);
+  archive("after_rad", g.after);
+  archive("floor_rad", g.floor);
+  archive.choice("floor_from", g.floor_from,
+                 Words<FloorSource>{{FloorSource::kEncoder, "encoder"},
+                                    {FloorSource::kNoise, "noise"},
+                                    {FloorSource::kRepeatability, "repeatability"}});
+  archive("shrink", g.shrink);
+  archive("shrink_ci95", g.shrink_ci95);
+  archive("remains_ratio", g.remains);
+}
+
+template <class Archive>
+void fields(Archive& archive, MismatchMeasure& m) {
+  archive("measure", m.name);
+  archive("unit", m.unit);
+  archive("before", m.before);
+  archive("after", m.after);
+  archive("floor", m.floor);
+}
+
+template <class Archive>
+void fields(Archive& archive, BlameShift& b) {
+  archive("unit", b.unit);
+  archive("without", b.without);
+  archive("with", b.with);
+}
+
+/// The seven maps of a place: shares, or what an error without a place would have.
+struct MapsOf {
+  MismatchPlace& place;
+  double MapShare::*value;
+};
+
+template <class Archive>
+void maps(Archive& archive, MismatchPlace& p, double MapShare::*value) {
+  archive.named_members("mode", p.mode, &MapShare::bin, value);
+  archive.named_members("direction", p.direction, &MapShare::bin, value);
+  archive.named_members("speed", p.speed, &MapShare::bin, value);
+  archive.named_members("angle", p.angle, &MapShare::bin, value);
+  archive.named_members("input", p.input, &MapShare::bin, value);
+  archive.named_members("frequency", p.frequency, &MapShare::bin, value);
+  archive.named_members("time", p.time, &MapShare::bin, value);
+}
+
+template <class Archive>
+void fields(Archive& archive, MapsOf& m) {
+  maps(archive, m.place, m.value);
+}
+
+template <class Archive>
+void fields(Archive& archive, MismatchPlace& p) {
+  archive("headline", p.headline);
+  maps(archive, p, &MapShare::share);
+  archive("periods_per_turn", p.periods_per_turn);
+  MapsOf expected{p, &MapShare::expected};
+  archive.single("expected", expected);
+}
+
+template <class Archive>
+void fields(Archive& archive, StoredMismatch& s) {
+  archive("file", s.mismatch.file);
+  archive("trace", s.trace);
+  archive("samples", s.samples);
+  archive("start_s", s.mismatch.start);
+  archive("dt_s", s.mismatch.dt);
+  archive("scored_from", s.scored_from);
+}
+
+template <class Archive>
+void fields(Archive& archive, DiagnosisDocument& d) {
+  Diagnosis& g = d.result.diagnosis;
+  archive("schema", d.schema);
+  archive.choice("verdict", g.verdict,
+                 Words<DiagnosisVerdict>{{DiagnosisVerdict::kEffect, "effect"},
+                                         {DiagnosisVerdict::kNone, "none"},
+                                         {DiagnosisVerdict::kUnknown, "unknown"}});
+  archive("effects", g.effects);
+  archive("group", g.group);
+  archive.single("gap", g.gap);
+  archive.list("ranking", g.ranking);
+  std::vector<StoredStep> steps(g.steps.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].ranking = g.steps[i];
+  archive.list("steps", steps);
+  g.steps.clear();
+  for (const StoredStep& step : steps) g.steps.push_back(step.ranking);
+  archive.single("where", g.where);
+  archive.single("remaining", g.remaining);
+  archive("sentence", g.sentence);
+  archive.list("measures", g.measures);
+  archive.named("blame", g.blame, &BlameShift::key);
+  archive("observer_hz", g.observer_hz);
+  archive("warnings", g.warnings);
+  archive("name", d.result.name);
+  archive("version", d.result.version);
+  archive("coordinates", d.coordinates);
+  archive.list("held_out", d.held_out);
+}
+
+}  // namespace gapscope::internal

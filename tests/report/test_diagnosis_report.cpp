@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+
+#include "gapscope/report/report.h"
+#include "gapscope/results/diagnosis_result.h"
+#include "report/diagnosis_figures.h"
+#include "results/scratch_folder.h"
+
+namespace gapscope {
+namespace {
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<MapShare> map_of(std::initializer_list<std::string> bins) {
+  std::vector<MapShare> map;
+  for (const std::string& bin : bins) map.push_back({bin, 1.0 / static_cast<double>(bins.size()), 0.5});
+  return map;
+}
+
+DiagnosisResult sample(DiagnosisVerdict verdict) {
+  DiagnosisResult r{"rig_p", "0.1", true, {}};
+  Diagnosis& d = r.diagnosis;
+  d.verdict = verdict;
+  d.sentence = "The model lacks cogging torque.";
+  if (verdict == DiagnosisVerdict::kEffect) d.effects = d.group = {"cogging_torque"};
+  d.gap = {"free run restarted every 0.5 s", 2e-3, 3e-5, 2e-5, FloorSource::kEncoder, 0.99, {0.9, 1.0}, 1.5};
+  d.measures = {{"free run restarted every 0.5 s", "rad", 2e-3, 3e-5, 2e-5},
+                {"residual torque", "N m", 0.1, 0.01, kNaN}};
+  for (const char* name : {"cogging_torque", "torque_ripple", "input_delay"}) {
+    RankedEffect e;
+    e.effect = name;
+    e.probability = e.rel = e.shrink = d.ranking.empty() ? 0.9 : 0.1;
+    e.parameters = {{"amplitude_nm", "N m", 0.004}};
+    d.ranking.push_back(e);
+  }
+  d.where.headline = "in engagement, periodic in the motor angle with 24 cycles per turn";
+  d.where.mode = map_of({"gap", "engagement", "impact"});
+  d.where.direction = map_of({"backward", "forward"});
+  d.where.speed = d.where.angle = d.where.input = d.where.frequency = d.where.time =
+      map_of({"0..1", "1..2", "2..3"});
+  d.where.periods_per_turn = 24.0;
+  d.blame = {{"motor_damping", "N m s/rad", 0.08, 0.06}};
+  MismatchTrace t;
+  t.file = "held.csv", t.dt = 1e-3;
+  for (int i = 0; i < 4000; ++i) {
+    const double x = std::sin(0.006 * i);
+    t.u.push_back(x), t.x1.push_back(x), t.mode.push_back(Mode::kGap);
+    t.error_before.push_back(2e-3 * x), t.error_after.push_back(2e-5 * x);
+    t.torque_before.push_back(0.1 * std::sin(24.0 * x)), t.torque_after.push_back(1e-3 * x);
+  }
+  d.traces = {t};
+  return r;
+}
+
+TEST(DiagnosisReport, EveryFigureIsThereAndNotBlankAndTheTextShowsTheBlame) {
+  ScratchFolder scratch;
+  write_diagnosis_result(scratch.path.string(), sample(DiagnosisVerdict::kEffect));
+  write_report(scratch.path.string());
+  const std::string text = text_of(scratch.path / "report.md");
+  for (const char* name : {"diagnosis.png", "diagnosis_traces.png", "diagnosis_ranking.png",
+                           "diagnosis_where.png", "diagnosis_torque_map.png"}) {
+    const cv::Mat image = cv::imread((scratch.path / name).string());
+    ASSERT_FALSE(image.empty()) << name;
+    cv::Scalar centre, spread;
+    cv::meanStdDev(image, centre, spread);
+    EXPECT_GT(spread[0], 10.0) << name << " is blank";
+    EXPECT_NE(text.find("](" + std::string(name) + ")"), std::string::npos) << name;
+  }
+  EXPECT_NE(text.find("| `motor_damping` | 0.0800 N·m s/rad"), std::string::npos) << text;
+  EXPECT_NE(text.find("33.3 % high"), std::string::npos) << text;
+}
+
+TEST(DiagnosisReport, WithoutCandidatesTheRankingIsLeftOutWithItsReason) {
+  DiagnosisResult none = sample(DiagnosisVerdict::kNone);
+  none.diagnosis.ranking.clear();
+  const auto figure = internal::diagnosis_ranking(none);
+  EXPECT_NE(figure.missing.find("at the floor"), std::string::npos);
+}
+
+TEST(DiagnosisReport, BarsEndAtTheShares) {
+  const auto figure = internal::diagnosis_where(sample(DiagnosisVerdict::kUnknown));
+  ASSERT_EQ(figure.panels.size(), 7u);
+  const auto& series = figure.panels[0].series.front();
+  ASSERT_EQ(series.x.size(), 3u);
+  EXPECT_DOUBLE_EQ(series.x_intervals[0].high, 1.0 / 3.0);
+}
+
+}  // namespace
+}  // namespace gapscope

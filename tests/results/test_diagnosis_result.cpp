@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/results/diagnosis_result.h"
+#include "gapscope/results/report_folder.h"
+#include "results/scratch_folder.h"
+
+namespace gapscope {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr double kThird = 1.0 / 3.0;
+
+std::vector<MapShare> halves(const std::string& low, const std::string& high) {
+  return {{low, kThird, 0.5}, {high, 1.0 - kThird, 0.5}};
+}
+
+DiagnosisResult sample() {
+  DiagnosisResult r{"rig", "0.1", true, {}};
+  Diagnosis& d = r.diagnosis;
+  d.verdict = DiagnosisVerdict::kEffect;
+  d.sentence = "The model lacks cogging torque.";
+  d.effects = {"cogging_torque"};
+  d.group = {"cogging_torque", "torque_ripple"};
+  d.gap = {"free run", 3e-3 * kThird, 1e-5, kThird * 1e-6, FloorSource::kNoise, 0.9, {0.8, 1.1}, 1.5};
+  d.measures = {{"free run", "rad", 1.0, kThird, kNaN}};
+  RankedEffect first;
+  first.effect = "cogging_torque";
+  first.probability = 0.9;
+  first.parameters = {{"amplitude_nm", "N m", kThird}, {"periods_per_turn", "1/rev", 24.0}};
+  RankedEffect last;
+  last.effect = "input_delay";
+  last.remark = "the motion with it diverges";
+  d.ranking = {first, last};
+  d.where = {
+      "in engagement", halves("gap", "engagement"), halves("backward", "forward"), {}, {}, {}, {}, {}, 24.0};
+  d.remaining.headline = "nowhere";
+  d.blame = {{"motor_damping", "N m s/rad", 0.08, 0.06}};
+  d.warnings = {"a warning"};
+  d.observer_hz = 3.0;
+  MismatchTrace t;
+  t.file = "held.csv", t.start = 0.1, t.dt = 1e-3 * kThird, t.scored_from = 2;
+  for (int i = 0; i < 5; ++i) {
+    t.u.push_back(i * kThird), t.x1.push_back(i * kThird * kThird);
+    t.error_before.push_back(1e-3 * i * kThird), t.error_after.push_back(1e-6 * i);
+    t.torque_before.push_back(kThird), t.torque_after.push_back(-kThird);
+    t.mode.push_back(i % 2 == 0 ? Mode::kGap : Mode::kEngagementPlus);
+  }
+  d.traces = {t};
+  return r;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
+  ScratchFolder scratch;
+  const DiagnosisResult written = sample();
+  write_diagnosis_result(scratch.path.string(), written);
+  const DiagnosisResult read = read_diagnosis_result(scratch.path.string());
+  const Diagnosis &a = written.diagnosis, &b = read.diagnosis;
+  EXPECT_EQ(b.verdict, a.verdict);
+  EXPECT_EQ(b.effects, a.effects);
+  EXPECT_EQ(b.group, a.group);
+  EXPECT_EQ(b.gap.before, a.gap.before);
+  EXPECT_EQ(b.gap.floor_from, a.gap.floor_from);
+  ASSERT_EQ(b.ranking.size(), 2u);
+  EXPECT_EQ(b.ranking[0].parameters[0].value, kThird);
+  EXPECT_EQ(b.ranking[0].parameters[1].unit, "1/rev");
+  EXPECT_TRUE(std::isnan(b.ranking[1].probability));
+  EXPECT_EQ(b.ranking[1].remark, a.ranking[1].remark);
+  EXPECT_EQ(b.where.mode[1].share, a.where.mode[1].share);
+  EXPECT_EQ(b.where.mode[1].expected, 0.5);
+  EXPECT_EQ(b.where.periods_per_turn, 24.0);
+  EXPECT_EQ(b.blame[0].key, "motor_damping");
+  ASSERT_EQ(b.traces.size(), 1u);
+  EXPECT_EQ(b.traces[0].x1, a.traces[0].x1);
+  EXPECT_EQ(b.traces[0].torque_after, a.traces[0].torque_after);
+  EXPECT_EQ(b.traces[0].mode, a.traces[0].mode);
+  EXPECT_EQ(b.traces[0].scored_from, 2u);
+}
+
+TEST(DiagnosisResult, WritesTheSameTextAgain) {
+  ScratchFolder one, other;
+  write_diagnosis_result(one.path.string(), sample());
+  write_diagnosis_result(other.path.string(), read_diagnosis_result(one.path.string()));
+  EXPECT_EQ(text_of(one.path / "diagnosis.json"), text_of(other.path / "diagnosis.json"));
+  EXPECT_NE(text_of(one.path / "diagnosis.json").find("\"floor\": null"), std::string::npos);
+}
+
+TEST(DiagnosisResult, RefusesAnotherSchemaAndAContradiction) {
+  ScratchFolder scratch;
+  std::ofstream(scratch.path / "diagnosis.json") << R"({"schema": "gapscope.diagnosis/9"})";
+  EXPECT_THROW(read_diagnosis_result(scratch.path.string()), ConfigError);
+  DiagnosisResult contradiction = sample();
+  contradiction.diagnosis.verdict = DiagnosisVerdict::kUnknown;  // with an effect
+  EXPECT_THROW(write_diagnosis_result(scratch.path.string(), contradiction), std::logic_error);
+}
+
+TEST(DiagnosisResult, AFolderKeepsWhatTheOtherKindOfCommandStored) {
+  ScratchFolder scratch;
+  const fs::path target = scratch.path / "rig";
+  fs::create_directories(target / "traces");
+  for (const char* name : {"result.json", "traces/1_a.csv", "traces/held_out_1_b.csv"})
+    std::ofstream(target / name) << "old";
+  ReportFolder folder(target.string());
+  folder.keep_estimate();
+  std::ofstream(fs::path(folder.path()) / "diagnosis.json") << "new";
+  folder.commit();
+  EXPECT_EQ(text_of(target / "result.json"), "old");
+  EXPECT_EQ(text_of(target / "traces/1_a.csv"), "old");
+  EXPECT_FALSE(fs::exists(target / "traces/held_out_1_b.csv"));  // of the diagnosis before this one
+}
+
+}  // namespace
+}  // namespace gapscope
