@@ -48,7 +48,8 @@ std::vector<double> point_of(const FitProblem& problem, ReferenceModel values) {
 }
 
 Fitted fitted_of(const ReferenceModel& model, const FitProblem& problem, const Solution& best) {
-  if (!best.usable()) return {model, {}, kInfinity};
+  const auto is_number = [](double q) { return std::isfinite(q); };
+  if (!best.usable() || !std::all_of(best.q.begin(), best.q.end(), is_number)) return {model, {}, kInfinity};
   return {with_values(model, problem, best), best.starts, best.mean_square};
 }
 
@@ -189,11 +190,14 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
   return fitted_of(extended, problem, best_of(problem, std::move(raced), hz, nominal.mean_square));
 }
 
-Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& drive,
+Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& other,
              const FitOptions& options, double hz) {
   const FitProblem problem = make_problem(train, candidate.model, options);
   Solution best{{}, candidate.starts, candidate.mean_square, false};
-  for (const ReferenceModel& values : {candidate.model, with_drive(candidate.model, drive)}) {
+  ReferenceModel moved = with_drive(candidate.model, other);
+  if (nested_parent(*other.effects.back().entry) == candidate.model.effects.back().entry)
+    moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
+  for (const ReferenceModel& values : {candidate.model, moved}) {
     const Solution found =
         refine(problem, {point_of(problem, values), candidate.starts, kInfinity, false}, hz, kRetry);
     if (found.mean_square < kFurther * best.mean_square) best = found;
@@ -213,8 +217,7 @@ bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
   if (name == "shaft_compliance") return compliant && !estimated(place::kContactStiffness);
   if (name == "impact_damping") return compliant && !estimated(place::kContactDamping);
   if (name == "contact_adhesion") return compliant;
-  if (name == "gap_eccentricity" || name == "gap_growth")
-    return has_load && (gap.estimate || gap.value > 0.0);
+  if (name == "gap_eccentricity" || name == "gap_growth") return has_load && gap.value > 0.0;
   if (name == "load_inertia_variation" || name == "load_unbalance" || name == "constant_load_torque")
     return !has_load || model.structure.load == LoadKind::kFree;
   for (const ModelEffect& e : model.effects)

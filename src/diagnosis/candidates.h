@@ -44,8 +44,9 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
                      const EffectEntry& entry, std::span<const EffectStart> starts, const Fitted* parent,
                      const FitOptions& options, double observer_hz);
 
-/// A fitted candidate once more with more work, from where it stands and from the numbers of another drive.
-Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& drive,
+/// A fitted candidate once more with more work, from where it stands and from the numbers of another one's
+/// drive; where that one contains it, also from its size of the effect.
+Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& other,
              const FitOptions& options, double observer_hz);
 
 /// Whether the effect can be added to this model at all: contact effects need a contact, backlash a drive

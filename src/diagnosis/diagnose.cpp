@@ -103,7 +103,16 @@ Findings investigate(Study& study) {
   study.options.progress("fitting the nominal model");
   found.before = judged_nominal(study);
   if (at_floor(found.before)) return found;
-  if (take_repeatability(study, found.before)) found.before = judged_nominal(study);
+  const HeldOut by_encoder = study.held_out;
+  if (take_repeatability(study, found.before)) {
+    Judged repeated = judged_nominal(study);
+    if (at_floor(repeated)) {  // what does not repeat is all there is, and that is no model's
+      study.held_out = by_encoder;
+      study.observer_hz = kSlowHz;
+    } else {
+      found.before = std::move(repeated);
+    }
+  }
   found.candidates = candidates_of(study, found.before, study.catalogue);
   if (const EffectEntry* parent = excluded_parent(study, found.candidates))
     found.excluded_parents = candidates_of(study, found.before, {parent});

@@ -25,7 +25,7 @@ const std::map<std::string_view, Starts>& table() {
       {"cogging_torque", {{0.05, kNaN, kNaN}}},
       {"constant_load_torque", {{0.05}, {-0.05}}},
       {"contact_adhesion", {{0.05}, {0.2}}},
-      {"encoder_eccentricity", quarters({0.002})},
+      {"encoder_eccentricity", quarters({0.002, 0.02})},
       {"friction_asymmetry",
        {{0.08, 0.3, 0.15}, {0.08, -0.3, -0.15}, {0.08, 0.3, -0.15}, {0.08, -0.3, 0.15}}},
       {"gap_eccentricity", quarters({0.15})},

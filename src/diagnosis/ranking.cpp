@@ -12,6 +12,8 @@ constexpr double kAlike = 0.3;              ///< S between look-alikes that the 
 constexpr double kIndistinct = 0.08;        ///< the same for effects that no table calls alike
 constexpr double kLeastRel = 0.4;           ///< share of the log distance to the floor that a step closes
 constexpr double kLeastMargin = 0.3;        ///< S by which it beats all others
+constexpr double kOtherFormRel = 0.25;      ///< the same of an effect whose real law is another than ours,
+constexpr double kOtherFormMargin = 1.5;    ///< which stands far above all others all the same
 constexpr double kLeastGain = 0.3;          ///< S, of a step that cannot reach the floor
 constexpr double kLeastWindows = 0.6;       ///< share of the windows that such a step improves
 constexpr double kNestedShare = 0.8;        ///< of the child's gain: the parent is enough
@@ -102,8 +104,9 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   }
   d.margin = other - best.score;
   d.probability = probability_of(d.rel, d.margin, d.gain);
-  const bool enough =
-      repeats_badly ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows : d.rel >= kLeastRel;
+  const bool enough = repeats_badly
+                          ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows
+                          : d.rel >= kLeastRel || (d.rel >= kOtherFormRel && d.margin >= kOtherFormMargin);
   d.accepted = enough && d.margin >= kLeastMargin;
   for (const Judged& parent : excluded_parents)
     if (nested_parent(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)

@@ -41,16 +41,21 @@ std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judge
   return starts;
 }
 
-/// The best few that are not at the floor try again, also from the numbers of the very best.
+/// The best few that are not at the floor try again, also from the numbers of the very best; so does the
+/// simpler effect that the best contains, wherever it came.
 void second_round(const Study& study, std::vector<Judged>& ranked) {
-  const std::size_t count = std::min(kSecondRound, ranked.size());
-  const FittedModel drive = ranked.empty() ? FittedModel{} : ranked.front().fitted.model;
-  parallel_for(count, study.options.threads, [&](std::size_t i) {
-    Judged& candidate = ranked[i];
-    if (!std::isfinite(candidate.score) || at_floor(candidate)) return;
-    Fitted again = retry(study.train, candidate.fitted, drive, study.options.fit, study.observer_hz);
-    if (!(again.mean_square < candidate.fitted.mean_square)) return;
-    candidate = judge(candidate.entry, std::move(again), study.held_out, study.observer_hz);
+  if (ranked.empty() || !std::isfinite(ranked.front().score)) return;
+  const FittedModel first = ranked.front().fitted.model;
+  const EffectEntry* parent = nested_parent(*ranked.front().entry);
+  std::vector<std::size_t> again;
+  for (std::size_t i = 0; i < ranked.size(); ++i)
+    if (!at_floor(ranked[i]) && (i < kSecondRound || ranked[i].entry == parent)) again.push_back(i);
+  parallel_for(again.size(), study.options.threads, [&](std::size_t k) {
+    Judged& candidate = ranked[again[k]];
+    if (!std::isfinite(candidate.score)) return;
+    Fitted fitted = retry(study.train, candidate.fitted, first, study.options.fit, study.observer_hz);
+    if (fitted.mean_square < candidate.fitted.mean_square)
+      candidate = judge(candidate.entry, std::move(fitted), study.held_out, study.observer_hz);
   });
 }
 
