@@ -155,8 +155,7 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
   for (const MotorTrace& recording : recordings) {
     const internal::FoldedMotion folded = internal::fold(recording);
     if (folded.periods == 0) continue;
-    means.push_back(internal::analyse(folded.trace(recording.file), folded.noise));
-    means.back().quantum = recording.quantum;
+    means.push_back(internal::analyse_mean(folded, recording));
     intervals.push_back(folded.dt);
   }
   GapEstimate reading;

@@ -9,13 +9,13 @@ namespace gapscope::internal {
 
 /// The mean period of a periodic recording, and the same laid end to end a few times.
 struct FoldedMotion {
-  std::size_t periods = 0;      ///< averaged; 0: the recording cannot be folded
-  double period = 0.0;          ///< [s]
-  double start = 0.0;           ///< of the first period used, from the first sample [s]
-  double dt = 0.0;              ///< of the mean [s], within half a sample per period of the recording's
-  double noise = 0.0;           ///< standard deviation of a sample of the mean [rad]
-  std::vector<double> mean;     ///< one period of x1, its own mean removed [rad]
-  std::vector<double> offsets;  ///< mean of x1 in every period [rad]
+  std::size_t periods = 0;   ///< averaged; 0: the recording cannot be folded
+  double start = 0.0;        ///< of the first period used [s]
+  double dt = 0.0;           ///< of the mean [s], within half a sample per period of the recording's
+  double quantum = 0.0;      ///< of the encoder [rad]
+  double rounding = 0.0;     ///< error that all periods share where the motion is slow: 0 with dither [rad]
+  double noise = 0.0;        ///< standard deviation of a sample of the mean [rad]
+  std::vector<double> mean;  ///< one period of x1, its own mean removed [rad]
   std::vector<double> tiled_u, tiled_x1;  ///< kTiles periods, for a detector that expects a motion
 
   static constexpr std::size_t kTiles = 4;

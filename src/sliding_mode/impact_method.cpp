@@ -75,13 +75,8 @@ std::size_t deciding_bound(const ImpactAnalysis& a) {
   return tops.empty() ? a.sliding : static_cast<std::size_t>(median(std::move(tops)));
 }
 
-}  // namespace
-
-ImpactAnalysis analyse(const MotorTrace& trace, double noise) {
-  ImpactAnalysis a;
-  a.facts = read_facts(trace, noise);
-  a.quantum = a.facts.quantum;
-  if (!a.facts.defect.empty()) return a;
+void search(const MotorTrace& trace, ImpactAnalysis& a) {
+  if (!a.facts.defect.empty()) return;
   a.run = run_bank(trace, a.facts, bound_grid(a.facts, trace.dt), Discretisation::kMatched);
   a.sliding = smallest_sliding(a.run);
   std::vector<std::vector<Excursion>> excursions;
@@ -94,6 +89,25 @@ ImpactAnalysis analyse(const MotorTrace& trace, double noise) {
   a.smallest_visible_gap = smallest_visible_gap(trace, a.facts, a.run, a.deciding);
   a.finest_gap = smallest_visible_gap(trace, a.facts, a.run, a.sliding);
   read_passages(trace, a);
+}
+
+}  // namespace
+
+ImpactAnalysis analyse(const MotorTrace& trace) {
+  ImpactAnalysis a;
+  a.facts = read_facts(trace);
+  a.quantum = a.facts.quantum;
+  search(trace, a);
+  return a;
+}
+
+ImpactAnalysis analyse_mean(const FoldedMotion& mean, const MotorTrace& whole) {
+  ImpactAnalysis a;
+  const MotorTrace trace = mean.trace(whole.file);
+  a.facts = read_facts(trace, mean.noise);
+  a.facts.rounding = mean.rounding;
+  a.quantum = mean.quantum;
+  search(trace, a);
   return a;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/sliding_mode/gap_estimate.h"
+#include "sliding_mode/folding.h"
 #include "sliding_mode/transition.h"
 
 namespace gapscope::internal {
@@ -23,7 +24,8 @@ struct ImpactAnalysis {
   double travel = 0.0;      ///< peak to peak [rad]
 };
 
-ImpactAnalysis analyse(const MotorTrace& trace, double noise = 0.0);
+ImpactAnalysis analyse(const MotorTrace& trace);
+ImpactAnalysis analyse_mean(const FoldedMotion& mean, const MotorTrace& whole);
 
 /// Verdict and estimate from all recordings together. Median per direction, mean of both.
 void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,

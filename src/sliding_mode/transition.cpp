@@ -102,7 +102,8 @@ Transition read_transition(const TransitionContext& context, const Event& impact
     t.refusal = Refusal::kSmallRise;
     return t;
   }
-  const FlightLaw law(trace, flight_window(context, impact, reversal), context.facts.noise);
+  const double noise = std::hypot(context.facts.noise, context.facts.rounding);
+  const FlightLaw law(trace, flight_window(context, impact, reversal), noise);
   const ImpactTime time = refine_impact(context, impact, reversal, law);
   if (!time.found) {
     t.refusal = Refusal::kNoImpactFit;

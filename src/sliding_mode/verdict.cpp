@@ -16,6 +16,7 @@ constexpr double kVisible =
 constexpr double kWidest = 0.15;  ///< of the 95 % interval of a gap that is reported, either way
 
 constexpr double kFewestQuanta = 40.0;   ///< in a gap that can be read
+constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
 constexpr double kFewestMoving = 100.0;  ///< … where the load travels far within it
 
 struct Pool {
@@ -134,7 +135,8 @@ std::string objection(const Pool& pool) {
     return fmt::format("the estimate of {:.3g} rad is most of the travel of {:.3g} rad; raise the amplitude",
                        gap, pool.travel);
   const double moved = std::abs(median_of(pool, &Transition::load_travel));
-  if (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum) return advice(Refusal::kLoadMoving);
+  if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
+    return advice(Refusal::kLoadMoving);
   if (gap < kFewestQuanta * pool.quantum)
     return fmt::format("a gap of {:.2g} rad is only {:.0f} encoder quanta; use a finer encoder", gap,
                        gap / pool.quantum);

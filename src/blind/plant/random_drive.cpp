@@ -11,6 +11,7 @@ namespace gapscope::blind {
 namespace {
 
 constexpr double kPeriods = 7.0;
+constexpr int kHarmonics = 4;  ///< of a multisine
 constexpr std::array kRates{1000.0, 2000.0, 2500.0, 5000.0, 10000.0};
 constexpr std::array kBits{20, 16, 14, 12};
 
@@ -21,9 +22,11 @@ auto pick(std::mt19937_64& g, const Array& values) {
 
 double torque_amplitude(const BlindCase& c) { return c.drive.torque_constant * c.excitation.amplitude; }
 
-void draw_excitation(std::mt19937_64& g, BlindCase& c) {
-  c.excitation.waveform = Waveform::kSine;
+void draw_excitation(std::mt19937_64& g, Waveform waveform, BlindCase& c) {
+  c.excitation.waveform = waveform;
   c.excitation.frequency = uniform(g, 0.5, 3.0);
+  c.excitation.frequency_end = kHarmonics * c.excitation.frequency;
+  c.excitation.lines = kHarmonics;
   c.excitation.amplitude = log_uniform(g, 0.05, 0.2) / c.drive.torque_constant;
 }
 
@@ -135,7 +138,7 @@ BlindRun simulate_blind(const BlindCase& c) {
   return simulate_blind(c.drive, c.excitation, c.sensor, c.options);
 }
 
-BlindCase random_drive(std::uint64_t seed) {
+BlindCase random_drive(std::uint64_t seed, Waveform waveform) {
   std::mt19937_64 g = random_stream(seed, "blind random drive");
   BlindCase c;
   c.kind = "gap";
@@ -144,7 +147,7 @@ BlindCase random_drive(std::uint64_t seed) {
   d.gap = log_uniform(g, 5e-3, 50e-3);
   d.x2 = uniform(g, -0.5, 0.5) * d.gap;
   draw_contact(g, d, 50.0);
-  draw_excitation(g, c);
+  draw_excitation(g, waveform, c);
   d.load_coulomb = torque_amplitude(c) * uniform(g, 0.02, 0.6);
   draw_sampling(g, c, seed);
   ensure_travel(c, 1.5 * d.gap);
@@ -156,13 +159,13 @@ BlindCase random_gap_free_drive(std::uint64_t seed) {
   return random_gap_free_drive(seed, static_cast<int>(uniform(g, 0.0, kGapFreeKinds)));
 }
 
-BlindCase random_gap_free_drive(std::uint64_t seed, int kind) {
+BlindCase random_gap_free_drive(std::uint64_t seed, int kind, Waveform waveform) {
   GAPSCOPE_REQUIRE(kind >= 0 && kind < kGapFreeKinds);
   std::mt19937_64 g = random_stream(seed, "blind gap-free drive");
   BlindCase c;
   draw_bodies(g, c.drive);
   const double gap_it_might_have = log_uniform(g, 5e-3, 50e-3);
-  draw_excitation(g, c);
+  draw_excitation(g, waveform, c);
   become_kind(g, kind, c);
   c.drive.gap = 0.0;
   draw_sampling(g, c, seed);

@@ -26,7 +26,9 @@ BlindRun simulate_blind(const BlindCase& c);
 ///   sine uniform 0.5–3 Hz, 7 periods, torque log-uniform 0.05–0.2 N·m, raised in steps of 25 % (Fc2 with
 ///   it) until the motor travels at least 1.5 gaps peak to peak; 1, 2, 2.5, 5 or 10 kHz; 20, 16, 14 or 12
 ///   bit; every second seed in the mean with noise of 0.3–1.5 quanta; the load starts anywhere in the gap.
-BlindCase random_drive(std::uint64_t seed);
+/// Another waveform takes the place of the sine, of the same period and peak torque: a multisine is the first
+/// four harmonics at random phases.
+BlindCase random_drive(std::uint64_t seed, Waveform waveform = Waveform::kSine);
 
 constexpr int kGapFreeKinds = 7;
 
@@ -40,7 +42,8 @@ constexpr int kGapFreeKinds = 7;
 ///   cogging            one inertia, cogging 5–30 % with 12 or 60 periods, Coulomb friction 2–30 %
 ///   compliant_stribeck compliant, with the friction of stribeck_sticking on the motor
 BlindCase random_gap_free_drive(std::uint64_t seed);
-BlindCase random_gap_free_drive(std::uint64_t seed, int kind);  ///< 0 ≤ kind < kGapFreeKinds
+BlindCase random_gap_free_drive(std::uint64_t seed, int kind,  ///< 0 ≤ kind < kGapFreeKinds
+                                Waveform waveform = Waveform::kSine);
 
 /// What a data sheet says of the drive: no effects, and every number but motor inertia and torque constant
 /// (which set the scale that no recording of u and x1 can check) off by a uniform share of up to `spread`.

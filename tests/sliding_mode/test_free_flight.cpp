@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "blind/plant/random_drive.h"
+#include "gapscope/base/statistics.h"
+#include "gapscope/sliding_mode/detector.h"
+#include "sliding_mode/free_flight.h"
+
+namespace gapscope::internal {
+namespace {
+
+using blind::BlindDrive;
+using blind::BlindRun;
+using blind::GapPassage;
+
+BlindRun simulate(const BlindDrive& drive, int bits = 20) {
+  blind::BlindExcitation sine;
+  blind::BlindOptions options;
+  options.duration = 7.0;
+  options.tolerance = blind::kFastTolerance;
+  return blind::simulate_blind(drive, sine, blind::BlindSensor::with_bits(bits), options);
+}
+
+BlindDrive coasting_drive() {
+  BlindDrive drive;  // its load has so little friction that it is still on its way when the motor turns
+  drive.load_coulomb = 0.004;
+  drive.load_damping = 0.018;
+  return drive;
+}
+
+const GapPassage& late_passage(const BlindRun& run) {
+  for (const GapPassage& p : run.truth.passages)
+    if (p.t1 > 4.0 && p.from_flank * p.to_flank < 0) return p;
+  throw std::logic_error("no passage");
+}
+
+FlightWindow window_of(const MotorTrace& trace, const GapPassage& p) {
+  const auto at = [&](double t) { return static_cast<std::size_t>(t / trace.dt); };
+  FlightWindow w{at(p.t1 - 0.2), 0, at(p.t2) + 5, p.to_flank};
+  w.reversal = w.first;
+  for (std::size_t i = w.first; i <= at(p.t2); ++i)
+    if (w.direction * trace.x1[i] <= w.direction * trace.x1[w.reversal]) w.reversal = i;
+  return w;
+}
+
+class Release : public testing::TestWithParam<bool> {};
+
+TEST_P(Release, IsFoundWhereContactWasLostWithTheSpeedOfTheLoadThere) {
+  const BlindRun run = simulate(GetParam() ? coasting_drive() : BlindDrive{});
+  const MotorTrace trace = run.recording.motor_trace();
+  const GapPassage& p = late_passage(run);
+  const double noise = trace.quantum / std::sqrt(12.0);
+  const auto core = static_cast<std::size_t>(p.t2 / trace.dt) - 3;
+  const FreeFlight flight = FlightLaw(trace, window_of(trace, p), noise).find_release(core);
+  ASSERT_TRUE(flight.found);
+  const double passage = p.t2 - p.t1, gap = p.gap;
+  EXPECT_NEAR(flight.begin.time * trace.dt, p.t1, 0.06 * passage);
+  // In motion an error of t1 moves x1(t1) with the load: it cancels in the gap.
+  EXPECT_NEAR(flight.begin.motor.position - p.x1_t1,
+              flight.begin.motor.speed * (flight.begin.time * trace.dt - p.t1), 0.01 * gap);
+  const auto i = static_cast<std::size_t>(p.t1 / trace.dt);
+  EXPECT_NEAR(flight.begin.motor.speed, run.truth.w2[i], 0.03 * std::abs(run.truth.w2[i]) + 0.01);
+  EXPECT_LE(flight.earliest.time, flight.begin.time);
+  EXPECT_GE(flight.latest.time, flight.begin.time);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfALoad, Release, testing::Values(false, true),
+                         [](const auto& load) { return load.param ? "ThatCoasts" : "AtRest"; });
+
+TEST(FlightLaw, FindsTheMotorsOwnCoefficientsWithoutBeingToldAny) {
+  const BlindDrive drive;
+  const BlindRun run = simulate(drive, 24);
+  const MotorTrace trace = run.recording.motor_trace();
+  const GapPassage& p = late_passage(run);
+  const FlightLaw law(trace, window_of(trace, p), trace.quantum);
+  FlightLaw::Fit fit;
+  ASSERT_TRUE(law.fit_before(static_cast<std::size_t>(p.t2 / trace.dt) - 3, fit));
+  EXPECT_NEAR(fit.coefficients[2], drive.torque_constant / drive.motor_inertia, 0.03 * fit.coefficients[2]);
+  EXPECT_NEAR(-fit.coefficients[3], drive.motor_damping / drive.motor_inertia, -0.03 * fit.coefficients[3]);
+}
+
+TEST(FlightLaw, OneLawForTheWholeStrokeMeansThatNoContactWasLost) {
+  BlindDrive drive;
+  drive.load = blind::LoadKind::kNone;
+  const BlindRun run = simulate(drive);
+  const MotorTrace trace = run.recording.motor_trace();
+  const FlightWindow window{10000, 10400, 11200, 1};
+  EXPECT_FALSE(FlightLaw(trace, window, trace.quantum / std::sqrt(12.0)).find_release(11000).found);
+}
+
+TEST(FlightLaw, TheGapOfALoadThatCoastsIsReadNotItsUncorrectedS5) {
+  const BlindDrive drive = coasting_drive();
+  const BlindRun run = simulate(drive);
+  const MotorTrace trace = run.recording.motor_trace();
+  const GapEstimate estimate = detect_gap({&trace, 1});
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason;
+  EXPECT_NEAR(estimate.gap, drive.gap, 0.1 * drive.gap);
+  EXPECT_LE(estimate.ci95.low, drive.gap);
+  EXPECT_GE(estimate.ci95.high, drive.gap);
+  EXPECT_GT(std::abs(estimate.events.back().gap_uncorrected / drive.gap - 1.0), 0.03);
+}
+
+}  // namespace
+}  // namespace gapscope::internal
