@@ -18,6 +18,7 @@ FigureData bound_time_map(const ReportView& view);
 FigureData lost_motion_loop(const ReportView& view);
 FigureData estimates(const ReportView& view);
 FigureData residuals(const ReportView& view);
+FigureData fit_starts(const ReportView& view);
 
 /// One sheet: the findings in words, and the main panels of the other figures.
 FigureData overview(const ReportView& view, const std::vector<FigureData>& figures);

@@ -54,7 +54,8 @@ std::vector<FigureData> all_figures(const ReportView& view) {
                                      bound_time_map(view),
                                      lost_motion_loop(view),
                                      estimates(view),
-                                     residuals(view)};
+                                     residuals(view),
+                                     fit_starts(view)};
   figures.insert(figures.begin(), overview(view, figures));
   return figures;
 }

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/figures.h"
+#include "report/wording.h"
+
+namespace gapscope::internal {
+
+FigureData fit_starts(const ReportView& view) {
+  FigureData figure;
+  figure.file = "fit_starts.png";
+  figure.title = "Where the searches of the reference ended";
+  const auto& reference = view.run.reference;
+  if (!reference || reference->start_costs.size() < 2) {
+    figure.missing = reference ? "the first start settled the fit" : "the reference was not asked for";
+    figure.expected = false;
+    return figure;
+  }
+  Series s;
+  s.style = reference_style();
+  s.marker = Marker::kDisc;
+  s.joined = false;
+  Panel panel;
+  int same = 0;
+  for (std::size_t i = 0; i < reference->start_costs.size(); ++i) {
+    const double ratio = std::sqrt(reference->start_costs[i]);
+    s.x.push_back(std::log10(ratio));
+    s.y.push_back(static_cast<double>(i));
+    panel.y.categories.push_back(fmt::format("search {}", i + 1));
+    panel.y.remarks.push_back(plain_number(ratio) + " floors");
+    same += ratio < 1.005 * std::sqrt(reference->start_costs.front());
+  }
+  const double lowest = std::min(0.0, s.x.front()), highest = std::max(0.0, s.x.back());
+  const double margin = 0.1 * (highest - lowest) + 0.05;
+  panel.x = {
+      "log$_{10}$ (prediction error / encoder floor)", "", {lowest - margin, highest + margin}, {}, {}};
+  panel.height = 120.0 + 50.0 * static_cast<double>(s.x.size());
+  panel.x_marks.push_back({0.0, truth_style(), "encoder floor"});
+  panel.series.push_back(s);
+  figure.panels.push_back(panel);
+  figure.reading = fmt::format(
+      "{} of {} searches ended in the best minimum, {} times what the encoder leaves; the worst at {} "
+      "times.",
+      same, s.x.size(), plain_number(std::sqrt(reference->start_costs.front())),
+      plain_number(std::sqrt(reference->start_costs.back())));
+  return figure;
+}
+
+}  // namespace gapscope::internal
