@@ -7,21 +7,30 @@
 
 namespace gapscope::internal {
 
-/// The same problem on the first share of each recording. Few events lie in it, so that its cost has fewer
-/// minima and costs less to have. What is simulated is counted on the whole problem, in its length.
+/// The same problem on a part of the recordings. What is simulated is counted on the whole problem, in its
+/// length.
 class Excerpt {
  public:
+  /// The first share of each recording: few events lie in it, so that its cost has fewer minima.
   Excerpt(const FitProblem& whole, double share) : whole_(whole), share_(share), part_(whole) {
-    for (MotorTrace trace : whole.recordings) {
+    for (const MotorTrace& trace : whole.recordings) {
       const auto samples = static_cast<std::size_t>(share * static_cast<double>(trace.size()));
-      const std::size_t kept = std::min(std::max(samples, kFewest), trace.size());
-      trace.u = trace.u.first(kept);
-      trace.x1 = trace.x1.first(kept);
-      traces_.push_back(trace);
+      traces_.push_back(part_of(trace, 0, std::min(std::max(samples, kFewest), trace.size())));
     }
-    part_.recordings = traces_;
-    part_.simulations = 0.0;
+    finish();
   }
+
+  /// The samples from `first` to before `last` of recording r alone.
+  Excerpt(const FitProblem& whole, std::size_t r, std::size_t first, std::size_t last)
+      : whole_(whole), share_(0.0), part_(whole) {
+    double samples = 0.0;
+    for (const MotorTrace& trace : whole.recordings) samples += static_cast<double>(trace.size());
+    share_ = static_cast<double>(last - first) / samples;
+    traces_.push_back(part_of(whole.recordings[r], first, last - first));
+    part_.floors = {whole.floors[r]};
+    finish();
+  }
+
   ~Excerpt() { whole_.simulations += share_ * part_.simulations; }
   Excerpt(const Excerpt&) = delete;
   Excerpt& operator=(const Excerpt&) = delete;
@@ -30,6 +39,18 @@ class Excerpt {
 
  private:
   static constexpr std::size_t kFewest = 200;  ///< samples
+
+  static MotorTrace part_of(MotorTrace trace, std::size_t first, std::size_t count) {
+    trace.start = trace.time(first);
+    trace.u = trace.u.subspan(first, count);
+    trace.x1 = trace.x1.subspan(first, count);
+    return trace;
+  }
+
+  void finish() {
+    part_.recordings = traces_;
+    part_.simulations = 0.0;
+  }
 
   const FitProblem& whole_;
   double share_;

@@ -23,6 +23,10 @@ const char* to_string(FitStatus status) {
 
 std::string number(double v) { return std::isnan(v) ? "-" : fmt::format("{:.6g}", v); }
 
+std::string test_text(const char* what, const ResidualTest& t) {
+  return fmt::format("correlated {} at {} % of the lags (chance: 5 %)", what, number(100.0 * t.outside));
+}
+
 std::string note(const FittedParameter& p) {
   if (!p.estimated) return "fixed";
   if (!p.identifiable) return "not identifiable";
@@ -66,8 +70,11 @@ std::string FitSummary::full_report() const {
                       number(innovation_rmse), number(observer_hz), number(floor));
   for (const ModeError& m : mode_errors)
     text += fmt::format("  {:<12} {:>8} samples, error {}\n", to_string(m.mode), m.samples, number(m.rmse));
+  text += "residual: " + test_text("with itself", whiteness) + ", " +
+          test_text("with the input", input_correlation) + "\n";
   text += fmt::format("lag-1 autocorrelation {}, {} starts, {} simulations\n", number(lag1_autocorrelation),
                       starts, simulations);
+  for (const std::string& a : advice) text += "advice: " + a + "\n";
   for (const std::string& w : warnings) text += "warning: " + w + "\n";
   return text;
 }

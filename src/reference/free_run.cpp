@@ -26,10 +26,15 @@ double error(const FitProblem& problem, const std::vector<FitTrace>& traces,
 
 }  // namespace
 
+DriveState<double> start_state(const FitProblem& problem, const Solution& at, std::size_t r) {
+  const double gap = problem.numbers(at.q.data())[place::kGap];
+  return problem.state(at.starts[r], 0.5 * gap, at.starts[r].q.data());
+}
+
 FitTrace trace_of(const FitProblem& problem, const Solution& at, std::size_t r, double observer_hz) {
   const MotorTrace& recording = problem.recordings[r];
   const StepperModel<double> model = problem.stepper_model(problem.numbers(at.q.data()));
-  const DriveState<double> start = problem.state(at.starts[r], 0.5 * model.drive.gap, at.starts[r].q.data());
+  const DriveState<double> start = start_state(problem, at, r);
   const bool has_load = problem.structure.has_load;
   FitTrace t;
   t.file = recording.file;

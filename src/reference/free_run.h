@@ -7,6 +7,9 @@
 
 namespace gapscope::internal {
 
+/// State of a solution at the first sample of recording r.
+DriveState<double> start_state(const FitProblem& problem, const Solution& at, std::size_t r);
+
 /// Free run and one-step prediction of a solution beside recording r. Empty columns where the motion
 /// diverges.
 FitTrace trace_of(const FitProblem& problem, const Solution& at, std::size_t r, double observer_hz);

@@ -10,6 +10,8 @@ namespace gapscope::internal {
 namespace {
 
 constexpr double kShareInCombination = 0.05;  ///< of the largest change, for a parameter to be named
+constexpr double kSameChange = 0.05;          ///< relative changes that count as equal
+constexpr double kLeastKnown = 10.0;          ///< relative errors this many times the least one are told
 
 /// The free numbers that the recordings see at all, and those among them that no null direction touches.
 struct Directions {
@@ -37,11 +39,36 @@ std::string list(const std::vector<std::string>& keys) {
   return text;
 }
 
+/// What is left of parameters that change together, by their relative changes along the null direction.
+std::string what_is_determined(const std::vector<double>& changes) {
+  const auto equal = [&](double a, double b) { return std::abs(a - b) < kSameChange * std::abs(a); };
+  bool together = true;
+  for (const double c : changes) together &= equal(changes[0], c);
+  if (together) return changes.size() == 2 ? "only their ratio is" : "only their ratios are";
+  if (changes.size() == 2 && equal(changes[0], -changes[1])) return "only their product is";
+  std::string text = "only a combination is (they change as";
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    text += fmt::format("{} {:+.2g}", i == 0 ? "" : " :", changes[i] / std::abs(changes[0]));
+  return text + ")";
+}
+
+std::string excitation_for_any(const std::vector<std::string>& keys) {
+  for (const char* scale : {"torque_constant", "motor_inertia"})
+    if (std::find(keys.begin(), keys.end(), scale) != keys.end()) return excitation_for(scale);
+  std::vector<std::string> wishes;
+  for (const std::string& key : keys)
+    if (const std::string wish = excitation_for(key);
+        std::find(wishes.begin(), wishes.end(), wish) == wishes.end())
+      wishes.push_back(wish);
+  return list(wishes);
+}
+
 /// Names the parameters of one null direction v (normalised columns) and marks them: those that change by a
 /// share of the largest relative change among the well visible ones.
-void mark_null(const FitProblem& problem, const Eigen::VectorXd& v, const Eigen::VectorXd& norm,
-               Directions& directions, Determined& determined) {
+void mark_null(const FitProblem& problem, const Solution& at, const Eigen::VectorXd& v,
+               const Eigen::VectorXd& norm, Directions& directions, Determined& determined) {
   std::vector<std::string> keys;
+  std::vector<double> changes;  // relative
   double largest = 0.0;
   for (Eigen::Index i = 0; i < v.size(); ++i)
     if (std::abs(v[i]) > kShareInCombination * v.cwiseAbs().maxCoeff())
@@ -50,19 +77,23 @@ void mark_null(const FitProblem& problem, const Eigen::VectorXd& v, const Eigen:
     const auto k = static_cast<std::size_t>(directions.seen[static_cast<std::size_t>(i)]);
     if (std::abs(v[i]) / norm[i] < kShareInCombination * largest) continue;
     directions.in_null[k] = true;
-    if (k < problem.free_count()) keys.push_back(problem.free_parameter(k).key);
+    if (k >= problem.free_count()) continue;
+    keys.push_back(problem.free_parameter(k).key);
+    const Coordinate& c = problem.free_parameter(k).coordinate;
+    changes.push_back(v[i] / norm[i] * c.slope(at.q[k]) / c.physical(at.q[k]));
   }
   if (keys.empty()) return;
   determined.warnings.push_back(
       keys.size() == 1
           ? fmt::format("{} cannot be told apart from the initial state: not identifiable.", keys[0])
-          : fmt::format(
-                "{} change the motion together without a trace: only a combination is identifiable; fix one "
-                "of them.",
-                list(keys)));
+          : fmt::format("{} change together without a trace: {} determined. Fix one of them; what would tell "
+                        "them apart "
+                        "is {}.",
+                        list(keys), what_is_determined(changes), excitation_for_any(keys)));
 }
 
-Directions directions_of(const FitProblem& problem, const Information& info, Determined& determined) {
+Directions directions_of(const FitProblem& problem, const Solution& at, const Information& info,
+                         Determined& determined) {
   Directions d;
   const Eigen::Index n = info.normal.rows();
   d.in_null.assign(static_cast<std::size_t>(n), false);
@@ -84,7 +115,7 @@ Directions directions_of(const FitProblem& problem, const Information& info, Det
   for (Eigen::Index e = 0; e < m; ++e) {
     const Eigen::VectorXd v = eigen.eigenvectors().col(e);
     if (eigen.eigenvalues()[e] < least) {
-      mark_null(problem, v, norm, d, determined);
+      mark_null(problem, at, v, norm, d, determined);
       continue;
     }
     for (Eigen::Index i = 0; i < m; ++i)
@@ -134,6 +165,21 @@ void judge(const FitProblem& problem, const Solution& at, const Directions& d, s
   }
 }
 
+/// The worse half of the parameters that are known at all, where that is much worse than the best.
+void advise(const FitProblem& problem, const Solution& at, Determined& determined) {
+  const auto relative = [&](std::size_t i) { return determined.std[i] / size_of(problem, at, i); };
+  std::vector<double> all;
+  for (std::size_t i = 0; i < determined.std.size(); ++i)
+    if (determined.identifiable[i]) all.push_back(relative(i));
+  const double least = quantile(all, 0.0), middle = median(all);
+  for (std::size_t i = 0; i < determined.std.size(); ++i) {
+    if (!determined.identifiable[i] || !(relative(i) > std::max(middle, kLeastKnown * least))) continue;
+    const std::string& key = problem.free_parameter(i).key;
+    determined.advice.push_back(fmt::format("{} is known to {:.2g} % only (standard error); sharper by {}.",
+                                            key, 100.0 * relative(i), excitation_for(key)));
+  }
+}
+
 }  // namespace
 
 std::string excitation_for(const std::string& key) {
@@ -155,7 +201,7 @@ Determined determine(const FitProblem& problem, const Solution& at, const Inform
                      const std::vector<double>& shift) {
   const std::size_t n = problem.free_count();
   Determined determined;
-  determined.std.assign(n, kNaN);
+  determined.std = determined.own = determined.linear = std::vector<double>(n, kNaN);
   determined.identifiable.assign(n, info.valid);
   if (!info.valid) return determined;
   for (std::size_t i = 0; i < n; ++i) {
@@ -165,14 +211,18 @@ Determined determine(const FitProblem& problem, const Solution& at, const Inform
     determined.warnings.push_back(
         fmt::format("{} leaves no trace in the recordings: needed is {}.", key, excitation_for(key)));
   }
-  const Directions d = directions_of(problem, info, determined);
+  const Directions d = directions_of(problem, at, info, determined);
   const Eigen::VectorXd variance = variances(info, d.inverse);
   for (std::size_t i = 0; i < n; ++i) {
     if (!determined.identifiable[i]) continue;
     const double slope = problem.free_parameter(i).coordinate.slope(at.q[i]);
-    const double own = slope * std::sqrt(variance[static_cast<Eigen::Index>(i)]);
-    judge(problem, at, d, i, shift.empty() ? own : std::hypot(own, shift[i]), determined);
+    const auto k = static_cast<Eigen::Index>(i);
+    determined.own[i] = slope * std::sqrt(variance[k]);
+    determined.linear[i] = slope * std::sqrt(d.inverse(k, k));
+    judge(problem, at, d, i, shift.empty() ? determined.own[i] : std::hypot(determined.own[i], shift[i]),
+          determined);
   }
+  advise(problem, at, determined);
   return determined;
 }
 

@@ -11,7 +11,10 @@ namespace gapscope::internal {
 struct Determined {
   std::vector<double> std;  ///< [unit of the parameter]; NaN where it is not identifiable
   std::vector<bool> identifiable;
-  double quantile = 1.96;  ///< half width of the 95 % interval in std
+  std::vector<double> own;          ///< std before changes to another gain or part count
+  std::vector<double> linear;       ///< std of white residuals of one floor
+  double quantile = 1.96;           ///< half width of the 95 % interval in std
+  std::vector<std::string> advice;  ///< what would sharpen the parameters that are known least
   std::vector<std::string> warnings;
 };
 

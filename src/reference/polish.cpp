@@ -16,8 +16,10 @@ constexpr double kShares[] = {0.125, 0.25, 0.5};               ///< of the recor
 constexpr int kShakes = 10;                                    ///< points nearby that are tried
 constexpr double kSmallestShake = 1.0, kLargestShake = 100.0;  ///< in standard errors
 
-void keep_better(const Solution& next, Solution& best) {
-  if (next.mean_square < best.mean_square) best = next;
+void keep(const Solution& next, Polished& polished) {
+  if (!next.usable()) return;
+  polished.others.push_back(next);
+  if (next.mean_square < polished.best.mean_square) polished.best = next;
 }
 
 Solution over_growing_parts(const FitProblem& problem, Solution at) {
@@ -58,25 +60,28 @@ Eigen::MatrixXd covariance_root(const FitProblem& problem, const Solution& at) {
   return scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
 }
 
-void shake(const FitProblem& problem, Solution& best) {
-  Eigen::MatrixXd root = covariance_root(problem, best);
+void shake(const FitProblem& problem, Polished& polished) {
+  const Eigen::MatrixXd root = covariance_root(problem, polished.best);
   if (root.size() == 0) return;
   auto generator = random_stream(problem.options.seed, "fit polish");
   for (int i = 0; i < kShakes; ++i) {
     stop_point();
     const double size = log_uniform(generator, kSmallestShake, kLargestShake);
-    keep_better(solve(problem, shaken(problem, best, root, size, generator), 0.0, kTrial), best);
+    keep(solve(problem, shaken(problem, polished.best, root, size, generator), 0.0, kTrial), polished);
   }
 }
 
 }  // namespace
 
-Solution polish(const FitProblem& problem, const Solution& found) {
-  Solution best = solve(problem, found, 0.0, kFinal);
-  if (best.mean_square <= found.mean_square) return best;
-  keep_better(over_growing_parts(problem, found), best);
-  if (best.usable()) shake(problem, best);
-  return best.usable() ? solve(problem, best, 0.0, kFinal) : best;
+Polished polish(const FitProblem& problem, const Solution& found) {
+  Polished polished{solve(problem, found, 0.0, kFinal), {}};
+  if (polished.best.mean_square <= found.mean_square) return polished;
+  keep(over_growing_parts(problem, found), polished);
+  if (!polished.best.usable()) return polished;
+  shake(problem, polished);
+  const Solution last = solve(problem, polished.best, 0.0, kFinal);
+  if (last.usable()) polished.best = last;
+  return polished;
 }
 
 }  // namespace gapscope::internal

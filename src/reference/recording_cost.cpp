@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/interrupt.h"
+
 namespace gapscope::internal {
 namespace {
 
@@ -59,7 +61,7 @@ bool RecordingCost::run_chunk(const double* q, int first, int count, double* res
 }
 
 bool RecordingCost::evaluate(const double* q, double* residuals, double* jacobian, bool plain) const {
-  if (problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return false;
+  if (stop_requested() || problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return false;
   if (jacobian == nullptr) {
     problem_.simulations += 1.0;
     if (!run(q, residuals)) return false;

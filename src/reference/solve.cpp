@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "gapscope/base/interrupt.h"
 #include "reference/recording_cost.h"
 
 namespace gapscope::internal {
@@ -169,6 +170,7 @@ Solution solve(const FitProblem& problem, const Solution& from, double observer_
   silence_ceres();
   Search search(problem, from, observer_hz);
   const ceres::Solver::Summary summary = search.run(solver_options(problem.options, effort));
+  stop_point();  // once asked to stop, no evaluation succeeds
   if (summary.termination_type == ceres::FAILURE || !summary.IsSolutionUsable()) return to;
   search.read_back(to);
   to.converged = summary.termination_type == ceres::CONVERGENCE;

@@ -20,9 +20,13 @@ std::string parameter_row(const FittedParameter& p, bool rotation) {
   const std::string unit = shown_unit(p.unit, rotation);
   const char* known = !p.estimated ? "given" : p.identifiable ? "yes" : "no";
   const std::string start = p.estimated ? quantity(p.start, unit) : "";
+  std::string remark = p.at_bound ? "at its bound" : "";
+  if (std::isfinite(p.profile_ci95.low))
+    remark += (remark.empty() ? "profile likelihood " : ", profile likelihood ") +
+              interval_text(p.profile_ci95, unit);
   return fmt::format("| `{}` | {} | {} | {} | {} |\n", p.key,
                      p.estimated ? plus_minus(p.value, p.ci95, unit) : quantity(p.value, unit), known, start,
-                     p.at_bound ? "at its bound" : "");
+                     remark);
 }
 
 std::string estimate_rows(const RunResult& run) {
@@ -158,7 +162,9 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
   if (run.model_free && !run.model_free->reason.empty())
     text += "\nModel-free verdict: " + sentence(run.model_free->reason) + "\n";
   text += bounds_line(run);
-  text += timing_line(timing) + parameter_table(run) + figure_section(figures);
+  text += timing_line(timing) + parameter_table(run);
+  if (run.reference) text += bullet_section("What would sharpen the reference", run.reference->advice);
+  text += figure_section(figures);
   text += bullet_section("Notes", notes_of(run));
   return text + fmt::format("\ngapscope {}\n", run.version);
 }

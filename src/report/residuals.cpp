@@ -98,6 +98,9 @@ std::string reading(const ReportView& view, const std::vector<double>& residual,
   text += fmt::format("; {} % of the lags lie outside the white-noise band: the residual {}",
                       std::lround(100 * share),
                       share > 0.1 ? "is not white, the model leaves structure" : "looks white");
+  if (std::isfinite(fit.input_correlation.outside))
+    text += fmt::format("; with the input it is correlated at {} % of the lags, chance leaves 5 %",
+                        std::lround(100 * fit.input_correlation.outside));
   return text + ".";
 }
 

@@ -89,8 +89,18 @@ void fields(Archive& archive, FittedParameter& p) {
   archive("estimated", p.estimated);
   archive("at_bound", p.at_bound);
   archive("start", p.start);
+  archive("profile_ci95", p.profile_ci95);
   archive.bound("low", p.low);
   archive.bound("high", p.high);
+}
+
+template <class Archive>
+void fields(Archive& archive, FittedStart& s) {
+  archive("file", s.file);
+  archive("x1_rad", s.state.x1);
+  archive("w1_rad_s", s.state.w1);
+  archive("x2_rad", s.state.x2);
+  archive("w2_rad_s", s.state.w2);
 }
 
 template <class Archive>
@@ -102,6 +112,13 @@ void fields(Archive& archive, ModeError& m) {
                              {Mode::kImpact, "impact"}});
   archive("samples", m.samples);
   archive("rmse_rad", m.rmse);
+}
+
+template <class Archive>
+void fields(Archive& archive, ResidualTest& t) {
+  archive("lags_outside", t.outside);
+  archive("worst_in_bands", t.worst);
+  archive("worst_lag_s", t.worst_lag);
 }
 
 template <class Archive>
@@ -123,8 +140,12 @@ void fields(Archive& archive, FitSummary& f) {
   archive("starts", f.starts);
   archive("simulations", f.simulations);
   archive("lag1_autocorrelation", f.lag1_autocorrelation);
+  archive.single("whiteness", f.whiteness);
+  archive.single("input_correlation", f.input_correlation);
   archive("start_costs", f.start_costs);
   archive.list("mode_errors", f.mode_errors);
+  archive.list("initial_states", f.initial_states);
+  archive("advice", f.advice);
   archive("warnings", f.warnings);
 }
 

@@ -1,6 +1,11 @@
 // Recovered truth: the recordings are those of an independent plant, which shares no code with the fit.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "reference/rigs.h"
 
 namespace gapscope {
@@ -176,6 +181,40 @@ TEST(Fit, ASmallMismatchIsSeenInTheRandomnessOfTheResidualAndAQuantisersPatternI
   EXPECT_EQ(coarse.full_report().find("not random"), std::string::npos) << coarse.full_report();
 }
 
+TEST(Fit, ResidualsOfTheRightModelAreAsRandomAsChanceAndThoseOfAWrongOneAreNot) {
+  BlindRig rig;
+  rig.sensor = blind::BlindSensor::with_bits(16, 1.0);
+  for (const bool right : {true, false}) {
+    ReferenceModel model = known_model(rig.drive);
+    if (!right) model.parameters[kContactStiffness].value = 100.0;
+    estimate(model, kGap, 0.02);
+    const FitSummary summary = fit_one(rig.recording(), model);
+    // 40 lags: more than 20 % outside a band of 95 % has a probability of 1e-4.
+    EXPECT_EQ(summary.whiteness.outside < 0.2, right) << summary.full_report();
+    if (right) {
+      EXPECT_LT(summary.input_correlation.outside, 0.2) << summary.full_report();
+    }
+  }
+}
+
+TEST(Fit, TheProfileOfAWellKnownParameterIsItsInterval) {
+  BlindRig rig;
+  rig.sensor = blind::BlindSensor::with_bits(16, 1.0);
+  ReferenceModel model = known_model(rig.drive);
+  estimate(model, kGap, 0.02);
+  estimate(model, kMotorDamping, 0.07);
+  FitOptions options;
+  options.profile = true;
+  const FitSummary summary = fit_one(rig.recording(), model, options);
+  for (const char* key : {"gap", "motor_damping"}) {
+    const FittedParameter& p = *summary.find(key);
+    const double half = 0.5 * (p.ci95.high - p.ci95.low);
+    EXPECT_NEAR(p.profile_ci95.low, p.ci95.low, 0.15 * half) << key;
+    EXPECT_NEAR(p.profile_ci95.high, p.ci95.high, 0.15 * half) << key;
+  }
+  EXPECT_TRUE(std::isnan(fit_one(rig.recording(), model).find("gap")->profile_ci95.low));
+}
+
 TEST(Fit, AParameterThatRunsIntoItsBoundIsNamed) {
   BlindRig run;
   ReferenceModel model = known_model(run.drive);
@@ -206,6 +245,19 @@ TEST(Fit, AModelThatDivergesFromEveryStartFailsWithoutNumbers) {
   EXPECT_TRUE(std::isnan(summary.rmse));
   EXPECT_TRUE(std::isnan(summary.find("gap")->value));
   EXPECT_FALSE(summary.converged());
+}
+
+TEST(Fit, StopsWithinAnEvaluationWhenItIsAskedTo) {
+  const Recording recording = BlindRig{}.recording();
+  ReferenceModel model = known_model({});
+  for (const int n : {kGap, kMotorDamping, kMassRatio}) estimate(model, n);
+  std::thread interrupter([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    request_stop();
+  });
+  EXPECT_THROW(fit_one(recording, model), Interrupted);
+  interrupter.join();
+  clear_stop_request();
 }
 
 TEST(Fit, CallersFaultsAreAssertions) {

@@ -31,11 +31,38 @@ TEST(Identifiability, InertiaTorqueConstantAndDampingOfOneInertiaScaleTogether) 
   const FitSummary summary = fit_one(run.recording(), model);
   for (const char* key : {"motor_inertia", "torque_constant", "motor_damping"})
     expect_not_identifiable(summary, key);
-  EXPECT_THAT(summary.warnings, Contains(AllOf(HasSubstr("motor_inertia"), HasSubstr("torque_constant"),
-                                               HasSubstr("only a combination"))));
+  EXPECT_THAT(summary.warnings,
+              Contains(AllOf(HasSubstr("motor_inertia"), HasSubstr("torque_constant"),
+                             HasSubstr("only their ratios are determined"), HasSubstr("known torque"))));
   // The combinations themselves are right.
   const double ratio = summary.find("motor_damping")->value / summary.find("motor_inertia")->value;
   EXPECT_NEAR(ratio / (0.062 / 8.78e-4), 1.0, 1e-3);
+}
+
+TEST(Identifiability, TorqueConstantAndInertiaAloneAreKnownAsARatio) {
+  BlindRig run;
+  run.drive.load = blind::LoadKind::kNone;
+  run.drive.motor_damping = 0.0;  // which would fix the scale
+  run.excitation.offset = 0.0;
+  run.excitation.amplitude = 0.1;
+  ReferenceModel model = known_model(run.drive);
+  model.structure.has_load = false;
+  for (const int n : {kMotorInertia, kTorqueConstant}) estimate(model, n, 1.1 * numbers_of(run.drive)[n]);
+  const FitSummary summary = fit_one(run.recording(), model);
+  expect_not_identifiable(summary, "motor_inertia");
+  EXPECT_THAT(summary.warnings, Contains(AllOf(HasSubstr("motor_inertia and torque_constant"),
+                                               HasSubstr("only their ratio is determined"))));
+}
+
+TEST(Identifiability, ASineSaysWhatWouldSharpenTheContact) {
+  BlindRig run;  // 1 Hz: some twenty impacts
+  ReferenceModel model = known_model(run.drive);
+  for (const int n : {kGap, kMotorDamping, kContactStiffness, kContactDamping})
+    estimate(model, n, 1.1 * numbers_of(run.drive)[static_cast<std::size_t>(n)]);
+  const FitSummary summary = fit_one(run.recording(), model);
+  EXPECT_THAT(summary.advice, Contains(AllOf(HasSubstr("contact_stiffness"), HasSubstr("impacts"))));
+  EXPECT_THAT(summary.advice, Contains(AllOf(HasSubstr("contact_damping"), HasSubstr("harder impacts"))));
+  EXPECT_THAT(summary.advice, ::testing::Not(Contains(HasSubstr("gap is known"))));
 }
 
 TEST(Identifiability, AllNineFreeLeaveGapAndMassRatioOnly) {

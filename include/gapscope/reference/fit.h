@@ -53,14 +53,16 @@ struct ReferenceModel {
 };
 
 struct FitOptions {
-  int starts = 6;                  ///< local searches at most; they stop at the first that reaches the floor
-  int max_iterations = 60;         ///< of each local search
-  double observer_hz = 2.5;        ///< poles of the observer in the search [Hz]
-  double rejected_hz = 30.0;       ///< poles when the model does not reach the encoder's floor [Hz]
-  double rejected_ratio = 3.0;     ///< innovations above this many floors: the model is not the drive
-  double loss_width = 0.0;         ///< Huber width [rad]; 0 = plain least squares
-  double max_condition = 1e12;     ///< cond(JᵀJ) [-] with scaled columns; above it: not identifiable
-  std::uint64_t seed = 1;          ///< of the starting points
+  int starts = 6;               ///< local searches at most; they stop at the first that reaches the floor
+  int max_iterations = 60;      ///< of each local search
+  double observer_hz = 2.5;     ///< poles of the observer in the search [Hz]
+  double rejected_hz = 30.0;    ///< poles when the model does not reach the encoder's floor [Hz]
+  double rejected_ratio = 3.0;  ///< innovations above this many floors: the model is not the drive
+  double loss_width = 0.0;      ///< Huber width [rad]; 0 = plain least squares
+  double max_condition = 1e12;  ///< cond(JᵀJ) [-] with scaled columns; above it: not identifiable
+  std::uint64_t seed = 1;       ///< of the starting points
+  bool compare_parts = true;    ///< where the model is not the drive: its values on parts of the recordings
+  bool profile = false;         ///< intervals from the profile likelihood as well
   std::optional<double> gap_seed;  ///< start of the gap from another estimate [rad]; absent: own start
 
   void fields(FieldVisitor& visitor);  ///< the one list: keys, bounds, units, docs

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/plant/drive.h"
 #include "gapscope/recording/recording.h"
 
 namespace gapscope {
@@ -16,8 +17,9 @@ struct FittedParameter {
   double start = kNaN;
   double value = kNaN;
   double std = kNaN;
-  Interval ci95;      ///< NaN bounds when it is not identifiable or not estimated
-  double low = kNaN;  ///< bounds
+  Interval ci95;          ///< NaN bounds when it is not identifiable or not estimated
+  Interval profile_ci95;  ///< where the profile likelihood falls by that of 95 %; NaN unless asked for
+  double low = kNaN;      ///< bounds
   double high = kNaN;
   bool estimated = false;     ///< false: fixed at its value
   bool identifiable = false;  ///< estimated and determined by the recordings
@@ -33,11 +35,25 @@ struct FitTrace {
   std::vector<Mode> mode;
 };
 
+/// Where the fitted model starts beside one recording.
+struct FittedStart {
+  std::string file;
+  DriveState<double> state;
+};
+
 /// Residual of the free run in one mode.
 struct ModeError {
   Mode mode = Mode::kGap;
   int samples = 0;
   double rmse = kNaN;  ///< [rad]
+};
+
+/// Correlations of the residual at some 40 lags against the band that holds 95 % of them where nothing is
+/// left.
+struct ResidualTest {
+  double outside = kNaN;    ///< share of the lags outside the band [-]; 0.05 is what chance leaves
+  double worst = kNaN;      ///< largest correlation in half widths of the band [-]
+  double worst_lag = kNaN;  ///< where that is [s]
 };
 
 /// What the model-based reference says. A default-built one says that it was not run.
@@ -52,10 +68,14 @@ struct FitSummary {
   int starts = 0;                      ///< starting points tried
   int simulations = 0;                 ///< plain simulations spent, a Jet run counted as its measured cost
   double lag1_autocorrelation = kNaN;  ///< of the residual [-]
+  ResidualTest whiteness;              ///< of the residual with itself
+  ResidualTest input_correlation;      ///< of the residual with the input
   std::vector<FittedParameter> parameters;  ///< estimated and fixed, in the order of the YAML keys
+  std::vector<FittedStart> initial_states;  ///< one per recording
   std::vector<FitTrace> traces;
   std::vector<ModeError> mode_errors;
   std::vector<double> start_costs;    ///< final cost of each start, best first (waterfall)
+  std::vector<std::string> advice;    ///< what would sharpen the parameters that are known least
   std::vector<std::string> warnings;  ///< null directions, bounds, advice: one sentence each
 
   bool converged() const { return status == FitStatus::kConverged; }

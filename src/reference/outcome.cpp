@@ -1,0 +1,195 @@
+#include "reference/outcome.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/excerpt.h"
+#include "reference/polish.h"
+#include "reference/search.h"
+#include "reference/starts.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr Effort kRejected{1e-6, 1.0};      ///< of a model that is not the drive
+constexpr Effort kOther{1e-4, 0.5};         ///< of the change to another gain or part
+constexpr double kSlowObserver = 0.2;       ///< of the search's gain, where a free run goes astray
+constexpr double kSecondGain = 1.0 / 3.0;   ///< of rejected_hz
+constexpr std::size_t kShortestPart = 200;  ///< samples
+constexpr int kBlocks = 40;                 ///< in which the level of the input is looked at
+constexpr int kFewestBlocks = 4;            ///< of a part
+constexpr double kOtherLevel = 4.0;         ///< ratio of input powers that makes a level of its own
+constexpr double kOtherGap = 0.25;          ///< relative difference of gaps that can be told
+
+std::vector<double> values_of(const FitProblem& problem, const Solution& s) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < problem.free_count(); ++i)
+    values.push_back(problem.free_parameter(i).coordinate.physical(s.q[i]));
+  return values;
+}
+
+void take(const FitProblem& problem, const Solution& solution, double hz, Outcome& outcome) {
+  outcome.solution = solution;
+  outcome.objective_hz = hz;
+  outcome.information = information_at(problem, solution, hz);
+}
+
+/// Minima side by side are all possible, each with the likelihood of its cost.
+void spread_over_minima(const FitProblem& problem, const std::vector<Solution>& others, Outcome& outcome) {
+  double samples = 0.0, weights = 1.0;
+  for (const MotorTrace& r : problem.recordings) samples += static_cast<double>(r.size());
+  const double unit = 2.0 * outcome.information.variance * outcome.information.inflation / samples;
+  const std::vector<double> best = values_of(problem, outcome.solution);
+  outcome.spread.assign(best.size(), 0.0);
+  for (const Solution& other : others) {
+    const double weight = std::exp(-std::max(0.0, other.mean_square - outcome.solution.mean_square) / unit);
+    const std::vector<double> values = values_of(problem, other);
+    for (std::size_t i = 0; i < best.size(); ++i)
+      outcome.spread[i] += weight * std::pow(values[i] - best[i], 2);
+    weights += weight;
+  }
+  for (double& s : outcome.spread) s = std::sqrt(s / weights);
+}
+
+/// Values at one gain, their change to another one as an error.
+void take_two_gains(const FitProblem& problem, const Solution& from, double hz, double other_hz,
+                    Outcome& outcome) {
+  const Solution found = solve(problem, from, hz, kRejected);
+  take(problem, found.usable() ? found : from, found.usable() ? hz : problem.options.observer_hz, outcome);
+  const Solution other = solve(problem, outcome.solution, other_hz, kOther);
+  if (!other.usable()) return;
+  outcome.changes.push_back(
+      {fmt::format("when the observer is taken from {:.3g} to {:.3g} Hz", outcome.objective_hz, other_hz),
+       values_of(problem, outcome.solution), values_of(problem, other), 1.0, false});
+}
+
+/// Where the level of the input changes most; the middle if it hardly does.
+std::size_t change_of_level(const MotorTrace& r) {
+  double powers[kBlocks + 1] = {};  // sums up to each block
+  const std::size_t length = r.size() / kBlocks;
+  for (int b = 0; b < kBlocks; ++b) {
+    powers[b + 1] = powers[b];
+    for (std::size_t i = 0; i < length; ++i)
+      powers[b + 1] += std::pow(r.u[static_cast<std::size_t>(b) * length + i], 2);
+  }
+  double largest = kOtherLevel;
+  int split = kBlocks / 2;
+  for (int b = kFewestBlocks; b <= kBlocks - kFewestBlocks; ++b) {
+    const double before = powers[b] / b, after = (powers[kBlocks] - powers[b]) / (kBlocks - b);
+    const double ratio = std::max(before, after) / std::max(std::min(before, after), 1e-300);
+    if (ratio <= largest) continue;
+    largest = ratio;
+    split = b;
+  }
+  return static_cast<std::size_t>(split) * length;
+}
+
+/// Free parameters on one part alone; empty where that fails.
+std::vector<double> values_on(const Excerpt& part, const Solution& from, double hz) {
+  Solution at = start_point(part.problem(), from.q);
+  choose_variants(part.problem(), at, hz);
+  const Solution found = solve(part.problem(), at, hz, kOther);
+  return found.usable() ? values_of(part.problem(), found) : std::vector<double>{};
+}
+
+/// The first two recordings, or the two parts of the only one, each by itself.
+void compare_parts(const FitProblem& problem, Outcome& outcome) {
+  const bool several = problem.recordings.size() > 1;
+  const MotorTrace& first = problem.recordings[0];
+  const std::size_t split = change_of_level(first);
+  if (!several && std::min(split, first.size() - split) < kShortestPart) return;
+  const Excerpt a(problem, 0, 0, several ? first.size() : split);
+  const Excerpt b(problem, several ? 1 : 0, several ? 0 : split,
+                  several ? problem.recordings[1].size() : first.size());
+  const std::vector<double> from = values_on(a, outcome.solution, outcome.objective_hz);
+  const std::vector<double> to = values_on(b, outcome.solution, outcome.objective_hz);
+  if (from.empty() || to.empty()) return;
+  const std::string where =
+      several ? fmt::format("from {} to {}", first.file, problem.recordings[1].file)
+              : fmt::format("from the part before {:.4g} s to the part after", first.time(split));
+  outcome.changes.push_back({where, from, to, 0.5, true});
+}
+
+void take_rejected(const FitProblem& problem, const Solution& found, Outcome& outcome) {
+  const FitOptions& o = problem.options;
+  outcome.warnings.push_back(fmt::format(
+      "the model does not explain the recordings: its prediction error is {:.3g} times the "
+      "encoder's floor. Values are those of an observer at {:.3g} Hz; intervals hold their scatter "
+      "over windows, gains and parts of the recordings, not what the missing physics may bias.",
+      std::sqrt(found.mean_square), o.rejected_hz));
+  take_two_gains(problem, found, o.rejected_hz, kSecondGain * o.rejected_hz, outcome);
+  if (o.compare_parts) compare_parts(problem, outcome);
+}
+
+void warn_of_pattern(const Correlation& correlation, Outcome& outcome) {
+  if (correlation.excess() <= kWhite) return;
+  outcome.warnings.push_back(fmt::format(
+      "the residual is within the encoder's size but not random (lag-1 autocorrelation {:.2f}, the "
+      "quantiser explains {:.2f}): something small is missing or another minimum is better, and "
+      "the intervals assume neither.",
+      correlation.lag1, correlation.quantiser));
+}
+
+}  // namespace
+
+std::vector<double> Outcome::shift() const {
+  std::vector<double> sum = spread;
+  for (const Change& c : changes) {
+    sum.resize(c.from.size(), 0.0);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] = std::hypot(sum[i], c.weight * (c.to[i] - c.from[i]));
+  }
+  return sum;
+}
+
+Outcome outcome_of(const FitProblem& problem, const Solution& found) {
+  const FitOptions& o = problem.options;
+  Outcome outcome;
+  if (std::sqrt(found.mean_square) > o.rejected_ratio) {
+    take_rejected(problem, found, outcome);
+    return outcome;
+  }
+  const Polished polished = polish(problem, found);
+  if (polished.best.usable() && std::sqrt(polished.best.mean_square) <= o.rejected_ratio) {
+    take(problem, polished.best, 0.0, outcome);
+    spread_over_minima(problem, polished.others, outcome);
+    warn_of_pattern(outcome.information.correlation, outcome);
+    return outcome;
+  }
+  outcome.warnings.push_back(fmt::format(
+      "the free run departs from the recordings although the predictions do not: values are those of "
+      "an observer at {:.3g} Hz.",
+      kSlowObserver * o.observer_hz));
+  take_two_gains(problem, found, kSlowObserver * o.observer_hz, o.observer_hz, outcome);
+  return outcome;
+}
+
+void judge_changes(const FitProblem& problem, const Outcome& outcome, Determined& determined) {
+  for (const Change& c : outcome.changes) {
+    std::string moved;
+    for (std::size_t i = 0; i < c.from.size(); ++i) {
+      const double difference = std::abs(c.to[i] - c.from[i]);
+      // An interval of each side: the own one, on half of the recordings.
+      const double interval = determined.quantile * determined.own[i] * (c.parts ? 2.0 : 1.0);
+      if (!(difference > interval)) continue;
+      const Parameter& p = problem.free_parameter(i);
+      moved += fmt::format("{}{} from {:.4g} to {:.4g} {}", moved.empty() ? "" : ", ", p.key, c.from[i],
+                           c.to[i], p.unit);
+      const bool other_gap = difference > kOtherGap * std::max(c.from[i], c.to[i]);
+      if (!c.parts || p.number != place::kGap || !other_gap) continue;
+      determined.identifiable[i] = false;
+      determined.std[i] = kNaN;
+      determined.warnings.push_back(fmt::format(
+          "the gap is {:.3g} {} on one part of the recordings and {:.3g} on another: what the model "
+          "takes for a gap is something else, and none is reported.",
+          c.from[i], p.unit, c.to[i]));
+    }
+    if (!moved.empty())
+      determined.warnings.push_back(
+          fmt::format("values move by more than their own intervals {}: {}.", c.where, moved));
+  }
+}
+
+}  // namespace gapscope::internal

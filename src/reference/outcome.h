@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/identifiability.h"
+
+namespace gapscope::internal {
+
+/// How far the free parameters move when they are fitted in another way.
+struct Change {
+  std::string where;             ///< "at 10 Hz instead of 30 Hz", "between ..."
+  std::vector<double> from, to;  ///< [units of the parameters]
+  double weight = 1.0;           ///< of the difference as a standard error
+  bool parts = false;            ///< between parts of the recordings
+};
+
+/// The values that are reported, and how they were had.
+struct Outcome {
+  Solution solution;
+  double objective_hz = 0.0;  ///< poles of the observer; 0: the free run
+  Information information;
+  std::vector<Change> changes;
+  std::vector<double> spread;  ///< of the free parameters over minima that are nearly as good; may be empty
+  std::vector<std::string> warnings;
+
+  std::vector<double> shift()
+      const;  ///< all changes and the spread together, per free parameter; empty without any
+};
+
+/// Takes the end of the search to the values that are reported, see fit(): the free run where the predictions
+/// reach the encoder's floor, else observers at two gains and on parts of the recordings.
+Outcome outcome_of(const FitProblem& problem, const Solution& found);
+
+/// Names the parameters that change by more than their own intervals. A gap that is another one on another
+/// part of the recordings is no gap: it is not identifiable.
+void judge_changes(const FitProblem& problem, const Outcome& outcome, Determined& determined);
+
+}  // namespace gapscope::internal

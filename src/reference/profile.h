@@ -1,0 +1,19 @@
+#pragma once
+
+#include "reference/solve.h"
+
+namespace gapscope::internal {
+
+/// Standard errors of one parameter [its unit]: as reported, and that of white residuals of one floor.
+struct ParameterError {
+  double reported = kNaN, linear = kNaN;
+};
+
+/// Where the cost, all other numbers fitted anew, is higher by what 95 % allow: an increase of
+/// (1.96 · reported/linear)² floors², so that it is the usual interval where the cost is a parabola. An end
+/// that is not met within the bounds is the bound.
+/// @param i  place among the free parameters
+Interval profile_interval(const FitProblem& problem, const Solution& at, double observer_hz, std::size_t i,
+                          const ParameterError& error);
+
+}  // namespace gapscope::internal
