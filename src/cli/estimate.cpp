@@ -24,6 +24,14 @@ struct Arguments {
   bool quiet = false;
 };
 
+/// A diagnosis in the folder has left its own, which holds what the model lacked.
+void write_fitted_model(const std::string& folder, const Configuration& c, const RunResult& result) {
+  const std::string path = folder + "/fitted.yaml";
+  if (!result.reference || result.reference->initial_states.empty() || std::filesystem::exists(path)) return;
+  const Recording& first = result.recordings.front();
+  write_text(path, fitted_yaml(c, *result.reference, trace_name(0, first.file), first.motor_trace()));
+}
+
 /// The folder is replaced only when everything is in it.
 void write_outcome(const std::string& folder, const Configuration& c, const Outcome& outcome) {
   ReportFolder report(folder);
@@ -31,6 +39,7 @@ void write_outcome(const std::string& folder, const Configuration& c, const Outc
   write_run_result(report.path(), outcome.result);
   write_timing(report.path(), outcome.timing);
   write_text(report.path() + "/resolved.yaml", resolved_yaml(c));
+  write_fitted_model(report.path(), c, outcome.result);
   write_report(report.path());
   stop_point();
   report.commit();

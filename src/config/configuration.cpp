@@ -88,7 +88,7 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
     c.recording = read_recording(*recording, std::filesystem::path(c.file).parent_path().string());
     return;
   }
-  c.simulation = read_simulation(*simulation);
+  c.simulation = read_simulation(*simulation, std::filesystem::path(c.file).parent_path().string());
   WrittenModel changes;
   if (const auto given = simulated_model(*simulation)) changes = read_model(*given);
   c.simulation->plant = simulated_plant(overlaid(model, changes), *simulation);

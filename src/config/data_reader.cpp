@@ -1,6 +1,7 @@
 #include "config/data_reader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <filesystem>
@@ -64,7 +65,7 @@ CsvColumns read_columns(const Value& value) {
   return columns;
 }
 
-Excitation read_excitation(const Value& value) {
+Excitation read_excitation(const Value& value, const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& spec : excitation_kinds()) names.emplace_back(spec.name);
   const Section section(value, names);
@@ -75,10 +76,10 @@ Excitation read_excitation(const Value& value) {
     if (excitation) given->fail("is a second excitation, expected exactly one");
     excitation.emplace();
     excitation->kind = spec.kind;
+    excitation->folder = folder;
     read_fields(*given, *excitation);
   }
-  if (!excitation)
-    value.fail("is an empty map, expected one of sine, multisine, swept_sine, triangle, trapezoid, steps");
+  if (!excitation) value.fail_expecting(fmt::format("one of {}", fmt::join(names, ", ")));
   return *excitation;
 }
 
@@ -126,7 +127,7 @@ EncoderConfig read_encoder(const Value& value, bool rotation) {
   return encoder;
 }
 
-SimulationConfig read_simulation(const Value& value) {
+SimulationConfig read_simulation(const Value& value, const std::string& folder) {
   const Section section(value, kSimulationKeys);
   SimulationConfig s;
   s.line = value.line();
@@ -135,7 +136,7 @@ SimulationConfig read_simulation(const Value& value) {
   require_sensible_size(s, section);
   if (const auto seed = section.find("seed")) s.seed = seed->natural(~std::uint64_t{0});
   const Value excitation = section.require("excitation", "e.g. sine: {amplitude: 0.5, frequency: 1}");
-  s.excitation = read_excitation(excitation);
+  s.excitation = read_excitation(excitation, folder);
   if (const std::string problem = excitation_problem(s.excitation, s.rate, s.duration); !problem.empty())
     excitation.fail(std::string(to_string(s.excitation.kind)) + ": " + problem);
   if (const auto initial = section.find("initial")) read_fields(*initial, s.initial);

@@ -11,7 +11,7 @@ RecordingConfig read_recording(const Value& value, const std::string& folder);
 EncoderConfig read_encoder(const Value& value, bool rotation);
 
 /// All but the plant. `model` of the block is left to the caller.
-SimulationConfig read_simulation(const Value& value);
+SimulationConfig read_simulation(const Value& value, const std::string& folder);
 std::optional<Value> simulated_model(const Value& value);
 
 }  // namespace gapscope::internal

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/require.h"
 #include "gapscope/config/configuration.h"
 
 namespace gapscope {
 namespace {
+
+constexpr std::size_t kLongestName = 90;  ///< of a configuration, before the suffix
 
 /// Half the rate at which the input changes its sign, at least one period over the recording.
 double frequency_of(const MotorTrace& recording) {
@@ -23,23 +26,19 @@ SimulationConfig simulation_of(const MotorTrace& recording) {
   s.rate = 1.0 / recording.dt;
   s.duration = recording.dt * static_cast<double>(recording.size());
   s.excitation.kind = ExcitationKind::kSine;
-  for (const double u : recording.u)
-    s.excitation.amplitude =
-        std::max(std::isnan(s.excitation.amplitude) ? 0.0 : s.excitation.amplitude, std::abs(u));
+  s.excitation.amplitude = 0.0;
+  for (const double u : recording.u) s.excitation.amplitude = std::max(s.excitation.amplitude, std::abs(u));
   s.excitation.frequency = frequency_of(recording);
   return s;
 }
 
 void fix(ParameterSetting& p) { p = {p.value, false, kNaN, kNaN, {}}; }
 
-}  // namespace
-
-std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted,
-                        const MotorTrace& recording) {
+/// The configuration with every number of the model fixed, for the fit and for the plant.
+Configuration with_model(const Configuration& given, const ReferenceModel& fitted) {
   Configuration c = given;
-  c.name = given.name + "_fitted";
+  c.name = given.name.substr(0, kLongestName) + "_fitted";
   c.recording.reset();
-  if (!c.simulation) c.simulation = simulation_of(recording);
   c.model.structure = fitted.structure;
   c.model.parameters = fitted.parameters;
   for (ParameterSetting& p : c.model.parameters) fix(p);
@@ -48,13 +47,61 @@ std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted
     for (ParameterSetting& p : effect.parameters) fix(p);
     c.model.effects.push_back({effect, 0});
   }
+  return c;
+}
+
+void set_plant(Configuration& c) {
   SimulatedPlant& plant = c.simulation->plant;
-  plant = {fitted.structure, {}, c.model.effects};
+  plant = {c.model.structure, {}, c.model.effects};
   for (int i = 0; i < kDriveParameterCount; ++i) {
-    const double value = fitted.parameters[static_cast<std::size_t>(i)].value;
+    const double value = c.model.parameters[static_cast<std::size_t>(i)].value;
     if (!std::isnan(value)) drive_parameter(plant.drive, i) = value;
   }
+  c.simulation->independent = false;  // the model, whatever made the data
+}
+
+/// The model with the fitted numbers in it.
+ReferenceModel fitted_model(ReferenceModel model, const FitSummary& fit) {
+  const auto take = [&](ParameterSetting& p, const std::string& key) {
+    const FittedParameter* fitted = fit.find(key);
+    if (fitted != nullptr && std::isfinite(fitted->value)) p.value = fitted->value;
+  };
+  for (int i = 0; i < kDriveParameterCount; ++i)
+    take(model.parameters[static_cast<std::size_t>(i)], kDriveParameters[i].key);
+  for (ModelEffect& effect : model.effects)
+    for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i)
+      take(effect.parameters[i], std::string(effect.entry->name) + "." + effect.entry->parameters[i].key);
+  return model;
+}
+
+}  // namespace
+
+std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted,
+                        const MotorTrace& recording) {
+  Configuration c = with_model(given, fitted);
+  if (!c.simulation) c.simulation = simulation_of(recording);
+  set_plant(c);
   return "# The model as the diagnosis fitted it; `gapscope simulate` runs it.\n" + resolved_yaml(c);
+}
+
+std::string fitted_yaml(const Configuration& given, const FitSummary& fit, const std::string& trace,
+                        const MotorTrace& recording) {
+  GAPSCOPE_REQUIRE(!fit.initial_states.empty());
+  Configuration c = with_model(given, fitted_model(given.model.reference_model(), fit));
+  if (!c.simulation) {
+    c.simulation = simulation_of(recording);
+    c.simulation->excitation = {};
+    c.simulation->excitation.kind = ExcitationKind::kRecorded;
+    c.simulation->excitation.file = trace;
+    c.simulation->excitation.time_column = "t_s";
+  }
+  const DriveState<double>& start = fit.initial_states.front().state;
+  c.simulation->initial = {start.x1, start.w1, start.x2, start.w2};
+  c.simulation->noise = 0.0;
+  set_plant(c);
+  const std::string text = resolved_yaml(c);
+  return "# The fitted model under the input of its recording; `gapscope simulate` runs it as it is." +
+         text.substr(text.find('\n'));
 }
 
 }  // namespace gapscope

@@ -30,7 +30,7 @@ TraceSet set_of(const MismatchTrace& m) {
 
 StoredMismatch store(const std::string& folder, std::size_t index, const MismatchTrace& m) {
   StoredMismatch stored;
-  stored.trace = internal::trace_name(index, m.file).insert(7, "held_out_");  // after "traces/"
+  stored.trace = trace_name(index, m.file).insert(7, "held_out_");  // after "traces/"
   stored.samples = static_cast<int>(m.x1.size());
   stored.scored_from = static_cast<int>(m.scored_from);
   stored.mismatch.file = m.file, stored.mismatch.start = m.start, stored.mismatch.dt = m.dt;

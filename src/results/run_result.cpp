@@ -56,7 +56,7 @@ void make_folder(const fs::path& folder) {
 StoredRecording store_recording(const std::string& folder, std::size_t index, const Recording& recording,
                                 const ErrorTrace* error, const FitTrace* fit) {
   StoredRecording stored;
-  stored.trace = internal::trace_name(index, recording.file);
+  stored.trace = trace_name(index, recording.file);
   stored.samples = static_cast<int>(recording.size());
   stored.has_error = error != nullptr;
   stored.has_fit = fit != nullptr;

@@ -12,7 +12,16 @@
 
 #include "gapscope/base/errors.h"
 
-namespace gapscope::internal {
+namespace gapscope {
+
+std::string trace_name(std::size_t index, const std::string& recording_file) {
+  std::string stem = std::filesystem::path(recording_file).stem().string();
+  for (char& c : stem)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  return "traces/" + std::to_string(index + 1) + "_" + (stem.empty() ? "recording" : stem) + ".csv";
+}
+
+namespace internal {
 namespace {
 
 constexpr Mode kModes[] = {Mode::kGap, Mode::kEngagementPlus, Mode::kEngagementMinus, Mode::kImpact};
@@ -137,13 +146,6 @@ void read_row(std::string_view line, const Columns& columns, TraceSet& set) {
 
 }  // namespace
 
-std::string trace_name(std::size_t index, const std::string& recording_file) {
-  std::string stem = std::filesystem::path(recording_file).stem().string();
-  for (char& c : stem)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
-  return "traces/" + std::to_string(index + 1) + "_" + (stem.empty() ? "recording" : stem) + ".csv";
-}
-
 void write_trace(const std::string& path, TraceSet set) {
   std::ofstream out(path, std::ios::binary);
   out << text_of(set);
@@ -177,4 +179,5 @@ void read_trace(const std::string& path, TraceSet& set) {
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace internal
+}  // namespace gapscope

@@ -17,9 +17,6 @@ struct TraceSet {
   std::vector<double> error_before, error_after, torque_before, torque_after;
 };
 
-/// "traces/3_train.csv" for the third recording, of a file train.csv.
-std::string trace_name(std::size_t index, const std::string& recording_file);
-
 /// Writes the filled columns only; an undefined number is an empty field.  @throws std::runtime_error
 void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
                  const FitTrace* fit);

@@ -22,6 +22,8 @@ constexpr ExcitationKindSpec kKinds[] = {
     {ExcitationKind::kTrapezoid, "trapezoid",
      "zero, flank, +amplitude, flank, zero, flank, -amplitude, flank"},
     {ExcitationKind::kSteps, "steps", "random levels from the seed, each held for a while"},
+    {ExcitationKind::kRecorded, "recorded",
+     "the input of a recording, sampled at the rate of the simulation"},
 };
 
 void sine_fields(Excitation& e, FieldVisitor& v) {
@@ -80,6 +82,12 @@ std::string trapezoid_problem(const Excitation& e, double rate) {
                      e.dwell, e.rise);
 }
 
+void recorded_fields(Excitation& e, FieldVisitor& v) {
+  v.field({"file", "", "recording (CSV), relative to the configuration"}, e.file);
+  v.field({"time", "", "its column of the time [s]"}, e.time_column);
+  v.field({"input", "", "its column of the input"}, e.input_column);
+}
+
 }  // namespace
 
 std::span<const ExcitationKindSpec> excitation_kinds() { return kKinds; }
@@ -91,6 +99,7 @@ const char* to_string(ExcitationKind kind) {
 }
 
 void Excitation::fields(FieldVisitor& v) {
+  if (kind == ExcitationKind::kRecorded) return recorded_fields(*this, v);
   v.field({"amplitude", "unit of u", "peak of the input, without the offset", 0.0, kLargest}, amplitude);
   switch (kind) {
     case ExcitationKind::kSine:
@@ -111,6 +120,8 @@ void Excitation::fields(FieldVisitor& v) {
     case ExcitationKind::kSteps:
       steps_fields(*this, v);
       break;
+    case ExcitationKind::kRecorded:
+      break;
   }
   v.field({"offset", "unit of u", "added to everything", -kLargest, kLargest}, offset);
 }
@@ -130,6 +141,8 @@ std::string excitation_problem(const Excitation& e, double rate, double duration
       return trapezoid_problem(e, rate);
     case ExcitationKind::kSteps:
       return "";
+    case ExcitationKind::kRecorded:
+      return e.file.empty() ? "has no file, expected the name of a recording (CSV)" : "";
   }
   return "";
 }

@@ -1,9 +1,14 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/random.h"
 #include "gapscope/base/require.h"
+#include "gapscope/recording/csv.h"
 #include "gapscope/simulation/excitation.h"
 
 namespace gapscope {
@@ -83,6 +88,22 @@ std::vector<double> steps(const Excitation& e, double rate, std::size_t count, s
   });
 }
 
+std::vector<double> recorded(const Excitation& e, double rate, std::size_t count) {
+  const std::string path = (std::filesystem::path(e.folder) / e.file).lexically_normal().string();
+  if (!std::filesystem::exists(path))
+    throw ConfigError(path, "is not there, expected the recording whose input is played");
+  CsvOptions options;
+  options.columns = {e.time_column, e.input_column, e.input_column, "", false};
+  const Recording recording = read_csv(path, options);
+  if (std::abs(recording.dt * rate - 1.0) > 1e-3)
+    throw ConfigError(path,
+                      fmt::format("is sampled at {:.6g} Hz, expected the rate of the simulation, {:.6g} Hz",
+                                  1.0 / recording.dt, rate));
+  if (recording.size() < count)
+    throw ConfigError(path, fmt::format("has {} samples, expected at least {}", recording.size(), count));
+  return {recording.u.begin(), recording.u.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 std::vector<double> without_offset(const Excitation& e, double rate, std::size_t count, std::uint64_t seed) {
   const double duration = static_cast<double>(count) / rate;
   const auto place = [&](std::size_t i) { return place_in_period(e.frequency, i, rate); };
@@ -102,6 +123,8 @@ std::vector<double> without_offset(const Excitation& e, double rate, std::size_t
       return filled(count, [&](auto i) { return e.amplitude * trapezoid(place(i), e.dwell, e.rise); });
     case ExcitationKind::kSteps:
       return steps(e, rate, count, seed);
+    case ExcitationKind::kRecorded:
+      return recorded(e, rate, count);
   }
   return {};
 }

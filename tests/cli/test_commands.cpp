@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <sstream>
+
 #include "cli/executable.h"
+#include "gapscope/base/statistics.h"
 
 namespace gapscope {
 namespace {
@@ -115,6 +119,50 @@ TEST(Commands, DiagnoseNamesWhatTheModelLacksBesideTheEstimates) {
   const auto wrong = place.run("diagnose c.yaml --exclude gremlins");
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("gremlins"));
+}
+
+/// Largest difference of a column of numbers in two CSV files.
+double largest_difference(const std::string& a, const char* column_a, const std::string& b,
+                          const char* column_b) {
+  const auto numbers = [](const std::string& text, const std::string& column) {
+    std::istringstream lines(text);
+    std::string line, field;
+    std::getline(lines, line);
+    std::istringstream header(line);
+    int place = 0;
+    while (std::getline(header, field, ',') && field != column) ++place;
+    std::vector<double> values;
+    while (std::getline(lines, line)) {
+      std::istringstream row(line);
+      for (int i = 0; i <= place; ++i) std::getline(row, field, ',');
+      values.push_back(std::stod(field));
+    }
+    return values;
+  };
+  const std::vector<double> x = numbers(a, column_a), y = numbers(b, column_b);
+  if (x.size() != y.size()) return kInfinity;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
+  return largest;
+}
+
+TEST(Commands, TheFittedModelBesideAFitIsSimulatedAsItIs) {
+  Workplace place;
+  place.file("c.yaml", kConfig);
+  ASSERT_EQ(place.run("simulate c.yaml -o drive.csv").status, 0);
+  const std::string model = kConfig.substr(kConfig.find("model:"));
+  place.file("r.yaml", "name: recorded\nrecording: {file: drive.csv}\nencoder: {bits: 18}\n" + model);
+  for (const char* config : {"c", "r"}) {
+    const std::string folder = config;
+    ASSERT_EQ(place.run("fit " + folder + ".yaml -o " + folder).status, 0);
+    const auto run = place.run("simulate " + folder + "/fitted.yaml -o " + folder + ".csv");
+    ASSERT_EQ(run.status, 0) << run.err;
+    const std::string trace =
+        text_of(place.folder() / folder / "traces" / (folder == "c" ? "1_quick.csv" : "1_drive.csv"));
+    // The free run of the fit, but for the quantum of 18 bit.
+    EXPECT_LE(largest_difference(trace, "fit_x1_rad", text_of(place.folder() / (folder + ".csv")), "x1"),
+              1.3e-5);
+  }
 }
 
 TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {

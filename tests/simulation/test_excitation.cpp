@@ -6,7 +6,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "gapscope/base/errors.h"
 #include "gapscope/simulation/excitation.h"
+#include "support/temporary_file.h"
 
 namespace gapscope {
 namespace {
@@ -43,6 +45,7 @@ double power_at(const std::vector<double>& u, double frequency) {
 
 TEST(Excitation, EveryKindKeepsItsAmplitudeAroundItsOffset) {
   for (const auto& spec : excitation_kinds()) {
+    if (spec.kind == ExcitationKind::kRecorded) continue;  // has none of its own
     Excitation e = make(spec.kind);
     e.offset = 3.0;
     const auto u = sample(e, kRate, kCount, 1);
@@ -57,6 +60,7 @@ TEST(Excitation, EveryKindKeepsItsAmplitudeAroundItsOffset) {
 
 TEST(Excitation, SameSeedSameInputAndOnlyRandomKindsFollowTheSeed) {
   for (const auto& spec : excitation_kinds()) {
+    if (spec.kind == ExcitationKind::kRecorded) continue;
     const Excitation e = make(spec.kind);
     const bool random = spec.kind == ExcitationKind::kMultisine || spec.kind == ExcitationKind::kSteps;
     EXPECT_EQ(sample(e, kRate, kCount, 1), sample(e, kRate, kCount, 1)) << spec.name;
@@ -140,6 +144,25 @@ TEST(Excitation, WhatCannotBeIsToldWithWhatWasExpected) {
   full.rise = 0.25;
   EXPECT_THAT(excitation_problem(full, kRate, 10.0), HasSubstr("expected dwell + 4 rise <= 1"));
   EXPECT_THROW(sample(full, kRate, kCount, 1), std::logic_error);
+}
+
+TEST(Excitation, TheInputOfARecordingIsPlayedAgainOrRefusedWhereItDoesNotFit) {
+  std::string csv = "t,u\n";
+  for (int i = 0; i < 100; ++i) csv += std::to_string(0.001 * i) + "," + std::to_string(i % 7) + "\n";
+  const testing::TemporaryFile file(csv, "drive.csv");
+  Excitation e;
+  e.kind = ExcitationKind::kRecorded;
+  e.folder = file.folder().string();
+  e.file = "drive.csv";
+  const auto u = sample(e, 1000.0, 80, 1);
+  ASSERT_EQ(u.size(), 80U);
+  for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(u[i], static_cast<double>(i % 7));
+  EXPECT_THROW(sample(e, 500.0, 80, 1), ConfigError);    // another rate
+  EXPECT_THROW(sample(e, 1000.0, 200, 1), ConfigError);  // too short
+  e.file = "other.csv";
+  EXPECT_THROW(sample(e, 1000.0, 80, 1), ConfigError);
+  e.file.clear();
+  EXPECT_THAT(excitation_problem(e, 1000.0, 0.08), HasSubstr("no file"));
 }
 
 }  // namespace

@@ -46,6 +46,13 @@ void require_reference_model(const Configuration& configuration);
 /// `from_model`.
 Interval bound_from_model(const Configuration& configuration);
 
+/// The fitted model as a configuration of its own, which `simulate` runs as it is: every number fixed at its
+/// fitted value, from the fitted initial state, without noise, under the input of the recording: the
+/// excitation of a simulation, else that of the trace named here (columns t_s and u).
+/// @param trace relative to where the text will be stored
+std::string fitted_yaml(const Configuration& configuration, const FitSummary& fit, const std::string& trace,
+                        const MotorTrace& recording);
+
 /// The configuration as YAML with every default filled in. It reads back as the same configuration (from the
 /// same folder: paths stay as they were given) and gives the same text again.
 std::string resolved_yaml(const Configuration& configuration);

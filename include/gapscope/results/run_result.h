@@ -30,6 +30,9 @@ struct Timing {
   double reference_s = kNaN;
 };
 
+/// Where the columns of a recording are stored: "traces/3_train.csv" for the third, of a file train.csv.
+std::string trace_name(std::size_t index, const std::string& recording_file);
+
 /// Writes result.json, traces/<n>_<file>.csv and, where a bank of bounds was run, traces/bound_map.csv (a row
 /// for each column of time, a field for each bound: |e_x| over its floor) into an existing folder. The
 /// columns of a trace are t_s, u, x1_rad, x2_rad, e_x_rad, w1_hat_rad_s, fit_x1_rad, fit_predicted_x1_rad,

@@ -10,7 +10,7 @@
 
 namespace gapscope {
 
-enum class ExcitationKind { kSine, kMultisine, kSweptSine, kTriangle, kTrapezoid, kSteps };
+enum class ExcitationKind { kSine, kMultisine, kSweptSine, kTriangle, kTrapezoid, kSteps, kRecorded };
 
 /// Name (the YAML key) and one line of description of each kind.
 struct ExcitationKindSpec {
@@ -40,6 +40,9 @@ struct Excitation {
   double rise = 0.05;  ///< share of the period that each of the four flanks takes [-]
   double hold = kNaN;  ///< time on each level [s]
   int levels = 9;      ///< number of levels from −amplitude to amplitude
+  std::string file;    ///< recording (CSV) whose input is played again, as it was named
+  std::string folder;  ///< that the name is relative to; empty: the working folder
+  std::string time_column = "t", input_column = "u";
 
   /// The fields that belong to the kind.
   void fields(FieldVisitor& v);
@@ -47,7 +50,8 @@ struct Excitation {
 
 /// u at t = i/rate for i = 0 … count − 1. The seed decides what is random: the phases of the multisine and
 /// the levels of the steps.
-/// @throws std::logic_error if excitation_problem() has something to say.
+/// @throws std::logic_error if excitation_problem() has something to say; ConfigError for a recording that
+/// cannot be read, is shorter, or was sampled at another rate.
 std::vector<double> sample(const Excitation& excitation, double rate, std::size_t count, std::uint64_t seed);
 
 /// What is wrong with an excitation at this rate [Hz] and duration [s], and what was expected; empty if
