@@ -6,14 +6,17 @@
 #include "gapscope/base/random.h"
 #include "reference/excerpt.h"
 #include "reference/information.h"
+#include "reference/starts.h"
 
 namespace gapscope::internal {
 namespace {
 
 constexpr Effort kFinal{1e-8, 2.0};  ///< far below what moves a value by its standard error
 constexpr Effort kTrial{1e-4, 0.25};
-constexpr double kShares[] = {0.125, 0.25, 0.5};               ///< of the recordings, one after the other
-constexpr int kShakes = 10;                                    ///< points nearby that are tried
+constexpr double kShares[] = {0.125, 0.25, 0.5};  ///< of the recordings, one after the other
+constexpr int kShakes = 10;                       ///< points nearby that are tried
+constexpr double kBeginning = 0.125;              ///< of the recordings, where initial states are sought anew
+constexpr double kClearly = 6.0;                  ///< fall of the cost, in mean squares, that is no chance
 constexpr double kSmallestShake = 1.0, kLargestShake = 100.0;  ///< in standard errors
 
 void keep(const Solution& next, Polished& polished) {
@@ -71,10 +74,53 @@ void shake(const FitProblem& problem, Polished& polished) {
   }
 }
 
+/// The problem with all parameters held: only initial states are left to find.
+FitProblem held_at(const FitProblem& problem, const Solution& at) {
+  FitProblem held = problem;
+  for (std::size_t i = 0; i < problem.free_count(); ++i) {
+    Parameter& p = held.parameters[static_cast<std::size_t>(problem.free[i])];
+    p.start = p.coordinate.physical(at.q[i]);
+    p.estimated = false;
+  }
+  held.free.clear();
+  return held;
+}
+
+/// An initial state that went astray leaves its mark at the beginning only. Each recording's is sought anew
+/// there, from what its first samples show and every place of the load.
+/// @returns whether any fits clearly better
+bool renew_starts(const FitProblem& problem, Solution& at) {
+  const Excerpt part(problem, kBeginning);
+  const FitProblem held = held_at(part.problem(), at);
+  Solution states = at;
+  states.q.clear();
+  bool renewed = false;
+  for (std::size_t r = 0; r < at.starts.size(); ++r) {
+    const double samples = static_cast<double>(held.recordings[r].size());
+    double best = recording_square(held, {}, r, at.starts[r], 0.0);
+    for (const InitialVariant& variant : initial_variants(held, at.starts[r])) {
+      Solution trial = states;
+      trial.starts[r].variant = variant;
+      trial.starts[r].q.fill(0.0);
+      trial = solve(held, trial, 0.0, kTrial);
+      if (!trial.usable()) continue;
+      const double square = recording_square(held, {}, r, trial.starts[r], 0.0);
+      if (!(square < best - kClearly * std::max(1.0, best / samples))) continue;
+      best = square;
+      at.starts[r] = trial.starts[r];
+      renewed = true;
+    }
+  }
+  part.problem().simulations = held.simulations;
+  return renewed;
+}
+
 }  // namespace
 
 Polished polish(const FitProblem& problem, const Solution& found) {
   Polished polished{solve(problem, found, 0.0, kFinal), {}};
+  if (Solution renewed = polished.best; renewed.usable() && renew_starts(problem, renewed))
+    keep(solve(problem, renewed, 0.0, kFinal), polished);
   if (polished.best.mean_square <= found.mean_square) return polished;
   keep(over_growing_parts(problem, found), polished);
   if (!polished.best.usable()) return polished;
