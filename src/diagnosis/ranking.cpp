@@ -7,15 +7,17 @@
 namespace gapscope::internal {
 namespace {
 
-constexpr double kFloorRatio = 1.3;         ///< medians within it: at the floor
-constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate
-constexpr double kIndistinct = 0.08;        ///< the same for effects that no table calls alike
-constexpr double kLeastRel = 0.4;           ///< share of the log distance to the floor that a step closes
-constexpr double kLeastMargin = 0.3;        ///< S by which it beats all others
-constexpr double kOtherFormRel = 0.25;      ///< the same of an effect whose real law is another than ours,
-constexpr double kOtherFormMargin = 1.5;    ///< which stands far above all others all the same
-constexpr double kLeastGain = 0.3;          ///< S, of a step that cannot reach the floor
-constexpr double kLeastWindows = 0.6;       ///< share of the windows that such a step improves
+constexpr double kFloorRatio = 1.3;       ///< medians within it: at the floor
+constexpr double kAlike = 0.3;            ///< S between look-alikes that the data does not separate
+constexpr double kIndistinct = 0.08;      ///< the same for effects that no table calls alike
+constexpr double kLeastRel = 0.4;         ///< share of the log distance to the floor that a step closes
+constexpr double kLeastMargin = 0.3;      ///< S by which it beats all others
+constexpr double kOtherFormRel = 0.25;    ///< the same of an effect whose real law is another than ours,
+constexpr double kOtherFormMargin = 1.5;  ///< which stands far above all others all the same
+constexpr double kLeastGain = 0.3;        ///< S, of a step that cannot reach the floor
+constexpr double kLeastWindows = 0.6;     ///< share of the windows that such a step improves
+constexpr double kAskedFor =
+    0.99;  ///< of the mean square that was fitted: luck on held-out data is no finding
 constexpr double kNestedShare = 0.8;        ///< of the child's gain: the parent is enough
 constexpr double kNestedShareOfSize = 0.5;  ///< the same of what the prediction error shrinks by
 constexpr double kLeastDistance = 0.3;      ///< S to the floor of which a share can be told
@@ -103,11 +105,14 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
       other = std::min(other, c.score);
   }
   d.margin = other - best.score;
-  d.probability = probability_of(d.rel, d.margin, d.gain);
+  // A drive that repeats itself badly has no floor that a share of the log distance could be told of.
+  const double closed = repeats_badly ? 1.0 - best.median_innovation / before.median_innovation : d.rel;
+  d.probability = probability_of(closed, d.margin, d.gain);
   const bool enough = repeats_badly
                           ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows
                           : d.rel >= kLeastRel || (d.rel >= kOtherFormRel && d.margin >= kOtherFormMargin);
-  d.accepted = enough && d.margin >= kLeastMargin;
+  const bool asked_for = best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
+  d.accepted = enough && asked_for && d.margin >= kLeastMargin;
   for (const Judged& parent : excluded_parents)
     if (nested_parent(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)
       d.accepted = false;

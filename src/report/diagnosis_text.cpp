@@ -35,10 +35,11 @@ std::string measures_table(const DiagnosisResult& r) {
   return text + "\n";
 }
 
-std::string parameters_of(const RankedEffect& e) {
+std::string parameters_of(const RankedEffect& e, bool rotation) {
   std::vector<std::string> parts;
   for (const NamedValue& p : e.parameters)
-    parts.push_back(fmt::format("{} {:.4g} {}", p.key, p.value, p.unit));
+    parts.push_back(
+        fmt::format("{} {:.4g}{}", p.key, p.value, p.unit == "-" ? "" : " " + shown_unit(p.unit, rotation)));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -52,7 +53,7 @@ std::string ranking_table(const DiagnosisResult& r) {
   for (const RankedEffect& e : r.diagnosis.ranking)
     text +=
         fmt::format("| `{}` | {:.2f} | {} | {} | {} | {} | {} |\n", e.effect, e.probability, number(e.rel),
-                    number(e.shrink), number(e.windows_better), parameters_of(e), e.remark);
+                    number(e.shrink), number(e.windows_better), parameters_of(e, r.rotation), e.remark);
   return text;
 }
 
