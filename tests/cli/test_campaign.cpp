@@ -58,8 +58,9 @@ TEST(Campaign, WritesAStoreAReportAndWhatIsNeeded) {
   const auto run = with_campaign(place, 1).run("campaign c.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
-  EXPECT_THAT(run.out, AllOf(HasSubstr("reports/small/results.sqlite"),
-                             HasSubstr("runs        6 (6 of them now)"), HasSubstr("for at most 2 %, resolution by sampling rate: ")));
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("reports/small/results.sqlite"), HasSubstr("runs        6 (6 of them now)"),
+                    HasSubstr("for at most 2 %, resolution by sampling rate: ")));
   const auto content = place.content();
   for (const char* file : {"report.md", "campaign.json", "map_2_1.png", "along_1.png", "along_2.png"})
     EXPECT_TRUE(content.count(std::string("reports/small/") + file)) << file;
