@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "diagnosis/adjust.h"
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/held_out.h"
 
