@@ -53,6 +53,15 @@ Fitted fitted_of(const ReferenceModel& model, const FitProblem& problem, const S
   return {with_values(model, problem, best), best.starts, best.mean_square};
 }
 
+/// Refined, with the loads' places at the beginning of the recordings chosen before and after.
+Solution descend(const FitProblem& problem, Solution point, double hz) {
+  choose_variants(problem, point, hz);
+  Solution found = refine(problem, point, hz, kNominal);
+  if (!found.usable() || !choose_variants(problem, found, hz)) return found;
+  const Solution again = refine(problem, found, hz, kNominal);
+  return again.mean_square < found.mean_square ? again : found;
+}
+
 /// A point after the race, and the values that it set out from.
 struct Raced {
   Solution at;
@@ -73,6 +82,7 @@ Solution follow(const FitProblem& problem, const Solution& from, double hz, doub
 Solution best_of(const FitProblem& problem, std::vector<Raced> raced, double hz, double without) {
   std::stable_sort(raced.begin(), raced.end(),
                    [](const Raced& a, const Raced& b) { return a.at.mean_square < b.at.mean_square; });
+  if (raced.empty()) return {};  // nothing to start from
   const Raced* first = &raced.front();
   if (!first->at.usable()) return first->at;
   Solution best = follow(problem, first->at, hz, without);
@@ -127,32 +137,21 @@ Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& mode
                    double hz) {
   const FitProblem problem = make_problem(train, model, options);
   Solution best;
-  const auto follow = [&](const Solution& point) {
-    Solution found = refine(problem, point, hz, kNominal);
-    if (found.usable() && choose_variants(problem, found, hz)) {
-      const Solution again = refine(problem, found, hz, kNominal);
-      if (again.mean_square < found.mean_square) found = again;
-    }
-    if (found.mean_square < best.mean_square) best = found;
-  };
-  if (values_are_given(problem)) {
-    Solution point = given_point(problem);
-    choose_variants(problem, point, hz);
-    follow(point);
-  }
-  if (best.mean_square > kFloorSquare)
-    if (const Solution found = search(problem).best; found.usable()) follow(found);
+  if (values_are_given(problem)) best = descend(problem, given_point(problem), hz);
+  if (!(best.mean_square <= kFloorSquare))
+    if (const Solution found = search(problem).best; found.usable())
+      if (const Solution other = descend(problem, found, hz); other.mean_square < best.mean_square)
+        best = other;
   return fitted_of(model, problem, best);
 }
 
-Fitted refit(std::span<const MotorTrace> train, const Fitted& fitted, const FittedModel& from,
-             const FitOptions& options, double hz) {
-  const FitProblem problem = make_problem(train, fitted.model, options);
-  Solution point;
-  point.q = point_of(problem, with_drive(fitted.model, from));
-  point.starts = fitted.starts;
-  const Solution found = refine(problem, point, hz, kNominal);
-  return found.mean_square < fitted.mean_square ? fitted_of(fitted.model, problem, found) : fitted;
+Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
+                double hz) {
+  const FitProblem problem = make_problem(recordings, from, options);
+  Solution point = given_point(problem);
+  point.starts =
+      settled_starts(recordings, from, hz);  // else the numbers would move for the load's first place
+  return fitted_of(from, problem, descend(problem, point, hz));
 }
 
 std::vector<Base> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,
@@ -185,7 +184,7 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
     ReferenceModel point = extended;
     for (std::size_t i = 0; i < values.size(); ++i) point.effects.back().parameters[i].value = values[i];
     for (const Base& base : bases) race(point, &base);
-    if (parent != nullptr) race(from_parent(extended, *parent, values), nullptr);
+    if (parent != nullptr && !bases.empty()) race(from_parent(extended, *parent, values), nullptr);
   }
   return fitted_of(extended, problem, best_of(problem, std::move(raced), hz, nominal.mean_square));
 }
@@ -212,7 +211,6 @@ bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
   const bool has_load = model.structure.has_load;
   const bool compliant = has_load && model.structure.contact == ContactLaw::kCompliant;
   const ParameterSetting& gap = model.parameters[place::kGap];
-  if (name == "encoder_quantization") return false;  // seen on the samples themselves, never fitted
   if (name == "backlash") return !has_load || (!gap.estimate && !(gap.value > 0.0));
   if (name == "shaft_compliance") return compliant && !estimated(place::kContactStiffness);
   if (name == "impact_damping") return compliant && !estimated(place::kContactDamping);

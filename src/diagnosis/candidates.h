@@ -20,9 +20,9 @@ struct Fitted {
 Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
                    double observer_hz);
 
-/// The same model again from other values of its parameters (of the first that `model` shares with it).
-Fitted refit(std::span<const MotorTrace> train, const Fitted& fitted, const FittedModel& from,
-             const FitOptions& options, double observer_hz);
+/// The nominal model from the values of a fit to other recordings, and nowhere else.
+Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
+                double observer_hz);
 
 /// A point of the fitted model's parameters with its residuals and their derivatives there: what every
 /// candidate's race borrows, since a small effect hardly changes how the drive's own numbers act.
@@ -39,7 +39,8 @@ std::vector<Base> bases_of(std::span<const MotorTrace> train, const Fitted& nomi
 ///
 /// Race: from every base and every start of the effect the drive's numbers are adjusted with the base's
 /// derivatives, by plain runs alone. The best go through refine().
-/// @param starts of the effect, in units of its scales
+/// @param starts of the effect, in units of its scales; without any, or without a base, nothing is fitted and
+///   the mean square stays infinite
 /// @param parent a fitted model with the simpler effect that this one contains as its last; may be nullptr
 Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, std::span<const Base> bases,
                      const EffectEntry& entry, std::span<const EffectStart> starts, const Fitted* parent,
@@ -53,5 +54,8 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
 /// Whether the effect can be added to this model at all: contact effects need a contact, backlash a drive
 /// without, and what the fit estimates anyway cannot be missing.
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model);
+
+/// Whether the effect is a coarser count of the encoder, which no fit of a motion shows.
+inline bool reads_counts(const EffectEntry& entry) { return entry.hooks_double->quantum != nullptr; }
 
 }  // namespace gapscope::internal

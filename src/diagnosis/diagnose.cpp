@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/pipeline.h"
 #include "diagnosis/repeatability.h"
@@ -18,6 +19,10 @@ namespace {
 
 constexpr double kBadRepetition = 10.0;    ///< floors of the encoder
 constexpr double kTrainShare = 2.0 / 3.0;  ///< of each file, where nothing else is held out
+constexpr double kCoarser = 1.5;           ///< times the sheet's quantum: another encoder than it says
+constexpr double kNearFloor = 4.0;  ///< mean square [floor²] of a fit that may only have missed the best one
+constexpr double kAsGood = 0.05;    ///< S: as good a fit
+constexpr double kFarBetter = 0.5;  ///< of the mean square
 
 void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
   for (const MotorTrace& file : files) {
@@ -28,11 +33,28 @@ void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
   }
 }
 
+/// Least quantum that the samples of all recordings show; 0 unless each of them is coarser than its sheet.
+double coarser_quantum(const std::vector<MotorTrace>& traces) {
+  double least = kInfinity;
+  for (const MotorTrace& t : traces) {
+    const double seen = t.quantum > 0.0 ? seen_quantum(t.x1) : 0.0;
+    if (seen < kCoarser * t.quantum || seen == 0.0) return 0.0;
+    least = std::min(least, seen);
+  }
+  return least;
+}
+
+/// Of a recording whose counts are coarser than the sheet's the floor is the sheet's: they are what is
+/// missing.
+double floor_of(const MotorTrace& t, bool coarser) {
+  return coarser ? t.quantum / std::sqrt(12.0) : encoder_floor(t);
+}
+
 }  // namespace
 
 Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                  const ReferenceModel& model, const DiagnosisOptions& options) {
-  Study study{{}, {}, model, {}, kSlowHz, options};
+  Study study{{}, {}, model, {}, kSlowHz, 0.0, options};
   if (held_out.empty()) {
     hold_out_the_last_third(train, study);
   } else {
@@ -40,7 +62,9 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
     study.held_out.traces.assign(held_out.begin(), held_out.end());
     study.held_out.scored_from.assign(held_out.size(), 0);
   }
-  for (const MotorTrace& t : study.held_out.traces) study.held_out.floors.push_back(encoder_floor(t));
+  study.seen_quantum = coarser_quantum(study.held_out.traces);
+  for (const MotorTrace& t : study.held_out.traces)
+    study.held_out.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
   for (const MotorTrace& t : study.held_out.traces) study.held_out.periods.push_back(input_period(t));
   for (const std::string& name : options.excluded) GAPSCOPE_REQUIRE(find_effect(name) != nullptr);
   for (const EffectEntry* entry : effect_table())
@@ -56,15 +80,48 @@ Judged judged_nominal(const Study& study) {
                study.held_out, study.observer_hz);
 }
 
-HeldOut whole(const std::vector<MotorTrace>& traces) {
+HeldOut whole(const Study& study) {
   HeldOut all;
-  all.traces = traces;
-  all.scored_from.assign(traces.size(), 0);
-  for (const MotorTrace& t : traces) {
-    all.floors.push_back(encoder_floor(t));
+  all.traces = study.train;
+  all.scored_from.assign(all.traces.size(), 0);
+  for (const MotorTrace& t : all.traces) {
+    all.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
     all.periods.push_back(input_period(t));
   }
   return all;
+}
+
+std::vector<MotorTrace> everything(const Study& study) {
+  if (study.held_out.scored_from.front() > 0) return study.held_out.traces;  // parts of the same files
+  std::vector<MotorTrace> all = study.train;
+  all.insert(all.end(), study.held_out.traces.begin(), study.held_out.traces.end());
+  return all;
+}
+
+/// The nominal model where one set of numbers is at the floor on all recordings.
+///
+/// A fit leaves undetermined what its recordings do not ask for, and may miss others by that alone. Then
+/// nothing is missing, as long as the other numbers explain what was fitted as well as the fit did.
+std::optional<Judged> explained_together(const Study& study, const Judged& nominal) {
+  if (!(nominal.fitted.mean_square < kNearFloor)) return {};
+  const double hz = study.observer_hz;
+  const std::vector<MotorTrace> all = everything(study);
+  const HeldOut own = whole(study);
+  const double alone = judge(nullptr, nominal.fitted, own, hz).score;
+  const auto explains = [&](const Judged& held_out) {
+    if (!at_floor(held_out)) return false;
+    const Judged fitted = judge(nullptr, held_out.fitted, own, hz);
+    return at_floor(fitted) && fitted.score < alone + kAsGood;
+  };
+  Judged together =
+      judge(nullptr, fit_near(all, nominal.fitted.model, study.options.fit, hz), study.held_out, hz);
+  if (explains(together)) return together;
+  const Fitted other = fit_nominal(study.held_out.traces, study.sheet, study.options.fit, hz);
+  together = judge(nullptr, other, study.held_out, hz);
+  if (explains(together)) return together;
+  together = judge(nullptr, fit_near(all, other.model, study.options.fit, hz), study.held_out, hz);
+  if (explains(together)) return together;
+  return {};
 }
 
 /// On what is held out, else on what was fitted.
@@ -72,7 +129,7 @@ Repeatability repeatability(const Study& study, const FittedModel& model) {
   const Repeatability seen =
       repeatability_of(play(model, study.held_out, study.observer_hz, false), study.held_out);
   if (!std::isnan(seen.innovation)) return seen;
-  const HeldOut own = whole(study.train);
+  const HeldOut own = whole(study);
   return repeatability_of(play(model, own, study.observer_hz, false), own);
 }
 
@@ -89,6 +146,17 @@ bool take_repeatability(Study& study, const Judged& nominal) {
   return true;
 }
 
+/// The nominal model from the drive of the best candidate, where that leads to a far better fit: the first
+/// one had ended in a minimum that the best candidate, not its effect, has left.
+std::optional<Judged> nominal_near(const Study& study, const Findings& found) {
+  if (found.candidates.empty() || !std::isfinite(found.candidates.front().score)) return {};
+  FittedModel model = found.before.fitted.model;
+  model.parameters = found.candidates.front().fitted.model.parameters;
+  Fitted fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
+  if (!(fitted.mean_square < kFarBetter * found.before.fitted.mean_square)) return {};
+  return judge(nullptr, std::move(fitted), study.held_out, study.observer_hz);
+}
+
 /// The simpler effect that the first candidate contains, where it is none itself.
 const EffectEntry* excluded_parent(const Study& study, const std::vector<Judged>& ranked) {
   const EffectEntry* parent = ranked.empty() ? nullptr : nested_parent(*ranked.front().entry);
@@ -103,6 +171,11 @@ Findings investigate(Study& study) {
   study.options.progress("fitting the nominal model");
   found.before = judged_nominal(study);
   if (at_floor(found.before)) return found;
+  if (std::optional<Judged> together = explained_together(study, found.before)) {
+    found.alone = std::max(found.before.median_free, found.before.median_innovation);
+    found.before = std::move(*together);
+    return found;
+  }
   const HeldOut by_encoder = study.held_out;
   if (take_repeatability(study, found.before)) {
     Judged repeated = judged_nominal(study);
@@ -114,6 +187,12 @@ Findings investigate(Study& study) {
     }
   }
   found.candidates = candidates_of(study, found.before, study.catalogue);
+  if (std::optional<Judged> better = nominal_near(study, found)) {
+    found.before = std::move(*better);
+    found.candidates.clear();
+    if (at_floor(found.before)) return found;
+    found.candidates = candidates_of(study, found.before, study.catalogue);
+  }
   if (const EffectEntry* parent = excluded_parent(study, found.candidates))
     found.excluded_parents = candidates_of(study, found.before, {parent});
   found.decision = decide(found.candidates, found.before, study.repeats_badly(), found.excluded_parents);
@@ -134,6 +213,11 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "no recording is held out: the last third of each file was, which tests the model on the same kind "
         "of "
         "excitation only.");
+  if (std::isfinite(found.alone))
+    diagnosis.warnings.push_back(fmt::format(
+        "the recordings that were fitted do not determine the model: it leaves {:.3g} floors on those "
+        "that were held out, and none of it once these are fitted with them.",
+        found.alone));
   return diagnosis;
 }
 

@@ -54,6 +54,8 @@ std::string pattern_words(Pattern pattern, const MismatchPlace& p) {
       return fmt::format("changing over time, most at {}", largest(p.time).bin);
     case Pattern::kInputSteps:
       return fmt::format("where the torque changes, most at {}", largest(p.frequency).bin);
+    case Pattern::kCounts:
+      return "within the count of a coarser encoder";
     case Pattern::kMode:
       break;
   }
@@ -73,15 +75,23 @@ Pattern pattern_of(const EffectEntry& effect) {
     if (p.scale == Scale::kSample) return Pattern::kInputSteps;
     if (p.scale == Scale::kPeakInput) return Pattern::kInput;
     if (p.scale == Scale::kTorquePerSpeed2) return Pattern::kSpeed;
+    if (p.scale == Scale::kQuantum) return Pattern::kCounts;
   }
   return effect.side == EffectSide::kMotor ? Pattern::kDirection : Pattern::kMode;
 }
 
+double cycles_of(const ModelEffect& effect) {
+  if (pattern_of(*effect.entry) != Pattern::kAngle) return kNaN;
+  for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i)
+    if (effect.entry->parameters[i].scale == Scale::kPerTravel) return effect.parameters[i].value;
+  return 1.0;
+}
+
 std::string headline_of(const MismatchPlace& place, const std::vector<PatternStrength>& patterns,
-                        const EffectEntry* effect) {
+                        const ModelEffect* effect) {
   std::string text = mode_words(place.mode);
   std::vector<Pattern> named;
-  if (effect != nullptr) named.push_back(pattern_of(*effect));
+  if (effect != nullptr) named.push_back(pattern_of(*effect->entry));
   const auto strongest = std::max_element(
       patterns.begin(), patterns.end(),
       [](const PatternStrength& a, const PatternStrength& b) { return a.strength < b.strength; });

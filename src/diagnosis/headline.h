@@ -8,7 +8,7 @@
 namespace gapscope::internal {
 
 /// A way in which a residual torque can be ordered, and how far it is.
-enum class Pattern { kAngle, kDirection, kSpeed, kInput, kTime, kInputSteps, kMode };
+enum class Pattern { kAngle, kDirection, kSpeed, kInput, kTime, kInputSteps, kCounts, kMode };
 
 struct PatternStrength {
   Pattern pattern = Pattern::kMode;
@@ -20,9 +20,12 @@ struct PatternStrength {
 /// The quantity that an effect acts along, by what its parameters are measured in.
 Pattern pattern_of(const EffectEntry& effect);
 
+/// Cycles per turn of an effect along the motor angle: its own parameter, else one. NaN for other effects.
+double cycles_of(const ModelEffect& effect);
+
 /// The place of a mismatch in words: the mode where it is densest, and what it follows. The pattern of an
 /// effect that was found is always named.
 std::string headline_of(const MismatchPlace& place, const std::vector<PatternStrength>& patterns,
-                        const EffectEntry* effect);
+                        const ModelEffect* effect);
 
 }  // namespace gapscope::internal

@@ -40,35 +40,35 @@ bool play_scored(const PlantModel<double>& model, const DriveState<double>& star
   DriveStepper<double> runner(model, trace.dt);
   out.innovation.resize(trace.size());
   out.free.resize(trace.size());
-  bool healthy = true;
-  const bool done =
-      roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
-        if (i % restart == 0) runner = observer;
-        out.innovation[i] = beyond_count(trace.x1[i] - observer.measured(), quantum);
-        out.free[i] = beyond_count(trace.x1[i] - runner.measured(), quantum);
-        runner.step(trace.u[i]);
-        healthy = healthy && runner.healthy();
-      });
-  return done && healthy;
+  const auto [low, high] = std::minmax_element(trace.x1.begin(), trace.x1.end());
+  const double lost = *high - *low;  // the error of a free run that diverges
+  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+    if (i % restart == 0) runner = observer;
+    out.innovation[i] = beyond_count(trace.x1[i] - observer.measured(), quantum);
+    out.free[i] = runner.healthy() ? beyond_count(trace.x1[i] - runner.measured(), quantum) : lost;
+    if (runner.healthy()) runner.step(trace.u[i]);
+  });
 }
 
 bool play_slow(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
+  const double quantum = model_quantum(model);
   return roll_out(model, start, trace, ObserverGain::poles(kSlowHz, trace.dt),
                   [&](std::size_t i, const DriveStepper<double>& observer) {
-                    out.slow.push_back(trace.x1[i] - observer.measured());
+                    out.slow.push_back(beyond_count(trace.x1[i] - observer.measured(), quantum));
                   });
 }
 
 bool play_fast(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
   const ObserverGain gain = ObserverGain::poles(kFastHz, trace.dt);
+  const double quantum = model_quantum(model);
   const double m1 = model.drive.motor_inertia;
   const double both = model.structure.has_load && model.structure.load == LoadKind::kFree
                           ? m1 * (1.0 + model.drive.mass_ratio)
                           : m1;
   return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
-    const double e = trace.x1[i] - observer.measured();
+    const double e = beyond_count(trace.x1[i] - observer.measured(), quantum);
     out.fast.push_back(e);
     out.torque.push_back((observer.mode().contact != 0 ? both : m1) * gain.speed * e / trace.dt);
     out.w1.push_back(observer.state().w1);
@@ -112,16 +112,22 @@ std::size_t HeldOut::restart(std::size_t r) const {
   return 2 * std::max<std::size_t>(5, static_cast<std::size_t>(0.5 * length / traces[r].dt + 0.5));
 }
 
-std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all) {
-  const FitProblem problem = make_problem(held_out.traces, all_fixed(model), {});
+std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings, const FittedModel& model,
+                                           double observer_hz) {
+  const FitProblem problem = make_problem(recordings, all_fixed(model), {});
   Solution point = start_point(problem, {});
   choose_variants(problem, point, observer_hz);
-  if (const Solution better = refine(problem, point, observer_hz, kStateWork); better.usable())
-    point.starts = better.starts;
+  const Solution better = refine(problem, point, observer_hz, kStateWork);
+  return better.usable() ? better.starts : point.starts;
+}
+
+std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all) {
+  const FitProblem problem = make_problem(held_out.traces, all_fixed(model), {});
+  const std::vector<RecordingStart> starts = settled_starts(held_out.traces, model, observer_hz);
   const PlantModel<double> plant = problem.stepper_model(problem.numbers<double>(nullptr));
   std::vector<Playback> playbacks(held_out.traces.size());
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
-    const RecordingStart& start = point.starts[r];
+    const RecordingStart& start = starts[r];
     const DriveState<double> state = problem.state(start, 0.5 * plant.drive.gap, start.q.data());
     const MotorTrace& trace = held_out.traces[r];
     if (!play_scored(plant, state, trace, held_out.restart(r), observer_hz, playbacks[r])) return {};

@@ -46,6 +46,10 @@ struct Windows {
   std::vector<double> torque;      ///< the same [(N m)²]
 };
 
+/// Initial states of recordings that suit a model whose numbers are all known.
+std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings, const FittedModel& model,
+                                           double observer_hz);
+
 /// Plays a model on what is held out, the load's initial position fitted. Empty if the motion diverges.
 /// @param all false: only what the score needs, innovations and free runs
 std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all);

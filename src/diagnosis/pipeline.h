@@ -13,6 +13,7 @@ struct Study {
   ReferenceModel sheet;  ///< as given
   std::vector<const EffectEntry*> catalogue;
   double observer_hz = kSlowHz;  ///< kFastHz where unmodelled torque, not the encoder, is the floor
+  double seen_quantum = 0.0;     ///< of the samples, where it is coarser than the sheet's; else 0 [rad]
   const DiagnosisOptions& options;
 
   bool repeats_badly() const { return held_out.innovation_repeats > 0.0; }
@@ -29,6 +30,7 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
 /// What the steps came to.
 struct Findings {
   Judged before;
+  double alone = kNaN;  ///< held-out size without the held-out recordings in the fit, where they are [floor]
   std::vector<Judged> candidates;        ///< best first; empty at the floor
   std::vector<Judged> excluded_parents;  ///< of the first candidate
   Decision decision;

@@ -111,7 +111,8 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   const bool enough = repeats_badly
                           ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows
                           : d.rel >= kLeastRel || (d.rel >= kOtherFormRel && d.margin >= kOtherFormMargin);
-  const bool asked_for = best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
+  const bool asked_for =
+      reads_counts(*best.entry) || best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
   d.accepted = enough && asked_for && d.margin >= kLeastMargin;
   for (const Judged& parent : excluded_parents)
     if (nested_parent(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)

@@ -108,8 +108,8 @@ Diagnosis report_back(const Study& study, const Findings& found) {
   const auto after_played = added ? play(d.fitted, study.held_out, study.observer_hz, true) : before_played;
   d.gap = mismatch_size(study, found.before, after);
   d.measures = measures_of(study, before_played, after_played);
-  d.where =
-      place_of(before_played, study.held_out, km, study.options.rotation, added ? after.entry : nullptr);
+  d.where = place_of(before_played, study.held_out, km, study.options.rotation,
+                     added ? &d.fitted.effects.back() : nullptr);
   d.remaining = place_of(after_played, study.held_out, km, study.options.rotation, nullptr);
   d.traces = traces_of(study, before_played, after_played);
   d.sentence = sentence_of(d, study.options.rotation);

@@ -41,6 +41,15 @@ std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judge
   return starts;
 }
 
+/// A coarser encoder is seen on the samples themselves; nothing is fitted.
+Fitted with_quantum(Fitted nominal, const EffectEntry& entry, double quantum) {
+  ModelEffect effect;
+  effect.entry = &entry;
+  effect.parameters[0].value = quantum;
+  nominal.model.effects.push_back(effect);
+  return nominal;
+}
+
 /// The best few that are not at the floor try again, also from the numbers of the very best; so does the
 /// simpler effect that the best contains, wherever it came.
 void second_round(const Study& study, std::vector<Judged>& ranked) {
@@ -65,7 +74,8 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
                                   const std::vector<const EffectEntry*>& catalogue) {
   std::vector<const EffectEntry*> entries;
   for (const EffectEntry* entry : catalogue)
-    if (is_candidate(*entry, before.fitted.model)) entries.push_back(entry);
+    if (reads_counts(*entry) ? study.seen_quantum > 0.0 : is_candidate(*entry, before.fitted.model))
+      entries.push_back(entry);
   const auto starts = all_starts(study, before, entries);
   const std::vector<Base> bases =
       bases_of(study.train, before.fitted, study.sheet, study.options.fit, study.observer_hz);
@@ -76,10 +86,11 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
       const std::lock_guard lock(saying);
       study.options.progress(fmt::format("fitting {}", entries[i]->name));
     }
-    judged[i] = judge(entries[i],
-                      fit_candidate(study.train, before.fitted, bases, *entries[i], starts[i], parent,
-                                    study.options.fit, study.observer_hz),
-                      study.held_out, study.observer_hz);
+    Fitted fitted = reads_counts(*entries[i])
+                        ? with_quantum(before.fitted, *entries[i], study.seen_quantum)
+                        : fit_candidate(study.train, before.fitted, bases, *entries[i], starts[i], parent,
+                                        study.options.fit, study.observer_hz);
+    judged[i] = judge(entries[i], std::move(fitted), study.held_out, study.observer_hz);
   };
   const auto place_of = [&](const EffectEntry* entry) {
     return static_cast<std::size_t>(std::find(entries.begin(), entries.end(), entry) - entries.begin());

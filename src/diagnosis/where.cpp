@@ -167,7 +167,7 @@ std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples, con
 }  // namespace
 
 MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& held_out,
-                       double torque_constant, bool rotation, const EffectEntry* effect) {
+                       double torque_constant, bool rotation, const ModelEffect* effect) {
   MismatchPlace place;
   if (playbacks.empty()) return place;
   const std::vector<Sample> samples = samples_of(playbacks, held_out, torque_constant);
@@ -178,8 +178,8 @@ MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& he
     normalise(*map);
   const auto lines = strongest_lines(playbacks, held_out.traces, 0.0, 1);
   const double line_explained = lines.empty() ? 0.0 : lines.front().explained;
-  const bool angular = effect != nullptr && pattern_of(*effect) == Pattern::kAngle;
-  if (!lines.empty() && (angular || line_explained > kLine)) place.periods_per_turn = lines.front().periods;
+  if (line_explained > kLine) place.periods_per_turn = lines.front().periods;
+  if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.headline = headline_of(place, patterns_of(samples, place, line_explained), effect);
   return place;
 }

@@ -140,6 +140,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("group", g.group);
   archive.single("gap", g.gap);
   archive.list("ranking", g.ranking);
+  archive("probabilities_calibrated", g.probabilities_calibrated);
   std::vector<StoredStep> steps(g.steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i].ranking = g.steps[i];
   archive.list("steps", steps);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/blind_case.h"
+#include "diagnosis/candidates.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope {
@@ -28,6 +29,24 @@ TEST(Diagnosis, FindsNothingMissingWhereNothingIs) {
   EXPECT_TRUE(d.effects.empty());
   EXPECT_LT(d.gap.before, 1.3 * d.gap.floor);
   EXPECT_TRUE(std::isnan(d.gap.shrink));
+}
+
+TEST(Diagnosis, BlamesNothingForWhatTheFittedRecordingLeavesOpen) {
+  const Diagnosis d = diagnosis_of(test::blind_pair("geared", "none", 0.0, 400253));
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kNone) << d.sentence;
+  EXPECT_LT(d.gap.before, 1.3 * d.gap.floor);
+  EXPECT_EQ(d.warnings.size(), 1u);
+}
+
+TEST(Diagnosis, SeesACoarserEncoderThanTheSheetSays) {
+  const test::BlindPair pair = test::blind_pair("paper", "encoder_quantization", 0.7, 500007);
+  const Diagnosis d = diagnosis_of(pair);
+  ASSERT_EQ(d.effects, std::vector<std::string>{"encoder_quantization"}) << d.sentence;
+  EXPECT_NEAR(d.ranking.front().parameters.front().value, 8.0 * pair.train.quantum,
+              1e-3 * pair.train.quantum);
+  DiagnosisOptions options;
+  options.excluded = {"encoder_quantization"};
+  EXPECT_EQ(diagnosis_of(pair, options).verdict, DiagnosisVerdict::kUnknown);
 }
 
 const Diagnosis& of_motor_friction() {
@@ -79,6 +98,20 @@ TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
     EXPECT_EQ(a.ranking[i].effect, b.ranking[i].effect);
     EXPECT_EQ(a.ranking[i].score, b.ranking[i].score);
   }
+}
+
+TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
+  const test::BlindPair pair = test::blind_pair("geared", "none", 0.0, 500001);
+  const MotorTrace train[] = {pair.train.motor_trace()};
+  const internal::Fitted nominal = internal::fit_nominal(train, pair.sheet, {}, 3.0);
+  const EffectEntry* cogging = find_effect("cogging_torque");
+  const internal::Fitted without_a_line =
+      internal::fit_candidate(train, nominal, internal::bases_of(train, nominal, pair.sheet, {}, 3.0),
+                              *cogging, {}, nullptr, {}, 3.0);
+  EXPECT_EQ(without_a_line.mean_square, kInfinity);
+  const internal::EffectStart start{0.05, 2.0, 0.0};
+  EXPECT_EQ(internal::fit_candidate(train, nominal, {}, *cogging, {&start, 1}, &nominal, {}, 3.0).mean_square,
+            kInfinity);
 }
 
 TEST(Diagnosis, RefusesAnUnknownExclusion) {

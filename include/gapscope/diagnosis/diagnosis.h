@@ -98,6 +98,7 @@ struct Diagnosis {
   MismatchSize gap;
   std::vector<MismatchMeasure> measures;
   std::vector<RankedEffect> ranking;             ///< first step, best first
+  bool probabilities_calibrated = false;         ///< false: those of the ranking are preliminary
   std::vector<std::vector<RankedEffect>> steps;  ///< the later steps
   MismatchPlace where;
   MismatchPlace remaining;  ///< of what the accepted effects leave
