@@ -85,14 +85,19 @@ BlindPair blind_pair(const std::string& rig, const std::string& effect, double s
   vary(c.drive, seed);
   const auto first = static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size()));
   const auto other = static_cast<std::size_t>(uniform(g, 1.0, kWaveforms.size()));
-  BlindPair pair{rig, effect, severity, {}, {}, sheet_model(c.drive, seed)};
-  excite(c, kWaveforms[first], g);
-  c.options.seed = 2 * seed;
-  if (effect != "none") give_effect(c, effect, severity, seed);
-  pair.train = simulate_blind(c).recording;
-  excite(c, kWaveforms[(first + other) % kWaveforms.size()], g);
-  c.options.seed = 2 * seed + 1;
-  pair.held_out = simulate_blind(c).recording;
+  BlindPair pair{rig, effect, severity, 1.0, "", {}, {}, {}, sheet_model(c.drive, seed)};
+  const auto record = [&](std::size_t kind, std::uint64_t noise) {
+    excite(c, kWaveforms[kind % kWaveforms.size()], g);
+    c.options.seed = noise;
+    if (pair.train.x1.empty() && effect != "none") give_effect(c, effect, severity, seed);
+    pair.excitations += "smwtzj"[kind % kWaveforms.size()];
+    return simulate_blind(c).recording;
+  };
+  pair.train = record(first, 2 * seed);
+  pair.held_out = record(first + other, 2 * seed + 1);
+  pair.next = record(static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size())), ~(2 * seed));
+  if (effect == "cogging_torque") pair.cycles_per_turn = c.drive.effects.motor.cogging.periods_per_turn;
+  if (effect == "torque_ripple") pair.cycles_per_turn = c.drive.effects.command.ripple.periods_per_turn;
   return pair;
 }
 

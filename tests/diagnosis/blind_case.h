@@ -8,12 +8,15 @@
 
 namespace gapscope::test {
 
-/// A drive with an effect that the diagnosis is not told, recorded twice on the independent plant.
+/// A drive with an effect that the diagnosis is not told, recorded three times on the independent plant: to
+/// be fitted, held out, and never shown to the diagnosis.
 struct BlindPair {
   std::string rig;
   std::string effect;  ///< "none" without
   double severity = 0.0;
-  Recording train, held_out;
+  double cycles_per_turn = 1.0;  ///< of an effect along the motor angle
+  std::string excitations;       ///< kinds of the three recordings, by their initials
+  Recording train, held_out, next;
   ReferenceModel sheet;  ///< what the data sheet says, off by up to 20 %
 };
 
@@ -21,8 +24,8 @@ inline constexpr const char* kRigs[] = {"paper", "geared", "heavy"};
 
 /// Rigs: the source paper's (20 bit, 1.25 kHz); a geared axis, m2/m1 = 3, 14 bit with noise, 1 kHz; a heavy
 /// load, m2/m1 = 8, small gap, 17 bit, 2 kHz. Every number but motor inertia and torque constant is off the
-/// rig's by a uniform share of up to 20 %. 6 s each, fitted on one kind of excitation, held out on another.
-/// `none` cases begin with swept sines and bouncing.
+/// rig's by a uniform share of up to 20 %. 6 s each, fitted on one kind of excitation (sine, multisine, swept
+/// sine, triangle, trapezoid or steps at random), held out on another; the third is of any kind.
 BlindPair blind_pair(const std::string& rig, const std::string& effect, double severity, std::uint64_t seed);
 
 }  // namespace gapscope::test

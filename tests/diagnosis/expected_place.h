@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "diagnosis/blind_case.h"
+
+namespace gapscope::test {
+
+/// Whether a headline names the place where the case's effect acts. The rule, which was written before any
+/// headline was scored by it:
+///   friction of the motor                 follows the direction of motion (asymmetry: or is one-sided)
+///   quadratic_drag                        along the speed
+///   cogging_torque, torque_ripple         periodic in the motor angle, at the true cycles per turn within
+///                                         5 %
+///   load_unbalance, *_eccentricity        periodic in the motor angle, once per turn
+///   torque_saturation, input_dead_zone    along the input level
+///   input_delay, *_lag                    where the torque changes
+///   gap_growth, viscous_drift, load_inertia_variation   changing over time
+///   constant_load_torque                  in engagement, where alone the motor feels it
+///   shaft_compliance, impact_damping      in engagement or at impacts
+///   contact_adhesion                      in engagement or in the gap, between which it acts
+///   encoder_quantization                  within the count of the encoder
+bool names_the_place(const std::string& headline, const BlindPair& pair);
+
+}  // namespace gapscope::test
