@@ -102,7 +102,7 @@ double scale_of(std::span<const ImpactAnalysis> analyses, const std::vector<Erro
     for (std::size_t k = traces[i].error.size() / 10; k < traces[i].error.size(); ++k)
       sizes.push_back(std::abs(traces[i].error[k]));
     const double peak = quantile(std::move(sizes), 0.998);
-    if (peak > 0.0) ratio = std::max(ratio, 0.5 * analyses[i].travel / peak);
+    if (peak > 0.0) ratio = std::max(ratio, 0.5 * analyses[i].facts.travel / peak);
   }
   return ratio > 0.0 ? nice_number(ratio) : 1.0;
 }
@@ -160,7 +160,9 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
   }
   GapEstimate reading;
   if (!means.empty()) internal::decide(means, intervals, reading);
-  if (reading.verdict != GapVerdict::kBacklash) return;
+  if (reading.verdict != GapVerdict::kBacklash &&
+      (reading.verdict != GapVerdict::kNone || estimate.verdict == GapVerdict::kNone))
+    return;
   estimate = std::move(reading);
   estimate.reason += " in the mean of the periods";
   analyses = std::move(means);

@@ -13,6 +13,8 @@ constexpr double kContrast = 1.6;  ///< ρ
 
 constexpr double kEcho = 2.5;  ///< an earlier impact that is this much weaker is none; a later one is an echo
 constexpr std::size_t kSameSignSteps = 4;
+constexpr double kMostTops =
+    0.95;  ///< of the main events: what an impact at every reversal would stand out of
 
 /// Recoil, ringing and overshoot follow an impact with the opposite sign, sometimes more abruptly than it;
 /// what precedes an impact with the opposite sign (the motor speeding up in the gap) is far less abrupt.
@@ -69,10 +71,11 @@ void read_passages(const MotorTrace& trace, ImpactAnalysis& a) {
   }
 }
 
-std::size_t deciding_bound(const ImpactAnalysis& a) {
+/// Index of the bound that so many of the main events do not exceed.
+std::size_t top_bound(const ImpactAnalysis& a, double share) {
   std::vector<double> tops;
   for (const Event& e : a.events) tops.push_back(static_cast<double>(e.top));
-  return tops.empty() ? a.sliding : static_cast<std::size_t>(median(std::move(tops)));
+  return tops.empty() ? a.sliding : static_cast<std::size_t>(quantile(std::move(tops), share));
 }
 
 void search(const MotorTrace& trace, ImpactAnalysis& a) {
@@ -83,10 +86,10 @@ void search(const MotorTrace& trace, ImpactAnalysis& a) {
   for (std::size_t j = 0; j < a.run.bounds.size(); ++j) excursions.push_back(find_excursions(a.run, j));
   const auto tolerance = static_cast<std::size_t>(std::max(4.0, 0.01 * a.facts.half_period / trace.dt));
   a.events = main_events(link_events(a.run, excursions, tolerance), a, trace.dt);
-  a.deciding = deciding_bound(a);
-  const auto [low, high] = std::minmax_element(trace.x1.begin(), trace.x1.end());
-  a.travel = *high - *low;
-  a.smallest_visible_gap = smallest_visible_gap(trace, a.facts, a.run, a.deciding);
+  a.deciding = top_bound(a, 0.5);
+  const std::size_t above = top_bound(a, kMostTops) + 1;
+  a.smallest_visible_gap =
+      above < a.run.bounds.size() ? smallest_visible_gap(trace, a.facts, a.run, above) : kInfinity;
   a.finest_gap = smallest_visible_gap(trace, a.facts, a.run, a.sliding);
   read_passages(trace, a);
 }

@@ -177,7 +177,7 @@ void add(Pool& pool, const ImpactAnalysis& analysis, const PaperReading& reading
   pool.quiet = std::min(pool.quiet, reading.quiet);
   pool.restless += static_cast<double>(reading.restless);
   pool.half_periods += static_cast<double>(analysis.facts.half_periods);
-  pool.travel = std::min(pool.travel, analysis.travel);
+  pool.travel = std::min(pool.travel, analysis.facts.travel);
   pool.noise = std::max(pool.noise, analysis.facts.noise);
 }
 

@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/folding.h"
 
 namespace gapscope::internal {
 namespace {
 
 using Samples = std::span<const double>;
+
+constexpr double kFewestDriftPeriods = 3.0;  ///< of the input, for a drift to be told from the motion
 
 /// Root mean square of the speed, by differences wide enough that noise does not count.
 double rms_speed(Samples y, double dt, double noise, double amplitude) {
@@ -39,8 +42,22 @@ std::vector<std::size_t> crossings(Samples y, double centre, double amplitude) {
   return found;
 }
 
-void read_period(const MotorTrace& trace, SignalFacts& facts) {
-  facts.crossings = crossings(trace.x1, facts.centre, facts.amplitude);
+/// x1 less what it gains from one period of the input to the next: an unsymmetrical input makes a free motor
+/// wander, and only what it does about that is periodic.
+std::vector<double> without_drift(const MotorTrace& trace) {
+  std::vector<double> level(trace.x1.begin(), trace.x1.end());
+  const double period = input_period(trace, kFewestDriftPeriods);
+  const auto lag = static_cast<std::size_t>(std::lround(period / trace.dt));
+  if (lag == 0) return level;
+  std::vector<double> gains;
+  for (std::size_t i = lag; i < level.size(); ++i) gains.push_back(trace.x1[i] - trace.x1[i - lag]);
+  const double per_sample = median(std::move(gains)) / static_cast<double>(lag);
+  for (std::size_t i = 0; i < level.size(); ++i) level[i] -= per_sample * static_cast<double>(i);
+  return level;
+}
+
+void read_period(const MotorTrace& trace, Samples level, SignalFacts& facts) {
+  facts.crossings = crossings(level, facts.centre, facts.amplitude);
   const auto& found = facts.crossings;
   std::vector<double> lengths;
   for (std::size_t i = 1; i < found.size(); ++i)
@@ -67,8 +84,10 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
   }
   if (noise <= 0.0) facts.quantum = trace.quantum > 0.0 ? trace.quantum : seen_quantum(y);
   facts.noise = std::max({noise_from_differences(y), facts.quantum / std::sqrt(12.0), noise});
-  const std::vector<double> all(y.begin(), y.end());
-  const double low = quantile(all, 0.02), high = quantile(all, 0.98);
+  const std::vector<double> level = without_drift(trace);
+  const double low = quantile(level, 0.02), high = quantile(level, 0.98);
+  const auto [least, most] = std::minmax_element(level.begin(), level.end());
+  facts.travel = *most - *least;
   facts.centre = 0.5 * (low + high);
   facts.amplitude = 0.5 * (high - low);
   if (!(facts.amplitude > 6.0 * facts.noise) || !(facts.amplitude > 0.0)) {
@@ -76,7 +95,7 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
     return facts;
   }
   facts.speed_rms = rms_speed(y, trace.dt, facts.noise, facts.amplitude);
-  read_period(trace, facts);
+  read_period(trace, level, facts);
   if (facts.half_periods < kFewestHalfPeriods)
     facts.defect = fmt::format(
         "no periodic motion: {} half periods found, {} needed; excite with a sine and record three periods "

@@ -14,8 +14,9 @@ struct SignalFacts {
   double quantum = 0.0;      ///< of the encoder [rad]
   double noise = 0.0;        ///< σ_n, standard deviation of one sample: noise and quantisation [rad]
   double rounding = 0.0;     ///< error of slow motion that averaging periods leaves [rad]
-  double centre = 0.0;       ///< middle of the travel [rad]
-  double amplitude = 0.0;    ///< half the travel, from the 2 and 98 % quantiles [rad]
+  double travel = 0.0;       ///< peak to peak, without the drift from period to period [rad]
+  double centre = 0.0;       ///< middle of that travel [rad]
+  double amplitude = 0.0;    ///< half of it, from the 2 and 98 % quantiles [rad]
   double speed_rms = 0.0;    ///< [rad/s]
   double half_period = 0.0;  ///< median time between crossings of the centre [s]
   std::size_t half_periods = 0;

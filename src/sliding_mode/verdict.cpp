@@ -6,12 +6,16 @@
 
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/impact_method.h"
+#include "sliding_mode/visible_gap.h"
 
 namespace gapscope::internal {
 namespace {
 
 constexpr double kVisible =
     0.4;  ///< largest share of the travel that a statement on smaller gaps may leave open
+
+constexpr double kStriking = 2.5;     ///< contrast that is no friction's
+constexpr double kFewStriking = 0.3;  ///< of the half periods
 
 constexpr double kWidest = 0.15;  ///< of the 95 % interval of a gap that is reported, either way
 
@@ -25,8 +29,8 @@ struct Pool {
   std::size_t passages = 0;
   double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0,
          quantum = 0.0;
-  std::vector<double> contrasts;  // of all passages
   std::size_t events = 0;
+  std::size_t striking = 0;  // passages
 };
 
 std::vector<double> gaps_of(const Pool& pool, int direction) {
@@ -49,7 +53,7 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     const ImpactAnalysis& a = analyses[i];
     if (!a.facts.defect.empty()) continue;
     pool.half_periods += static_cast<double>(a.facts.half_periods);
-    pool.travel = std::min(pool.travel, a.travel);
+    pool.travel = std::min(pool.travel, a.facts.travel);
     pool.noise = std::max(pool.noise, a.facts.noise);
     pool.quantum = std::max(pool.quantum, a.quantum);
     pool.dt = std::max(pool.dt, intervals[i]);
@@ -58,7 +62,7 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.events += a.events.size();
     for (const Transition& t : a.passages) {
       ++pool.passages;
-      pool.contrasts.push_back(t.contrast);
+      pool.striking += t.contrast >= kStriking;
       if (t.refusal == Refusal::kNone)
         pool.accepted.push_back(&t);
       else
@@ -143,14 +147,10 @@ std::string objection(const Pool& pool) {
   return "";
 }
 
-/// No impact stands out anywhere, although every stroke left its marks, and the gap that would have shown is
-/// a small part of the travel.
+/// No impact stands out, although every stroke left its marks, and the gap whose impacts would be more abrupt
+/// than all of these is a small part of the travel. Friction that turns round may stand out a little.
 bool shows_nothing(const Pool& pool) {
-  const auto quiet = pool.refused.find(Refusal::kContrast);
-  const double contrasted = static_cast<double>(pool.passages) -
-                            (quiet == pool.refused.end() ? 0.0 : static_cast<double>(quiet->second));
-  const bool plain = pool.contrasts.empty() || median(pool.contrasts) < 1.1;
-  return plain && contrasted < 0.1 * pool.half_periods &&
+  return static_cast<double>(pool.striking) < kFewStriking * pool.half_periods &&
          static_cast<double>(pool.events) >= 0.5 * pool.half_periods && pool.visible < kVisible * pool.travel;
 }
 
@@ -226,7 +226,9 @@ void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> in
   if (against.empty()) return fill_estimate(pool, estimate);
   if (shows_nothing(pool)) {
     estimate.verdict = GapVerdict::kNone;
-    estimate.reason = fmt::format("no impact in {:.0f} half periods", pool.half_periods);
+    estimate.reason =
+        fmt::format("for a load of at least {:.1f} of the motor's inertia: no impact in {:.0f} half periods",
+                    kSmallestMassRatio, pool.half_periods);
     return;
   }
   estimate.verdict = GapVerdict::kInconclusive;

@@ -8,7 +8,21 @@
 namespace gapscope::internal {
 namespace {
 
-constexpr double kShare = 3.0;  ///< v/Δv
+constexpr double kRestitution = 0.4;  ///< the least that is expected of a contact
+constexpr double kShare =             ///< v/Δv
+    (1.0 + kSmallestMassRatio) / ((1.0 + kRestitution) * kSmallestMassRatio);
+
+/// The sample farthest from the chord between two crossings of the centre.
+std::size_t turn_between(std::span<const double> y, std::size_t first, std::size_t last) {
+  const double slope = (y[last] - y[first]) / static_cast<double>(last - first);
+  std::size_t turn = first;
+  double farthest = 0.0;
+  for (std::size_t i = first; i < last; ++i) {
+    const double away = std::abs(y[i] - y[first] - slope * static_cast<double>(i - first));
+    if (away > farthest) farthest = away, turn = i;
+  }
+  return turn;
+}
 
 /// Median speed at which the motor is `distance` away from its last reversal.
 double speed_away_from_reversals(const MotorTrace& trace, const SignalFacts& facts, double distance) {
@@ -16,9 +30,7 @@ double speed_away_from_reversals(const MotorTrace& trace, const SignalFacts& fac
   const auto m = std::max<std::size_t>(1, static_cast<std::size_t>(0.01 * facts.half_period / trace.dt));
   std::vector<double> speeds;
   for (std::size_t k = 1; k < facts.crossings.size(); ++k) {
-    std::size_t turn = facts.crossings[k - 1];
-    for (std::size_t i = turn; i < facts.crossings[k]; ++i)
-      if (std::abs(y[i] - facts.centre) > std::abs(y[turn] - facts.centre)) turn = i;
+    const std::size_t turn = turn_between(y, facts.crossings[k - 1], facts.crossings[k]);
     std::size_t i = turn;
     while (i + m + 1 < y.size() && std::abs(y[i] - y[turn]) < distance) ++i;
     if (i >= m && i + m < y.size())

@@ -6,12 +6,16 @@
 
 namespace gapscope::internal {
 
+/// Smallest mass ratio of load and motor for which a gap is said to be visible: lighter loads leave a weaker
+/// impact.
+constexpr double kSmallestMassRatio = 0.3;
+
 /// The smallest gap whose impacts would have shown in this motion [rad]; infinite if none would.
 /// An impact shows when its Δv leaves a peak 0.102 Δv²/k₂ of twice the floor at a bound above which the
 /// motion itself shows nothing (`hiding`, an index: detents and stick-slip hide weaker impacts). Two
 /// estimates of the speed v at which a gap g would have been closed are taken, the slower one counts: v² =
-/// L_acc g, and the speed that the motor really has at the distance g from its reversals. Δv ≥ v/3 is
-/// assumed: a load of at least a fifth of the motor's inertia.
+/// L_acc g, and the speed that the motor really has at the distance g from its reversals. Of v, an impact on
+/// a load at rest leaves Δv = (1 + e) μ/(1 + μ) v, with the smallest mass ratio μ and restitution e.
 double smallest_visible_gap(const MotorTrace& trace, const SignalFacts& facts, const BankRun& run,
                             std::size_t hiding);
 

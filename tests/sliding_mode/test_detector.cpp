@@ -139,6 +139,25 @@ TEST(Detector, DrivesWithoutAGapAreNeverReportedWithOne) {
   }
 }
 
+TEST(Detector, NoneSaysForWhichLoadsItHoldsAndLeavesOnlySmallGapsOpen) {
+  TestDrive rigid;
+  rigid.m1 += rigid.m2, rigid.d1 += rigid.d2, rigid.Fc1 = rigid.Fc2, rigid.m2 = 0.0;
+  const GapEstimate estimate = detect(record(rigid, sine(0.5814, 1.0), {}));
+  ASSERT_EQ(estimate.verdict, GapVerdict::kNone) << estimate.brief_report();
+  EXPECT_THAT(estimate.reason, HasSubstr("0.3 of the motor's inertia"));
+  EXPECT_LT(estimate.smallest_visible_gap, 0.019);
+}
+
+TEST(Detector, AMotorThatWandersUnderAnUnsymmetricalInputIsStillJudged) {
+  TestDrive rigid;
+  rigid.m1 += rigid.m2, rigid.Fc1 = 0.02, rigid.m2 = 0.0;
+  const TestRecording recording =
+      record(rigid, [](double t) { return sine(0.4, 1.0)(t) + sine(0.3, 2.0)(t + 0.1); }, {});
+  ASSERT_GT(std::abs(recording.x1.back() - recording.x1.front()), 0.3) << "it does not wander";
+  const GapEstimate estimate = detect(recording);
+  EXPECT_EQ(estimate.verdict, GapVerdict::kNone) << estimate.brief_report();
+}
+
 TEST(Detector, BadDataIsAVerdictWithAReasonNeverAnException) {
   struct Bad {
     const char* what;

@@ -6,6 +6,7 @@
 #include "gapscope/base/random.h"
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/folding.h"
+#include "sliding_mode/signal_facts.h"
 
 namespace gapscope::internal {
 namespace {
@@ -74,6 +75,15 @@ TEST(Folding, PeriodsThatReadAlikeToTheLastCountShareTheirRounding) {
   const FoldedMotion f = fold(p.trace(6.0));
   ASSERT_GT(f.periods, 0u);
   EXPECT_NEAR(f.noise, p.quantum / std::sqrt(12.0), 1e-9);
+}
+
+TEST(SignalFacts, ADriftFromPeriodToPeriodIsNoPartOfTheMotion) {
+  Periodic still, drifting;
+  const SignalFacts expected = read_facts(still.trace(6.0)), facts = read_facts(drifting.trace(6.0, 0.4));
+  EXPECT_EQ(facts.defect, "");
+  EXPECT_EQ(facts.half_periods, expected.half_periods);
+  EXPECT_NEAR(facts.half_period, expected.half_period, 0.01 * expected.half_period);
+  EXPECT_NEAR(facts.travel, expected.travel, 0.02 * expected.travel);
 }
 
 }  // namespace
