@@ -23,12 +23,13 @@ struct Deflated {
     return q;
   }
 
-  /// A bound from below: p₀ less all that the falling terms can take away over (0, h].
+  /// A bound from below: p₀ less all that the falling terms can take away over (0, h]. What is zero
+  /// throughout (a body at rest that nothing pushes) does not fall.
   bool may_fall(double h) const {
     double fall = 0.0, power = h;
     for (int n = 1; n <= degree; ++n, power *= h)
       if (p[n] < 0.0) fall -= p[n] * power;
-    return fall >= p[0];
+    return p[0] < 0.0 || (fall > 0.0 && fall >= p[0]);
   }
 };
 

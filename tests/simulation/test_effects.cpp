@@ -199,6 +199,15 @@ TEST_P(EveryEffect, StaysFiniteOnRandomParametersWithinItsBounds) {
   }
 }
 
+TEST_P(EveryEffect, StaysHealthyAtRestUntilTheInputBegins) {
+  Case c;
+  std::fill_n(c.u.begin(), 200, 0.0);
+  c.u.resize(1000);
+  bool healthy = false;
+  measured(with(entry(), moderate(entry(), c.scale)), c.u, kRate, 1, &healthy);
+  EXPECT_TRUE(healthy);
+}
+
 std::string name_of(const testing::TestParamInfo<std::string>& info) { return info.param; }
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, ::testing::ValuesIn(names()), name_of);
 
