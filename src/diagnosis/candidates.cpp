@@ -18,7 +18,9 @@ constexpr Work kRetry{8, 40, 1e-4};    ///< of the few that came nearest
 constexpr double kPromising = 0.9;     ///< of the mean square without the effect
 constexpr double kFurther = 0.995;     ///< of the mean square: a retry that got further
 constexpr double kFloorSquare = 1.25;  ///< mean square [floor²] at which no other start can be better
-constexpr double kClose = 30.0;        ///< a start from elsewhere is followed while it is within this ratio
+constexpr int kWeakenings = 2;
+constexpr double kWeaker = 0.15;  ///< of the start
+constexpr double kClose = 30.0;   ///< a start from elsewhere is followed while it is within this ratio
 
 ParameterSetting& setting(ReferenceModel& model, int number) {
   if (number < kDriveParameterCount) return model.parameters[static_cast<std::size_t>(number)];
@@ -108,6 +110,14 @@ std::vector<double> effect_values(const FitProblem& problem, const EffectEntry& 
   return values;
 }
 
+/// Parameter i nearer to where the effect is absent.
+double weaker(const FitProblem& problem, const EffectEntry& entry, std::size_t i, double value) {
+  const EffectParameterSpec& spec = entry.parameters[i];
+  const Parameter& p = problem.parameters[problem.parameters.size() - entry.parameters.size() + i];
+  const double absent = spec.absent * p.high / spec.high;
+  return std::isfinite(absent) ? absent + kWeaker * (value - absent) : std::min(value / kWeaker, p.high);
+}
+
 ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry) {
   ModelEffect effect;
   effect.entry = &entry;
@@ -179,12 +189,26 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
     const std::size_t origin = base != nullptr ? static_cast<std::size_t>(base - bases.data()) : bases.size();
     raced.push_back({adjust(problem, point, borrowed.recordings, hz, kRaceSteps), origin});
   };
-  for (const EffectStart& start : starts) {
-    const std::vector<double> values = effect_values(problem, entry, start);
+  const auto race_effect = [&](const std::vector<double>& values, const Base& base) {
     ReferenceModel point = extended;
     for (std::size_t i = 0; i < values.size(); ++i) point.effects.back().parameters[i].value = values[i];
-    for (const Base& base : bases) race(point, &base);
-    if (parent != nullptr && !bases.empty()) race(from_parent(extended, *parent, values), nullptr);
+    race(point, &base);
+  };
+  for (const EffectStart& start : starts) {
+    std::vector<double> values = effect_values(problem, entry, start);
+    for (const Base& base : bases) race_effect(values, base);
+    if (parent != nullptr && !bases.empty()) {
+      race(from_parent(extended, *parent, values), nullptr);
+      values[1] = weaker(problem, entry, 1, values[1]);  // nearly the parent itself
+      race(from_parent(extended, *parent, values), nullptr);
+    }
+    // An effect far smaller than the start only hurts there.
+    for (int i = 0; parent == nullptr && i < kWeakenings && !bases.empty() &&
+                    !(raced.back().at.mean_square < nominal.mean_square);
+         ++i) {
+      values[0] = weaker(problem, entry, 0, values[0]);
+      race_effect(values, bases.front());
+    }
   }
   return fitted_of(extended, problem, best_of(problem, std::move(raced), hz, nominal.mean_square));
 }

@@ -34,8 +34,9 @@ std::string mode_words(const std::vector<MapShare>& mode) {
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
   if (most.share > kOneSided)
-    return fmt::format("mostly in {} motion ({:.0f} %)", most.bin, 100.0 * most.share);
-  return "in both directions, following the direction of motion";
+    return fmt::format("following the direction of motion, mostly in {} motion ({:.0f} %)", most.bin,
+                       100.0 * most.share);
+  return "following the direction of motion, in both directions";
 }
 
 std::string pattern_words(Pattern pattern, const MismatchPlace& p) {

@@ -95,12 +95,6 @@ void append_windows(const std::vector<double>& errors, std::size_t from, std::si
   }
 }
 
-double mean_log(const std::vector<double>& squares) {
-  double sum = 0.0;
-  for (const double w : squares) sum += std::log(w + kScoreOffset);
-  return sum / static_cast<double>(squares.size());
-}
-
 }  // namespace
 
 std::size_t HeldOut::restart(std::size_t r) const {
@@ -151,6 +145,12 @@ Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_o
     append_windows(playbacks[r].torque, from, half, 1.0, w.torque);
   }
   return w;
+}
+
+double mean_log(const std::vector<double>& squares) {
+  double sum = 0.0;
+  for (const double w : squares) sum += std::log(w + kScoreOffset);
+  return sum / static_cast<double>(std::max<std::size_t>(1, squares.size()));
 }
 
 double log_score(const Windows& w) {

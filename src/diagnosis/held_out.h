@@ -56,6 +56,9 @@ std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, do
 
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
 
+/// Mean of log(W + 0.3).
+double mean_log(const std::vector<double>& mean_squares);
+
 /// ½ mean log(W_inn + 0.3) + ½ mean log(W_free + 0.3); infinite where the motion diverged.
 double log_score(const Windows& windows);
 constexpr double kScoreOffset = 0.3;

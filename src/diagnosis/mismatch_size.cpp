@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/random.h"
 #include "reference/rollout.h"
 
 namespace gapscope::internal {
@@ -13,8 +12,8 @@ namespace {
 
 constexpr double kLeastRatio = 1.3;   ///< a gap smaller than this many floors has no shrink
 constexpr double kTemperature = 0.3;  ///< of the softmax over S
-constexpr int kResamples = 200;
-constexpr double kInflation = 2.0;  ///< windows of one recording vary less than recordings do
+constexpr double kSmaller = 3.0, kMore = 3.0, kLess = 4.0, kSpread = 0.5, kBelow = 1.5;  ///< see below
+constexpr double kNearFloor = 6.0;  ///< floors within which what is left may be none on another recording
 constexpr double kFlatters = 0.15;  ///< change of a log mean that counts
 
 /// √ of the variance that white noise of variance 1 leaves in the innovations of an observer on a free mass:
@@ -31,35 +30,17 @@ double noise_gain(double hz, double dt) {
   return std::sqrt(sum);
 }
 
-/// Shrink of medians over the windows of one draw.
-double drawn_shrink(std::mt19937_64& generator, const std::vector<double>& before,
-                    const std::vector<double>& after) {
-  std::vector<double> b, a;
-  const std::size_t n = before.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t k =
-        std::min(n - 1, static_cast<std::size_t>(uniform(generator, 0.0, static_cast<double>(n))));
-    b.push_back(before[k]), a.push_back(after[k]);
-  }
-  return shrink_of(median_size(b), median_size(a));
-}
-
-Interval shrink_interval(const std::vector<double>& before, const std::vector<double>& after, double shrink) {
-  if (!std::isfinite(shrink) || before.size() != after.size()) return {};
-  auto generator = random_stream(1, "shrink interval");
-  std::vector<double> values;
-  for (int i = 0; i < kResamples; ++i)
-    if (const double s = drawn_shrink(generator, before, after); std::isfinite(s)) values.push_back(s);
-  if (values.size() < kResamples / 2) return {};
-  const double low = std::min(shrink, quantile(values, 0.025)),
-               high = std::max(shrink, quantile(values, 0.975));
-  return {shrink - kInflation * (shrink - low), shrink + kInflation * (high - shrink)};
-}
-
-double mean_log(const std::vector<double>& squares) {
-  double sum = 0.0;
-  for (const double w : squares) sum += std::log(w + kScoreOffset);
-  return sum / static_cast<double>(std::max<std::size_t>(1, squares.size()));
+/// Where the shrink of the next recording of the same drive lies, by sizes in floors. Another excitation
+/// makes the mismatch up to kSmaller times smaller, the share that remains up to kMore times larger, and what
+/// is left near the floor differs by kSpread floors: measured on drives of the independent plant.
+Interval shrink_interval(double before, double after, double shrink) {
+  if (!std::isfinite(shrink)) return {};
+  const double room = std::max(before / kSmaller, std::min(before, 2.0)) - 1.0;
+  const double remaining = std::max(0.0, 1.0 - shrink);
+  const double low = 1.0 - std::max(kMore * remaining, kSpread / room);
+  const double high = after > kNearFloor ? 1.0 - remaining / kLess : 1.0 + kSpread / room;
+  const double below_floor = 1.0 + kBelow * std::max(0.0, shrink - 1.0);
+  return {std::min(low, shrink), std::max({high, shrink, below_floor})};
 }
 
 }  // namespace
@@ -104,7 +85,7 @@ MismatchSize mismatch_size(const Study& study, const Judged& before, const Judge
                     : noisy   ? FloorSource::kNoise
                               : FloorSource::kEncoder;
   size.shrink = shrink_of(b, a);
-  size.shrink_ci95 = shrink_interval(before.windows.*windows, after.windows.*windows, size.shrink);
+  size.shrink_ci95 = shrink_interval(b, a, size.shrink);
   size.remains = a;
   return size;
 }

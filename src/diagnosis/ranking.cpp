@@ -7,28 +7,26 @@
 namespace gapscope::internal {
 namespace {
 
-constexpr double kFloorRatio = 1.3;       ///< medians within it: at the floor
-constexpr double kAlike = 0.3;            ///< S between look-alikes that the data does not separate
-constexpr double kIndistinct = 0.08;      ///< the same for effects that no table calls alike
-constexpr double kLeastRel = 0.4;         ///< share of the log distance to the floor that a step closes
-constexpr double kLeastMargin = 0.3;      ///< S by which it beats all others
-constexpr double kOtherFormRel = 0.25;    ///< the same of an effect whose real law is another than ours,
-constexpr double kOtherFormMargin = 1.5;  ///< which stands far above all others all the same
-constexpr double kLeastGain = 0.3;        ///< S, of a step that cannot reach the floor
-constexpr double kLeastWindows = 0.6;     ///< share of the windows that such a step improves
-constexpr double kAskedFor =
-    0.99;  ///< of the mean square that was fitted: luck on held-out data is no finding
+constexpr double kFloorRatio = 1.3;         ///< medians within it: at the floor
+constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate
+constexpr double kIndistinct = 0.08;        ///< the same for effects that no table calls alike
+constexpr double kLeastRel = 0.4;           ///< share of the log distance to the floor that a step closes
+constexpr double kLeastMargin = 0.3;        ///< S by which it beats all others
+constexpr double kOtherFormRel = 0.2;       ///< the same of an effect whose real law is another than ours,
+constexpr double kOtherFormMargin = 1.5;    ///< which stands far above all others all the same
+constexpr double kOtherFormShrink = 0.7;    ///< and leaves little of the free runs' size
+constexpr double kLeastGain = 0.3;          ///< S, of a step that cannot reach the floor
+constexpr double kLeastWindows = 0.6;       ///< share of the windows that such a step improves
+constexpr double kAskedFor = 0.85;          ///< of the mean square that was fitted: luck on held-out data is
+constexpr double kAskedForAtFloor = 0.99;   ///< no finding
 constexpr double kNestedShare = 0.8;        ///< of the child's gain: the parent is enough
+constexpr double kNestedMargin = 0.6;       ///< S by which the child may be better all the same
 constexpr double kNestedShareOfSize = 0.5;  ///< the same of what the prediction error shrinks by
 constexpr double kLeastDistance = 0.3;      ///< S to the floor of which a share can be told
 const double kFloorScore = std::log(1.0 + kScoreOffset);
 
 bool names(std::span<const char* const> list, std::string_view name) {
   return std::any_of(list.begin(), list.end(), [&](const char* other) { return name == other; });
-}
-
-bool look_alike(const EffectEntry& a, const EffectEntry& b) {
-  return names(a.look_alikes, b.name) || names(b.look_alikes, a.name);
 }
 
 double probability_of(double rel, double margin, double gain) {
@@ -38,6 +36,10 @@ double probability_of(double rel, double margin, double gain) {
 }
 
 }  // namespace
+
+bool look_alike(const EffectEntry& a, const EffectEntry& b) {
+  return names(a.look_alikes, b.name) || names(b.look_alikes, a.name);
+}
 
 Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, double hz) {
   Judged j;
@@ -83,7 +85,8 @@ void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_ba
   const double share = repeats_badly ? (before.median_innovation - found->median_innovation) /
                                            (before.median_innovation - best.median_innovation)
                                      : (before.score - found->score) / (before.score - best.score);
-  if (share > (repeats_badly ? kNestedShareOfSize : kNestedShare))
+  const bool little_worse = repeats_badly || found->score - best.score < kNestedMargin;
+  if (little_worse && share > (repeats_badly ? kNestedShareOfSize : kNestedShare))
     std::rotate(candidates.begin(), found, std::next(found));
 }
 
@@ -108,11 +111,13 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   // A drive that repeats itself badly has no floor that a share of the log distance could be told of.
   const double closed = repeats_badly ? 1.0 - best.median_innovation / before.median_innovation : d.rel;
   d.probability = probability_of(closed, d.margin, d.gain);
-  const bool enough = repeats_badly
-                          ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows
-                          : d.rel >= kLeastRel || (d.rel >= kOtherFormRel && d.margin >= kOtherFormMargin);
-  const bool asked_for =
-      reads_counts(*best.entry) || best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
+  const bool of_other_form = d.rel >= kOtherFormRel && d.margin >= kOtherFormMargin &&
+                             best.median_free < (1.0 - kOtherFormShrink) * before.median_free;
+  const bool enough = repeats_badly ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows
+                                    : d.rel >= kLeastRel || of_other_form;
+  const double fitted = best.fitted.mean_square;
+  const double share = fitted < kFloorRatio * kFloorRatio ? kAskedForAtFloor : kAskedFor;
+  const bool asked_for = reads_counts(*best.entry) || fitted < share * before.fitted.mean_square;
   d.accepted = enough && asked_for && d.margin >= kLeastMargin;
   for (const Judged& parent : excluded_parents)
     if (nested_parent(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)

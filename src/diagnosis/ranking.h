@@ -21,6 +21,9 @@ struct Judged {
 
 Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, double observer_hz);
 
+/// Whether the table of the catalogue names one as a look-alike of the other.
+bool look_alike(const EffectEntry& a, const EffectEntry& b);
+
 /// Both medians within 1.3 floors.
 bool at_floor(const Judged& judged);
 

@@ -18,7 +18,8 @@ namespace internal {
 namespace {
 
 constexpr std::size_t kSecondRound = 4;
-constexpr std::size_t kLines = 3;  ///< of the residual torque that periodic effects begin with
+constexpr double kWorthComparing = 0.3;  ///< S that a candidate gains
+constexpr std::size_t kLines = 3;        ///< of the residual torque that periodic effects begin with
 
 /// Starts of every candidate; those of periodic effects from the residual torque of the model so far.
 std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judged& before,
@@ -68,6 +69,27 @@ void second_round(const Study& study, std::vector<Judged>& ranked) {
   });
 }
 
+/// Look-alikes of a candidate begin once more, from the numbers of its drive: where the two are hard to tell
+/// apart, a poor minimum must not decide.
+void fit_look_alikes(const Study& study, const Judged& before, const Judged& best,
+                     std::span<const EffectEntry* const> entries,
+                     const std::vector<std::vector<EffectStart>>& starts, std::vector<Judged>& ranked) {
+  const FitOptions& options = study.options.fit;
+  const std::vector<Base> bases =
+      bases_of(study.train, before.fitted, best.fitted.model, options, study.observer_hz);
+  if (bases.empty() || !(before.score - best.score > kWorthComparing)) return;
+  parallel_for(ranked.size(), study.options.threads, [&](std::size_t k) {
+    Judged& c = ranked[k];
+    if (!look_alike(*c.entry, *best.entry) || at_floor(c) || reads_counts(*c.entry)) return;
+    const auto place = std::find(entries.begin(), entries.end(), c.entry) - entries.begin();
+    Fitted fitted =
+        fit_candidate(study.train, before.fitted, {&bases.back(), 1}, *c.entry,
+                      starts[static_cast<std::size_t>(place)], nullptr, options, study.observer_hz);
+    if (fitted.mean_square < c.fitted.mean_square)
+      c = judge(c.entry, std::move(fitted), study.held_out, study.observer_hz);
+  });
+}
+
 }  // namespace
 
 std::vector<Judged> candidates_of(const Study& study, const Judged& before,
@@ -107,6 +129,9 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
   };
   wave(false);
   wave(true);
+  rank(judged, before, study.repeats_badly());
+  const std::vector<Judged> best(judged.begin(), judged.begin() + std::min<std::size_t>(2, judged.size()));
+  for (const Judged& b : best) fit_look_alikes(study, before, b, entries, starts, judged);
   rank(judged, before, study.repeats_badly());
   second_round(study, judged);
   rank(judged, before, study.repeats_badly());

@@ -15,7 +15,7 @@ const std::map<std::string, std::vector<std::string>>& expected_words() {
       {"motor_coulomb_friction", {"following the direction of motion"}},
       {"stribeck_friction", {"following the direction of motion"}},
       {"presliding_friction", {"following the direction of motion"}},
-      {"friction_asymmetry", {"following the direction of motion", "mostly in"}},
+      {"friction_asymmetry", {"following the direction of motion"}},
       {"quadratic_drag", {"along the speed"}},
       {"torque_saturation", {"along the input level"}},
       {"input_dead_zone", {"along the input level"}},

@@ -8,7 +8,7 @@ namespace gapscope::test {
 
 /// Whether a headline names the place where the case's effect acts. The rule, which was written before any
 /// headline was scored by it:
-///   friction of the motor                 follows the direction of motion (asymmetry: or is one-sided)
+///   friction of the motor                 follows the direction of motion
 ///   quadratic_drag                        along the speed
 ///   cogging_torque, torque_ripple         periodic in the motor angle, at the true cycles per turn within
 ///                                         5 %

@@ -40,8 +40,13 @@ std::size_t place_of_truth(const std::vector<Judged>& ranked, const std::string&
   return ranked.size();
 }
 
+struct Removed {
+  Decision decision;
+  std::string details;
+};
+
 /// The decision without the true effect and its look-alikes.
-Decision without(const std::string& effect, std::vector<Judged> candidates, const Judged& before) {
+Removed without(const std::string& effect, std::vector<Judged> candidates, const Judged& before) {
   const EffectEntry* truth = find_effect(effect);
   std::vector<Judged> parents;
   for (const Judged& c : candidates)
@@ -56,7 +61,13 @@ Decision without(const std::string& effect, std::vector<Judged> candidates, cons
   std::erase_if(parents, [&](const Judged& p) {
     return place_of_truth(candidates, p.entry->name) < candidates.size();
   });
-  return decide(candidates, before, false, parents);
+  Removed removed{decide(candidates, before, false, parents), ""};
+  if (!candidates.empty())
+    removed.details =
+        fmt::format("; removed: {} rel {:.2f} margin {:.2f} shrink {:.2f}", candidates.front().entry->name,
+                    removed.decision.rel, removed.decision.margin,
+                    shrink_of(before.median_free, candidates.front().median_free));
+  return removed;
 }
 
 std::string describe(const Findings& f, const std::string& effect) {
@@ -109,7 +120,9 @@ void note_answer(StudyRow& row, const Study& study, const Findings& f, const tes
   for (const EffectEntry* e : f.decision.group) row.in_group = row.in_group || e->name == row.effect;
   row.shrink = shrink_of(f.before.median_free, f.candidates.front().median_free);
   row.probability = f.decision.probability;
-  row.removed = without(row.effect, f.candidates, f.before).accepted ? "effect" : "unknown";
+  const Removed removed = without(row.effect, f.candidates, f.before);
+  row.removed = removed.decision.accepted ? "effect" : "unknown";
+  row.details += removed.details;
   if (!row.named()) return;
   row.covered = covers(study, f, pair, row.details);
   row.place = places(study, f, pair, true);

@@ -44,9 +44,6 @@ TEST(Diagnosis, SeesACoarserEncoderThanTheSheetSays) {
   ASSERT_EQ(d.effects, std::vector<std::string>{"encoder_quantization"}) << d.sentence;
   EXPECT_NEAR(d.ranking.front().parameters.front().value, 8.0 * pair.train.quantum,
               1e-3 * pair.train.quantum);
-  DiagnosisOptions options;
-  options.excluded = {"encoder_quantization"};
-  EXPECT_EQ(diagnosis_of(pair, options).verdict, DiagnosisVerdict::kUnknown);
 }
 
 const Diagnosis& of_motor_friction() {
