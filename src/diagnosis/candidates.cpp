@@ -149,7 +149,7 @@ Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& mode
   Solution best;
   if (values_are_given(problem)) best = descend(problem, given_point(problem), hz);
   if (!(best.mean_square <= kFloorSquare))
-    if (const Solution found = search(problem).best; found.usable())
+    if (const Solution found = search(problem).best(); found.usable())
       if (const Solution other = descend(problem, found, hz); other.mean_square < best.mean_square)
         best = other;
   return fitted_of(model, problem, best);

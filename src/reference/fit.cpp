@@ -104,12 +104,12 @@ FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& mod
   FitSummary summary;
   summary.floor = pooled_floor(problem);
   const SearchResult found = search(problem);
-  summary.starts = static_cast<int>(found.costs.size());
-  summary.start_costs = found.costs;
-  if (!found.best.usable()) {
+  summary.starts = static_cast<int>(found.ends.size());
+  summary.start_costs = found.costs();
+  if (!found.best().usable()) {
     report_failure(problem, summary);
   } else {
-    const Outcome outcome = outcome_of(problem, found.best);
+    const Outcome outcome = outcome_of(problem, found);
     summary.status = outcome.solution.converged ? FitStatus::kConverged : FitStatus::kNotConverged;
     summary.message = outcome.solution.converged ? "" : "the iterations ran out before the cost settled.";
     summary.warnings = outcome.warnings;

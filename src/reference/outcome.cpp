@@ -7,7 +7,6 @@
 
 #include "reference/excerpt.h"
 #include "reference/polish.h"
-#include "reference/search.h"
 #include "reference/starts.h"
 
 namespace gapscope::internal {
@@ -86,11 +85,24 @@ std::size_t change_of_level(const MotorTrace& r) {
   return static_cast<std::size_t>(split) * length;
 }
 
-/// Free parameters on one part alone; empty where that fails.
+/// The end that predicts best at a gain. Unmodelled torque hides physics from a slow observer: what is best
+/// there need not be.
+Solution best_at(const FitProblem& problem, const std::vector<Solution>& ends, double hz) {
+  Solution best;
+  for (const Solution& end : ends) {
+    const Solution there = solve(problem, end, hz, kOther);
+    if (there.mean_square < best.mean_square) best = there;
+  }
+  return best;
+}
+
+/// Free parameters on one part alone, sought anew: from the values of the whole a part that shows nothing of
+/// a parameter would only return them. Empty where that fails.
 std::vector<double> values_on(const Excerpt& part, const Solution& from, double hz) {
-  Solution at = start_point(part.problem(), from.q);
-  choose_variants(part.problem(), at, hz);
-  const Solution found = solve(part.problem(), at, hz, kOther);
+  std::vector<Solution> ends = search(part.problem()).ends;
+  ends.push_back(start_point(part.problem(), from.q));
+  choose_variants(part.problem(), ends.back(), hz);
+  const Solution found = best_at(part.problem(), ends, hz);
   return found.usable() ? values_of(part.problem(), found) : std::vector<double>{};
 }
 
@@ -112,14 +124,16 @@ void compare_parts(const FitProblem& problem, Outcome& outcome) {
   outcome.changes.push_back({where, from, to, 0.5, true});
 }
 
-void take_rejected(const FitProblem& problem, const Solution& found, Outcome& outcome) {
+void take_rejected(const FitProblem& problem, const SearchResult& found, Outcome& outcome) {
   const FitOptions& o = problem.options;
   outcome.warnings.push_back(fmt::format(
       "the model does not explain the recordings: its prediction error is {:.3g} times the "
       "encoder's floor. Values are those of an observer at {:.3g} Hz; intervals hold their scatter "
       "over windows, gains and parts of the recordings, not what the missing physics may bias.",
-      std::sqrt(found.mean_square), o.rejected_hz));
-  take_two_gains(problem, found, o.rejected_hz, kSecondGain * o.rejected_hz, outcome);
+      std::sqrt(found.best().mean_square), o.rejected_hz));
+  const Solution best = best_at(problem, found.ends, o.rejected_hz);
+  take_two_gains(problem, best.usable() ? best : found.best(), o.rejected_hz, kSecondGain * o.rejected_hz,
+                 outcome);
   if (o.compare_parts) compare_parts(problem, outcome);
 }
 
@@ -144,11 +158,12 @@ std::vector<double> Outcome::shift() const {
   return sum;
 }
 
-Outcome outcome_of(const FitProblem& problem, const Solution& found) {
+Outcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
   const FitOptions& o = problem.options;
+  const Solution found = ends.best();
   Outcome outcome;
   if (std::sqrt(found.mean_square) > o.rejected_ratio) {
-    take_rejected(problem, found, outcome);
+    take_rejected(problem, ends, outcome);
     return outcome;
   }
   const Polished polished = polish(problem, found);

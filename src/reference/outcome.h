@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reference/identifiability.h"
+#include "reference/search.h"
 
 namespace gapscope::internal {
 
@@ -29,8 +30,9 @@ struct Outcome {
 };
 
 /// Takes the end of the search to the values that are reported, see fit(): the free run where the predictions
-/// reach the encoder's floor, else observers at two gains and on parts of the recordings.
-Outcome outcome_of(const FitProblem& problem, const Solution& found);
+/// reach the encoder's floor, else the end that predicts best at a higher gain, compared with another gain
+/// and between parts of the recordings.
+Outcome outcome_of(const FitProblem& problem, const SearchResult& found);
 
 /// Names the parameters that change by more than their own intervals. A gap that is another one on another
 /// part of the recordings is no gap: it is not identifiable.

@@ -18,6 +18,8 @@ constexpr int kMeetings = 3;  ///< of the best minimum that settle a model that 
 constexpr std::size_t kContendersPerStart = 4;
 constexpr double kGains[] = {1.0, 0.4, 2.5};  ///< of the observer on parts, by turns: their minima differ
 
+bool better(const Solution& a, const Solution& b) { return a.mean_square < b.mean_square; }
+
 /// The better of a point and a local search from it, on some recordings.
 void improve(const FitProblem& problem, double hz, const Effort& effort, Solution& at) {
   const Solution next = solve(problem, at, hz, effort);
@@ -38,9 +40,9 @@ Solution whole_search(const FitProblem& problem, const Solution& point) {
 /// minimum was met often and the model is not the drive anyway.
 bool settled(const FitProblem& problem, const Solution& found, const SearchResult& result) {
   const FitOptions& o = problem.options;
-  const double best = result.best.mean_square;
-  const auto met = std::count_if(result.costs.begin(), result.costs.end(),
-                                 [&](double cost) { return cost < kSameMinimum * best; });
+  const double best = result.best().mean_square;
+  const auto met = std::count_if(result.ends.begin(), result.ends.end(),
+                                 [&](const Solution& end) { return end.mean_square < kSameMinimum * best; });
   if (best > o.rejected_ratio * o.rejected_ratio) return met >= kMeetings;
   return found.mean_square < kAtFloor * kAtFloor &&
          correlation_at(problem, found, o.observer_hz).excess() < kWhite;
@@ -51,14 +53,8 @@ bool take(const FitProblem& problem, const Solution& point, SearchResult& result
   stop_point();
   const Solution found = whole_search(problem, point);
   if (!found.usable()) return false;
-  result.costs.push_back(found.mean_square);
-  if (found.mean_square < result.best.mean_square) result.best = found;
+  result.ends.insert(std::upper_bound(result.ends.begin(), result.ends.end(), found, better), found);
   return settled(problem, found, result);
-}
-
-SearchResult sorted(SearchResult result) {
-  std::sort(result.costs.begin(), result.costs.end());
-  return result;
 }
 
 struct Contender {
@@ -93,13 +89,19 @@ std::vector<Solution> compete(const FitProblem& problem, const std::vector<Solut
 
 }  // namespace
 
+std::vector<double> SearchResult::costs() const {
+  std::vector<double> costs;
+  for (const Solution& end : ends) costs.push_back(end.mean_square);
+  return costs;
+}
+
 SearchResult search(const FitProblem& problem) {
   SearchResult result;
   auto starts = static_cast<std::size_t>(std::max(1, problem.options.starts));
   std::vector<Solution> points = {given_point(problem)};
   if (values_are_given(problem)) {  // what the user believes goes first; derived values have no such rank
     for (const Solution& point : compete(problem, points, 1))
-      if (take(problem, point, result)) return sorted(result);
+      if (take(problem, point, result)) return result;
     points.clear();
     --starts;
   }
@@ -108,7 +110,7 @@ SearchResult search(const FitProblem& problem) {
       points.push_back(std::move(point));
   for (const Solution& point : compete(problem, points, starts))
     if (take(problem, point, result)) break;
-  return sorted(result);
+  return result;
 }
 
 }  // namespace gapscope::internal

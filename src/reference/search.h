@@ -13,8 +13,10 @@ constexpr double kWhite = 0.15;
 
 /// Result of the starts.
 struct SearchResult {
-  Solution best;              ///< unusable if none was
-  std::vector<double> costs;  ///< final mean squares [floor²], least first
+  std::vector<Solution> ends;  ///< of the searches that did not fail, least mean square first
+
+  Solution best() const { return ends.empty() ? Solution{} : ends.front(); }
+  std::vector<double> costs() const;  ///< final mean squares [floor²]
 };
 
 /// Least squares of the observer's innovations from several starting points. Each search runs on a growing
