@@ -200,7 +200,10 @@ template <class T>
 void StepperImpl<T>::resolve_contact() {
   if (!has_load) return;
   if (mode.contact != 0) {
-    if (mode.contact * value_of(contact_torque(mode.contact)) >= -value_of(model.adhesion)) return;
+    // A locked load does not follow the motor: a contact that was parted is open, whatever its damper says.
+    const double adhesion = value_of(model.adhesion);
+    const bool parted = locked && adhesion <= 0.0 && side_distance(mode.contact) < 0.0;
+    if (!parted && mode.contact * value_of(contact_torque(mode.contact)) >= -adhesion) return;
     mode.contact = 0;
   }
   mode.outside = 0;

@@ -222,6 +222,22 @@ TEST(Stepper, LockedLoadNeverMovesAndALoadlessDriveIgnoresIt) {
   EXPECT_LT(widest, 0.0094 + 2.0 * 0.6 * 0.172 / 200.0 + 0.01);
 }
 
+TEST(Stepper, AContactThatAnInjectionPartsIsOpenAndClosesAgain) {
+  DriveParameters<double> p = paper_rig();
+  p.contact_damping = 2.0;  // far more than k times the distance below
+  DriveStructure structure;
+  structure.load = LoadKind::kLocked;
+  DriveStepper<double> stepper(stepper_model(p, structure), 1e-3);
+  stepper.reset({});
+  for (int i = 0; i < 300; ++i) stepper.step(0.3);
+  ASSERT_EQ(stepper.mode().contact, 1);
+  stepper.inject(0.5 * p.gap - 1e-3 - stepper.state().x1, 0.5);
+  EXPECT_EQ(stepper.mode().contact, 0);
+  for (int i = 0; i < 300; ++i) stepper.step(0.3);
+  EXPECT_TRUE(stepper.healthy());
+  EXPECT_EQ(stepper.mode().contact, 1);
+}
+
 TEST(Stepper, ElasticRigidContactBouncesByEquation3) {
   StepperModel<double> model = plain(paper_rig());
   DriveParameters<double>& p = model.drive;
