@@ -24,6 +24,7 @@ std::string mode_words(const std::vector<MapShare>& mode) {
     if (m.expected > 0.0 && m.share > 0.2 && m.share / m.expected > kDense &&
         m.share / m.expected > chosen->share / std::max(chosen->expected, 1e-9))
       chosen = &m;
+  if (chosen->expected >= 1.0) return "";  // there is but one mode
   const char* const where = chosen->bin == "impact" ? "at impacts"
                             : chosen->bin == "gap"  ? "in the gap"
                                                     : "in engagement";
@@ -91,6 +92,9 @@ double cycles_of(const ModelEffect& effect) {
 std::string headline_of(const MismatchPlace& place, const std::vector<PatternStrength>& patterns,
                         const ModelEffect* effect) {
   std::string text = mode_words(place.mode);
+  const auto add = [&text](const std::string& words) {
+    text += text.empty() || words.empty() ? words : ", " + words;
+  };
   std::vector<Pattern> named;
   if (effect != nullptr) named.push_back(pattern_of(*effect->entry));
   const auto strongest = std::max_element(
@@ -99,9 +103,8 @@ std::string headline_of(const MismatchPlace& place, const std::vector<PatternStr
   if (strongest != patterns.end() && strongest->strength > kWorthNaming &&
       std::find(named.begin(), named.end(), strongest->pattern) == named.end())
     named.push_back(strongest->pattern);
-  for (const Pattern pattern : named)
-    if (const std::string words = pattern_words(pattern, place); !words.empty()) text += ", " + words;
-  if (named.empty()) text += ", in both directions, without a clear order in angle, speed, input or time";
+  for (const Pattern pattern : named) add(pattern_words(pattern, place));
+  if (named.empty()) add("in both directions, without a clear order in angle, speed, input or time");
   return text;
 }
 

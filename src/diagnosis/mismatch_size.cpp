@@ -85,7 +85,7 @@ MismatchSize mismatch_size(const Study& study, const Judged& before, const Judge
                     : noisy   ? FloorSource::kNoise
                               : FloorSource::kEncoder;
   size.shrink = shrink_of(b, a);
-  size.shrink_ci95 = shrink_interval(b, a, size.shrink);
+  if (&after != &before) size.shrink_ci95 = shrink_interval(b, a, size.shrink);
   size.remains = a;
   return size;
 }
