@@ -12,6 +12,7 @@ namespace {
 constexpr double kContrast = 1.6;  ///< ρ
 
 constexpr double kEcho = 2.5;  ///< an earlier impact that is this much weaker is none; a later one is an echo
+constexpr double kRebound = 0.25;  ///< of the flight, from the impact before to its begin
 constexpr std::size_t kSameSignSteps = 4;
 constexpr double kMostTops =
     0.95;  ///< of the main events: what an impact at every reversal would stand out of
@@ -55,6 +56,15 @@ double bound_needed_before(const BankRun& run, std::size_t from, std::size_t to)
   return 0.0;
 }
 
+/// Contact that was lost soon after an impact was lost in the rebound from it, with different speeds of motor
+/// and load. (A mark of the release itself is far less abrupt than the impact that follows it.)
+bool thrown_off(const MotorTrace& trace, const ImpactAnalysis& a, const Event& before, const Event& impact,
+                const Transition& t) {
+  const double since = t.event.t1 - trace.time(before.start);
+  return since >= 0.0 && since < kRebound * (t.event.t2 - t.event.t1) &&
+         kEcho * a.run.bounds[before.top] > a.run.bounds[impact.top];
+}
+
 void read_passages(const MotorTrace& trace, ImpactAnalysis& a) {
   const TransitionContext context{trace, a.facts, a.run};
   const double sliding = a.run.bounds[a.sliding];
@@ -66,7 +76,10 @@ void read_passages(const MotorTrace& trace, ImpactAnalysis& a) {
         sliding, bound_needed_before(
                      a.run, from, to - std::min(to - from, std::max<std::size_t>(2, a.events[i].latency))));
     t.contrast = a.run.bounds[a.events[i].top] / needed;
-    if (t.contrast < kContrast) t.refusal = Refusal::kContrast;
+    if (t.contrast < kContrast)
+      t.refusal = Refusal::kContrast;
+    else if (t.refusal == Refusal::kNone && thrown_off(trace, a, a.events[i - 1], a.events[i], t))
+      t.refusal = Refusal::kThrownOff;
     a.passages.push_back(std::move(t));
   }
 }

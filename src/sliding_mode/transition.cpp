@@ -28,6 +28,8 @@ const char* describe(Refusal refusal) {
       return "neither a rest nor a separation is seen before the impact";
     case Refusal::kLoadMoving:
       return "the load was moving between t1 and t2";
+    case Refusal::kThrownOff:
+      return "the impact before it threw motor and load apart";
   }
   return "";
 }
@@ -82,6 +84,9 @@ void read_release(Transition& t, const TransitionContext& context, const FlightL
     return;
   }
   fill_event(t, context, impact, release);
+  if (t.dwell && t.speed * (t.event.t2 - t.event.t1) < t.event.gap_uncorrected)
+    t.refusal =
+        Refusal::kNoRelease;  // from rest, a driven motor meets the far flank faster than it went on average
   if (!(t.event.gap > 0.0) || release.travel_half_width > 0.15 * t.event.gap)
     t.refusal = Refusal::kLoadMoving;
 }

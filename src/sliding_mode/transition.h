@@ -20,6 +20,7 @@ enum class Refusal {
   kNoImpactFit,  ///< no kink where the impact should be
   kNoRelease,    ///< neither a rest of the motor nor a separation in motion is seen before the impact
   kLoadMoving,   ///< the load's own travel is too uncertain
+  kThrownOff,    ///< the impact before threw the bodies apart: they do not share a speed at t1
 };
 
 const char* describe(Refusal refusal);  ///< for the remark of an event

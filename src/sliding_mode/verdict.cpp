@@ -95,6 +95,7 @@ std::string advice(Refusal refusal) {
       return "the release before the impacts cannot be located; let the motion rest at its reversals "
              "(trapezoid), "
              "lower the frequency, or use a finer encoder";
+    case Refusal::kThrownOff:
     case Refusal::kLoadMoving:
       return "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or "
              "lower the "
@@ -113,16 +114,25 @@ Refusal commonest(const Pool& pool) {
   return refusal;
 }
 
+/// A gap is passed in most half periods, and most of what looks like a passage is one. Those in the rebound
+/// of an impact say nothing for or against.
+double fewest_passages(const Pool& pool) {
+  const auto thrown = pool.refused.find(Refusal::kThrownOff);
+  const auto rebounds = static_cast<double>(thrown == pool.refused.end() ? 0 : thrown->second);
+  return std::ceil(0.6 * std::max(pool.half_periods, static_cast<double>(pool.passages) - rebounds));
+}
+
 /// Why the accepted passages do not make an estimate; empty if they do.
 std::string objection(const Pool& pool) {
   const auto plus = gaps_of(pool, 1), minus = gaps_of(pool, -1);
   if (plus.size() < 2 || minus.size() < 2)
     return fmt::format("only {} and {} usable passages of the gap in the two directions: {}", plus.size(),
                        minus.size(), advice(commonest(pool)));
-  if (static_cast<double>(pool.accepted.size()) <
-      0.6 * std::max(pool.half_periods, static_cast<double>(pool.passages)))
-    return fmt::format("only {} of {:.0f} reversals show a usable passage of the gap: {}",
-                       pool.accepted.size(), pool.half_periods, advice(commonest(pool)));
+  const double asked = fewest_passages(pool);
+  if (static_cast<double>(pool.accepted.size()) < asked)
+    return fmt::format(
+        "only {} usable passages of the gap where {:.0f} are asked, {} in {:.0f} half periods: {}",
+        pool.accepted.size(), asked, pool.passages, pool.half_periods, advice(commonest(pool)));
   const double up = median(plus), down = median(minus), gap = 0.5 * (up + down);
   const double spread = std::max(robust_std(plus), robust_std(minus));
   if (spread > 0.25 * gap)

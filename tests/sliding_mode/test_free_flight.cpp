@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "blind/plant/random_drive.h"
@@ -99,6 +100,36 @@ TEST(FlightLaw, TheGapOfALoadThatCoastsIsReadNotItsUncorrectedS5) {
   EXPECT_LE(estimate.ci95.low, drive.gap);
   EXPECT_GE(estimate.ci95.high, drive.gap);
   EXPECT_GT(std::abs(estimate.events.back().gap_uncorrected / drive.gap - 1.0), 0.03);
+}
+
+GapEstimate detect(blind::BlindCase c) {
+  c.options.tolerance = blind::kFastTolerance;
+  const BlindRun run = blind::simulate_blind(c);
+  MotorTrace trace = run.recording.motor_trace();
+  trace.quantum = c.sensor.quantum;
+  return detect_gap({&trace, 1});
+}
+
+TEST(FreeFlight, AFlightThatBeginsInTheReboundOfAnImpactIsNotUsed) {
+  const blind::BlindCase c = blind::random_drive(320033, blind::Waveform::kMultisine);
+  const GapEstimate estimate = detect(c);
+  EXPECT_TRUE(std::any_of(estimate.events.begin(), estimate.events.end(), [](const GapEvent& e) {
+    return e.remark == "the impact before it threw motor and load apart";
+  }));
+  if (estimate.verdict == GapVerdict::kBacklash) {
+    EXPECT_NEAR(estimate.gap, c.drive.gap, 0.08 * c.drive.gap) << estimate.brief_report();
+  }
+}
+
+TEST(FreeFlight, AMotorThatSlowsDownDidNotCrossAGapFromRest) {
+  const blind::BlindCase wide = blind::random_drive(320204, blind::Waveform::kMultisine);
+  const GapEstimate estimate =
+      detect(wide);  // read 28 % too small where the release is taken at a later kink
+  if (estimate.verdict == GapVerdict::kBacklash) {
+    EXPECT_NEAR(estimate.gap, wide.drive.gap, 0.08 * wide.drive.gap) << estimate.brief_report();
+  }
+  const blind::BlindCase presliding = blind::random_gap_free_drive(310699, 310699 % blind::kGapFreeKinds);
+  EXPECT_NE(detect(presliding).verdict, GapVerdict::kBacklash);
 }
 
 }  // namespace
