@@ -36,7 +36,7 @@ const std::map<std::string, std::vector<std::string>>& expected_words() {
 
 }  // namespace
 
-bool names_the_place(const std::string& headline, const BlindPair& pair) {
+bool names_the_place(const std::string& headline, const blind::BlindPair& pair) {
   const auto words = expected_words().find(pair.effect);
   if (words != expected_words().end()) {
     for (const std::string& phrase : words->second)

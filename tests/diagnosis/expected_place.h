@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "diagnosis/blind_case.h"
+#include "blind/blind_pair.h"
 
 namespace gapscope::test {
 
@@ -20,6 +20,6 @@ namespace gapscope::test {
 ///   shaft_compliance, impact_damping      in engagement or at impacts
 ///   contact_adhesion                      in engagement or in the gap, between which it acts
 ///   encoder_quantization                  within the count of the encoder
-bool names_the_place(const std::string& headline, const BlindPair& pair);
+bool names_the_place(const std::string& headline, const blind::BlindPair& pair);
 
 }  // namespace gapscope::test

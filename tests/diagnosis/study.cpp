@@ -11,7 +11,7 @@
 #include <mutex>
 #include <set>
 
-#include "diagnosis/blind_case.h"
+#include "blind/blind_pair.h"
 #include "diagnosis/expected_place.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/pipeline.h"
@@ -90,7 +90,8 @@ std::string describe(const Findings& f, const std::string& effect) {
 }
 
 /// Whether the shrink on a recording that the diagnosis has not seen is within the interval that it gave.
-std::string covers(const Study& study, const Findings& f, const test::BlindPair& pair, std::string& details) {
+std::string covers(const Study& study, const Findings& f, const blind::BlindPair& pair,
+                   std::string& details) {
   const Interval interval = mismatch_size(study, f.before, f.candidates.front()).shrink_ci95;
   const MotorTrace next[] = {pair.next.motor_trace()};
   const Study other = make_study(study.train, next, pair.sheet, study.options);
@@ -103,7 +104,7 @@ std::string covers(const Study& study, const Findings& f, const test::BlindPair&
   return interval.low <= shrink && shrink <= interval.high ? "yes" : "no";
 }
 
-std::string places(const Study& study, const Findings& f, const test::BlindPair& pair, bool told) {
+std::string places(const Study& study, const Findings& f, const blind::BlindPair& pair, bool told) {
   const FittedModel& fitted = f.candidates.front().fitted.model;
   const auto played = play(f.before.fitted.model, study.held_out, study.observer_hz, true);
   const MismatchPlace place =
@@ -112,7 +113,7 @@ std::string places(const Study& study, const Findings& f, const test::BlindPair&
   return test::names_the_place(place.headline, pair) ? "yes" : "no";
 }
 
-void note_answer(StudyRow& row, const Study& study, const Findings& f, const test::BlindPair& pair) {
+void note_answer(StudyRow& row, const Study& study, const Findings& f, const blind::BlindPair& pair) {
   row.verdict = f.decision.accepted ? "effect" : "unknown";
   row.first = f.candidates.front().entry->name;
   row.group = static_cast<int>(f.decision.group.size());
@@ -136,7 +137,7 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-StudyRow examine(const test::BlindPair& pair, std::uint64_t seed) {
+StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   DiagnosisOptions options;
   options.threads = 1;
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
@@ -179,9 +180,9 @@ int main(int argc, char** argv) {
     const std::uint64_t seed = seeds[i];
     auto g = random_stream(seed, "diagnosis study");
     const std::string rig =
-        argc > 6 ? argv[6] : test::kRigs[(seed / effects.size()) % std::size(test::kRigs)];
+        argc > 6 ? argv[6] : blind::kRigs[(seed / effects.size()) % std::size(blind::kRigs)];
     const StudyRow row =
-        examine(test::blind_pair(rig, effects[seed % effects.size()], uniform(g, 0.0, 1.0), seed), seed);
+        examine(blind::blind_pair(rig, effects[seed % effects.size()], uniform(g, 0.0, 1.0), seed), seed);
     const std::lock_guard lock(writing);
     out << line_of(row) << std::endl;
   });

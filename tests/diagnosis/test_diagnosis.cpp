@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "diagnosis/blind_case.h"
+#include "blind/blind_pair.h"
 #include "diagnosis/candidates.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope {
 namespace {
 
-Diagnosis diagnosis_of(const test::BlindPair& pair, const DiagnosisOptions& options = {}) {
+Diagnosis diagnosis_of(const blind::BlindPair& pair, const DiagnosisOptions& options = {}) {
   const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
   return diagnose(train, held_out, pair.sheet, options);
 }
@@ -24,7 +24,7 @@ TEST(Diagnosis, SaysThatItWasNotRun) {
 }
 
 TEST(Diagnosis, FindsNothingMissingWhereNothingIs) {
-  const Diagnosis d = diagnosis_of(test::blind_pair("geared", "none", 0.0, 500001));
+  const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "none", 0.0, 500001));
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kNone) << d.sentence;
   EXPECT_TRUE(d.effects.empty());
   EXPECT_LT(d.gap.before, 1.3 * d.gap.floor);
@@ -32,14 +32,14 @@ TEST(Diagnosis, FindsNothingMissingWhereNothingIs) {
 }
 
 TEST(Diagnosis, BlamesNothingForWhatTheFittedRecordingLeavesOpen) {
-  const Diagnosis d = diagnosis_of(test::blind_pair("geared", "none", 0.0, 400253));
+  const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "none", 0.0, 400253));
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kNone) << d.sentence;
   EXPECT_LT(d.gap.before, 1.3 * d.gap.floor);
   EXPECT_EQ(d.warnings.size(), 1u);
 }
 
 TEST(Diagnosis, SeesACoarserEncoderThanTheSheetSays) {
-  const test::BlindPair pair = test::blind_pair("paper", "encoder_quantization", 0.7, 500007);
+  const blind::BlindPair pair = blind::blind_pair("paper", "encoder_quantization", 0.7, 500007);
   const Diagnosis d = diagnosis_of(pair);
   ASSERT_EQ(d.effects, std::vector<std::string>{"encoder_quantization"}) << d.sentence;
   EXPECT_NEAR(d.ranking.front().parameters.front().value, 8.0 * pair.train.quantum,
@@ -47,7 +47,7 @@ TEST(Diagnosis, SeesACoarserEncoderThanTheSheetSays) {
 }
 
 const Diagnosis& of_motor_friction() {
-  static const Diagnosis d = diagnosis_of(test::blind_pair("geared", "motor_coulomb_friction", 0.7, 500002));
+  static const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "motor_coulomb_friction", 0.7, 500002));
   return d;
 }
 
@@ -79,14 +79,14 @@ TEST(Diagnosis, BlamesNoNeighbourWhenTheEffectAndItsLookAlikesAreNoCandidates) {
   DiagnosisOptions options;
   options.excluded = {"motor_coulomb_friction", "input_dead_zone", "stribeck_friction",
                       "presliding_friction"};
-  const Diagnosis d = diagnosis_of(test::blind_pair("geared", "input_dead_zone", 0.7, 500003), options);
+  const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "input_dead_zone", 0.7, 500003), options);
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kUnknown) << d.sentence;
   EXPECT_TRUE(d.group.empty());
   for (const RankedEffect& e : d.ranking) EXPECT_FALSE(contains(options.excluded, e.effect)) << e.effect;
 }
 
 TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
-  const test::BlindPair pair = test::blind_pair("geared", "actuator_lag", 0.6, 500004);
+  const blind::BlindPair pair = blind::blind_pair("geared", "actuator_lag", 0.6, 500004);
   DiagnosisOptions one, three;
   one.threads = 1, three.threads = 3;
   const Diagnosis a = diagnosis_of(pair, one), b = diagnosis_of(pair, three);
@@ -98,7 +98,7 @@ TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
 }
 
 TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
-  const test::BlindPair pair = test::blind_pair("geared", "none", 0.0, 500001);
+  const blind::BlindPair pair = blind::blind_pair("geared", "none", 0.0, 500001);
   const MotorTrace train[] = {pair.train.motor_trace()};
   const internal::Fitted nominal = internal::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectEntry* cogging = find_effect("cogging_torque");
@@ -114,13 +114,13 @@ TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
 TEST(Diagnosis, RefusesAnUnknownExclusion) {
   DiagnosisOptions options;
   options.excluded = {"gremlins"};
-  EXPECT_THROW(diagnosis_of(test::blind_pair("geared", "none", 0.0, 500001), options), std::logic_error);
+  EXPECT_THROW(diagnosis_of(blind::blind_pair("geared", "none", 0.0, 500001), options), std::logic_error);
 }
 
 // The tempting wrong answers.
 
 TEST(TemptingAnswers, ACompliantShaftIsNotCalledADelay) {
-  const Diagnosis d = diagnosis_of(test::blind_pair("geared", "shaft_compliance", 0.8, 500005));
+  const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "shaft_compliance", 0.8, 500005));
   for (const char* wrong : {"input_delay", "actuator_lag", "measurement_lag"}) {
     EXPECT_FALSE(contains(d.effects, wrong)) << d.sentence;
     EXPECT_FALSE(contains(d.group, wrong)) << d.sentence;
@@ -128,7 +128,7 @@ TEST(TemptingAnswers, ACompliantShaftIsNotCalledADelay) {
 }
 
 /// A drive without a load behind a gap, so that backlash is a candidate.
-test::BlindPair one_inertia(double friction, std::uint64_t seed) {
+blind::BlindPair one_inertia(double friction, std::uint64_t seed) {
   blind::BlindCase c;
   c.drive.load = blind::LoadKind::kNone;
   c.drive.motor_inertia *= 2.0;
@@ -136,7 +136,7 @@ test::BlindPair one_inertia(double friction, std::uint64_t seed) {
   c.options = {1000.0, 5.0, seed, blind::kFastTolerance};
   c.sensor = blind::BlindSensor::with_bits(16, 0.5);
   c.excitation.amplitude = 1.2;
-  test::BlindPair pair;
+  blind::BlindPair pair;
   pair.train = simulate_blind(c).recording;
   c.excitation.waveform = blind::Waveform::kSteps;
   pair.held_out = simulate_blind(c).recording;

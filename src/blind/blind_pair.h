@@ -2,17 +2,18 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "blind/plant/severity.h"
-#include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/reference/fit.h"
 
-namespace gapscope::test {
+namespace gapscope::blind {
 
-/// A drive with an effect that the diagnosis is not told, recorded three times on the independent plant: to
-/// be fitted, held out, and never shown to the diagnosis.
+/// A drive with effects that the diagnosis is not told, recorded three times on the independent plant: to be
+/// fitted, held out, and never shown to the diagnosis.
 struct BlindPair {
   std::string rig;
-  std::string effect;  ///< "none" without
+  std::string effect;  ///< "none" without, "first+second" for two
   double severity = 0.0;
   double cycles_per_turn = 1.0;  ///< of an effect along the motor angle
   std::string excitations;       ///< kinds of the three recordings, by their initials
@@ -28,4 +29,8 @@ inline constexpr const char* kRigs[] = {"paper", "geared", "heavy"};
 /// sine, triangle, trapezoid or steps at random), held out on another; the third is of any kind.
 BlindPair blind_pair(const std::string& rig, const std::string& effect, double severity, std::uint64_t seed);
 
-}  // namespace gapscope::test
+/// The same with any number of effects, each of that severity.
+BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& effects, double severity,
+                     std::uint64_t seed);
+
+}  // namespace gapscope::blind

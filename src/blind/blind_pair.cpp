@@ -1,36 +1,35 @@
-#include "diagnosis/blind_case.h"
+#include "blind/blind_pair.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
 
 #include "gapscope/base/random.h"
 
-namespace gapscope::test {
+namespace gapscope::blind {
 namespace {
-
-using blind::BlindCase;
-using blind::BlindDrive;
-using blind::Waveform;
 
 BlindCase rig_case(const std::string& rig) {
   BlindCase c;
   BlindDrive& d = c.drive;
   c.options.duration = 6.0;
-  c.options.tolerance = blind::kFastTolerance;
+  c.options.tolerance = kFastTolerance;
   if (rig == "geared") {
     d.load_inertia = 3.0 * d.motor_inertia;
     d.motor_damping = 0.02, d.load_damping = 0.02, d.load_coulomb = 0.03;
     d.gap = 30e-3, d.contact_stiffness = 120.0, d.contact_damping = 0.08;
-    c.sensor = blind::BlindSensor::with_bits(14, 0.5);
+    c.sensor = BlindSensor::with_bits(14, 0.5);
     c.options.rate = 1000.0;
   } else if (rig == "heavy") {
     d.load_inertia = 8.0 * d.motor_inertia;
     d.motor_damping = 0.03, d.load_damping = 0.03, d.load_coulomb = 0.06;
     d.gap = 6e-3, d.contact_stiffness = 600.0, d.contact_damping = 0.15;
-    c.sensor = blind::BlindSensor::with_bits(17);
+    c.sensor = BlindSensor::with_bits(17);
     c.options.rate = 2000.0;
   } else {
-    c.sensor = blind::BlindSensor::with_bits(20);
+    c.sensor = BlindSensor::with_bits(20);
     c.options.rate = 1250.0;
   }
   return c;
@@ -52,6 +51,8 @@ void excite(BlindCase& c, Waveform waveform, std::mt19937_64& g) {
     c.excitation.frequency_end = log_uniform(g, 3.0, 8.0), c.excitation.frequency = log_uniform(g, 0.2, 0.5);
 }
 
+constexpr std::uint64_t kNextDraw = 0x9e3779b97f4a7c15;  ///< a second effect draws from a seed far away
+
 constexpr std::array kWaveforms{Waveform::kSine,     Waveform::kMultisine, Waveform::kSweptSine,
                                 Waveform::kTriangle, Waveform::kTrapezoid, Waveform::kSteps};
 
@@ -63,7 +64,7 @@ void set(ReferenceModel& model, int index, double value, bool estimate) {
 
 /// Contact stiffness and damping are known, the rest is a start.
 ReferenceModel sheet_model(const BlindDrive& true_drive, std::uint64_t seed) {
-  const BlindDrive sheet = blind::data_sheet(true_drive, seed);
+  const BlindDrive sheet = data_sheet(true_drive, seed);
   ReferenceModel model;
   set(model, 0, sheet.motor_inertia, false);
   set(model, 1, sheet.torque_constant, false);
@@ -80,25 +81,35 @@ ReferenceModel sheet_model(const BlindDrive& true_drive, std::uint64_t seed) {
 }  // namespace
 
 BlindPair blind_pair(const std::string& rig, const std::string& effect, double severity, std::uint64_t seed) {
+  return blind_pair(rig, effect == "none" ? std::vector<std::string>{} : std::vector{effect}, severity, seed);
+}
+
+BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& effects, double severity,
+                     std::uint64_t seed) {
   auto g = random_stream(seed, "diagnosis excitation");
   BlindCase c = rig_case(rig);
   vary(c.drive, seed);
   const auto first = static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size()));
   const auto other = static_cast<std::size_t>(uniform(g, 1.0, kWaveforms.size()));
-  BlindPair pair{rig, effect, severity, 1.0, "", {}, {}, {}, sheet_model(c.drive, seed)};
+  const std::string name = effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, "+"));
+  BlindPair pair{rig, name, severity, 1.0, "", {}, {}, {}, sheet_model(c.drive, seed)};
+  const auto give = [&] {
+    for (std::size_t i = 0; i < effects.size(); ++i)
+      give_effect(c, effects[i], severity, seed + i * kNextDraw);
+  };
   const auto record = [&](std::size_t kind, std::uint64_t noise) {
     excite(c, kWaveforms[kind % kWaveforms.size()], g);
     c.options.seed = noise;
-    if (pair.train.x1.empty() && effect != "none") give_effect(c, effect, severity, seed);
+    if (pair.train.x1.empty()) give();
     pair.excitations += "smwtzj"[kind % kWaveforms.size()];
     return simulate_blind(c).recording;
   };
   pair.train = record(first, 2 * seed);
   pair.held_out = record(first + other, 2 * seed + 1);
   pair.next = record(static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size())), ~(2 * seed));
-  if (effect == "cogging_torque") pair.cycles_per_turn = c.drive.effects.motor.cogging.periods_per_turn;
-  if (effect == "torque_ripple") pair.cycles_per_turn = c.drive.effects.command.ripple.periods_per_turn;
+  if (name == "cogging_torque") pair.cycles_per_turn = c.drive.effects.motor.cogging.periods_per_turn;
+  if (name == "torque_ripple") pair.cycles_per_turn = c.drive.effects.command.ripple.periods_per_turn;
   return pair;
 }
 
-}  // namespace gapscope::test
+}  // namespace gapscope::blind
