@@ -14,7 +14,6 @@ namespace {
 BlindCase rig_case(const std::string& rig) {
   BlindCase c;
   BlindDrive& d = c.drive;
-  c.options.duration = 6.0;
   c.options.tolerance = kFastTolerance;
   if (rig == "geared") {
     d.load_inertia = 3.0 * d.motor_inertia;
@@ -85,9 +84,10 @@ BlindPair blind_pair(const std::string& rig, const std::string& effect, double s
 }
 
 BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& effects, double severity,
-                     std::uint64_t seed) {
+                     std::uint64_t seed, double duration) {
   auto g = random_stream(seed, "diagnosis excitation");
   BlindCase c = rig_case(rig);
+  c.options.duration = duration;
   vary(c.drive, seed);
   const auto first = static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size()));
   const auto other = static_cast<std::size_t>(uniform(g, 1.0, kWaveforms.size()));

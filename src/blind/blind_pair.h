@@ -21,16 +21,18 @@ struct BlindPair {
   ReferenceModel sheet;  ///< what the data sheet says, off by up to 20 %
 };
 
+inline constexpr double kPairDuration = 6.0;  ///< of each recording [s]
+
 inline constexpr const char* kRigs[] = {"paper", "geared", "heavy"};
 
 /// Rigs: the source paper's (20 bit, 1.25 kHz); a geared axis, m2/m1 = 3, 14 bit with noise, 1 kHz; a heavy
 /// load, m2/m1 = 8, small gap, 17 bit, 2 kHz. Every number but motor inertia and torque constant is off the
-/// rig's by a uniform share of up to 20 %. 6 s each, fitted on one kind of excitation (sine, multisine, swept
+/// rig's by a uniform share of up to 20 %. Fitted on one kind of excitation (sine, multisine, swept
 /// sine, triangle, trapezoid or steps at random), held out on another; the third is of any kind.
 BlindPair blind_pair(const std::string& rig, const std::string& effect, double severity, std::uint64_t seed);
 
 /// The same with any number of effects, each of that severity.
 BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& effects, double severity,
-                     std::uint64_t seed);
+                     std::uint64_t seed, double duration = kPairDuration);
 
 }  // namespace gapscope::blind

@@ -1,84 +1,107 @@
-// `blind`: recordings of drives that no estimator shares code with.
+// `blind`: the check of the diagnosis on recordings whose effects it is not told.
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "gapscope/base/errors.h"
-#include "gapscope/blind/random_drives.h"
+#include "gapscope/blind/blind_check.h"
 
 namespace gapscope::cli {
 namespace {
 
-constexpr std::uint64_t kMostDrives = 100000;
-
-struct DrivesArguments {
-  std::string kind = "gap";
-  std::string seeds;
-  std::string folder;
+struct Arguments {
+  std::string config, cases, labels;
+  int threads = 0;
   bool quiet = false;
 };
 
-/// "A..B" or "A".
-std::pair<std::uint64_t, std::uint64_t> seed_range(const std::string& text) {
-  const auto wrong = [&]() -> ConfigError {
-    return ConfigError(fmt::format("gapscope: --seeds is '{}', expected FIRST..LAST with at most {} seeds",
-                                   text, kMostDrives));
-  };
-  const auto number = [&](const std::string& part) {
-    if (part.empty() || part.size() > 18 || part.find_first_not_of("0123456789") != std::string::npos)
-      throw wrong();
-    return std::stoull(part);
-  };
-  const std::size_t dots = text.find("..");
-  const std::uint64_t first = number(text.substr(0, dots));
-  const std::uint64_t last = dots == std::string::npos ? first : number(text.substr(dots + 2));
-  if (last < first || last - first >= kMostDrives) throw wrong();
-  return {first, last};
+void add_work_options(CLI::App* command, Arguments& a) {
+  command
+      ->add_option("-j,--threads", a.threads, "threads (default: all cores); the results do not depend on it")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  command->add_flag("--quiet", a.quiet, "no progress");
 }
 
-void make_drives(const DrivesArguments& a) {
-  const auto [first, last] = seed_range(a.seeds);
-  const auto progress = progress_on_terminal(a.quiet);
-  const std::uint64_t count = last - first + 1;
-  write_random_drives(a.kind == "gap" ? RandomDriveKind::kGap : RandomDriveKind::kGapFree, first, last,
-                      a.folder,
-                      [&](std::uint64_t done) { progress(fmt::format("drive {} of {}", done, count)); });
-  fmt::print("{:<12}{} in {}\n", "drives", count, a.folder);
+void say(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
+
+/// "case 3 of 40"
+BlindProgress counted(const Progress& progress, const char* what) {
+  return [progress, what](std::size_t done, std::size_t all) {
+    progress(fmt::format("{} {} of {}", what, done, all));
+  };
 }
 
-void add_drives(CLI::App& blind) {
-  auto arguments = std::make_shared<DrivesArguments>();
-  CLI::App* command = blind.add_subcommand("drives", "Records random drives on the independent plant");
-  command->add_option("--kind", arguments->kind, "gap: drives with backlash; gap_free: drives without")
-      ->check(CLI::IsMember({"gap", "gap_free"}));
-  command->add_option("--seeds", arguments->seeds, "FIRST..LAST, one drive a seed")->required();
-  command->add_option("-o", arguments->folder, "folder to write into")->required()->type_name("DIR");
-  command->add_flag("--quiet", arguments->quiet, "no progress");
+void make(const Arguments& a) {
+  const BlindConfig config = load_blind_config(a.config);
+  require_folder_name(a.cases);
+  make_blind_check(config, a.cases, a.labels, a.threads, counted(progress_on_terminal(a.quiet), "made case"));
+  say("cases", fmt::format("{} in {}", config.calibration.cases() + config.report.cases(), a.cases));
+  say("labels", a.labels + " (not to be handed out before the answers are in)");
+}
+
+void add_make(CLI::App& blind) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = blind.add_subcommand("make", "Makes recordings and seals what they hide");
+  command->add_option("CONFIG", a->config, "of the check (YAML)")->required();
+  command->add_option("-o,--output", a->cases, "folder of the recordings, to be handed out")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--labels", a->labels, "file of the labels, to be kept")->required()->type_name("FILE");
+  add_work_options(command, *a);
   command->footer(
-      "Writes per drive a recording (CSV: t [s], u, x1 [rad]) and a configuration whose model is a data "
-      "sheet off\n"
-      "by up to 20 %, and truth.csv with what the sheets do not say. Gap log-uniform 5 to 50 mrad, mass "
-      "ratio\n"
-      "log-uniform 0.1 to 10, contact stiffness log-uniform 50 to 5000 N m/rad, load Coulomb friction 2 to "
-      "60 % of\n"
-      "the torque, dampers log-uniform x0.2 to x2 of the paper's rig, sine of 0.5 to 3 Hz with a travel of "
-      "at least\n"
-      "1.5 gaps, 1 to 10 kHz, 20/16/14/12 bit in equal shares, half with noise of 0.3 to 1.5 quanta.\n\n"
-      "Example: gapscope blind drives --seeds 1..600 -o drives");
-  command->callback([arguments] { make_drives(*arguments); });
+      "Keys of a check:\n"
+      "  name         of the check (default: of the file)\n"
+      "  report       the cases that are counted: {first_seed, known, outside, none, pairs}\n"
+      "  calibration  the same of those that the probabilities are calibrated on, from other seeds\n"
+      "  rigs         of [paper, geared, heavy] (default: all)\n"
+      "  duration     of each recording [s] (default: 6)\n\n"
+      "Writes per case <case>_train.csv, <case>_held_out.csv (t [s], u, x1 [rad]) and <case>.yaml, a data "
+      "sheet off by\n"
+      "up to 20 %, and manifest.json: SHA-256 of every file and, salted, of every label. All follows from "
+      "the "
+      "seeds:\n"
+      "who shall not know the labels must not know these.\n\n"
+      "Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
+  command->callback([a] { make(*a); });
+}
+
+void add_seal(CLI::App& blind) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = blind.add_subcommand("seal", "Seals own recordings and labels");
+  command->add_option("CASES", a->cases, "folder of sheets and recordings")->required();
+  command->add_option("LABELS", a->labels, "file of the labels (JSON)")->required();
+  command->footer(
+      "CASES holds <case>.yaml, a configuration for `gapscope diagnose`, and the recordings that it names.\n"
+      "LABELS is {\"schema\": \"gapscope.blind_labels/1\", \"name\": ..., \"cases\": [...]}, of each case\n"
+      "  name             \"axis_3\": letters, digits, _ and -\n"
+      "  part             \"report\", or \"calibration\" for cases that the probabilities are calibrated on\n"
+      "  effects          [] for none, one or two of `gapscope effects`, or any other word: outside the "
+      "catalogue\n"
+      "  rig              of which drive it is; counts are given for each\n"
+      "  severity         0 weak to 1 strong, or null\n"
+      "  cycles_per_turn  of one effect that repeats with the motor angle, or null\n"
+      "  seed             \"\" for a recording\n"
+      "  salt             at least 16 characters that nobody guesses\n"
+      "Writes CASES/manifest.json, which shows nothing of the labels but salted hashes.\n\n"
+      "Example: gapscope blind seal cases labels.json");
+  command->callback([a] {
+    const BlindManifest manifest = seal_blind_check(a->cases, a->labels);
+    say("sealed", fmt::format("{} cases in {}/manifest.json", manifest.cases.size(), a->cases));
+  });
 }
 
 }  // namespace
 
 void add_blind(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("blind", "Recordings of drives that share no code with the estimators");
+      app.add_subcommand("blind", "The blind check of the diagnosis, and recordings of random drives");
   command->require_subcommand(1);
-  command->footer("Example: gapscope blind drives --seeds 1..600 -o drives");
-  add_drives(*command);
+  command->footer("Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
+  add_make(*command);
+  add_seal(*command);
+  add_blind_drives(*command);
 }
 
 }  // namespace gapscope::cli

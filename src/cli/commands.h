@@ -13,6 +13,7 @@ void add_simulate(CLI::App& app);
 void add_report(CLI::App& app);
 void add_effects(CLI::App& app);
 void add_blind(CLI::App& app);
+void add_blind_drives(CLI::App& blind);
 void add_campaign(CLI::App& app);
 void add_diagnose(CLI::App& app);
 

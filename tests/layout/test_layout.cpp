@@ -52,6 +52,7 @@ const std::vector<std::pair<std::string, Names>> kConfined = {
     {"CLI/", {"cli"}},
     {"spdlog/", {"campaign", "cli"}},
     {"sqlite3", {"campaign"}},
+    {"openssl/", {"blind"}},
     {"tbb/", {"base"}},
     {"oneapi/", {"base"}},
 };

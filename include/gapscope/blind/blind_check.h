@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gapscope/blind/records.h"
+#include "gapscope/config/blind_config.h"
+
+/// The blind check of the diagnosis, in steps that can run on different machines: recordings are made and
+/// their labels sealed, the diagnosis answers from recordings and sheets alone, the answers are sealed, the
+/// labels opened and the answers scored.
+namespace gapscope {
+
+/// Told how many of how many cases are done.
+using BlindProgress = std::function<void(std::size_t done, std::size_t all)>;
+
+/// Writes, for each case of the configuration, <case>_train.csv, <case>_held_out.csv (t, u, x1) and
+/// <case>.yaml (a data sheet that `gapscope diagnose` takes as it is) into `folder`, the labels into the file
+/// `labels`, and seals them. Cases are numbered in an order that says nothing of them. Everything follows
+/// from the configuration: whoever shall not know the labels must not be able to guess its seeds.
+/// @throws ConfigError where the labels would lie in the folder that is handed out, std::runtime_error where
+/// a file cannot be written, Interrupted.
+void make_blind_check(const BlindConfig& config, const std::string& folder, const std::string& labels,
+                      int threads, const BlindProgress& progress = {});
+
+/// Writes folder/manifest.json: of each case that is labelled the salted hash of its label and the hashes of
+/// <case>.yaml and of the recordings that it names. This is also how own recordings enter.
+/// @throws ConfigError for a case without sheet or recording, twice the same name, a part that is neither
+/// calibration nor report, or a salt that is too short.
+BlindManifest seal_blind_check(const std::string& folder, const std::string& labels);
+
+/// @throws ConfigError naming the first sheet or recording that is not the one of the manifest.
+void verify_recordings(const BlindManifest& manifest, const std::string& folder);
+
+/// @throws ConfigError naming the first case whose label is missing, added, or not the one that was sealed.
+void verify_labels(const BlindManifest& manifest, const BlindLabels& labels, const std::string& file);
+
+}  // namespace gapscope

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+
+/// What the three steps of a blind check hand to each other.
+namespace gapscope {
+
+/// What is withheld of one case.
+struct BlindLabel {
+  std::string name;                  ///< "case_001"
+  std::string part;                  ///< "calibration" or "report"
+  std::vector<std::string> effects;  ///< none, one, or two; outside the catalogue under any name
+  std::string rig;                   ///< of which drive it is; counts are given for each
+  double severity = kNaN;            ///< 0 weak to 1 strong; NaN: not known
+  double cycles_per_turn = kNaN;  ///< of one effect that repeats with the motor angle; NaN: none, not known
+  std::string seed;               ///< that the case was made from; "": recorded
+  std::string salt;               ///< at least 16 characters that nobody guesses
+};
+
+struct BlindLabels {
+  std::string name;
+  std::vector<BlindLabel> cases;
+};
+
+struct SealedFile {
+  std::string file;  ///< relative to the folder of the manifest
+  std::string sha256;
+};
+
+/// What is public of one case.
+struct SealedCase {
+  std::string name;
+  std::string part;
+  std::string label_sha256;       ///< see label_hash()
+  std::vector<SealedFile> files;  ///< the data sheet (YAML), then its recordings
+};
+
+struct BlindManifest {
+  std::string name;
+  std::string version;
+  std::vector<SealedCase> cases;
+};
+
+/// SHA-256 of salt, name, part, effects (joined by '+'), rig, severity, cycles per turn (both in the shortest
+/// decimal form that reads back the same, "null" where not known) and seed, each followed by a newline.
+std::string label_hash(const BlindLabel& label);
+
+}  // namespace gapscope

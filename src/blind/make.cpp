@@ -1,0 +1,80 @@
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "blind/blind_pair.h"
+#include "blind/case_plan.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/parallel.h"
+#include "gapscope/blind/blind_check.h"
+#include "gapscope/config/configuration.h"
+#include "gapscope/recording/csv.h"
+#include "gapscope/results/blind_files.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The sheet as a configuration: nothing of it comes from the effects.
+std::string sheet_of(const std::string& name, const blind::BlindPair& pair) {
+  Configuration c;
+  c.name = name;
+  c.recording = RecordingConfig{{{name + "_train.csv", "", 0}}, {{name + "_held_out.csv", "", 0}}, {}};
+  c.encoder.quantum = pair.train.quantum;
+  c.model.given = true;
+  c.model.structure = pair.sheet.structure;
+  c.model.parameters = pair.sheet.parameters;
+  const std::string yaml = resolved_yaml(c);
+  return yaml.substr(yaml.find('\n') + 1);  // the first line speaks of a report
+}
+
+void write_motor_side(const fs::path& path, Recording recording) {
+  recording.x2.clear();
+  recording.mode.clear();
+  write_csv(path.string(), recording);
+}
+
+/// Notes in the label what is drawn on the way.
+void write_case(const fs::path& folder, double duration, blind::PlannedCase& planned) {
+  BlindLabel& label = planned.label;
+  const blind::BlindPair pair =
+      blind::blind_pair(label.rig, label.effects, label.severity, planned.seed, duration);
+  if (label.effects.size() == 1) label.cycles_per_turn = pair.cycles_per_turn;
+  write_motor_side(folder / (label.name + "_train.csv"), pair.train);
+  write_motor_side(folder / (label.name + "_held_out.csv"), pair.held_out);
+  const fs::path sheet = folder / (label.name + ".yaml");
+  std::ofstream out(sheet, std::ios::binary);
+  out << sheet_of(label.name, pair);
+  if (!out.flush()) throw std::runtime_error(sheet.string() + ": cannot be written");
+}
+
+void require_apart(const fs::path& folder, const fs::path& labels) {
+  const fs::path inside = fs::weakly_canonical(labels).lexically_relative(fs::weakly_canonical(folder));
+  if (!inside.empty() && *inside.begin() != "..")
+    throw ConfigError(labels.string(), "lies in the folder of the recordings, expected a place apart");
+}
+
+}  // namespace
+
+void make_blind_check(const BlindConfig& config, const std::string& folder, const std::string& labels,
+                      int threads, const BlindProgress& progress) {
+  require_apart(folder, labels);
+  fs::create_directories(folder);
+  std::vector<blind::PlannedCase> cases = blind::plan_cases(config);
+  std::atomic<std::size_t> done{0};
+  parallel_for(cases.size(), threads, [&](std::size_t i) {
+    stop_point();
+    write_case(folder, config.duration, cases[i]);
+    if (const std::size_t count = ++done; progress) progress(count, cases.size());
+  });
+  BlindLabels stored{config.name, {}};
+  for (const blind::PlannedCase& c : cases) stored.cases.push_back(c.label);
+  if (const fs::path parent = fs::path(labels).parent_path(); !parent.empty()) fs::create_directories(parent);
+  write_blind_labels(labels, stored);
+  seal_blind_check(folder, labels);
+}
+
+}  // namespace gapscope

@@ -1,0 +1,64 @@
+#include "gapscope/config/blind_config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/configuration_reader.h"
+#include "config/field_reader.h"
+#include "config/yaml_document.h"
+
+namespace gapscope {
+
+void BlindPartConfig::fields(FieldVisitor& v) {
+  v.field({"first_seed", "", "seed of the first case"}, first_seed);
+  v.field({"known", "", "cases with one effect of the catalogue", 0, 10000}, known);
+  v.field({"outside", "", "cases with one effect that the catalogue does not have", 0, 10000}, outside);
+  v.field({"none", "", "cases without an effect", 0, 10000}, none);
+  v.field({"pairs", "", "cases with two effects of the catalogue", 0, 10000}, pairs);
+}
+
+namespace {
+
+using internal::Section;
+using internal::Value;
+
+constexpr internal::Range kDurations{2.0, 100.0, "s"};
+const std::vector<std::string> kRigNames = {"paper", "geared", "heavy"};
+
+std::vector<std::string> read_rigs(const Value& value) {
+  std::vector<std::string> rigs;
+  for (const Value& item : value.items()) rigs.push_back(kRigNames[item.word(kRigNames)]);
+  if (rigs.empty()) value.fail("is an empty list, expected at least one of paper, geared and heavy");
+  return rigs;
+}
+
+/// A seed that serves both parts would show the calibration what it is judged on.
+void require_apart(const Value& at, const BlindPartConfig& a, const BlindPartConfig& b) {
+  const auto holds = [](const BlindPartConfig& part, std::uint64_t seed) {
+    return seed - part.first_seed < static_cast<std::uint64_t>(part.cases());
+  };
+  if (a.cases() > 0 && b.cases() > 0 && (holds(a, b.first_seed) || holds(b, a.first_seed)))
+    at.fail(fmt::format("has seeds from {} on, which calibration has too, expected a range of its own",
+                        b.first_seed));
+}
+
+}  // namespace
+
+BlindConfig load_blind_config(const std::string& path) {
+  const Value document = internal::parse_document(internal::read_text(path), path);
+  const Section root(document, {"name", "calibration", "report", "rigs", "duration"});
+  BlindConfig c;
+  c.name = internal::read_name(root, path);
+  if (const auto part = root.find("calibration")) internal::read_fields(*part, c.calibration);
+  const Value report = root.require("report", "{first_seed: ..., known: ..., outside: ..., none: ...}");
+  internal::read_fields(report, c.report);
+  if (c.report.cases() == 0) report.fail("has no case, expected at least one");
+  require_apart(report, c.calibration, c.report);
+  const auto rigs = root.find("rigs");
+  c.rigs = rigs ? read_rigs(*rigs) : kRigNames;
+  if (const auto duration = root.find("duration")) c.duration = duration->number(kDurations);
+  return c;
+}
+
+}  // namespace gapscope

@@ -1,0 +1,202 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "blind/case_plan.h"
+#include "blind/sha256.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/blind/blind_check.h"
+#include "gapscope/config/configuration.h"
+#include "gapscope/recording/csv.h"
+#include "gapscope/results/blind_files.h"
+#include "support/temporary_file.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+BlindConfig small(int known, int outside, int none, int pairs) {
+  BlindConfig c;
+  c.name = "small";
+  c.calibration = {100, 1, 0, 0, 0};
+  c.report = {200, known, outside, none, pairs};
+  c.rigs = {"paper", "geared"};
+  return c;
+}
+
+/// A check of five cases, made once and copied for each test that damages it.
+class Check {
+ public:
+  Check() : place_("") { fs::copy(made(), place_.folder(), fs::copy_options::recursive); }
+  std::string folder() const { return (place_.folder() / "cases").string(); }
+  std::string labels() const { return (place_.folder() / "labels.json").string(); }
+  BlindManifest manifest() const { return read_blind_manifest(folder() + "/manifest.json"); }
+
+ private:
+  static fs::path made() {
+    static const testing::TemporaryFile place("");
+    static const bool once = [] {
+      fs::remove(place.path());
+      make_blind_check(small(1, 1, 1, 1), (place.folder() / "cases").string(),
+                       (place.folder() / "labels.json").string(), 2);
+      return true;
+    }();
+    return once ? place.folder() : fs::path();
+  }
+  testing::TemporaryFile place_;
+};
+
+template <class Action>
+std::string refusal(Action action) {
+  try {
+    action();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Sha256, IsThatOfItsStandard) {  // FIPS 180-2, appendix B.1, and the empty text
+  EXPECT_EQ(blind::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(blind::sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST(CasePlan, GivesEveryKindItsCasesAndEachASeedAndASaltOfItsOwn) {
+  const auto cases = blind::plan_cases(small(24, 8, 6, 20));
+  ASSERT_EQ(cases.size(), 59u);
+  std::map<std::size_t, int> by_effects;
+  std::set<std::string> seeds, salts;
+  for (const auto& c : cases) {
+    ++by_effects[c.label.effects.size()];
+    seeds.insert(c.label.seed), salts.insert(c.label.salt);
+    const std::set<std::string> different(c.label.effects.begin(), c.label.effects.end());
+    EXPECT_EQ(different.size(), c.label.effects.size()) << c.label.seed;
+  }
+  EXPECT_EQ(by_effects[0], 6);
+  EXPECT_EQ(by_effects[1], 33);
+  EXPECT_EQ(by_effects[2], 20);
+  EXPECT_EQ(seeds.size(), cases.size());
+  EXPECT_EQ(salts.size(), cases.size());
+}
+
+TEST(CasePlan, NamesCasesInAnOrderThatIsNotThatOfTheirSeeds) {
+  int rising = 0;
+  const auto cases = blind::plan_cases(small(60, 0, 40, 0));
+  for (std::size_t i = 1; i < cases.size(); ++i) rising += cases[i - 1].seed < cases[i].seed ? 1 : 0;
+  EXPECT_NEAR(rising, 50, 15);  // of 100 neighbours, five standard deviations
+}
+
+TEST(BlindMake, WritesRecordingsThatTellNothingButInputAndMotor) {
+  const Check check;
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(check.folder())) files.insert(entry.path().filename());
+  EXPECT_EQ(files.size(), 1u + 3u * 5u);
+  const std::string csv = text_of(check.folder() + "/case_001_train.csv");
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "t,u,x1");
+  for (const BlindLabel& label : read_blind_labels(check.labels()).cases)
+    for (const std::string& file : files)
+      for (const std::string& effect : label.effects)
+        EXPECT_EQ(text_of(check.folder() + "/" + file).find(effect), std::string::npos) << file;
+}
+
+TEST(BlindMake, WritesSheetsThatTheDiagnosisTakesAsTheyAre) {
+  const Check check;
+  const Configuration c = load_configuration(check.folder() + "/case_001.yaml");
+  EXPECT_NO_THROW(require_reference_model(c));
+  ASSERT_EQ(c.recording->held_out.size(), 1u);
+  EXPECT_GT(read_csv(c.recording->held_out[0].path).size(), 5000u);
+  EXPECT_TRUE(c.model.effects.empty());
+}
+
+TEST(BlindMake, IsAFunctionOfItsConfigurationForAnyNumberOfThreads) {
+  const Check check;
+  const testing::TemporaryFile place("");
+  make_blind_check(small(1, 1, 1, 1), (place.folder() / "cases").string(),
+                   (place.folder() / "labels.json").string(), 1);
+  EXPECT_EQ(text_of(place.folder() / "labels.json"), text_of(check.labels()));
+  EXPECT_EQ(text_of(place.folder() / "cases/manifest.json"), text_of(check.folder() + "/manifest.json"));
+}
+
+TEST(BlindMake, RefusesToPutTheLabelsAmongTheRecordings) {
+  const testing::TemporaryFile place("");
+  const std::string folder = (place.folder() / "cases").string();
+  EXPECT_THAT(refusal([&] { make_blind_check(small(1, 0, 0, 0), folder, folder + "/labels.json", 1); }),
+              HasSubstr("expected a place apart"));
+}
+
+TEST(Seal, HoldsForWhatWasMade) {
+  const Check check;
+  EXPECT_NO_THROW(verify_recordings(check.manifest(), check.folder()));
+  EXPECT_NO_THROW(verify_labels(check.manifest(), read_blind_labels(check.labels()), check.labels()));
+}
+
+TEST(Seal, RefusesAChangedLabel) {
+  const Check check;
+  const BlindLabels labels = read_blind_labels(check.labels());
+  const auto changes = std::vector<void (*)(BlindLabel&)>{
+      [](BlindLabel& l) {
+        l.effects = {"gap_growth", "input_delay"};
+      },
+      [](BlindLabel& l) { l.severity += 1e-9; }, [](BlindLabel& l) { l.rig = "heavy"; },
+      [](BlindLabel& l) { l.salt[0] ^= 1; },
+      [](BlindLabel& l) { l.part = l.part == "report" ? "calibration" : "report"; }};
+  for (const auto change : changes) {
+    BlindLabels changed = labels;
+    change(changed.cases[2]);
+    EXPECT_THAT(refusal([&] { verify_labels(check.manifest(), changed, "labels.json"); }),
+                AllOf(HasSubstr("labels.json: "), HasSubstr("case_003")));
+  }
+  BlindLabels fewer = labels;
+  fewer.cases.pop_back();
+  EXPECT_THAT(refusal([&] { verify_labels(check.manifest(), fewer, "labels.json"); }), HasSubstr("4 cases"));
+}
+
+TEST(Seal, RefusesASwappedRecordingAndAChangedSheet) {
+  const Check check;
+  const fs::path folder = check.folder();
+  fs::rename(folder / "case_001_train.csv", folder / "kept.csv");
+  fs::copy(folder / "case_002_train.csv", folder / "case_001_train.csv");
+  EXPECT_THAT(refusal([&] { verify_recordings(check.manifest(), check.folder()); }),
+              AllOf(HasSubstr("case_001_train.csv"), HasSubstr("sealed")));
+  fs::rename(folder / "kept.csv", folder / "case_001_train.csv");
+  std::ofstream(folder / "case_004.yaml", std::ios::app) << "# a word\n";
+  EXPECT_THAT(refusal([&] { verify_recordings(check.manifest(), check.folder()); }),
+              HasSubstr("case_004.yaml"));
+}
+
+TEST(Seal, TakesOwnRecordingsAndRefusesLabelsThatAreIncomplete) {
+  const Check check;
+  BlindLabels labels = read_blind_labels(check.labels());
+  const auto sealed = [&] {
+    write_blind_labels(check.labels(), labels);
+    return refusal([&] { seal_blind_check(check.folder(), check.labels()); });
+  };
+  labels.cases[0].seed = "", labels.cases[0].severity = kNaN, labels.cases[0].effects = {"a bent shaft"};
+  EXPECT_EQ(sealed(), "");
+  EXPECT_NO_THROW(verify_labels(check.manifest(), read_blind_labels(check.labels()), check.labels()));
+  labels.cases[0].salt = "short";
+  EXPECT_THAT(sealed(), HasSubstr("salt of 5 characters, expected at least 16"));
+  labels.cases[0].salt = labels.cases[1].salt, labels.cases[0].name = "case_002";
+  EXPECT_THAT(sealed(), HasSubstr("case_002 twice"));
+  labels.cases[0].name = "../case_001";
+  EXPECT_THAT(sealed(), HasSubstr("expected a name of"));
+  labels.cases[0].name = "case_009";
+  EXPECT_THAT(sealed(), HasSubstr("case_009.yaml"));
+}
+
+}  // namespace
+}  // namespace gapscope
