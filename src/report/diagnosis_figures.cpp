@@ -93,7 +93,7 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   figure.title = "Errors on held-out data";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
-  figure.panels.push_back(pair_panel(r, *t, "Error of free runs, restarted from the observer",
+  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs",
                                      "$x_1$ − free run", length_unit(r), t->error_before, t->error_after));
   figure.panels.push_back(pair_panel(r, *t, "Residual torque", "residual torque", torque_unit_of(r),
                                      t->torque_before, t->torque_after));
@@ -117,7 +117,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   if (ranking.empty())
     return missing_figure(figure.file, figure.title, "the model is at the floor, nothing was looked for");
   Panel panel;
-  panel.title = "Share of the log distance to the floor that each closes on held-out data";
+  panel.title = "Log distance to the floor that each closes";
   panel.x = {"closed share", "", {-0.25, 1.1}, {}, {}};
   Series s{"", {kBlue, 4.0, {}}, {}, {}};
   s.joined = false, s.marker = Marker::kDisc;
