@@ -20,6 +20,8 @@ namespace {
 constexpr double kBadRepetition = 10.0;    ///< floors of the encoder
 constexpr double kTrainShare = 2.0 / 3.0;  ///< of each file, where nothing else is held out
 constexpr double kCoarser = 1.5;           ///< times the sheet's quantum: another encoder than it says
+constexpr double kOnGrid = 0.1;            ///< [quanta] from a whole number of them
+constexpr double kShareOnGrid = 0.9;
 constexpr double kNearFloor = 4.0;  ///< mean square [floor²] of a fit that may only have missed the best one
 constexpr double kAsGood = 0.05;    ///< S: as good a fit
 constexpr double kFarBetter = 0.5;  ///< of the mean square
@@ -33,12 +35,22 @@ void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
   }
 }
 
+/// Whether nearly all positions are whole numbers of quanta apart: a steady speed repeats its step, too.
+bool counts_in(std::span<const double> x1, double quantum) {
+  const auto whole = [&](double x) {
+    const double counts = (x - x1.front()) / quantum;
+    return std::abs(counts - std::round(counts)) < kOnGrid;
+  };
+  return static_cast<double>(std::count_if(x1.begin(), x1.end(), whole)) >
+         kShareOnGrid * static_cast<double>(x1.size());
+}
+
 /// Least quantum that the samples of all recordings show; 0 unless each of them is coarser than its sheet.
 double coarser_quantum(const std::vector<MotorTrace>& traces) {
   double least = kInfinity;
   for (const MotorTrace& t : traces) {
     const double seen = t.quantum > 0.0 ? seen_quantum(t.x1) : 0.0;
-    if (seen < kCoarser * t.quantum || seen == 0.0) return 0.0;
+    if (seen < kCoarser * t.quantum || seen == 0.0 || !counts_in(t.x1, seen)) return 0.0;
     least = std::min(least, seen);
   }
   return least;
