@@ -216,16 +216,25 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
 Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& other,
              const FitOptions& options, double hz) {
   const FitProblem problem = make_problem(train, candidate.model, options);
+  const EffectEntry* mine = candidate.model.effects.back().entry;
+  const EffectEntry* others = other.effects.back().entry;
   Solution best{{}, candidate.starts, candidate.mean_square, false};
   ReferenceModel moved = with_drive(candidate.model, other);
-  if (nested_parent(*other.effects.back().entry) == candidate.model.effects.back().entry)
+  if (nested_parent(*others) == mine || nested_parent(*mine) == others)
     moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
-  for (const ReferenceModel& values : {candidate.model, moved}) {
-    const Solution found =
-        refine(problem, {point_of(problem, values), candidate.starts, kInfinity, false}, hz, kRetry);
+  const auto attempt = [&](const Solution& from) {
+    const Solution found = refine(problem, from, hz, kRetry);
     if (found.mean_square < kFurther * best.mean_square) best = found;
-    if (best.mean_square < kFloorSquare) break;
-  }
+  };
+  const auto point = [&](const ReferenceModel& values) {
+    return Solution{point_of(problem, values), candidate.starts, kInfinity, false};
+  };
+  attempt(point(candidate.model));
+  if (!(best.mean_square < kFloorSquare)) attempt(point(moved));
+  // A faster observer forgets sooner what came before: there are fewer minima to end in.
+  if (!(best.mean_square < kFloorSquare) && hz < kFastHz)
+    if (const Solution led = refine(problem, point(candidate.model), kFastHz, kRetry); led.usable())
+      attempt(led);
   return best.q.empty() ? candidate : fitted_of(candidate.model, problem, best);
 }
 

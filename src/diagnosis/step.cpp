@@ -51,15 +51,17 @@ Fitted with_quantum(Fitted nominal, const EffectEntry& entry, double quantum) {
   return nominal;
 }
 
-/// The best few that are not at the floor try again, also from the numbers of the very best; so does the
-/// simpler effect that the best contains, wherever it came.
+/// The best few that are not at the floor try again, also from the numbers of the very best; so do, wherever
+/// they came, the simpler effect that the best contains and those that contain the best.
 void second_round(const Study& study, std::vector<Judged>& ranked) {
   if (ranked.empty() || !std::isfinite(ranked.front().score)) return;
   const FittedModel first = ranked.front().fitted.model;
   const EffectEntry* parent = nested_parent(*ranked.front().entry);
   std::vector<std::size_t> again;
   for (std::size_t i = 0; i < ranked.size(); ++i)
-    if (!at_floor(ranked[i]) && (i < kSecondRound || ranked[i].entry == parent)) again.push_back(i);
+    if (!at_floor(ranked[i]) && (i < kSecondRound || ranked[i].entry == parent ||
+                                 nested_parent(*ranked[i].entry) == ranked.front().entry))
+      again.push_back(i);
   parallel_for(again.size(), study.options.threads, [&](std::size_t k) {
     Judged& candidate = ranked[again[k]];
     if (!std::isfinite(candidate.score)) return;
