@@ -118,7 +118,13 @@ double weaker(const FitProblem& problem, const EffectEntry& entry, std::size_t i
   return std::isfinite(absent) ? absent + kWeaker * (value - absent) : std::min(value / kWeaker, p.high);
 }
 
+/// Whether the model's last effect is the simpler one that this one contains, and so takes the place of.
+bool replaces_last(const ReferenceModel& model, const EffectEntry& entry) {
+  return !model.effects.empty() && nested_parent(entry) == model.effects.back().entry;
+}
+
 ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry) {
+  if (replaces_last(model, entry)) model.effects.pop_back();
   ModelEffect effect;
   effect.entry = &entry;
   for (std::size_t i = 0; i < entry.parameters.size(); ++i) effect.parameters[i].estimate = true;
@@ -181,6 +187,7 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
                      const FitOptions& options, double hz) {
   const ReferenceModel extended = with_effect(nominal.model, entry);
   const FitProblem problem = make_problem(train, extended, options);
+  const std::size_t shrinking = replaces_last(nominal.model, entry) ? 1 : 0;  // the base has the first one
   std::vector<Raced> raced;
   const auto race = [&](const ReferenceModel& values, const Base* base) {
     Solution point{point_of(problem, values), nominal.starts, kInfinity, false};
@@ -206,7 +213,7 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
     for (int i = 0; parent == nullptr && i < kWeakenings && !bases.empty() &&
                     !(raced.back().at.mean_square < nominal.mean_square);
          ++i) {
-      values[0] = weaker(problem, entry, 0, values[0]);
+      values[shrinking] = weaker(problem, entry, shrinking, values[shrinking]);
       race_effect(values, bases.front());
     }
   }
@@ -240,6 +247,8 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
 
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
   const std::string_view name = entry.name;
+  for (const ModelEffect& e : model.effects)
+    if (e.entry == &entry || nested_parent(*e.entry) == &entry) return false;
   const auto estimated = [&](int i) { return model.parameters[static_cast<std::size_t>(i)].estimate; };
   const bool has_load = model.structure.has_load;
   const bool compliant = has_load && model.structure.contact == ContactLaw::kCompliant;
@@ -251,8 +260,6 @@ bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
   if (name == "gap_eccentricity" || name == "gap_growth") return has_load && gap.value > 0.0;
   if (name == "load_inertia_variation" || name == "load_unbalance" || name == "constant_load_torque")
     return !has_load || model.structure.load == LoadKind::kFree;
-  for (const ModelEffect& e : model.effects)
-    if (e.entry == &entry) return false;
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/further.h"
 #include "diagnosis/pipeline.h"
 #include "diagnosis/repeatability.h"
 #include "diagnosis/report_back.h"
@@ -219,7 +220,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   GAPSCOPE_REQUIRE(!train.empty());
   Study study = make_study(train, held_out, model, options);
   const Findings found = investigate(study);
-  Diagnosis diagnosis = report_back(study, found);
+  Diagnosis diagnosis = report_back(study, found, add_further(study, found));
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same kind "

@@ -24,27 +24,28 @@ std::vector<NamedValue> effect_values(const ModelEffect& effect) {
   return values;
 }
 
-std::vector<RankedEffect> ranking_of(const Study& study, const Findings& found) {
+std::vector<RankedEffect> ranking_of(const Study& study, const Judged& before,
+                                     const std::vector<Judged>& candidates, const Decision& decision) {
   std::vector<RankedEffect> ranking;
   const double floor = judged_floor(study);
   const auto windows = judged_windows(study);
-  const double before = median_size(found.before.windows.*windows);
+  const double size_before = median_size(before.windows.*windows);
   double weights = 0.0;
-  for (const Judged& c : found.candidates) weights += weight_of(c, found.candidates.front());
-  for (const Judged& c : found.candidates) {
+  for (const Judged& c : candidates) weights += weight_of(c, candidates.front());
+  for (const Judged& c : candidates) {
     RankedEffect r;
     r.effect = c.entry->name;
     r.score = c.score;
-    r.rel = relative_gain(found.before, c);
-    r.windows_better = share_of_windows_better(found.before, c);
+    r.rel = relative_gain(before, c);
+    r.windows_better = share_of_windows_better(before, c);
     if (std::isfinite(c.score)) {
       const double size = median_size(c.windows.*windows);
       r.held_out = floor * size;
-      r.shrink = shrink_of(before, size);
+      r.shrink = shrink_of(size_before, size);
     }
-    r.probability = found.decision.probability * weight_of(c, found.candidates.front()) / weights;
+    r.probability = decision.probability * weight_of(c, candidates.front()) / weights;
     if (!c.fitted.model.effects.empty()) r.parameters = effect_values(c.fitted.model.effects.back());
-    r.remark = remark_on(c, found.before);
+    r.remark = remark_on(c, before);
     ranking.push_back(r);
   }
   return ranking;
@@ -83,25 +84,71 @@ std::vector<MismatchTrace> traces_of(const Study& study, const std::vector<Playb
   return traces;
 }
 
-DiagnosisVerdict verdict_of(const Findings& found) {
+DiagnosisVerdict verdict_of(const Findings& found, const Additions& added) {
   if (found.candidates.empty() && at_floor(found.before)) return DiagnosisVerdict::kNone;
-  return found.decision.accepted ? DiagnosisVerdict::kEffect : DiagnosisVerdict::kUnknown;
+  return added.accepted ? DiagnosisVerdict::kEffect : DiagnosisVerdict::kUnknown;
+}
+
+std::vector<std::string> names_of(const std::vector<const EffectEntry*>& entries) {
+  std::vector<std::string> names;
+  for (const EffectEntry* entry : entries) names.push_back(entry->name);
+  return names;
+}
+
+std::string place_left_by(const Study& study, const FittedModel& model) {
+  const double km = model.parameters[place::kTorqueConstant].value;
+  const auto played = play(model, study.held_out, study.observer_hz, true);
+  return place_of(played, study.held_out, km, study.options.rotation, nullptr).headline;
+}
+
+/// @param after the model that the step has led to
+DiagnosisStep step_of(const Study& study, const FurtherStep& step, const Judged& after, bool added) {
+  DiagnosisStep s;
+  for (const ModelEffect& e : step.before.fitted.model.effects) s.on_top_of.push_back(e.entry->name);
+  if (step.candidates.empty()) return s;
+  s.effect = step.candidates.front().entry->name;
+  s.accepted = added && step.decision.accepted;
+  s.dropped = names_of(step.dropped);
+  s.gap = mismatch_size(study, step.before, after);
+  s.ranking = ranking_of(study, step.before, step.candidates, step.decision);
+  if (!s.accepted) return s;
+  s.group = names_of(step.decision.group);
+  s.remaining = place_left_by(study, after.fitted.model);
+  return s;
+}
+
+/// The effect as the first step has fitted it, alone.
+const ModelEffect& alone(const Findings& found, const EffectEntry* entry) {
+  const auto at = std::find_if(found.candidates.begin(), found.candidates.end(),
+                               [&](const Judged& c) { return c.entry == entry; });
+  return (at == found.candidates.end() ? found.candidates.front() : *at).fitted.model.effects.back();
+}
+
+void tell_steps(const Study& study, const Additions& added, Diagnosis& d) {
+  for (const Addition& effect : added.effects)
+    if (added.accepted) d.effects.push_back(effect.entry->name);
+  if (added.accepted) d.group = names_of(added.effects.front().group);
+  for (std::size_t i = 0; i < added.steps.size(); ++i) {
+    const bool last = i + 1 == added.steps.size();
+    const bool taken = added.steps[i].decision.accepted || added.steps[i].candidates.empty();
+    const Judged& after = !last   ? added.steps[i + 1].before
+                          : taken ? added.after
+                                  : added.steps[i].candidates.front();
+    d.steps.push_back(step_of(study, added.steps[i], after, added.accepted));
+  }
 }
 
 }  // namespace
 
-Diagnosis report_back(const Study& study, const Findings& found) {
+Diagnosis report_back(const Study& study, const Findings& found, const Additions& additions) {
   Diagnosis d;
-  d.verdict = verdict_of(found);
+  d.verdict = verdict_of(found, additions);
   d.observer_hz = study.observer_hz;
   const bool added = d.verdict == DiagnosisVerdict::kEffect;
-  const Judged& after = added ? found.candidates.front() : found.before;
-  if (added) {
-    d.effects = {after.entry->name};
-    for (const EffectEntry* entry : found.decision.group) d.group.push_back(entry->name);
-    d.blame = blame_of(found.before, after);
-  }
-  d.ranking = ranking_of(study, found);
+  const Judged& after = added ? additions.after : found.before;
+  tell_steps(study, additions, d);
+  if (added) d.blame = blame_of(found.before, after);
+  d.ranking = ranking_of(study, found.before, found.candidates, found.decision);
   d.fitted = after.fitted.model;
   const double km = d.fitted.parameters[place::kTorqueConstant].value;
   const auto before_played = play(found.before.fitted.model, study.held_out, study.observer_hz, true);
@@ -109,7 +156,7 @@ Diagnosis report_back(const Study& study, const Findings& found) {
   d.gap = mismatch_size(study, found.before, after);
   d.measures = measures_of(study, before_played, after_played);
   d.where = place_of(before_played, study.held_out, km, study.options.rotation,
-                     added ? &d.fitted.effects.back() : nullptr);
+                     added ? &alone(found, additions.effects.front().entry) : nullptr);
   d.remaining = place_of(after_played, study.held_out, km, study.options.rotation, nullptr);
   d.traces = traces_of(study, before_played, after_played);
   d.sentence = sentence_of(d, study.options.rotation);

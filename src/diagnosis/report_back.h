@@ -1,10 +1,10 @@
 #pragma once
 
-#include "diagnosis/pipeline.h"
+#include "diagnosis/further.h"
 
 namespace gapscope::internal {
 
 /// Puts the findings into the public result: sizes, ranking, places, blame, traces, words.
-Diagnosis report_back(const Study& study, const Findings& found);
+Diagnosis report_back(const Study& study, const Findings& found, const Additions& added);
 
 }  // namespace gapscope::internal

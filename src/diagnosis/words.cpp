@@ -15,10 +15,25 @@ std::string readable(std::string name) {
   return name;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::vector<std::string> words;
-  for (const std::string& name : names) words.push_back(readable(name));
-  return fmt::format("{}", fmt::join(words, ", then "));
+/// Where a recording cannot tell an effect from others.
+std::string likeness(std::vector<std::string> group) {
+  if (group.size() < 2) return "";
+  for (std::string& name : group) name = readable(name);
+  return fmt::format(" (this recording cannot tell it from {})",
+                     fmt::join(group.begin() + 1, group.end(), " or "));
+}
+
+/// The effects in their order, each with what it cannot be told from.
+std::string listed(const Diagnosis& d) {
+  std::string text;
+  for (const std::string& effect : d.effects) {
+    std::vector<std::string> group;
+    if (text.empty()) group = d.group;
+    for (const DiagnosisStep& s : d.steps)
+      if (s.accepted && s.effect == effect) group = s.group;
+    text += (text.empty() ? "" : ", then ") + readable(effect) + likeness(group);
+  }
+  return text;
 }
 
 std::string ratio(double value) {
@@ -26,14 +41,10 @@ std::string ratio(double value) {
 }
 
 std::string effect_sentence(const Diagnosis& d) {
-  std::string text = fmt::format("The model lacks {}", listed(d.effects));
-  if (d.group.size() > 1) {
-    std::vector<std::string> others(d.group.begin() + 1, d.group.end());
-    for (std::string& o : others) o = readable(o);
-    text += fmt::format(" (this recording cannot tell it from {})", fmt::join(others, " or "));
-  }
+  std::string text = fmt::format("The model lacks {}", listed(d));
   if (std::isfinite(d.gap.shrink))
-    text += fmt::format(": with it the held-out error shrinks by {:.0f} %", 100.0 * d.gap.shrink);
+    text += fmt::format(": with {} the held-out error shrinks by {:.0f} %",
+                        d.effects.size() > 1 ? "them" : "it", 100.0 * d.gap.shrink);
   return text + fmt::format(", to {}.", ratio(d.gap.remains));
 }
 

@@ -14,9 +14,8 @@ std::string number(double value) { return std::isfinite(value) ? fmt::format("{:
 
 std::string measures_table(const DiagnosisResult& r) {
   std::string text =
-      "\n## How large, on held-out data\n\n| measure (median over windows) | nominal model | with the effect "
-      "| "
-      "floor |\n|---|---|---|---|\n";
+      "\n## How large, on held-out data\n\n| measure (median over windows) | nominal model | with all that "
+      "was added | floor |\n|---|---|---|---|\n";
   for (const MismatchMeasure& m : r.diagnosis.measures)
     text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, m.unit),
                         quantity(m.after, m.unit), std::isfinite(m.floor) ? quantity(m.floor, m.unit) : "–");
@@ -57,10 +56,36 @@ std::string ranking_table(const DiagnosisResult& r) {
   return text;
 }
 
+std::string names_list(const std::vector<std::string>& names) {
+  return names.empty() ? "–" : fmt::format("`{}`", fmt::join(names, "`, `"));
+}
+
+std::string steps_table(const DiagnosisResult& r) {
+  const std::string unit = r.rotation ? "rad" : "m";
+  std::string text;
+  for (const DiagnosisStep& s : r.diagnosis.steps) {
+    if (s.ranking.empty()) continue;
+    std::vector<std::string> others = s.group;
+    std::erase(others, s.effect);
+    text +=
+        fmt::format("| {} | `{}` | {} | {} | {} | {} | {:.3g} | {} | {} | {} |\n", names_list(s.on_top_of),
+                    s.effect, s.accepted ? "added" : "not added", names_list(others),
+                    quantity(s.gap.before, unit), quantity(s.gap.after, unit), s.gap.shrink,
+                    parameters_of(s.ranking.front(), r.rotation), names_list(s.dropped), s.remaining);
+  }
+  if (text.empty()) return "";
+  return "\n## Further steps\n\nEvery candidate was refitted on top of what was found before it.\n\n| on top "
+         "of | "
+         "effect | outcome | not told from | error before | after | shrink of this step | parameters | made "
+         "superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
+         text;
+}
+
 std::string blame_table(const DiagnosisResult& r) {
   if (r.diagnosis.blame.empty()) return "";
   std::string text =
-      "\n## What the model took the blame for\n\n| parameter | without the effect | with it | without it "
+      "\n## What the model took the blame for\n\n| parameter | nominal model | with all that was added | the "
+      "first "
       "reads "
       "|\n|---|---|---|---|\n";
   for (const BlameShift& b : r.diagnosis.blame) {
@@ -79,7 +104,7 @@ std::string blame_table(const DiagnosisResult& r) {
 std::string diagnosis_text(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
   std::string text = fmt::format("# {}: what the simulation lacks\n\n**{}**\n", r.name, r.diagnosis.sentence);
   text += bullet_section("Warnings", r.diagnosis.warnings);
-  text += measures_table(r) + ranking_table(r) + blame_table(r) + figure_section(figures);
+  text += measures_table(r) + ranking_table(r) + steps_table(r) + blame_table(r) + figure_section(figures);
   text += "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
   return text + fmt::format("\ngapscope {}\n", r.version);
 }

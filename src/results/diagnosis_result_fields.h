@@ -26,11 +26,6 @@ struct DiagnosisDocument {
   std::vector<StoredMismatch> held_out;
 };
 
-/// The later steps, each with its own ranking.
-struct StoredStep {
-  std::vector<RankedEffect> ranking;
-};
-
 /// Units of the values of a list, by their keys.
 template <class Archive>
 void units(Archive& archive, const char* key, std::vector<NamedValue>& values) {
@@ -52,11 +47,6 @@ void fields(Archive& archive, RankedEffect& r) {
 }
 
 template <class Archive>
-void fields(Archive& archive, StoredStep& s) {
-  archive.list("ranking", s.ranking);
-}
-
-template <class Archive>
 void fields(Archive& archive, MismatchSize& g) {
   archive("measure", g.measure);
   archive("before_rad", g.before);
@@ -69,6 +59,18 @@ void fields(Archive& archive, MismatchSize& g) {
   archive("shrink", g.shrink);
   archive("shrink_ci95", g.shrink_ci95);
   archive("remains_ratio", g.remains);
+}
+
+template <class Archive>
+void fields(Archive& archive, DiagnosisStep& s) {
+  archive("on_top_of", s.on_top_of);
+  archive("effect", s.effect);
+  archive("accepted", s.accepted);
+  archive("group", s.group);
+  archive("dropped", s.dropped);
+  archive.single("gap", s.gap);
+  archive("remaining", s.remaining);
+  archive.list("ranking", s.ranking);
 }
 
 template <class Archive>
@@ -141,11 +143,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.single("gap", g.gap);
   archive.list("ranking", g.ranking);
   archive("probabilities_calibrated", g.probabilities_calibrated);
-  std::vector<StoredStep> steps(g.steps.size());
-  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].ranking = g.steps[i];
-  archive.list("steps", steps);
-  g.steps.clear();
-  for (const StoredStep& step : steps) g.steps.push_back(step.ranking);
+  archive.list("steps", g.steps);
   archive.single("where", g.where);
   archive.single("remaining", g.remaining);
   archive("sentence", g.sentence);

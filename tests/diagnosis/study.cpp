@@ -1,8 +1,9 @@
 // Not a test: the diagnosis on drives of the independent plant with an effect that it is not told.
-//   study_diagnosis FIRST_SEED COUNT known|outside|none FILE [THREADS [RIG]]
+//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond FILE [THREADS [RIG]]
 // Appends one line a case to FILE and prints the counts of all of it with Wilson limits; seeds that FILE
 // holds already are not run again. Effect and rig follow from the seed. "Removed" takes the true effect and
-// its look-alikes out of the candidates that were fitted and decides again.
+// its look-alikes out of the candidates that were fitted and decides again. "pair" are two effects, "one" and
+// "beyond" a known one and one outside the catalogue where the search may take as many steps as it likes.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include "blind/blind_pair.h"
 #include "diagnosis/expected_place.h"
 #include "diagnosis/mismatch_size.h"
+#include "diagnosis/pair_study.h"
 #include "diagnosis/pipeline.h"
 #include "diagnosis/study_row.h"
 #include "diagnosis/where.h"
@@ -28,9 +30,11 @@ using test::StudyRow;
 
 std::vector<std::string> effects_of(const std::string& kind) {
   if (kind == "none") return {"none"};
+  if (kind == "pair") return test::effect_pairs();
   std::vector<std::string> names;
   for (const blind::EffectEntry& e : blind::effect_entries())
-    if (e.in_catalogue == (kind == "known") && e.name != "backlash") names.emplace_back(e.name);
+    if (e.in_catalogue == (kind == "known" || kind == "one") && e.name != "backlash")
+      names.emplace_back(e.name);
   return names;
 }
 
@@ -158,7 +162,8 @@ StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
 void print_counts(const std::string& kind, const std::vector<StudyRow>& rows) {
   if (kind == "known") print_known(rows);
   if (kind == "none") print_none(rows);
-  if (kind == "outside") print_outside(rows);
+  if (kind == "outside" || kind == "beyond") print_outside(rows);
+  if (kind == "pair" || kind == "one") test::print_steps(rows);
 }
 
 }  // namespace
@@ -169,6 +174,7 @@ int main(int argc, char** argv) {
                       cases = std::strtoull(argv[2], nullptr, 10);
   const std::string kind = argv[3], file = argv[4];
   const std::vector<std::string> effects = effects_of(kind);
+  const bool stepwise = kind == "pair" || kind == "one" || kind == "beyond";
   std::set<std::uint64_t> done;
   for (const StudyRow& row : test::read_rows(file)) done.insert(row.seed);
   std::vector<std::uint64_t> seeds;
@@ -181,8 +187,12 @@ int main(int argc, char** argv) {
     auto g = random_stream(seed, "diagnosis study");
     const std::string rig =
         argc > 6 ? argv[6] : blind::kRigs[(seed / effects.size()) % std::size(blind::kRigs)];
+    const std::string& effect = effects[seed % effects.size()];
+    const double severity = uniform(g, 0.0, 1.0);
     const StudyRow row =
-        examine(blind::blind_pair(rig, effects[seed % effects.size()], uniform(g, 0.0, 1.0), seed), seed);
+        stepwise
+            ? test::examine_steps(blind::blind_pair(rig, test::split_effects(effect), severity, seed), seed)
+            : examine(blind::blind_pair(rig, effect, severity, seed), seed);
     const std::lock_guard lock(writing);
     out << line_of(row) << std::endl;
   });

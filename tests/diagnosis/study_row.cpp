@@ -129,6 +129,27 @@ void print_none(const std::vector<StudyRow>& rows) {
   print_costs(rows);
 }
 
+void print_steps(const std::vector<StudyRow>& all) {
+  const Rows rows = only(all, [](const StudyRow& r) { return r.relevant(); });
+  const auto added = [](const StudyRow& r) {
+    return r.verdict == "effect" ? 1 + std::count(r.first.begin(), r.first.end(), '+') : 0;
+  };
+  const auto truths = [](const StudyRow& r) { return 1 + std::count(r.effect.begin(), r.effect.end(), '+'); };
+  fmt::print("{} cases, {} of them with each effect above 2 floors without it\n", all.size(), rows.size());
+  count("all found (85 %)", rows, [&](const StudyRow& r) { return r.in_group; });
+  count("exactly these (75 %; of one effect 90 %)", rows,
+        [&](const StudyRow& r) { return r.in_group && added(r) == truths(r); });
+  count("a wrong one among them (10 %)", rows, [&](const StudyRow& r) { return added(r) > r.group; });
+  count("unknown", rows, [&](const StudyRow& r) { return r.verdict == "unknown"; });
+  std::vector<double> ratios;
+  for (const StudyRow& r : rows)
+    if (r.in_group && added(r) == 2) ratios.push_back(r.probability);
+  if (!ratios.empty())
+    fmt::print("processor time over that of the first step, two found: median {:.2f}, mean {:.2f} (3)\n",
+               median(ratios), mean(ratios));
+  print_costs(all);
+}
+
 void print_outside(const std::vector<StudyRow>& all) {
   const Rows rows = only(all, [](const StudyRow& r) { return r.relevant(); });
   fmt::print("{} cases, {} of them above 2 floors\n", all.size(), rows.size());

@@ -31,11 +31,27 @@ void expect_friction(const Diagnosis& d) {
   ASSERT_FALSE(d.effects.empty());
   EXPECT_EQ(d.effects.front(), "motor_coulomb_friction");
   EXPECT_EQ(d.gap.floor_from, FloorSource::kRepeatability);
-  EXPECT_GE(d.gap.shrink, 0.55);
+  ASSERT_FALSE(d.ranking.empty());
+  EXPECT_GE(d.ranking.front().shrink, 0.55);
   for (const char* wrong : {"backlash", "input_delay", "actuator_lag", "measurement_lag"}) {
     EXPECT_EQ(std::count(d.effects.begin(), d.effects.end(), wrong), 0) << d.sentence;
     EXPECT_EQ(std::count(d.group.begin(), d.group.end(), wrong), 0) << d.sentence;
   }
+}
+
+/// What Coulomb friction leaves of an axis whose friction and drive differ with the direction.
+void expect_asymmetry_next(const Diagnosis& d) {
+  const std::vector<std::string> either = {"friction_asymmetry", "constant_load_torque"};
+  ASSERT_GE(d.effects.size(), 2u) << d.sentence;
+  ASSERT_FALSE(d.steps.empty());
+  const DiagnosisStep& second = d.steps.front();
+  EXPECT_EQ(second.on_top_of, std::vector<std::string>{"motor_coulomb_friction"});
+  EXPECT_EQ(std::count(either.begin(), either.end(), d.effects[1]), 1) << d.sentence;
+  EXPECT_TRUE(second.accepted);
+  EXPECT_GT(second.gap.shrink, 0.3);
+  EXPECT_FALSE(second.remaining.empty());
+  EXPECT_GE(d.gap.shrink, 0.85);
+  EXPECT_GT(d.gap.remains, 1.3);  // what remains repeats: physics that the catalogue does not have
 }
 
 TEST(RealRecordings, ABallScrewAxisLacksCoulombFrictionAndNoBacklash) {
@@ -44,7 +60,9 @@ TEST(RealRecordings, ABallScrewAxisLacksCoulombFrictionAndNoBacklash) {
   const Recording first = part(whole, 0, whole.size() / 2),
                   second = part(whole, whole.size() / 2, whole.size() / 2);
   const MotorTrace train[] = {first.motor_trace()}, held_out[] = {second.motor_trace()};
-  expect_friction(diagnose(train, held_out, plain_axis()));
+  const Diagnosis d = diagnose(train, held_out, plain_axis());
+  expect_friction(d);
+  expect_asymmetry_next(d);
 }
 
 TEST(RealRecordings, TheSameOnARecordingWithForcePulses) {

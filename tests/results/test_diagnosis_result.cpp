@@ -37,6 +37,15 @@ DiagnosisResult sample() {
   last.effect = "input_delay";
   last.remark = "the motion with it diverges";
   d.ranking = {first, last};
+  DiagnosisStep step;
+  step.on_top_of = {"cogging_torque"};
+  step.effect = "input_delay";
+  step.accepted = true;
+  step.group = {"input_delay", "actuator_lag"};
+  step.gap.shrink = kThird;
+  step.remaining = "in the gap";
+  step.ranking = {last};
+  d.steps = {step};
   d.where = {
       "in engagement", halves("gap", "engagement"), halves("backward", "forward"), {}, {}, {}, {}, {}, 24.0};
   d.remaining.headline = "nowhere";
@@ -76,6 +85,11 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.ranking[0].parameters[1].unit, "1/rev");
   EXPECT_TRUE(std::isnan(b.ranking[1].probability));
   EXPECT_EQ(b.ranking[1].remark, a.ranking[1].remark);
+  ASSERT_EQ(b.steps.size(), 1u);
+  EXPECT_EQ(b.steps[0].on_top_of, a.steps[0].on_top_of);
+  EXPECT_EQ(b.steps[0].group, a.steps[0].group);
+  EXPECT_EQ(b.steps[0].gap.shrink, kThird);
+  EXPECT_EQ(b.steps[0].ranking[0].effect, "input_delay");
   EXPECT_EQ(b.where.mode[1].share, a.where.mode[1].share);
   EXPECT_EQ(b.where.mode[1].expected, 0.5);
   EXPECT_EQ(b.where.periods_per_turn, 24.0);

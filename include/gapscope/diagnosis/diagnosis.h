@@ -78,6 +78,18 @@ struct MismatchPlace {
   double periods_per_turn = kNaN;  ///< of a residual that repeats with the motor angle [1/rev]
 };
 
+/// A step after the first: every candidate on top of the effects so far.
+struct DiagnosisStep {
+  std::vector<std::string> on_top_of;  ///< effects of the model that it began with
+  std::string effect;                  ///< best candidate
+  bool accepted = false;               ///< it was added
+  std::vector<std::string> group;    ///< all that it cannot be told from, itself included; empty unless added
+  std::vector<std::string> dropped;  ///< earlier effects that it made superfluous
+  MismatchSize gap;                  ///< of this step alone
+  std::string remaining;  ///< place of what the model leaves after it, in words; empty unless added
+  std::vector<RankedEffect> ranking;
+};
+
 /// Errors beside one held-out recording, for figures. Columns of equal length.
 struct MismatchTrace {
   std::string file;
@@ -97,9 +109,9 @@ struct Diagnosis {
   std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
   MismatchSize gap;
   std::vector<MismatchMeasure> measures;
-  std::vector<RankedEffect> ranking;             ///< first step, best first
-  bool probabilities_calibrated = false;         ///< false: those of the ranking are preliminary
-  std::vector<std::vector<RankedEffect>> steps;  ///< the later steps
+  std::vector<RankedEffect> ranking;      ///< first step, best first
+  bool probabilities_calibrated = false;  ///< false: those of the ranking are preliminary
+  std::vector<DiagnosisStep> steps;       ///< the later steps; the last one may not have been taken
   MismatchPlace where;
   MismatchPlace remaining;  ///< of what the accepted effects leave
   std::vector<BlameShift> blame;
@@ -127,6 +139,10 @@ struct DiagnosisOptions {
 ///   S = ½ mean log(W_inn + 0.3) + ½ mean log(W_free + 0.3) + 0.04 · (extra parameters),
 /// W_inn the mean square of an observer's innovations in windows of 0.25 s, W_free that of free runs
 /// restarted every 0.5 s from the observer's state, both in floors squared.
+///
+/// Further effects are looked for on top of the first in the same way, to the floor or to the last step that
+/// the held-out data asks for; an earlier effect that a later one has made superfluous is taken out again. A
+/// first step that explains too little alone is accepted once a second one leads from it to the floor.
 ///
 /// With no held-out recordings the last third of each file is held out.
 /// @throws std::logic_error for an empty span or an unknown excluded effect; Interrupted.

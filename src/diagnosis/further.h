@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/pipeline.h"
+
+namespace gapscope::internal {
+
+/// A step after the first: every candidate on top of what was added before it.
+struct FurtherStep {
+  Judged before;                   ///< the model so far; its score counts no parameters
+  std::vector<Judged> candidates;  ///< best first
+  Decision decision;
+  std::vector<const EffectEntry*> dropped;  ///< earlier effects that its first candidate made superfluous
+};
+
+/// An effect that was added.
+struct Addition {
+  const EffectEntry* entry = nullptr;
+  std::vector<const EffectEntry*> group;  ///< all that it cannot be told from, itself first
+};
+
+/// What the search for several effects came to.
+struct Additions {
+  bool accepted = false;
+  std::vector<Addition> effects;   ///< those that stay, in the order in which they were found
+  Judged after;                    ///< with all of them
+  std::vector<FurtherStep> steps;  ///< the last one may not have been taken
+};
+
+/// Goes on where the first step has ended, to the floor or to the last step that the data asks for.
+///
+/// Forward: every effect of the catalogue on top of the model so far, judged like the first. Backward: an
+/// earlier effect without which the later ones do as well was only their stand-in and goes. A first step that
+/// is not sure in itself, as half of a cause cannot be, counts once others lead from it to the floor.
+Additions add_further(const Study& study, const Findings& found);
+
+/// Whether the effect is in the model.
+bool contains(const FittedModel& model, const EffectEntry* entry);
+
+}  // namespace gapscope::internal

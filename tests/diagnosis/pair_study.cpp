@@ -1,0 +1,121 @@
+#include "diagnosis/pair_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <ctime>
+#include <sstream>
+
+#include "diagnosis/further.h"
+#include "diagnosis/mismatch_size.h"
+#include "gapscope/base/random.h"
+
+namespace gapscope::test {
+namespace {
+
+using namespace gapscope::internal;
+using Names = std::vector<std::string>;
+
+const std::vector<Names>& families() {
+  static const std::vector<Names> list = {
+      {"motor_coulomb_friction", "friction_asymmetry", "stribeck_friction", "presliding_friction",
+       "quadratic_drag", "viscous_drift"},
+      {"cogging_torque", "torque_ripple"},
+      {"load_unbalance", "constant_load_torque", "load_inertia_variation"},
+      {"torque_saturation", "input_dead_zone"},
+      {"input_delay", "actuator_lag", "measurement_lag"},
+      {"shaft_compliance", "impact_damping", "contact_adhesion"},
+      {"gap_eccentricity", "gap_growth"},
+      {"encoder_eccentricity"}};
+  return list;
+}
+
+/// Processor time of the calling thread.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+bool among(const std::vector<const EffectEntry*>& list, const std::string& name) {
+  return std::any_of(list.begin(), list.end(), [&](const EffectEntry* e) { return e->name == name; });
+}
+
+double left(const Judged& j) { return std::max(j.median_free, j.median_innovation); }
+
+/// Least that any one of the true effects leaves alone [floor].
+double left_by_one(const Findings& f, const Names& truth) {
+  double least = kInfinity;
+  for (const Judged& c : f.candidates)
+    if (std::find(truth.begin(), truth.end(), c.entry->name) != truth.end() && std::isfinite(left(c)))
+      least = std::min(least, left(c));
+  return std::isfinite(least) ? least : left(f.before);
+}
+
+std::string describe(const Judged& before, const std::vector<Judged>& ranked, const Decision& d) {
+  std::string text = fmt::format(
+      "[{:.3g}/{:.3g} S {:.2f}; rel {:.2f} mar {:.2f} gain {:.2f} win {:.2f} fit {:.2f} {}:",
+      before.median_free, before.median_innovation, before.score, d.rel, d.margin, d.gain, d.windows_better,
+      ranked.empty() ? kNaN : ranked.front().fitted.mean_square / before.fitted.mean_square,
+      d.accepted ? "yes" : "no");
+  for (std::size_t i = 0; i < std::min<std::size_t>(5, ranked.size()); ++i)
+    text += fmt::format(" {} {:.2f}", ranked[i].entry->name, ranked[i].score);
+  return text + "] ";
+}
+
+}  // namespace
+
+std::vector<std::string> split_effects(const std::string& joined) {
+  Names names;
+  std::istringstream in(joined);
+  for (std::string name; std::getline(in, name, '+');) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> effect_pairs() {
+  std::vector<std::string> pairs;
+  for (std::size_t i = 0; i < families().size(); ++i)
+    for (std::size_t k = i + 1; k < families().size(); ++k)
+      for (const std::string& a : families()[i])
+        for (const std::string& b : families()[k])
+          if (!look_alike(*find_effect(a), *find_effect(b))) pairs.push_back(a + "+" + b);
+  auto order = random_stream(1, "diagnosis pairs");
+  std::shuffle(pairs.begin(), pairs.end(), order);
+  return pairs;
+}
+
+StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
+  const Names truth = split_effects(pair.effect);
+  DiagnosisOptions options;
+  options.threads = 1;
+  const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
+  const double begin = thread_seconds();
+  Study study = make_study(train, held, pair.sheet, options);
+  const Findings f = investigate(study);
+  const double first = thread_seconds() - begin;
+  const Additions a = add_further(study, f);
+  StudyRow row;
+  row.seconds = thread_seconds() - begin;
+  row.probability = row.seconds / first;
+  row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;
+  row.severity = pair.severity;
+  row.before = truth.size() > 1 ? left_by_one(f, truth) : left(f.before);
+  row.verdict = f.candidates.empty() && at_floor(f.before) ? "none" : a.accepted ? "effect" : "unknown";
+  row.details = describe(f.before, f.candidates, f.decision);
+  for (const FurtherStep& s : a.steps) row.details += describe(s.before, s.candidates, s.decision);
+  if (f.candidates.empty()) return row;
+  row.details += fmt::format("after {:.3g}/{:.3g}", a.after.median_free, a.after.median_innovation);
+  row.shrink = shrink_of(f.before.median_free, a.after.median_free);
+  Names found;
+  for (const Addition& e : a.effects) found.push_back(e.entry->name);
+  if (!found.empty()) row.first = fmt::format("{}", fmt::join(found, "+"));
+  if (!a.accepted) return row;
+  for (const Addition& e : a.effects)
+    row.group +=
+        std::any_of(truth.begin(), truth.end(), [&](const std::string& t) { return among(e.group, t); });
+  row.in_group = row.group == static_cast<int>(truth.size());
+  return row;
+}
+
+}  // namespace gapscope::test
