@@ -11,7 +11,7 @@ namespace gapscope::cli {
 namespace {
 
 struct Arguments {
-  std::string config, cases, labels;
+  std::string config, cases, labels, answers;
   int threads = 0;
   bool quiet = false;
 };
@@ -92,6 +92,27 @@ void add_seal(CLI::App& blind) {
   });
 }
 
+void answer(const Arguments& a) {
+  const BlindAnswers answers = answer_blind_check(a.cases, a.answers, a.threads,
+                                                  counted(progress_on_terminal(a.quiet), "answered case"));
+  say("answers", fmt::format("{} in {}", answers.cases.size(), a.answers));
+  say("seal", answers.seal());
+}
+
+void add_answer(CLI::App& blind) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = blind.add_subcommand("answer", "Diagnoses sealed recordings and seals the answers");
+  command->add_option("CASES", a->cases, "folder with a manifest.json")->required();
+  command->add_option("-o,--output", a->answers, "file of the answers (JSON)")->required()->type_name("FILE");
+  add_work_options(command, *a);
+  command->footer(
+      "Sees the sheets and recordings of CASES and nothing else. Stopped or killed, the same command goes "
+      "on.\n"
+      "The seal depends on every recording and every answer: tell it before the labels are opened.\n\n"
+      "Example: gapscope blind answer cases -o answers.json");
+  command->callback([a] { answer(*a); });
+}
+
 }  // namespace
 
 void add_blind(CLI::App& app) {
@@ -101,6 +122,7 @@ void add_blind(CLI::App& app) {
   command->footer("Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
   add_make(*command);
   add_seal(*command);
+  add_answer(*command);
   add_blind_drives(*command);
 }
 

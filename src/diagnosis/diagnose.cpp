@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/evidence.h"
 #include "diagnosis/further.h"
 #include "diagnosis/pipeline.h"
 #include "diagnosis/repeatability.h"
@@ -221,6 +222,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   Study study = make_study(train, held_out, model, options);
   const Findings found = investigate(study);
   Diagnosis diagnosis = report_back(study, found, add_further(study, found));
+  diagnosis.evidence = evidence_of(study, found);
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same kind "

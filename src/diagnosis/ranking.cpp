@@ -64,6 +64,7 @@ double relative_gain(const Judged& before, const Judged& after) {
 }
 
 double share_of_windows_better(const Judged& before, const Judged& after) {
+  if (after.windows.free.empty()) return after.windows_better;
   double above = 0.0, better = 0.0;
   for (std::size_t i = 0; i < std::min(before.windows.free.size(), after.windows.free.size()); ++i) {
     if (before.windows.free[i] < kFloorRatio * kFloorRatio) continue;

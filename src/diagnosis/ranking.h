@@ -17,6 +17,7 @@ struct Judged {
   double score = kInfinity;   ///< S, extra parameters included
   double median_free = kNaN;  ///< [floor]
   double median_innovation = kNaN;
+  double windows_better = kNaN;  ///< of a model known by its numbers alone, without windows
 };
 
 Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, double observer_hz);

@@ -1,7 +1,6 @@
 #include "gapscope/results/blind_files.h"
 
-#include "gapscope/base/errors.h"
-#include "results/json_archive.h"
+#include "results/blind_fields.h"
 
 namespace gapscope {
 namespace internal {
@@ -25,12 +24,6 @@ void fields(Archive& archive, BlindLabels& l) {
 }
 
 template <class Archive>
-void fields(Archive& archive, SealedFile& f) {
-  archive("file", f.file);
-  archive("sha256", f.sha256);
-}
-
-template <class Archive>
 void fields(Archive& archive, SealedCase& c) {
   archive("name", c.name);
   archive("part", c.part);
@@ -47,26 +40,6 @@ void fields(Archive& archive, BlindManifest& m) {
 
 namespace {
 
-template <class Struct>
-void write(const std::string& path, std::string schema, Struct value) {
-  JsonWriter writer;
-  writer("schema", schema);
-  fields(writer, value);
-  save_json(path, writer.json);
-}
-
-template <class Struct>
-Struct read(const std::string& path, const std::string& expected) {
-  const Json json = load_json(path);
-  JsonReader reader(json, path, "");
-  std::string schema;
-  reader("schema", schema);
-  if (schema != expected) throw ConfigError(path, "has the schema " + schema + ", expected " + expected);
-  Struct value;
-  fields(reader, value);
-  return value;
-}
-
 constexpr const char* kLabels = "gapscope.blind_labels/1";
 constexpr const char* kManifest = "gapscope.blind_manifest/1";
 
@@ -74,17 +47,17 @@ constexpr const char* kManifest = "gapscope.blind_manifest/1";
 }  // namespace internal
 
 void write_blind_labels(const std::string& path, const BlindLabels& labels) {
-  internal::write(path, internal::kLabels, labels);
+  internal::write_document(path, internal::kLabels, labels);
 }
 BlindLabels read_blind_labels(const std::string& path) {
-  return internal::read<BlindLabels>(path, internal::kLabels);
+  return internal::read_document<BlindLabels>(path, internal::kLabels);
 }
 
 void write_blind_manifest(const std::string& path, const BlindManifest& manifest) {
-  internal::write(path, internal::kManifest, manifest);
+  internal::write_document(path, internal::kManifest, manifest);
 }
 BlindManifest read_blind_manifest(const std::string& path) {
-  return internal::read<BlindManifest>(path, internal::kManifest);
+  return internal::read_document<BlindManifest>(path, internal::kManifest);
 }
 
 }  // namespace gapscope

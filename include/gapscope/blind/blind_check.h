@@ -30,6 +30,18 @@ void make_blind_check(const BlindConfig& config, const std::string& folder, cons
 /// calibration nor report, or a salt that is too short.
 BlindManifest seal_blind_check(const std::string& folder, const std::string& labels);
 
+/// Lets the diagnosis answer every case of a folder, from its sheet and its recordings, and writes the
+/// answers in the order of the manifest, each sealed together with what it was given and all before it.
+/// Answers are kept in <answers>.partial as they come: killed, the same call goes on. The same answers for
+/// any number of threads.
+/// @throws ConfigError where a file of a case is not the one of the manifest, or <answers>.partial belongs to
+/// another check; std::runtime_error where a file cannot be written; Interrupted.
+BlindAnswers answer_blind_check(const std::string& folder, const std::string& answers, int threads,
+                                const BlindProgress& progress = {});
+
+/// @throws ConfigError naming the first case whose answer is missing, to other recordings, or changed.
+void verify_answers(const BlindManifest& manifest, const BlindAnswers& answers, const std::string& file);
+
 /// @throws ConfigError naming the first sheet or recording that is not the one of the manifest.
 void verify_recordings(const BlindManifest& manifest, const std::string& folder);
 

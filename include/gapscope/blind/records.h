@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/diagnosis/evidence.h"
 
 /// What the three steps of a blind check hand to each other.
 namespace gapscope {
@@ -28,6 +29,7 @@ struct BlindLabels {
 struct SealedFile {
   std::string file;  ///< relative to the folder of the manifest
   std::string sha256;
+  bool operator==(const SealedFile&) const = default;
 };
 
 /// What is public of one case.
@@ -42,6 +44,28 @@ struct BlindManifest {
   std::string name;
   std::string version;
   std::vector<SealedCase> cases;
+};
+
+/// What the diagnosis says of one case.
+struct BlindAnswer {
+  std::string name;
+  std::vector<SealedFile> files;  ///< that it was given
+  std::string verdict;            ///< "effect", "none" or "unknown"
+  std::vector<std::string> effects, group;
+  std::string headline;  ///< where
+  double before = kNaN, after = kNaN, floor = kNaN, shrink = kNaN;
+  Interval shrink_ci95;
+  StepEvidence evidence;
+  std::string seal;  ///< SHA-256 of the previous answer's seal (of the first: of manifest.json), of this
+                     ///< answer as one line of JSON without its seal, and a newline after each
+};
+
+struct BlindAnswers {
+  std::string name;
+  std::string version;
+  std::string manifest_sha256;
+  std::vector<BlindAnswer> cases;  ///< in the order of the manifest
+  const std::string& seal() const { return cases.empty() ? manifest_sha256 : cases.back().seal; }
 };
 
 /// SHA-256 of salt, name, part, effects (joined by '+'), rig, severity, cycles per turn (both in the shortest

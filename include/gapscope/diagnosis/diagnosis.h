@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/diagnosis/evidence.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit.h"
 
@@ -119,6 +120,7 @@ struct Diagnosis {
   std::vector<MismatchTrace> traces;
   ReferenceModel fitted;  ///< the model as fitted, accepted effects included
   double observer_hz = kNaN;
+  StepEvidence evidence;  ///< of the first step; not stored in diagnosis.json
 
   std::string brief_report() const;  ///< one line: log, command line
 };

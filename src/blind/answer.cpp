@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "blind/answer_journal.h"
+#include "blind/sha256.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/parallel.h"
+#include "gapscope/base/version.h"
+#include "gapscope/blind/blind_check.h"
+#include "gapscope/campaign/pipeline.h"
+#include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/results/blind_files.h"
+
+namespace gapscope {
+namespace {
+
+std::string word_of(DiagnosisVerdict verdict) {
+  if (verdict == DiagnosisVerdict::kEffect) return "effect";
+  return verdict == DiagnosisVerdict::kNone ? "none" : "unknown";
+}
+
+std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
+  std::vector<MotorTrace> traces;
+  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
+  return traces;
+}
+
+/// On one thread: cases, not candidates, share the cores.
+Diagnosis diagnosis_of(const std::string& sheet) {
+  const Configuration c = load_configuration(sheet);
+  require_reference_model(c);
+  DiagnosisOptions options;
+  options.fit = c.fit;
+  options.rotation = c.rotation;
+  options.threads = 1;
+  Outcome ignored;
+  const auto silent = [](const std::string&) {};
+  const std::vector<Recording> train = load_recordings(c, silent, ignored);
+  const std::vector<Recording> held_out = load_held_out(c, silent, ignored);
+  return diagnose(traces_of(train), traces_of(held_out), c.model.reference_model(), options);
+}
+
+BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
+  const Diagnosis d = diagnosis_of(folder + "/" + c.name + ".yaml");
+  return {c.name,      c.files,          word_of(d.verdict), d.effects,
+          d.group,     d.where.headline, d.gap.before,       d.gap.after,
+          d.gap.floor, d.gap.shrink,     d.gap.shrink_ci95,  d.evidence,
+          ""};
+}
+
+std::string sealed_after(const std::string& previous, const BlindAnswer& answer) {
+  return blind::sha256(previous + "\n" + line_of(answer) + "\n");
+}
+
+void store(const std::string& path, const BlindAnswers& answers) {
+  write_blind_answers(path + ".whole", answers);
+  std::filesystem::rename(path + ".whole", path);
+}
+
+}  // namespace
+
+BlindAnswers answer_blind_check(const std::string& folder, const std::string& path, int threads,
+                                const BlindProgress& progress) {
+  const BlindManifest manifest = read_blind_manifest(folder + "/manifest.json");
+  verify_recordings(manifest, folder);
+  BlindAnswers answers{manifest.name, version(), blind::sha256_of_file(folder + "/manifest.json"), {}};
+  if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty())
+    std::filesystem::create_directories(parent);
+  blind::AnswerJournal journal(path + ".partial",
+                               fmt::format("manifest {}, gapscope {}", answers.manifest_sha256, version()));
+  std::vector<const SealedCase*> open;
+  for (const SealedCase& c : manifest.cases)
+    if (!journal.answers().contains(c.name)) open.push_back(&c);
+  std::atomic<std::size_t> done{manifest.cases.size() - open.size()};
+  parallel_for(open.size(), threads, [&](std::size_t i) {
+    stop_point();
+    journal.add(answer_to(folder, *open[i]));
+    if (const std::size_t count = ++done; progress) progress(count, manifest.cases.size());
+  });
+  for (const SealedCase& c : manifest.cases) {
+    BlindAnswer answer = journal.answers().at(c.name);
+    answer.seal = sealed_after(answers.seal(), answer);
+    answers.cases.push_back(std::move(answer));
+  }
+  store(path, answers);
+  journal.remove();
+  return answers;
+}
+
+void verify_answers(const BlindManifest& manifest, const BlindAnswers& answers, const std::string& file) {
+  if (answers.cases.size() != manifest.cases.size())
+    throw ConfigError(file, fmt::format("answers {} cases, expected the {} of the manifest",
+                                        answers.cases.size(), manifest.cases.size()));
+  std::string previous = answers.manifest_sha256;
+  for (std::size_t i = 0; i < manifest.cases.size(); ++i) {
+    const SealedCase& c = manifest.cases[i];
+    const BlindAnswer& a = answers.cases[i];
+    if (a.name != c.name) throw ConfigError(file, "answers " + a.name + " where " + c.name + " was expected");
+    if (a.files != c.files)
+      throw ConfigError(file, "answers " + c.name + " from other recordings than those of the manifest");
+    if (sealed_after(previous, a) != a.seal)
+      throw ConfigError(file, "has another answer to " + c.name +
+                                  " than the one that was sealed, expected one of seal " + a.seal);
+    previous = a.seal;
+  }
+}
+
+}  // namespace gapscope

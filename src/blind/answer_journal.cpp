@@ -1,0 +1,46 @@
+#include "blind/answer_journal.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/results/blind_files.h"
+
+namespace gapscope::blind {
+
+AnswerJournal::AnswerJournal(std::string path, const std::string& check) : path_(std::move(path)) {
+  read(check);
+  const std::string whole = path_ + ".whole";
+  out_.open(whole, std::ios::binary);
+  out_ << check << '\n';
+  for (const auto& [name, answer] : answers_) out_ << line_of(answer) << '\n';
+  if (!out_.flush()) throw std::runtime_error(whole + ": cannot be written");
+  std::filesystem::rename(whole, path_);
+}
+
+void AnswerJournal::read(const std::string& check) {
+  std::ifstream in(path_, std::ios::binary);
+  std::string line;
+  if (!std::getline(in, line) || in.eof()) return;
+  if (line != check)
+    throw ConfigError(path_, 1, "answers '" + line + "', expected '" + check + "'; remove it to begin anew");
+  while (std::getline(in, line) && !in.eof()) {
+    BlindAnswer answer = blind_answer_of(line, path_);
+    answers_.insert_or_assign(answer.name, answer);
+  }
+}
+
+void AnswerJournal::add(const BlindAnswer& answer) {
+  const std::string line = line_of(answer) + '\n';
+  const std::lock_guard lock(adding_);
+  out_ << line;
+  if (!out_.flush()) throw std::runtime_error(path_ + ": cannot be written");
+  answers_.insert_or_assign(answer.name, answer);
+}
+
+void AnswerJournal::remove() {
+  out_.close();
+  std::filesystem::remove(path_);
+}
+
+}  // namespace gapscope::blind

@@ -1,0 +1,72 @@
+#include "diagnosis/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/mismatch_size.h"
+
+namespace gapscope {
+namespace internal {
+namespace {
+
+ModelEvidence evidence_of(const Judged& model, const Judged& before) {
+  return {model.entry != nullptr ? model.entry->name : "",
+          model.score,
+          model.fitted.mean_square,
+          model.median_free,
+          model.median_innovation,
+          share_of_windows_better(before, model)};
+}
+
+Judged judged_by(const ModelEvidence& e) {
+  Judged j;
+  j.entry = e.effect.empty() ? nullptr : find_effect(e.effect);
+  j.fitted.mean_square = e.mean_square;
+  j.score = e.score;
+  j.median_free = e.median_free, j.median_innovation = e.median_innovation;
+  j.windows_better = e.windows_better;
+  return j;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+StepEvidence evidence_of(const Study& study, const Findings& found) {
+  StepEvidence e;
+  e.nominal = evidence_of(found.before, found.before);
+  e.alone = found.alone;
+  e.repeats_badly = study.repeats_badly();
+  for (const Judged& c : found.candidates) e.candidates.push_back(evidence_of(c, found.before));
+  for (const Judged& c : found.excluded_parents) e.excluded_parents.push_back(evidence_of(c, found.before));
+  return e;
+}
+
+}  // namespace internal
+
+double StepEvidence::before() const {
+  return std::isfinite(alone) ? alone : std::max(nominal.median_free, nominal.median_innovation);
+}
+
+StepOutcome decide_again(const StepEvidence& evidence, const std::vector<std::string>& excluded) {
+  using namespace internal;
+  const Judged before = judged_by(evidence.nominal);
+  std::vector<Judged> candidates, parents;
+  for (const ModelEvidence& e : evidence.candidates)
+    (contains(excluded, e.effect) ? parents : candidates).push_back(judged_by(e));
+  for (const ModelEvidence& e : evidence.excluded_parents) parents.push_back(judged_by(e));
+  rank(candidates, before, evidence.repeats_badly);
+  const Decision decision = decide(candidates, before, evidence.repeats_badly, parents);
+  StepOutcome out;
+  for (const Judged& c : candidates) out.ranking.push_back(c.entry->name);
+  for (const EffectEntry* entry : decision.group) out.group.push_back(entry->name);
+  out.accepted = decision.accepted;
+  out.rel = decision.rel, out.margin = decision.margin, out.gain = decision.gain;
+  out.probability = decision.probability;
+  if (!candidates.empty()) out.shrink = shrink_of(before.median_free, candidates.front().median_free);
+  return out;
+}
+
+}  // namespace gapscope

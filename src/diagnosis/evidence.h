@@ -1,0 +1,10 @@
+#pragma once
+
+#include "diagnosis/pipeline.h"
+#include "gapscope/diagnosis/evidence.h"
+
+namespace gapscope::internal {
+
+StepEvidence evidence_of(const Study& study, const Findings& found);
+
+}  // namespace gapscope::internal

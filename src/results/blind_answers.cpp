@@ -1,0 +1,87 @@
+#include "gapscope/base/errors.h"
+#include "gapscope/results/blind_files.h"
+#include "results/blind_fields.h"
+
+namespace gapscope {
+namespace internal {
+
+template <class Archive>
+void fields(Archive& archive, ModelEvidence& e) {
+  archive("effect", e.effect);
+  archive.bound("score", e.score);
+  archive("mean_square_floor2", e.mean_square);
+  archive("median_free_floor", e.median_free);
+  archive("median_innovation_floor", e.median_innovation);
+  archive("windows_better", e.windows_better);
+}
+
+template <class Archive>
+void fields(Archive& archive, StepEvidence& e) {
+  archive.single("nominal", e.nominal);
+  archive("alone_floor", e.alone);
+  archive("repeats_badly", e.repeats_badly);
+  archive.list("candidates", e.candidates);
+  archive.list("excluded_parents", e.excluded_parents);
+}
+
+template <class Archive>
+void answer_fields(Archive& archive, BlindAnswer& a) {
+  archive("name", a.name);
+  archive.list("files", a.files);
+  archive("verdict", a.verdict);
+  archive("effects", a.effects);
+  archive("group", a.group);
+  archive("headline", a.headline);
+  archive("before_rad", a.before);
+  archive("after_rad", a.after);
+  archive("floor_rad", a.floor);
+  archive("shrink", a.shrink);
+  archive("shrink_ci95", a.shrink_ci95);
+  archive.single("evidence", a.evidence);
+}
+
+template <class Archive>
+void fields(Archive& archive, BlindAnswer& a) {
+  answer_fields(archive, a);
+  archive("seal_sha256", a.seal);
+}
+
+template <class Archive>
+void fields(Archive& archive, BlindAnswers& a) {
+  archive("name", a.name);
+  archive("version", a.version);
+  archive("manifest_sha256", a.manifest_sha256);
+  archive.list("cases", a.cases);
+}
+
+namespace {
+constexpr const char* kAnswers = "gapscope.blind_answers/1";
+}  // namespace
+
+}  // namespace internal
+
+void write_blind_answers(const std::string& path, const BlindAnswers& answers) {
+  internal::write_document(path, internal::kAnswers, answers);
+}
+
+BlindAnswers read_blind_answers(const std::string& path) {
+  return internal::read_document<BlindAnswers>(path, internal::kAnswers);
+}
+
+std::string line_of(const BlindAnswer& answer) {
+  BlindAnswer copy = answer;
+  internal::JsonWriter writer;
+  internal::answer_fields(writer, copy);
+  return writer.json.dump();
+}
+
+BlindAnswer blind_answer_of(const std::string& line, const std::string& file) {
+  const internal::Json json = internal::Json::parse(line, nullptr, false);
+  if (json.is_discarded()) throw ConfigError(file, "has a line that is no JSON, expected an answer");
+  internal::JsonReader reader(json, file, "");
+  BlindAnswer answer;
+  internal::answer_fields(reader, answer);
+  return answer;
+}
+
+}  // namespace gapscope
