@@ -147,6 +147,13 @@ ReferenceModel from_parent(const ReferenceModel& extended, const Fitted& parent,
   return point;
 }
 
+/// A fitted model once more with more work, from where it stands.
+Fitted refined(std::span<const MotorTrace> train, const Fitted& from, const FitOptions& options, double hz) {
+  const FitProblem problem = make_problem(train, from.model, options);
+  const Solution point{point_of(problem, from.model), from.starts, kInfinity, false};
+  return fitted_of(from.model, problem, refine(problem, point, hz, kRetry));
+}
+
 }  // namespace
 
 Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
@@ -220,29 +227,28 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
   return fitted_of(extended, problem, best_of(problem, std::move(raced), hz, nominal.mean_square));
 }
 
+Fitted led_by_faster_observer(std::span<const MotorTrace> train, const Fitted& candidate,
+                              const FitOptions& options, double hz) {
+  const Fitted led = refined(train, candidate, options, kFastHz);
+  return led.mean_square < kInfinity ? refined(train, led, options, hz) : led;
+}
+
 Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& other,
-             const FitOptions& options, double hz) {
-  const FitProblem problem = make_problem(train, candidate.model, options);
+             const ReferenceModel& sheet, const FitOptions& options, double hz) {
   const EffectEntry* mine = candidate.model.effects.back().entry;
   const EffectEntry* others = other.effects.back().entry;
-  Solution best{{}, candidate.starts, candidate.mean_square, false};
   ReferenceModel moved = with_drive(candidate.model, other);
   if (nested_parent(*others) == mine || nested_parent(*mine) == others)
     moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
-  const auto attempt = [&](const Solution& from) {
-    const Solution found = refine(problem, from, hz, kRetry);
-    if (found.mean_square < kFurther * best.mean_square) best = found;
+  Fitted best = candidate;
+  const auto take = [&](Fitted found) {
+    if (found.mean_square < kFurther * best.mean_square) best = std::move(found);
   };
-  const auto point = [&](const ReferenceModel& values) {
-    return Solution{point_of(problem, values), candidate.starts, kInfinity, false};
-  };
-  attempt(point(candidate.model));
-  if (!(best.mean_square < kFloorSquare)) attempt(point(moved));
-  // A faster observer forgets sooner what came before: there are fewer minima to end in.
+  for (const ReferenceModel& values : {candidate.model, moved, with_drive(candidate.model, sheet)})
+    take(refined(train, {values, candidate.starts, kInfinity}, options, hz));
   if (!(best.mean_square < kFloorSquare) && hz < kFastHz)
-    if (const Solution led = refine(problem, point(candidate.model), kFastHz, kRetry); led.usable())
-      attempt(led);
-  return best.q.empty() ? candidate : fitted_of(candidate.model, problem, best);
+    take(led_by_faster_observer(train, candidate, options, hz));
+  return best;
 }
 
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {

@@ -46,10 +46,17 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
                      const EffectEntry& entry, std::span<const EffectStart> starts, const Fitted* parent,
                      const FitOptions& options, double observer_hz);
 
-/// A fitted candidate once more with more work, from where it stands and from the numbers of another one's
-/// drive; where that one contains it, also from its size of the effect.
+/// A fitted candidate once more, from where a faster observer's fit leads: that forgets sooner what came
+/// before, and there are fewer minima to end in.
+Fitted led_by_faster_observer(std::span<const MotorTrace> train, const Fitted& candidate,
+                              const FitOptions& options, double observer_hz);
+
+/// A fitted candidate once more with more work, from where it stands and with its effect on the numbers of
+/// another one's drive and of the sheet's, from which numbers that the recordings hardly determine have
+/// drifted; where one of the two effects contains the other's, also from its size. Where none of that comes
+/// to the floor, also led by a faster observer.
 Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& other,
-             const FitOptions& options, double observer_hz);
+             const ReferenceModel& sheet, const FitOptions& options, double observer_hz);
 
 /// Whether the effect can be added to this model at all: contact effects need a contact, backlash a drive
 /// without, and what the fit estimates anyway cannot be missing.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <set>
 
 #include "diagnosis/harmonics.h"
 #include "diagnosis/pipeline.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::size_t kSecondRound = 4;
 constexpr double kWorthComparing = 0.3;  ///< S that a candidate gains
+constexpr double kExplainsMuch = 0.5;    ///< share of the log distance to the floor
 constexpr std::size_t kLines = 3;        ///< of the residual torque that periodic effects begin with
 
 /// Starts of every candidate; those of periodic effects from the residual torque of the model so far.
@@ -51,23 +53,43 @@ Fitted with_quantum(Fitted nominal, const EffectEntry& entry, double quantum) {
   return nominal;
 }
 
-/// The best few that are not at the floor try again, also from the numbers of the very best; so do, wherever
-/// they came, the simpler effect that the best contains and those that contain the best.
-void second_round(const Study& study, std::vector<Judged>& ranked) {
-  if (ranked.empty() || !std::isfinite(ranked.front().score)) return;
-  const FittedModel first = ranked.front().fitted.model;
-  const EffectEntry* parent = nested_parent(*ranked.front().entry);
-  std::vector<std::size_t> again;
-  for (std::size_t i = 0; i < ranked.size(); ++i)
-    if (!at_floor(ranked[i]) && (i < kSecondRound || ranked[i].entry == parent ||
-                                 nested_parent(*ranked[i].entry) == ranked.front().entry))
-      again.push_back(i);
-  parallel_for(again.size(), study.options.threads, [&](std::size_t k) {
-    Judged& candidate = ranked[again[k]];
-    if (!std::isfinite(candidate.score)) return;
-    Fitted fitted = retry(study.train, candidate.fitted, first, study.options.fit, study.observer_hz);
+/// Candidates that are not at the floor are fitted once more.
+template <class Fit>
+void once_more(const Study& study, const Judged& before, const std::vector<std::size_t>& places,
+               std::vector<Judged>& ranked, const Fit& fit) {
+  parallel_for(places.size(), study.options.threads, [&](std::size_t k) {
+    Judged& candidate = ranked[places[k]];
+    if (!std::isfinite(candidate.score) || at_floor(candidate)) return;
+    Fitted fitted = fit(candidate.fitted);
     if (fitted.mean_square < candidate.fitted.mean_square)
       candidate = judge(candidate.entry, std::move(fitted), study.held_out, study.observer_hz);
+  });
+  rank(ranked, before, study.repeats_badly());
+}
+
+/// First the best few, also from the numbers of the very best; so do, wherever they came, the simpler effect
+/// that the best contains and those that contain the best. Where none of these explains much, all others.
+void further_rounds(const Study& study, const Judged& before, std::vector<Judged>& ranked) {
+  if (ranked.empty() || !std::isfinite(ranked.front().score)) return;
+  const FittedModel first = ranked.front().fitted.model;
+  const EffectEntry* best = ranked.front().entry;
+  std::vector<std::size_t> few, rest;
+  std::set<const EffectEntry*> tried;
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    const EffectEntry* entry = ranked[i].entry;
+    if (i >= kSecondRound && entry != nested_parent(*best) && nested_parent(*entry) != best) continue;
+    few.push_back(i);
+    tried.insert(entry);
+  }
+  const FitOptions& options = study.options.fit;
+  once_more(study, before, few, ranked, [&](const Fitted& candidate) {
+    return retry(study.train, candidate, first, study.sheet, options, study.observer_hz);
+  });
+  if (relative_gain(before, ranked.front()) > kExplainsMuch || study.repeats_badly()) return;
+  for (std::size_t i = 0; i < ranked.size(); ++i)
+    if (!tried.contains(ranked[i].entry)) rest.push_back(i);
+  once_more(study, before, rest, ranked, [&](const Fitted& candidate) {
+    return led_by_faster_observer(study.train, candidate, options, study.observer_hz);
   });
 }
 
@@ -135,8 +157,7 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
   const std::vector<Judged> best(judged.begin(), judged.begin() + std::min<std::size_t>(2, judged.size()));
   for (const Judged& b : best) fit_look_alikes(study, before, b, entries, starts, judged);
   rank(judged, before, study.repeats_badly());
-  second_round(study, judged);
-  rank(judged, before, study.repeats_badly());
+  further_rounds(study, before, judged);
   return judged;
 }
 
