@@ -5,13 +5,17 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/blind/blind_check.h"
+#include "gapscope/report/blind_report.h"
+#include "gapscope/results/blind_score.h"
+#include "gapscope/results/report_folder.h"
 
 namespace gapscope::cli {
 namespace {
 
 struct Arguments {
-  std::string config, cases, labels, answers;
+  std::string config, cases, labels, answers, folder, seal;
   int threads = 0;
   bool quiet = false;
 };
@@ -113,16 +117,75 @@ void add_answer(CLI::App& blind) {
   command->callback([a] { answer(*a); });
 }
 
+void report(const std::string& folder, const BlindScore& score) {
+  ReportFolder report(folder);
+  write_blind_score(report.path(), score);
+  write_blind_report(report.path());
+  stop_point();
+  report.commit();
+  say("report", folder + "/report.md");
+  for (const BlindCount& c : score.counts)
+    fmt::print("{:<56}{:4} of {:4} = {:5.1f} %  [{:.1f}, {:.1f}]\n", c.name, c.count, c.of, 100.0 * c.share(),
+               100.0 * c.limits().low, 100.0 * c.limits().high);
+}
+
+void add_score(CLI::App& blind) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = blind.add_subcommand("score", "Opens the labels and scores the answers");
+  command->add_option("CASES", a->cases, "folder with a manifest.json")->required();
+  command->add_option("LABELS", a->labels, "file of the labels")->required();
+  command->add_option("ANSWERS", a->answers, "file of the answers")->required();
+  command->add_option("-o,--output", a->folder, "folder of the report (default: reports/<name>)")
+      ->type_name("DIR");
+  command->add_option("--seal", a->seal, "that the answers were announced with")->type_name("SHA256");
+  command->footer(
+      "Refuses a recording, a label or an answer that is not the one that was sealed. Writes "
+      "DIR/blind.json,\n"
+      "report.md and figures (PNG). Sizes of mismatch are in floors.\n\n"
+      "Example: gapscope blind score cases labels.json answers.json -o reports/check");
+  command->callback([a] {
+    const BlindScore score = score_blind_check(a->cases, a->labels, a->answers, a->seal);
+    const std::string folder = a->folder.empty() ? "reports/" + score.name : a->folder;
+    require_folder_name(folder);
+    report(folder, score);
+  });
+}
+
+void add_whole(CLI::App& blind) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = blind.add_subcommand("run", "Makes, answers and scores a check in one folder");
+  command->add_option("CONFIG", a->config, "of the check (YAML), see `gapscope blind make --help`")
+      ->required();
+  command->add_option("-o,--output", a->folder, "folder (default: reports/<name>)")->type_name("DIR");
+  add_work_options(command, *a);
+  command->footer(
+      "Writes DIR/cases, labels.json, answers.json, blind.json, report.md and figures (PNG). Stopped or "
+      "killed, "
+      "the same\n"
+      "command goes on.\n\n"
+      "Example: gapscope blind run configs/07_blind.yaml -o reports/blind");
+  command->callback([a] {
+    const BlindConfig config = load_blind_config(a->config);
+    const std::string folder = a->folder.empty() ? "reports/" + config.name : a->folder;
+    require_folder_name(folder);
+    const Progress progress = progress_on_terminal(a->quiet);
+    report(folder, run_blind_check(config, folder, a->threads, counted(progress, "made case"),
+                                   counted(progress, "answered case")));
+  });
+}
+
 }  // namespace
 
 void add_blind(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("blind", "The blind check of the diagnosis, and recordings of random drives");
   command->require_subcommand(1);
-  command->footer("Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
+  command->footer("Example: gapscope blind run configs/07_blind.yaml -o reports/blind");
   add_make(*command);
   add_seal(*command);
   add_answer(*command);
+  add_score(*command);
+  add_whole(*command);
   add_blind_drives(*command);
 }
 

@@ -9,7 +9,9 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/report/blind_report.h"
 #include "gapscope/report/campaign_report.h"
+#include "gapscope/results/blind_score.h"
 #include "gapscope/results/campaign_summary.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/report_folder.h"
@@ -29,19 +31,23 @@ void read_what_is_stored(const std::string& folder) {
 /// Draws aside, so that the old report stands until the new one is complete.
 void redraw(const std::string& folder) {
   namespace fs = std::filesystem;
-  const bool campaign = has_campaign_summary(folder);
+  const bool campaign = has_campaign_summary(folder), blind = has_blind_score(folder);
   // Read here, so that what is wrong is told with its place in the folder that the user knows.
   if (campaign)
     read_campaign_summary(folder);
+  else if (blind)
+    read_blind_score(folder);
   else
     read_what_is_stored(folder);
   ReportFolder fresh(folder);
-  for (const char* stored : {"campaign.json", "result.json", "diagnosis.json", "fitted.yaml", "resolved.yaml",
-                             "timing.json", "traces"})
+  for (const char* stored : {"campaign.json", "blind.json", "result.json", "diagnosis.json", "fitted.yaml",
+                             "resolved.yaml", "timing.json", "traces"})
     if (fs::exists(fs::path(folder) / stored))
       fs::copy(fs::path(folder) / stored, fs::path(fresh.path()) / stored, fs::copy_options::recursive);
   if (campaign)
     write_campaign_report(fresh.path());
+  else if (blind)
+    write_blind_report(fresh.path());
   else
     write_report(fresh.path());
   fresh.commit();

@@ -13,7 +13,7 @@
 #include <set>
 
 #include "blind/blind_pair.h"
-#include "diagnosis/expected_place.h"
+#include "blind/expected_place.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/pair_study.h"
 #include "diagnosis/pipeline.h"
@@ -114,7 +114,7 @@ std::string places(const Study& study, const Findings& f, const blind::BlindPair
   const MismatchPlace place =
       place_of(played, study.held_out, fitted.parameters[place::kTorqueConstant].value, true,
                told ? &fitted.effects.back() : nullptr);
-  return test::names_the_place(place.headline, pair) ? "yes" : "no";
+  return blind::names_the_place(place.headline, pair.effect, pair.cycles_per_turn) ? "yes" : "no";
 }
 
 void note_answer(StudyRow& row, const Study& study, const Findings& f, const blind::BlindPair& pair) {

@@ -85,6 +85,19 @@ TEST(Diagnosis, BlamesNoNeighbourWhenTheEffectAndItsLookAlikesAreNoCandidates) {
   for (const RankedEffect& e : d.ranking) EXPECT_FALSE(contains(options.excluded, e.effect)) << e.effect;
 }
 
+TEST(Diagnosis, DecidesAgainFromItsEvidenceAlone) {
+  const Diagnosis& d = of_motor_friction();
+  const StepOutcome again = decide_again(d.evidence);
+  ASSERT_EQ(again.ranking.size(), d.ranking.size());
+  for (std::size_t i = 0; i < d.ranking.size(); ++i) EXPECT_EQ(again.ranking[i], d.ranking[i].effect);
+  EXPECT_TRUE(again.accepted);
+  EXPECT_EQ(again.group, d.group);
+  EXPECT_DOUBLE_EQ(again.rel, d.ranking.front().rel);
+  const StepOutcome without = decide_again(d.evidence, {d.effects.front()});
+  EXPECT_NE(without.ranking.front(), d.effects.front());
+  EXPECT_LT(without.gain, again.gain);
+}
+
 TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
   const blind::BlindPair pair = blind::blind_pair("geared", "actuator_lag", 0.6, 500004);
   DiagnosisOptions one, three;

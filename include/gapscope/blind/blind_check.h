@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gapscope/blind/records.h"
+#include "gapscope/blind/score.h"
 #include "gapscope/config/blind_config.h"
 
 /// The blind check of the diagnosis, in steps that can run on different machines: recordings are made and
@@ -47,5 +48,16 @@ void verify_recordings(const BlindManifest& manifest, const std::string& folder)
 
 /// @throws ConfigError naming the first case whose label is missing, added, or not the one that was sealed.
 void verify_labels(const BlindManifest& manifest, const BlindLabels& labels, const std::string& file);
+
+/// Verifies recordings, labels and answers against folder/manifest.json, then scores.
+/// @param seal  that the answers were announced with; "" where it was not
+/// @throws ConfigError with the first thing that is not what was sealed.
+BlindScore score_blind_check(const std::string& folder, const std::string& labels, const std::string& answers,
+                             const std::string& seal = "");
+
+/// Makes, answers and scores in one folder: cases/, labels.json, answers.json. Killed, the same call goes on;
+/// what is whole and belongs to the configuration is not done again.
+BlindScore run_blind_check(const BlindConfig& config, const std::string& folder, int threads,
+                           const BlindProgress& made = {}, const BlindProgress& answered = {});
 
 }  // namespace gapscope

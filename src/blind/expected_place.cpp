@@ -1,11 +1,11 @@
-#include "diagnosis/expected_place.h"
+#include "blind/expected_place.h"
 
 #include <cmath>
 #include <map>
 #include <regex>
 #include <vector>
 
-namespace gapscope::test {
+namespace gapscope::blind {
 namespace {
 
 constexpr double kCyclesWithin = 0.05;
@@ -36,8 +36,8 @@ const std::map<std::string, std::vector<std::string>>& expected_words() {
 
 }  // namespace
 
-bool names_the_place(const std::string& headline, const blind::BlindPair& pair) {
-  const auto words = expected_words().find(pair.effect);
+bool names_the_place(const std::string& headline, const std::string& effect, double cycles_per_turn) {
+  const auto words = expected_words().find(effect);
   if (words != expected_words().end()) {
     for (const std::string& phrase : words->second)
       if (headline.find(phrase) != std::string::npos) return true;
@@ -46,7 +46,7 @@ bool names_the_place(const std::string& headline, const blind::BlindPair& pair) 
   std::smatch found;
   static const std::regex cycles("motor angle with ([0-9.e+]+) cycles? per turn");
   if (!std::regex_search(headline, found, cycles)) return false;
-  return std::abs(std::stod(found[1]) / pair.cycles_per_turn - 1.0) < kCyclesWithin;
+  return std::abs(std::stod(found[1]) / cycles_per_turn - 1.0) < kCyclesWithin;
 }
 
-}  // namespace gapscope::test
+}  // namespace gapscope::blind

@@ -2,11 +2,9 @@
 
 #include <string>
 
-#include "blind/blind_pair.h"
+namespace gapscope::blind {
 
-namespace gapscope::test {
-
-/// Whether a headline names the place where the case's effect acts. The rule, which was written before any
+/// Whether a headline names the place where an effect acts. The rule, which was written before any
 /// headline was scored by it:
 ///   friction of the motor                 follows the direction of motion
 ///   quadratic_drag                        along the speed
@@ -20,6 +18,7 @@ namespace gapscope::test {
 ///   shaft_compliance, impact_damping      in engagement or at impacts
 ///   contact_adhesion                      in engagement or in the gap, between which it acts
 ///   encoder_quantization                  within the count of the encoder
-bool names_the_place(const std::string& headline, const blind::BlindPair& pair);
+/// @param cycles_per_turn  of an effect that repeats with the motor angle
+bool names_the_place(const std::string& headline, const std::string& effect, double cycles_per_turn);
 
-}  // namespace gapscope::test
+}  // namespace gapscope::blind

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "blind/case_plan.h"
+#include "blind/sha256.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/version.h"
+#include "gapscope/blind/blind_check.h"
+#include "gapscope/results/blind_files.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the recordings and labels are there, whole, and those of the configuration.
+bool is_made(const BlindConfig& config, const std::string& cases, const std::string& labels) {
+  if (!fs::exists(cases + "/manifest.json") || !fs::exists(labels)) return false;
+  try {
+    const BlindManifest manifest = read_blind_manifest(cases + "/manifest.json");
+    const BlindLabels stored = read_blind_labels(labels);
+    verify_recordings(manifest, cases);
+    verify_labels(manifest, stored, labels);
+    const std::vector<blind::PlannedCase> plan = blind::plan_cases(config);
+    return manifest.name == config.name && manifest.version == version() &&
+           std::equal(plan.begin(), plan.end(), stored.cases.begin(), stored.cases.end(),
+                      [](const blind::PlannedCase& p, const BlindLabel& l) {
+                        return p.label.name == l.name && p.label.part == l.part &&
+                               p.label.effects == l.effects && p.label.rig == l.rig &&
+                               p.label.severity == l.severity && p.label.seed == l.seed;
+                      });
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
+bool is_answered(const std::string& cases, const std::string& answers) {
+  if (!fs::exists(answers)) return false;
+  const BlindAnswers stored = read_blind_answers(answers);
+  return stored.version == version() &&
+         stored.manifest_sha256 == blind::sha256_of_file(cases + "/manifest.json");
+}
+
+}  // namespace
+
+BlindScore score_blind_check(const std::string& folder, const std::string& labels, const std::string& answers,
+                             const std::string& seal) {
+  const std::string public_file = folder + "/manifest.json";
+  const BlindManifest manifest = read_blind_manifest(public_file);
+  verify_recordings(manifest, folder);
+  const BlindLabels opened = read_blind_labels(labels);
+  verify_labels(manifest, opened, labels);
+  const BlindAnswers given = read_blind_answers(answers);
+  if (given.manifest_sha256 != blind::sha256_of_file(public_file))
+    throw ConfigError(answers, "answers another manifest, expected that of " + public_file);
+  verify_answers(manifest, given, answers);
+  if (!seal.empty() && given.seal() != seal)
+    throw ConfigError(answers, "has the seal " + given.seal() + ", expected the one announced, " + seal);
+  return score_blind_answers(opened, given);
+}
+
+BlindScore run_blind_check(const BlindConfig& config, const std::string& folder, int threads,
+                           const BlindProgress& made, const BlindProgress& answered) {
+  const std::string cases = folder + "/cases", labels = folder + "/labels.json",
+                    answers = folder + "/answers.json";
+  if (!is_made(config, cases, labels)) make_blind_check(config, cases, labels, threads, made);
+  if (!is_answered(cases, answers)) answer_blind_check(cases, answers, threads, answered);
+  return score_blind_check(cases, labels, answers);
+}
+
+}  // namespace gapscope

@@ -1,0 +1,146 @@
+#include "gapscope/blind/score.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "blind/scored.h"
+#include "gapscope/plant/effect.h"
+
+namespace gapscope {
+namespace blind {
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+bool Scored::outside() const {
+  return label->effects.size() == 1 && find_effect(label->effects.front()) == nullptr;
+}
+
+bool Scored::in_group() const {
+  return std::any_of(label->effects.begin(), label->effects.end(),
+                     [&](const std::string& truth) { return contains(first.group, truth); });
+}
+
+bool Scored::holds(const std::string& effect) const {
+  return contains(answer->effects, effect) || contains(answer->group, effect);
+}
+
+std::size_t Scored::found() const {
+  const auto& truths = label->effects;
+  return static_cast<std::size_t>(
+      std::count_if(truths.begin(), truths.end(), [&](const std::string& t) { return holds(t); }));
+}
+
+bool Scored::right() const {
+  if (none()) return answer->verdict == "none";
+  if (outside()) return answer->verdict == "unknown";
+  return blamed() && found() == label->effects.size() && answer->effects.size() == found();
+}
+
+std::size_t Scored::place() const {
+  const auto at = std::find(first.ranking.begin(), first.ranking.end(), label->effects.front());
+  return static_cast<std::size_t>(at - first.ranking.begin());
+}
+
+std::vector<Scored> scored(const BlindLabels& labels, const BlindAnswers& answers) {
+  std::map<std::string, const BlindLabel*> by_name;
+  for (const BlindLabel& l : labels.cases) by_name[l.name] = &l;
+  std::vector<Scored> cases;
+  for (const BlindAnswer& a : answers.cases)
+    cases.push_back({by_name.at(a.name), &a, decide_again(a.evidence)});
+  return cases;
+}
+
+std::vector<std::string> truth_of(const Scored& c, bool and_look_alikes) {
+  std::vector<std::string> names = {c.label->effects.front()};
+  if (const auto* truth = find_effect(names.front()); truth != nullptr && and_look_alikes)
+    for (const char* alike : truth->look_alikes) names.emplace_back(alike);
+  return names;
+}
+
+namespace {
+
+std::string truth_name(const Scored& s) {
+  return s.none() ? "none" : s.outside() ? "outside" : s.label->effects.front();
+}
+
+std::string answer_name(const Scored& s) {
+  if (!s.blamed()) return s.answer->verdict;
+  return s.known() && s.named() ? s.label->effects.front() : s.answer->effects.front();
+}
+
+std::vector<ConfusionCell> confusion_of(const std::vector<Scored>& cases) {
+  std::vector<std::string> words;
+  for (const gapscope::EffectEntry* entry : effect_table()) words.emplace_back(entry->name);
+  words.insert(words.end(), {"outside", "unknown", "none"});
+  std::vector<ConfusionCell> cells;
+  for (const std::string& truth : words)
+    for (const std::string& answer : words) {
+      const auto count = std::count_if(cases.begin(), cases.end(), [&](const Scored& s) {
+        return s.reported() && !s.pair() && truth_name(s) == truth && answer_name(s) == answer;
+      });
+      if (count > 0) cells.push_back({truth, answer, static_cast<int>(count)});
+    }
+  return cells;
+}
+
+bool has_another_law(const std::string& effect) {
+  return contains({"presliding_friction", "viscous_drift", "load_inertia_variation", "encoder_eccentricity",
+                   "gap_eccentricity"},
+                  effect);
+}
+
+void fill_shrinks(const std::vector<Scored>& cases, BlindScore& score) {
+  std::vector<double> groups, shrinks, others;
+  for (const Scored& s : cases) {
+    if (!s.reported() || !s.known() || !s.seen() || !s.named()) continue;
+    groups.push_back(static_cast<double>(s.answer->group.size()));
+    if (s.answer->evidence.before() < 3.0 || !std::isfinite(s.answer->shrink)) continue;
+    shrinks.push_back(s.answer->shrink);
+    if (has_another_law(s.label->effects.front())) others.push_back(s.answer->shrink);
+  }
+  if (!groups.empty()) score.group_median = median(groups), score.group_mean = mean(groups);
+  if (!shrinks.empty()) score.shrink_median = median(shrinks), score.shrink_tenth = quantile(shrinks, 0.1);
+  if (!others.empty()) score.shrink_other_law = median(others);
+}
+
+ScoredCase for_the_reader(const Scored& s, const BlindCalibration& calibration) {
+  const std::string truth = s.none() ? "none" : fmt::format("{}", fmt::join(s.label->effects, "+"));
+  return {s.label->name,     s.label->part,
+          s.label->rig,      truth,
+          s.answer->verdict, fmt::format("{}", fmt::join(s.answer->effects, "+")),
+          s.label->severity, s.answer->evidence.before(),
+          s.answer->shrink,  s.first.ranking.empty() ? kNaN : probability_of(s.first, calibration),
+          s.right()};
+}
+
+}  // namespace
+}  // namespace blind
+
+BlindScore score_blind_answers(const BlindLabels& labels, const BlindAnswers& answers) {
+  using namespace blind;
+  const std::vector<Scored> cases = scored(labels, answers);
+  BlindScore score;
+  score.name = answers.name, score.version = answers.version;
+  score.manifest_sha256 = answers.manifest_sha256, score.answers_seal = answers.seal();
+  for (const Scored& s : cases) ++(s.reported() ? score.report_cases : score.calibration_cases);
+  score.counts = count_answers(cases);
+  fill_shrinks(cases, score);
+  score.confusion = confusion_of(cases);
+  score.slices = slice_answers(cases);
+  const std::vector<Judgement> judged = judgements(cases, "report");
+  score.calibration = calibrate(judgements(cases, "calibration"), judged);
+  score.abstention = abstention_of(judged, score.calibration);
+  for (const Scored& s : cases) score.cases.push_back(for_the_reader(s, score.calibration));
+  return score;
+}
+
+}  // namespace gapscope

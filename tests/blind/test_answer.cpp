@@ -1,0 +1,177 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/blind/blind_check.h"
+#include "gapscope/results/blind_files.h"
+#include "support/temporary_file.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+template <class Action>
+std::string refusal(Action action) {
+  try {
+    action();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A check of three cases, made, answered on two threads and copied for each test.
+class Answered {
+ public:
+  Answered() { fs::copy(original(), place_.folder(), fs::copy_options::recursive); }
+  std::string path(const char* name) const { return (place_.folder() / name).string(); }
+  std::string score() const {
+    return refusal([&] { score_blind_check(path("cases"), path("labels.json"), path("answers.json")); });
+  }
+  BlindAnswers answers() const { return read_blind_answers(path("answers.json")); }
+
+ private:
+  static fs::path original() {
+    static const testing::TemporaryFile place("");
+    static const bool once = [] {
+      fs::remove(place.path());
+      BlindConfig c;
+      c.name = "small";
+      c.report = {9000001, 0, 0, 3, 0};  // quickly answered
+      c.rigs = {"geared"};
+      c.duration = 3.0;
+      run_blind_check(c, place.folder().string(), 2);
+      return true;
+    }();
+    return once ? place.folder() : fs::path();
+  }
+  testing::TemporaryFile place_{""};
+};
+
+TEST(BlindAnswer, IsTheSameOnOneThreadAndAfterAKill) {
+  const Answered check;
+  const std::string journal = check.path("again.json") + ".partial";
+  const BlindAnswers whole = check.answers();
+  {  // one answer is there, of a second the kill left half a line
+    std::ofstream out(journal, std::ios::binary);
+    out << "manifest " << whole.manifest_sha256 << ", gapscope " << whole.version << "\n"
+        << line_of(whole.cases[1]) << "\n"
+        << line_of(whole.cases[0]).substr(0, 100);
+  }
+  std::size_t first = 0;
+  answer_blind_check(check.path("cases"), check.path("again.json"), 1, [&](std::size_t done, std::size_t) {
+    if (first == 0) first = done;
+  });
+  EXPECT_EQ(first, 2u);
+  EXPECT_EQ(text_of(check.path("again.json")), text_of(check.path("answers.json")));
+  EXPECT_FALSE(fs::exists(journal));
+}
+
+TEST(BlindAnswer, GoesOnWithNoAnswersToAnotherCheck) {
+  const Answered check;
+  std::ofstream(check.path("again.json.partial")) << "manifest 0123, gapscope 1.0\n";
+  EXPECT_THAT(refusal([&] { answer_blind_check(check.path("cases"), check.path("again.json"), 1); }),
+              HasSubstr("again.json.partial:1: "));
+}
+
+TEST(BlindAnswer, RefusesASwappedRecording) {
+  const Answered check;
+  fs::copy(check.path("cases/case_001_train.csv"), check.path("cases/case_002_train.csv"),
+           fs::copy_options::overwrite_existing);
+  EXPECT_THAT(refusal([&] { answer_blind_check(check.path("cases"), check.path("again.json"), 1); }),
+              HasSubstr("case_002_train.csv: is not the file of case_002 that was sealed"));
+  EXPECT_THAT(check.score(), HasSubstr("is not the file of case_002 that was sealed"));
+}
+
+TEST(BlindCheck, ScoresWhatNobodyChanged) { EXPECT_EQ(Answered().score(), ""); }
+
+TEST(BlindCheck, RefusesAChangedAnswer) {
+  const Answered check;
+  const auto changes = std::vector<void (*)(BlindAnswer&)>{
+      [](BlindAnswer& a) { a.verdict = "unknown"; }, [](BlindAnswer& a) { a.effects = {"gap_growth"}; },
+      [](BlindAnswer& a) { a.shrink = 0.5; }, [](BlindAnswer& a) { a.evidence.nominal.score += 1e-9; },
+      [](BlindAnswer& a) { a.seal[0] = a.seal[0] == '0' ? '1' : '0'; }};
+  for (const auto change : changes) {
+    BlindAnswers changed = check.answers();
+    change(changed.cases[1]);
+    write_blind_answers(check.path("changed.json"), changed);
+    EXPECT_THAT(refusal([&] {
+                  score_blind_check(check.path("cases"), check.path("labels.json"),
+                                    check.path("changed.json"));
+                }),
+                HasSubstr("changed.json: has another answer to case_002 than the one that was sealed"));
+  }
+}
+
+TEST(BlindCheck, RefusesAnswersThatWereGivenToOtherRecordingsOrLeftOut) {
+  const Answered check;
+  const BlindManifest manifest = read_blind_manifest(check.path("cases/manifest.json"));
+  BlindAnswers swapped = check.answers();
+  std::swap(swapped.cases[0].files, swapped.cases[1].files);
+  EXPECT_THAT(refusal([&] { verify_answers(manifest, swapped, "a.json"); }), HasSubstr("other recordings"));
+  BlindAnswers fewer = check.answers();
+  fewer.cases.pop_back();
+  EXPECT_THAT(refusal([&] { verify_answers(manifest, fewer, "a.json"); }), HasSubstr("answers 2 cases"));
+}
+
+TEST(BlindCheck, RefusesAnswersWithAnotherSealThanTheAnnouncedOne) {
+  const Answered check;
+  const auto score = [&](const std::string& seal) {
+    return refusal([&] {
+      score_blind_check(check.path("cases"), check.path("labels.json"), check.path("answers.json"), seal);
+    });
+  };
+  EXPECT_EQ(score(check.answers().seal()), "");
+  EXPECT_THAT(score(std::string(64, '0')), HasSubstr("expected the one announced"));
+}
+
+TEST(BlindCheck, RefusesAChangedLabel) {
+  const Answered check;
+  BlindLabels labels = read_blind_labels(check.path("labels.json"));
+  labels.cases[0].effects = {"gap_growth"};
+  write_blind_labels(check.path("labels.json"), labels);
+  EXPECT_THAT(check.score(), HasSubstr("has another label of case_001 than the one that was sealed"));
+}
+
+/// GAPSCOPE_BLIND_CASES sets the number of cases, 8 if it is not set.
+int cases_wanted() {
+  const char* given = std::getenv("GAPSCOPE_BLIND_CASES");
+  return given != nullptr ? std::max(4, std::atoi(given)) : 8;
+}
+
+TEST(BlindCheck, OfSmallRecordingsNamesMostEffectsAndBlamesNothingWhereNothingIs) {
+  const testing::TemporaryFile place("");
+  BlindConfig c;
+  c.name = "small";
+  const int quarter = cases_wanted() / 4;
+  c.report = {9010001, cases_wanted() - 2 * quarter, quarter, quarter, 0};
+  c.rigs = {"paper", "geared"};
+  c.duration = 3.0;
+  const BlindScore score = run_blind_check(c, place.folder().string(), 0);
+  EXPECT_EQ(score.report_cases, cases_wanted());
+  for (const BlindCount& count : score.counts) {
+    if (count.name == "one effect: named") {
+      EXPECT_GE(count.share(), 0.6);
+    }
+    if (count.name == "no effect: one blamed") {
+      EXPECT_LE(count.share(), 0.1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gapscope
