@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "blind/blind_pair.h"
-#include "diagnosis/candidates.h"
+#include "diagnosis/pipeline.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/recording/recording.h"
 
 namespace gapscope {
 namespace {
@@ -44,6 +45,13 @@ TEST(Diagnosis, SeesACoarserEncoderThanTheSheetSays) {
   ASSERT_EQ(d.effects, std::vector<std::string>{"encoder_quantization"}) << d.sentence;
   EXPECT_NEAR(d.ranking.front().parameters.front().value, 8.0 * pair.train.quantum,
               1e-3 * pair.train.quantum);
+}
+
+TEST(Diagnosis, TakesASteadySpeedForNoCoarserEncoder) {
+  const blind::BlindPair pair = blind::blind_pair("paper", "shaft_compliance", 0.336, 420016);
+  const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
+  ASSERT_GT(seen_quantum(held_out[0].x1), 1.5 * held_out[0].quantum);  // its steps alone look like counts
+  EXPECT_EQ(internal::make_study(train, held_out, pair.sheet, {}).seen_quantum, 0.0);
 }
 
 const Diagnosis& of_motor_friction() {
