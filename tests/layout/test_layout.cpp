@@ -1,8 +1,10 @@
 // The module order and the place of each third-party library, held as facts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -108,6 +110,37 @@ TEST(Layout, ModulesIncludeOnlyWhatTheOrderAllows) {
     if (used.empty() || used == i.module) continue;
     EXPECT_TRUE(allowed_modules().at(i.module).contains(used)) << i.file << " includes " << i.header;
   }
+}
+
+/// All modules whose headers the sources of a module see, directly or through others.
+Names seen_by(const std::string& module) {
+  std::multimap<std::string, std::string> by_file;  // file, as it is included, and what it includes
+  std::vector<std::string> open;
+  for (const Include& i : includes()) {
+    if (own_module(i.header).empty()) continue;
+    std::string name = i.file.string();
+    name = name.substr(name.find('/') + 1);  // without "include/" or "src/"
+    by_file.emplace(name, i.header);
+    if (i.module == module) open.push_back(i.header);
+  }
+  Names files, modules;
+  while (!open.empty()) {
+    const std::string header = open.back();
+    open.pop_back();
+    if (!files.insert(header).second) continue;
+    modules.insert(own_module(header));
+    for (auto [at, end] = by_file.equal_range(header); at != end; ++at) open.push_back(at->second);
+  }
+  return modules;
+}
+
+TEST(Layout, TheBlindPlantAndTheDiagnosisShareNothingButBaseAndRecording) {
+  const Names plant = seen_by("blind/plant"), diagnosis = seen_by("diagnosis");
+  EXPECT_TRUE(plant.contains("blind/plant") && diagnosis.contains("simulation"));
+  Names shared;
+  std::set_intersection(plant.begin(), plant.end(), diagnosis.begin(), diagnosis.end(),
+                        std::inserter(shared, shared.begin()));
+  EXPECT_EQ(shared, Names({"base", "recording"}));
 }
 
 TEST(Layout, EachThirdPartyLibraryStaysInItsModule) {
