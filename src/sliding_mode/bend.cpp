@@ -42,7 +42,7 @@ double bend_before_peak(const BankRun& run, const Excursion& ramp, double since)
   const std::size_t first = ramp.peak - std::min(back, ramp.peak);
   const std::size_t end = std::min(run.samples(), clearly_fallen(run, ramp) + 1);
   if (end < first + kFewestSamples) return static_cast<double>(ramp.peak);
-  const KinkScan scan(samples_of(run, first, end), first, 2);
+  const KinkScan scan(samples_of(run, first, end), first, polynomial_columns(end - first, 2));
   KinkFit best;
   best.time = static_cast<double>(ramp.peak);
   best.sse = kInfinity;
@@ -61,7 +61,7 @@ std::optional<double> bend_at_release(const BankRun& run, const Excursion& ramp,
   const auto back = static_cast<std::size_t>(0.6 * flight), ahead = static_cast<std::size_t>(0.3 * flight);
   if (turn < ramp.start + back || back + ahead < kFewestSamples) return std::nullopt;
   const std::size_t first = turn - back, end = turn + ahead;
-  const KinkScan scan(samples_of(run, first, end), first, 2);
+  const KinkScan scan(samples_of(run, first, end), first, polynomial_columns(end - first, 2));
   const KinkFit fit = scan.best({3}, static_cast<double>(first + 3), static_cast<double>(end - 4),
                                 std::max(1.0, flight / 60.0));
   if (fit.amplitude * ramp.sign <= 0.0 || scan.smooth_sse() < kStandsOut * fit.sse) return std::nullopt;

@@ -52,6 +52,27 @@ double FlightLaw::rate(std::size_t i, int column) const {
   return values[column];
 }
 
+Eigen::MatrixXd FlightLaw::columns(std::size_t first, std::size_t last) const {
+  Eigen::MatrixXd A(static_cast<Eigen::Index>(last - first + 1), kColumns);
+  for (Eigen::Index r = 0; r < A.rows(); ++r)
+    for (int c = 0; c < kColumns; ++c) A(r, c) = row(first + static_cast<std::size_t>(r), c);
+  return A;
+}
+
+FlightLaw::Fit FlightLaw::fit_without(std::size_t first, const Eigen::VectorXd& known) const {
+  const Eigen::MatrixXd A = columns(first, first + static_cast<std::size_t>(known.size()) - 1);
+  const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(&trace_.x1[first], known.size()) - known;
+  const Eigen::VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
+  const Eigen::VectorXd solution = (A * scale.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(y);
+  Fit result;
+  result.first = first;
+  result.freedom = static_cast<double>(A.rows() - A.cols());
+  for (int c = 0; c < kColumns; ++c)
+    result.coefficients[static_cast<std::size_t>(c)] = solution(c) / scale(c);
+  result.error = (A * scale.cwiseInverse().asDiagonal() * solution - y).squaredNorm() / result.freedom;
+  return result;
+}
+
 /// Least squares over [first, last]. With power > 0, x1 departs from the law as (onset − t)^power before it.
 FlightLaw::Fit FlightLaw::fit(std::size_t first, std::size_t last, double onset, int power) const {
   const std::size_t n = last - first + 1, stride = (n + kRows - 1) / kRows;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -55,12 +56,18 @@ class FlightLaw {
   /// The law on the longest stretch that ends at `core`. @returns false if none of this form holds.
   bool fit_before(std::size_t core, Fit& fit) const;
 
+  /// The columns of the law at the samples first … last (n_samples × kColumns).
+  Eigen::MatrixXd columns(std::size_t first, std::size_t last) const;
+  /// The law on the same samples, of x1 less what else is known to act: one value each [rad].
+  Fit fit_without(std::size_t first, const Eigen::VectorXd& known) const;
+
   FreeFlight find_release(std::size_t core) const;
 
   MotorState state(const Fit& fit, double time) const;
   /// Acceleration that the input gives the motor, in the direction of the passage [rad/s²].
   double drive(const Fit& fit, double time) const;
   int direction() const { return window_.direction; }
+  std::size_t last() const { return window_.last; }  ///< latest sample that it was prepared for
 
  private:
   Fit fit(std::size_t first, std::size_t last, double onset = 0.0, int power = 0) const;

@@ -11,22 +11,12 @@
 namespace gapscope::internal {
 namespace {
 
-constexpr int kDegree = 1;
-constexpr double kAlmostAsGood = 1.5;
-
-struct Window {
-  std::size_t first, after, end;  ///< end: one past the last sample
-};
-
-Window fit_window(const TransitionContext& context, const Event& impact, const Reversal& reversal) {
-  const auto n = context.trace.size();
-  const auto latency = static_cast<double>(impact.latency);
-  const auto after = std::max<std::size_t>(3, static_cast<std::size_t>(std::lround(0.8 * latency)));
-  const auto flight = impact.start - reversal.last;
-  const auto most = std::max(static_cast<std::size_t>(0.02 / context.trace.dt), 4 * after);
-  const auto before = std::min(std::max<std::size_t>(std::min(flight / 2, most), 6), flight);
-  return {impact.start - before, after, std::min(n, impact.start + after + 1)};
-}
+constexpr double kReaches[] = {2.4, 1.4, 0.8};  ///< after the impact, in times from start to peak of e
+constexpr double kTrust = 0.12;      ///< doubt about a kink, over its distance from where e left its floor
+constexpr double kLeastDoubt = 0.3;  ///< samples: contacts are not quite the strokes that are tried
+constexpr double kLeastReach = 0.5;
+constexpr double kConsistent = 3.0;  ///< standard deviations that the mean square error may exceed the noise
+constexpr double kAlmostAsGood = 4.0;  ///< in χ²
 
 /// Contacts to try: their half period from two samples to four times the window after the impact, light and
 /// heavy damping; the rigid impact is the limit of the fast ones.
@@ -41,49 +31,102 @@ std::vector<KinkShape> contact_shapes(std::size_t after) {
   return shapes;
 }
 
+/// What fits around an impact: the law of the flight and a kink, and how far the kink may be moved.
+struct Kink {
+  bool found = false, holds = false;  ///< holds: within the noise
+  KinkFit best;
+  FlightLaw::Fit law;
+  double time = 0.0;             ///< [samples]
+  double low = 0.0, high = 0.0;  ///< first and last instant that fit almost as well [samples]
+};
+
+/// Mean square of what law and kink leave over from sample `from` on [rad²].
+double left_over(const MotorTrace& trace, const FlightLaw& law, const Kink& kink, std::size_t from,
+                 std::size_t last) {
+  double sum = 0.0;
+  for (std::size_t i = from; i <= last; ++i) {
+    const auto t = static_cast<double>(i);
+    const double error = trace.x1[i] - law.state(kink.law, t).position - kink.best(t);
+    sum += error * error;
+  }
+  return sum / static_cast<double>(last - from + 1);
+}
+
+Kink find_kink(const TransitionContext& context, const Event& impact, const FlightLaw& law, std::size_t first,
+               std::size_t after) {
+  Kink kink;
+  const std::size_t last = std::min({impact.start + after, law.last(), context.trace.size() - 1});
+  const std::size_t back = std::min(3 * impact.latency + 5, (impact.start - first) / 2);
+  const std::size_t from = impact.start - back, to = std::min(impact.start + impact.latency, last) - 2;
+  if (last < first + 20 || to <= from) return kink;
+  const std::span<const double> y(&context.trace.x1[first], last - first + 1);
+  const KinkScan scan(y, first, law.columns(first, last));
+  const auto shapes = contact_shapes(after);
+  const double begin = static_cast<double>(from), end = static_cast<double>(to),
+               step = std::max(0.5, static_cast<double>(back) / 20.0);
+  kink.best.sse = kInfinity;
+  std::vector<KinkFit> fits;
+  for (const KinkShape& shape : shapes) {
+    fits.push_back(scan.best(shape, begin, end, step));
+    if (fits.back().sse < kink.best.sse) kink.best = fits.back();
+  }
+  Eigen::VectorXd known(static_cast<Eigen::Index>(y.size()));
+  for (Eigen::Index i = 0; i < known.size(); ++i)
+    known(i) = kink.best(static_cast<double>(first) + static_cast<double>(i));
+  kink.law = law.fit_without(first, known);
+  kink.found = true;
+  const double sigma2 = context.facts.noise * context.facts.noise,
+               left = left_over(context.trace, law, kink, from, last);
+  kink.holds = left <= sigma2 * (1.0 + kConsistent * std::sqrt(2.0 / static_cast<double>(last - from + 1)));
+  const double limit = kink.best.sse + kAlmostAsGood * std::max(sigma2, left);
+  kink.time = kink.low = kink.high = kink.best.time;
+  for (const KinkFit& fit : fits)
+    if (fit.sse <= limit) scan.widen(fit.shape, begin, end, step, limit, kink.low, kink.high);
+  return kink;
+}
+
+/// Over the longest stretch after the impact that one contact explains, and over the least: they err in other
+/// ways (where a load sticks, rings or meets the motor again; by noise), so the middle of both is taken.
+Kink find_kinks(const TransitionContext& context, const Event& impact, const FlightLaw& law,
+                std::size_t first) {
+  const auto within = [&](double reach) {
+    const auto after = static_cast<std::size_t>(std::lround(reach * static_cast<double>(impact.latency)));
+    return find_kink(context, impact, law, first, std::max<std::size_t>(3, after));
+  };
+  Kink kink = within(kLeastReach);
+  if (!kink.found) return kink;
+  for (const double reach : kReaches) {
+    const Kink longer = within(reach);
+    if (!longer.found || !longer.holds) continue;
+    kink.low = std::min(kink.low, longer.low);
+    kink.high = std::max(kink.high, longer.high);
+    kink.time = 0.5 * (kink.time + longer.time);
+    break;
+  }
+  return kink;
+}
+
 }  // namespace
 
 ImpactTime refine_impact(const TransitionContext& context, const Event& impact, const Reversal& reversal,
                          const FlightLaw& law) {
   ImpactTime result;
-  const Window w = fit_window(context, impact, reversal);
   const std::size_t flight = impact.start - std::min(reversal.last, impact.start);
   result.core = impact.start - std::max<std::size_t>(2, flight / 10);
   FlightLaw::Fit before_impact;
-  if (w.end < w.first + 9 || !law.fit_before(result.core, before_impact)) return result;
-  std::vector<double> left;
-  for (std::size_t i = w.first; i < w.end; ++i)
-    left.push_back(context.trace.x1[i] - law.state(before_impact, static_cast<double>(i)).position);
-  const KinkScan scan(left, w.first, kDegree);
-  const auto start = static_cast<double>(impact.start);
-  const double back =
-      std::min(static_cast<double>(3 * w.after + 2), 0.5 * (start - static_cast<double>(w.first)));
-  std::vector<KinkFit> fits;
-  for (const KinkShape& shape : contact_shapes(w.after))
-    fits.push_back(
-        scan.best(shape, start - back, static_cast<double>(w.end) - 2.0, std::max(0.5, back / 20.0)));
-  const KinkFit& best =
-      *std::min_element(fits.begin(), fits.end(), [](const auto& a, const auto& b) { return a.sse < b.sse; });
-  // Noise alone leaves this much: below it all fits are equally good.
-  const double sigma = context.facts.noise;
-  const double resolution = sigma * sigma * static_cast<double>(scan.size());
-  double low = best.time, high = best.time;
-  for (const KinkFit& fit : fits) {
-    if (fit.sse > kAlmostAsGood * std::max(best.sse, 0.25 * resolution)) continue;
-    low = std::min(low, fit.time);
-    high = std::max(high, fit.time);
-  }
-  // A kink far from where e left its floor is to be trusted less.
-  const double half = std::max(0.5 * (high - low), 0.25 * std::abs(best.time - start));
+  if (!law.fit_before(result.core, before_impact)) return result;
+  const Kink kink = find_kinks(context, impact, law, before_impact.first);
+  if (!kink.found) return result;
   const double dt = context.trace.dt;
-  const MotorState before = law.state(before_impact, best.time);
+  const MotorState before = law.state(kink.law, kink.time);
   result.found = true;
-  result.time = best.time;
-  result.half_width = half * dt;
-  result.position = before.position + best.position;
-  result.speed = before.speed + best.slope / dt;
+  result.time = kink.time;
+  const double away = std::abs(kink.time - static_cast<double>(impact.start));
+  result.half_width = std::max({0.5 * (kink.high - kink.low), kTrust * away, kLeastDoubt}) * dt;
+  result.position = before.position;
+  result.speed = before.speed;
   result.acceleration = before.acceleration;
-  result.drive = law.drive(before_impact, best.time);
+  result.drive = law.drive(kink.law, kink.time);
   return result;
 }
 

@@ -1,9 +1,12 @@
 #include "sliding_mode/kink_fit.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "gapscope/base/require.h"
+#include "gapscope/base/statistics.h"
 
 namespace gapscope::internal {
 double KinkShape::operator()(double x) const {
@@ -16,91 +19,97 @@ double KinkShape::operator()(double x) const {
   return end + (1.0 + std::exp(-damping * omega * end)) * (x - end);
 }
 
-KinkScan::KinkScan(std::span<const double> y, std::size_t first, int degree)
-    : first_(first), columns_(static_cast<std::size_t>(degree) + 1), residual_(y.begin(), y.end()) {
-  GAPSCOPE_REQUIRE(degree >= 1 && degree <= 3 && y.size() > columns_ + 1);
-  const std::size_t n = y.size();
-  middle_ = 0.5 * static_cast<double>(n - 1);
-  half_ = std::max(middle_, 1.0);
-  basis_.resize(n * columns_);
-  for (std::size_t c = 0; c < columns_; ++c) {  // Gram–Schmidt on the monomials, keeping the recipe
-    recipe_[c][c] = 1.0;
-    for (std::size_t pass = 0; pass < 2 * c; ++pass) {  // twice over the earlier columns: exact to round-off
-      const std::size_t b = pass % c;
-      double dot = 0.0;
-      for (std::size_t i = 0; i < n; ++i) dot += basis(c, scaled(i)) * basis_[i * columns_ + b];
-      for (std::size_t k = 0; k <= b; ++k) recipe_[c][k] -= dot * recipe_[b][k];
-    }
-    double norm = 0.0;
-    for (std::size_t i = 0; i < n; ++i) norm += std::pow(basis(c, scaled(i)), 2);
-    for (double& r : recipe_[c]) r /= std::sqrt(norm);
-    for (std::size_t i = 0; i < n; ++i) basis_[i * columns_ + c] = basis(c, scaled(i));
+namespace {
+
+/// The values of a shape at x, x + 1, … (an elastic stroke turns and fades by the same factor every sample).
+class ShapeWalk {
+ public:
+  ShapeWalk(const KinkShape& shape, double x) : shape_(shape), x_(x) {
+    if (shape.power != 0) return;
+    damped_ = shape.omega * std::sqrt(1.0 - shape.damping * shape.damping);
+    end_ = kPi / damped_;
+    after_ = 1.0 + std::exp(-shape.damping * shape.omega * end_);
+    step_ = std::polar(std::exp(-shape.damping * shape.omega), damped_);
+    z_ = std::polar(std::exp(-shape.damping * shape.omega * x), damped_ * x);
   }
-  for (std::size_t c = 0; c < columns_; ++c) {
-    for (std::size_t i = 0; i < n; ++i) weights_[c] += residual_[i] * basis_[i * columns_ + c];
-    for (std::size_t i = 0; i < n; ++i) residual_[i] -= weights_[c] * basis_[i * columns_ + c];
+  double next() {
+    const double value = shape_.power != 0 ? shape_(x_)
+                         : x_ < end_       ? x_ - z_.imag() / damped_
+                                           : end_ + after_ * (x_ - end_);
+    z_ = {z_.real() * step_.real() - z_.imag() * step_.imag(),
+          z_.real() * step_.imag() + z_.imag() * step_.real()};
+    x_ += 1.0;
+    return value;
   }
-  for (const double r : residual_) smooth_sse_ += r * r;
+
+ private:
+  const KinkShape& shape_;
+  double x_, damped_ = 1.0, end_ = 0.0, after_ = 1.0;
+  std::complex<double> step_, z_;
+};
+
+}  // namespace
+
+Eigen::MatrixXd polynomial_columns(std::size_t n, int degree) {
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(n), -1.0, 1.0);
+  Eigen::MatrixXd columns(t.size(), degree + 1);
+  for (int power = 0; power <= degree; ++power) columns.col(power) = t.array().pow(power);
+  return columns;
 }
 
-double KinkScan::basis(std::size_t column, double tau) const {
-  const auto& r = recipe_[column];
-  return r[0] + tau * (r[1] + tau * (r[2] + tau * r[3]));
+KinkScan::KinkScan(std::span<const double> y, std::size_t first, const Eigen::MatrixXd& columns)
+    : first_(first), residual_(y.begin(), y.end()) {
+  GAPSCOPE_REQUIRE(columns.rows() == static_cast<Eigen::Index>(y.size()) && columns.rows() > columns.cols() &&
+                   columns.cols() <= kMostColumns);
+  const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns * scale.cwiseInverse().asDiagonal());
+  basis_ = Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank()));
+  Eigen::Map<Eigen::VectorXd> left(residual_.data(), columns.rows());
+  for (int pass = 0; pass < 2; ++pass) left -= basis_ * (basis_.transpose() * left);  // exact to round-off
+  smooth_sse_ = left.squaredNorm();
 }
 
-std::array<double, 3> KinkScan::derivatives(const std::array<double, kColumns>& weights, double tau) const {
-  std::array<double, kColumns> m{};
-  for (std::size_t c = 0; c < columns_; ++c)
-    for (std::size_t k = 0; k < kColumns; ++k) m[k] += weights[c] * recipe_[c][k];
-  return {m[0] + tau * (m[1] + tau * (m[2] + tau * m[3])),
-          (m[1] + tau * (2.0 * m[2] + tau * 3.0 * m[3])) / half_,
-          (2.0 * m[2] + 6.0 * tau * m[3]) / (half_ * half_)};
-}
-
-KinkScan::Trial KinkScan::trial(const KinkShape& shape, double time,
-                                std::array<double, kColumns>* weights) const {
+KinkFit KinkScan::trial(const KinkShape& shape, double time) const {
   const double local = time - static_cast<double>(first_);
   const auto begin = static_cast<std::size_t>(std::max(std::ceil(local), 0.0));
-  std::array<double, kColumns> dots{};
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1> dots(basis_.cols());
+  dots.setZero();
+  ShapeWalk walk(shape, static_cast<double>(begin) - local);
   double square = 0.0, with_residual = 0.0;
   for (std::size_t i = begin; i < size(); ++i) {
-    const double c = shape(static_cast<double>(i) - local);
+    const double c = walk.next();
     square += c * c;
     with_residual += c * residual_[i];
-    for (std::size_t k = 0; k < columns_; ++k) dots[k] += c * basis_[i * columns_ + k];
+    dots += c * basis_.row(static_cast<Eigen::Index>(i)).transpose();
   }
-  double left = square;  // squared length of what the polynomial cannot imitate
-  for (std::size_t k = 0; k < columns_; ++k) left -= dots[k] * dots[k];
-  if (weights != nullptr) *weights = dots;
-  if (!(left > 1e-9 * square)) return {smooth_sse_, 0.0};
+  const double left = square - dots.squaredNorm();  // of what the columns cannot imitate
+  if (!(left > 1e-9 * square)) return {time, shape, 0.0, smooth_sse_};
   const double amplitude = with_residual / left;
-  return {std::max(smooth_sse_ - amplitude * with_residual, 0.0), amplitude};
-}
-
-KinkFit KinkScan::finish(const KinkShape& shape, double time) const {
-  std::array<double, kColumns> dots{};
-  const Trial t = trial(shape, time, &dots);
-  std::array<double, kColumns> weights = weights_;
-  for (std::size_t k = 0; k < columns_; ++k) weights[k] -= t.amplitude * dots[k];
-  const double tau = (time - static_cast<double>(first_) - middle_) / half_;
-  const auto d = derivatives(weights, tau);
-  return {time, shape, t.amplitude, t.sse, d[0], d[1], d[2]};
+  return {time, shape, amplitude, std::max(smooth_sse_ - amplitude * with_residual, 0.0)};
 }
 
 KinkFit KinkScan::best(const KinkShape& shape, double from, double to, double step) const {
-  double time = from, least = trial(shape, from, nullptr).sse;
+  KinkFit least = trial(shape, from);
   const auto visit = [&](double t) {
     if (t < from || t > to) return;
-    const double sse = trial(shape, t, nullptr).sse;
-    if (sse < least) least = sse, time = t;
+    if (const KinkFit fit = trial(shape, t); fit.sse < least.sse) least = fit;
   };
   for (double t = from; t <= to; t += step) visit(t);
   for (double fine = 0.5 * step; fine > 0.1; fine *= 0.5) {
-    const double centre = time;
+    const double centre = least.time;
     visit(centre - fine);
     visit(centre + fine);
   }
-  return finish(shape, time);
+  return least;
+}
+
+void KinkScan::widen(const KinkShape& shape, double from, double to, double step, double limit, double& low,
+                     double& high) const {
+  for (double t = from; t <= to; t += step) {
+    if ((t >= low && t <= high) || trial(shape, t).sse > limit) continue;
+    low = std::min(low, t);
+    high = std::max(high, t);
+  }
 }
 
 }  // namespace gapscope::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -20,24 +20,26 @@ struct KinkShape {
   double operator()(double x) const;
 };
 
-/// Least squares of y(t) = P(t) + A shape(t − t_k)₊: a polynomial P of low degree, and from t_k on something
+/// Least squares of y(t) = P(t) + A shape(t − t_k)₊: P in the span of some columns, and from t_k on something
 /// new.
 struct KinkFit {
   double time = 0.0;  ///< t_k, in samples of the recording
   KinkShape shape;
   double amplitude = 0.0;  ///< A
   double sse = 0.0;        ///< sum of squared errors [rad²]
-  double position = 0.0;   ///< P(t_k) [rad]
-  double slope = 0.0;      ///< P'(t_k) [rad/sample]
-  double curvature = 0.0;  ///< P''(t_k) [rad/sample²]
+
+  double operator()(double t) const { return t > time ? amplitude * shape(t - time) : 0.0; }
 };
 
-/// Samples first … first + y.size() − 1 of a recording, prepared for many trial kinks: the polynomial is
-/// projected out once, each trial then costs one pass.
+/// 1, t, … t^degree at n samples (n × degree + 1).
+Eigen::MatrixXd polynomial_columns(std::size_t n, int degree);
+
+/// Samples first … first + y.size() − 1 of a recording, prepared for many trial kinks: the columns are
+/// projected out once, each trial then costs one pass over what follows the kink.
 class KinkScan {
  public:
-  /// @param degree  of P, 1 to 3.
-  KinkScan(std::span<const double> y, std::size_t first, int degree);
+  /// @param columns  that span P (y.size() × at most 8); they may depend on each other.
+  KinkScan(std::span<const double> y, std::size_t first, const Eigen::MatrixXd& columns);
 
   double smooth_sse() const { return smooth_sse_; }  ///< of P alone [rad²]
   std::size_t size() const { return residual_.size(); }
@@ -45,23 +47,16 @@ class KinkScan {
   /// Best kink of one shape with t_k in [from, to], tried every `step` samples, then finer around the best.
   KinkFit best(const KinkShape& shape, double from, double to, double step = 1.0) const;
 
+  /// Extends [low, high] to every t_k in [from, to] whose squared error is at most `limit`.
+  void widen(const KinkShape& shape, double from, double to, double step, double limit, double& low,
+             double& high) const;
+
  private:
-  static constexpr std::size_t kColumns = 4;
-  struct Trial {
-    double sse, amplitude;
-  };
-  double scaled(std::size_t i) const { return (static_cast<double>(i) - middle_) / half_; }
-  double basis(std::size_t column, double tau) const;
-  std::array<double, 3> derivatives(const std::array<double, kColumns>& weights, double tau) const;
-  Trial trial(const KinkShape& shape, double time, std::array<double, kColumns>* weights) const;
-  KinkFit finish(const KinkShape& shape, double time) const;
+  static constexpr int kMostColumns = 8;
+  KinkFit trial(const KinkShape& shape, double time) const;
 
   std::size_t first_;
-  std::size_t columns_;
-  double middle_ = 0.0, half_ = 1.0;
-  std::array<std::array<double, kColumns>, kColumns> recipe_{};  // orthonormal columns as monomials of tau
-  std::vector<double> basis_;                                    // (n_samples × columns)
-  std::array<double, kColumns> weights_{};                       // of y in the basis
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> basis_;  // orthonormal
   std::vector<double> residual_;
   double smooth_sse_ = 0.0;
 };
