@@ -1,16 +1,21 @@
 #include "sliding_mode/release.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "sliding_mode/free_flight.h"
 #include "sliding_mode/impact_time.h"
+#include "sliding_mode/kink_fit.h"
 #include "sliding_mode/transition.h"
 
 namespace gapscope::internal {
 namespace {
 
-constexpr double kViscousShare = 0.3;  ///< of a load's deceleration at t1, where nothing else is known
+constexpr std::size_t kFewestInContact = 12;  ///< samples
+constexpr double kContactShare = 0.6;         ///< of the flight: how far before t1 the contact is looked at
+constexpr double kBracket = 0.6;              ///< of its width, as a standard deviation
+constexpr double kViscousShare = 0.3;         ///< of a load's deceleration at t1, where nothing else is known
 
 /// Travel of a passive load from speed w and deceleration a within the time D, of which at first the share q
 /// is viscous and the rest dry friction.
@@ -23,6 +28,19 @@ double load_travel(double w, double a, double D, double q) {
   const double stop = q < 1.0 ? std::log1p(w / dry) / rate : D;
   const double T = std::min(D, stop);
   return (w + dry) * -std::expm1(-rate * T) / rate - dry * T;
+}
+
+/// The motor at t1 as the time before it tells, when the load still went with it.
+MotorState state_in_contact(const MotorTrace& trace, const FlightBegin& begin, double flight) {
+  const auto last = static_cast<std::size_t>(std::max(begin.time, 0.0));
+  const std::size_t back = std::max(kFewestInContact, static_cast<std::size_t>(kContactShare * flight));
+  const std::size_t first = last - std::min(back, last), n = last - first + 1;
+  if (n < kFewestInContact) return begin.motor;
+  const Eigen::MatrixXd A = polynomial_columns(n, 3);
+  const Eigen::Vector4d c = A.colPivHouseholderQr().solve(
+      Eigen::Map<const Eigen::VectorXd>(&trace.x1[first], static_cast<Eigen::Index>(n)));
+  const double half = 0.5 * static_cast<double>(n - 1) * trace.dt;  // of the stretch [s]
+  return {c.sum(), (c[1] + 2.0 * c[2] + 3.0 * c[3]) / half, (2.0 * c[2] + 6.0 * c[3]) / (half * half)};
 }
 
 }  // namespace
@@ -46,8 +64,15 @@ Release find_release(const TransitionContext& context, const FlightLaw& law, con
   release.position = flight.begin.motor.position;
   release.load_travel = travel(flight.begin, kViscousShare);
   release.travel_half_width = 0.5 * (travel(flight.begin, 1.0) - travel(flight.begin, 0.0));
-  release.half_width = release.travel_half_width + 0.5 * doubt;
   release.dwell = release.load_travel <= 0.0;
+  if (!release.dwell) {
+    const FlightBegin in_contact{
+        flight.begin.time, state_in_contact(context.trace, flight.begin, impact.time - flight.begin.time)};
+    release.contradiction = gap(in_contact) - best;
+    release.load_travel += 0.5 * release.contradiction;
+    release.passive = law.direction() * flight.begin.motor.acceleration > 0.0;
+  }
+  release.half_width = kBracket * release.travel_half_width + 0.5 * (doubt + std::abs(release.contradiction));
   return release;
 }
 

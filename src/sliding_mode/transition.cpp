@@ -36,7 +36,9 @@ const char* describe(Refusal refusal) {
 
 namespace {
 
-constexpr double kReach = 0.8;  ///< of a half period: nothing before it belongs to the flight
+constexpr double kWidestTravel = 0.15;   ///< of the gap: uncertainty of the load's travel
+constexpr double kContradiction = 0.06;  ///< of the gap: between the states just before and just after t1
+constexpr double kReach = 0.8;           ///< of a half period: nothing before it belongs to the flight
 
 /// Where x1 turned round before the impact, against the direction of the passage.
 Reversal find_reversal(const TransitionContext& context, int direction, std::size_t from, std::size_t to) {
@@ -57,7 +59,7 @@ Reversal find_reversal(const TransitionContext& context, int direction, std::siz
 FlightWindow flight_window(const TransitionContext& context, const Event& impact, const Reversal& r) {
   const auto reach = static_cast<std::size_t>(kReach * context.facts.half_period / context.trace.dt);
   const std::size_t first = impact.start - std::min(impact.start, reach);
-  const std::size_t after = (impact.start - r.last) / 4 + impact.latency + 2;
+  const std::size_t after = (impact.start - r.last) / 4 + 3 * impact.latency + 2;
   const std::size_t last = std::min(impact.start + after, context.trace.size() - 1);
   return {first, std::max(r.last, first), last, r.direction};
 }
@@ -87,7 +89,9 @@ void read_release(Transition& t, const TransitionContext& context, const FlightL
   if (t.dwell && t.speed * (t.event.t2 - t.event.t1) < t.event.gap_uncorrected)
     t.refusal =
         Refusal::kNoRelease;  // from rest, a driven motor meets the far flank faster than it went on average
-  if (!(t.event.gap > 0.0) || release.travel_half_width > 0.15 * t.event.gap)
+  if (!(t.event.gap > 0.0) || release.travel_half_width > kWidestTravel * t.event.gap ||
+      std::abs(release.contradiction) > kContradiction * t.event.gap ||
+      (!release.passive && release.load_travel > kContradiction * t.event.gap))
     t.refusal = Refusal::kLoadMoving;
 }
 
