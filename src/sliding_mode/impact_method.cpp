@@ -123,6 +123,7 @@ ImpactAnalysis analyse_mean(const FoldedMotion& mean, const MotorTrace& whole) {
   a.facts = read_facts(trace, mean.noise);
   a.facts.rounding = mean.rounding;
   a.quantum = mean.quantum;
+  a.repeats = true;
   search(trace, a);
   return a;
 }

@@ -17,19 +17,29 @@ constexpr double kVisible =
 constexpr double kStriking = 2.5;     ///< contrast that is no friction's
 constexpr double kFewStriking = 0.3;  ///< of the half periods
 
-constexpr double kWidest = 0.15;  ///< of the 95 % interval of a gap that is reported, either way
+constexpr double kSystematic = 0.7;  ///< standard deviation, over the half width of a passage: calibrated
+constexpr double kWidest = 0.12;     ///< of the 95 % interval of a gap that is reported, either way
 
+constexpr std::size_t kFewest = 2;        ///< passages in each direction
+constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
+constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
+
+constexpr double kMostOfTravel = 0.8;    ///< that a gap may be
 constexpr double kFewestQuanta = 40.0;   ///< in a gap that can be read
 constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
+constexpr double kLeastMoving = 0.1;     ///< … that is to be checked by the other direction
+constexpr double kFewMoving = 0.2;       ///< passages refused for it, over those that are used
 constexpr double kFewestMoving = 100.0;  ///< … where the load travels far within it
 
 struct Pool {
   std::vector<const Transition*> accepted;
-  std::map<Refusal, int> refused;  // ordered: the same text for the same data
-  std::size_t passages = 0;
+  std::map<Refusal, int> refused;       // ordered: the same text for the same data
+  std::map<int, std::size_t> passages;  // by direction
+  std::map<int, std::size_t> mute;      // of them, that say nothing for or against a gap
   double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0,
          quantum = 0.0;
   std::size_t events = 0;
+  bool repeats = false;      // mean periods
   std::size_t striking = 0;  // passages
 };
 
@@ -60,8 +70,10 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.visible = std::max(pool.visible, a.smallest_visible_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
     pool.events += a.events.size();
+    pool.repeats = pool.repeats || a.repeats;
     for (const Transition& t : a.passages) {
-      ++pool.passages;
+      ++pool.passages[t.event.direction];
+      pool.mute[t.event.direction] += t.refusal == Refusal::kThrownOff || t.refusal == Refusal::kContrast;
       pool.striking += t.contrast >= kStriking;
       if (t.refusal == Refusal::kNone)
         pool.accepted.push_back(&t);
@@ -114,41 +126,78 @@ Refusal commonest(const Pool& pool) {
   return refusal;
 }
 
+std::size_t in(const std::map<int, std::size_t>& counts, int direction) {
+  if (direction == 0) return in(counts, 1) + in(counts, -1);
+  const auto found = counts.find(direction);
+  return found == counts.end() ? 0 : found->second;
+}
+
+/// The direction that alone shows the gap, where an unsymmetrical motion does so one way only; 0: both do.
+int only_direction(const Pool& pool) {
+  const std::size_t plus = gaps_of(pool, 1).size(), minus = gaps_of(pool, -1).size();
+  if (pool.repeats || std::min(plus, minus) >= kFewest || std::max(plus, minus) < kFewestOneWay) return 0;
+  return plus > minus ? 1 : -1;
+}
+
 /// A gap is passed in most half periods, and most of what looks like a passage is one. Those in the rebound
-/// of an impact say nothing for or against.
-double fewest_passages(const Pool& pool) {
-  const auto thrown = pool.refused.find(Refusal::kThrownOff);
-  const auto rebounds = static_cast<double>(thrown == pool.refused.end() ? 0 : thrown->second);
-  return std::ceil(0.6 * std::max(pool.half_periods, static_cast<double>(pool.passages) - rebounds));
+/// of an impact, and those without an abrupt end, say nothing for or against.
+double fewest_passages(const Pool& pool, int direction) {
+  const double half_periods = direction == 0 ? pool.half_periods : 0.5 * pool.half_periods;
+  const auto candidates = static_cast<double>(in(pool.passages, direction) - in(pool.mute, direction));
+  return std::ceil(kMost * std::max(half_periods, candidates));
+}
+
+/// The estimate, and half of what the directions disagree by.
+struct Middle {
+  double gap, disagreement;
+};
+
+Middle middle(const Pool& pool) {
+  const int only = only_direction(pool);
+  if (only != 0) return {median(gaps_of(pool, only)), 0.0};
+  const double up = median(gaps_of(pool, 1)), down = median(gaps_of(pool, -1));
+  return {0.5 * (up + down), 0.5 * std::abs(up - down)};
+}
+
+/// Robust standard deviation of one passage, in the direction that scatters more.
+double scatter(const Pool& pool) {
+  const int only = only_direction(pool);
+  if (only != 0) return robust_std(gaps_of(pool, only));
+  return std::max(robust_std(gaps_of(pool, 1)), robust_std(gaps_of(pool, -1)));
 }
 
 /// Why the accepted passages do not make an estimate; empty if they do.
 std::string objection(const Pool& pool) {
   const auto plus = gaps_of(pool, 1), minus = gaps_of(pool, -1);
-  if (plus.size() < 2 || minus.size() < 2)
+  const int only = only_direction(pool);
+  if (only == 0 && (plus.size() < kFewest || minus.size() < kFewest))
     return fmt::format("only {} and {} usable passages of the gap in the two directions: {}", plus.size(),
                        minus.size(), advice(commonest(pool)));
-  const double asked = fewest_passages(pool);
-  if (static_cast<double>(pool.accepted.size()) < asked)
+  const double asked = fewest_passages(pool, only);
+  if (static_cast<double>(gaps_of(pool, only).size()) < asked)
     return fmt::format(
         "only {} usable passages of the gap where {:.0f} are asked, {} in {:.0f} half periods: {}",
-        pool.accepted.size(), asked, pool.passages, pool.half_periods, advice(commonest(pool)));
-  const double up = median(plus), down = median(minus), gap = 0.5 * (up + down);
-  const double spread = std::max(robust_std(plus), robust_std(minus));
+        pool.accepted.size(), asked, in(pool.passages, 0), pool.half_periods, advice(commonest(pool)));
+  const auto [gap, disagreement] = middle(pool);
+  const double spread = scatter(pool);
   if (spread > 0.25 * gap)
     return fmt::format(
         "the passages scatter by {:.0f} % of their median; record more periods of one steady motion",
         100.0 * spread / gap);
-  if (std::abs(up - down) > 0.25 * gap)
+  if (2.0 * disagreement > 0.25 * gap)
     return fmt::format(
         "{:.3g} rad with rising and {:.3g} rad with falling x1 contradict each other; remove the offset of "
         "the "
         "excitation, or let the motion rest at its reversals",
-        up, down);
-  if (gap > 0.66 * pool.travel)
+        median(plus), median(minus));
+  if (gap > kMostOfTravel * pool.travel)
     return fmt::format("the estimate of {:.3g} rad is most of the travel of {:.3g} rad; raise the amplitude",
                        gap, pool.travel);
+  const auto moving = pool.refused.find(Refusal::kLoadMoving);
+  if (moving != pool.refused.end() && moving->second > kFewMoving * static_cast<double>(pool.accepted.size()))
+    return advice(Refusal::kLoadMoving);
   const double moved = std::abs(median_of(pool, &Transition::load_travel));
+  if (only != 0 && moved > kLeastMoving * gap) return advice(Refusal::kLoadMoving);
   if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
     return advice(Refusal::kLoadMoving);
   if (gap < kFewestQuanta * pool.quantum)
@@ -184,19 +233,22 @@ std::string slow_motion(const Pool& pool) {
 }
 
 void fill_estimate(const Pool& pool, GapEstimate& estimate) {
-  const auto plus = gaps_of(pool, 1), minus = gaps_of(pool, -1);
-  const double up = median(plus), down = median(minus);
-  const double n = static_cast<double>(pool.accepted.size());
-  const double scatter = std::max(robust_std(plus), robust_std(minus)) / std::sqrt(0.5 * n);
-  const double systematic = median_of(pool, &Transition::half_width);
+  const int only = only_direction(pool);
+  const auto used = gaps_of(pool, only).size();
+  const auto [gap, disagreement] = middle(pool);
+  const double random = scatter(pool) / std::sqrt((only == 0 ? 0.5 : 1.0) * static_cast<double>(used));
+  const double systematic = kSystematic * median_of(pool, &Transition::half_width);
   const double sampling = 0.25 * median_of(pool, &Transition::speed) * pool.dt;
   estimate.verdict = GapVerdict::kBacklash;
   estimate.smallest_visible_gap = std::isfinite(pool.finest) ? pool.finest : kNaN;
-  estimate.gap = 0.5 * (up + down);
-  estimate.std = std::sqrt(scatter * scatter + 0.25 * (up - down) * (up - down) + systematic * systematic +
+  estimate.gap = gap;
+  estimate.std = std::sqrt(random * random + disagreement * disagreement + systematic * systematic +
                            sampling * sampling + pool.noise * pool.noise);
   estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
-  estimate.reason = fmt::format("{} of {} passages of the gap used", pool.accepted.size(), pool.passages);
+  estimate.reason = fmt::format("{} of {} passages of the gap used{}", used, in(pool.passages, 0),
+                                only == 0  ? ""
+                                : only > 0 ? ", all with rising x1"
+                                           : ", all with falling x1");
   if (1.96 * estimate.std <= kWidest * estimate.gap) return;
   estimate.verdict = GapVerdict::kInconclusive;
   estimate.reason = fmt::format(
