@@ -46,7 +46,7 @@ FigureData confusion(const BlindScore& s) {
   FigureData figure;
   figure.file = "confusion.png";
   figure.title = "What was answered to what: cases with at most one effect";
-  figure.width = 2400.0;
+  figure.width = 3200.0;
   std::vector<std::string> answers;
   std::vector<std::string> truths;
   for (const ConfusionCell& c : s.confusion) index_of(truths, c.truth);

@@ -13,16 +13,26 @@ namespace gapscope {
 namespace internal {
 namespace {
 
+constexpr double kOftenNamed = 0.8;
+
 std::string percent_of(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "–";
 }
 
-/// "yes", or by how much it is missed; "–" without an aim.
+std::string number(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "–";
+}
+
+/// True without an aim.
+bool held(const BlindCount& c) {
+  return !std::isfinite(c.aim) || (c.at_most ? c.share() <= c.aim : c.share() >= c.aim);
+}
+
+/// The aim and whether it is held; "–" without one.
 std::string reached(const BlindCount& c) {
   if (!std::isfinite(c.aim)) return "–";
-  const bool yes = c.at_most ? c.share() <= c.aim : c.share() >= c.aim;
   return fmt::format("{} {}: {}", c.at_most ? "at most" : "at least", percent_of(c.aim),
-                     yes ? "held" : "**missed**");
+                     held(c) ? "held" : "**missed**");
 }
 
 std::string count_table(const BlindScore& s) {
@@ -35,15 +45,43 @@ std::string count_table(const BlindScore& s) {
 }
 
 std::string size_lines(const BlindScore& s) {
-  const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{:.3f}", x) : "–"; };
   return fmt::format(
       "\nShrink of the held-out error, of effects that were named and had at least 3 floors of mismatch: "
       "median {} "
       "(aim 0.97), tenth percentile {} (aim 0.8); of effects whose law is another than the catalogue's, "
       "median {} "
-      "(aim 0.9). Effects in a group that the data does not tell apart: median {:g}, mean {:.2f}.\n",
-      number(s.shrink_median), number(s.shrink_tenth), number(s.shrink_other_law), s.group_median,
-      s.group_mean);
+      "(aim 0.9). Effects in a group that the data does not tell apart: median {}, mean {}.\n",
+      number(s.shrink_median, 3), number(s.shrink_tenth, 3), number(s.shrink_other_law, 3),
+      number(s.group_median, 0), number(s.group_mean, 2));
+}
+
+std::string slice_table(const BlindScore& s) {
+  std::string text =
+      "\n## One effect, by rig, severity and effect\n\n| | cases | above 2 floors | first | named | another "
+      "named | "
+      "median shrink |\n|---|---|---|---|---|---|---|\n";
+  for (const BlindSlice& x : s.slices)
+    text += fmt::format("| {} {} | {} | {} | {} | {} | {} | {} |\n", x.by, x.name, x.cases, x.seen, x.first,
+                        x.named, x.wrong, number(x.shrink, 3));
+  return text;
+}
+
+/// What a reader must not expect: aims that were missed, effects that are often not named, what was not
+/// asked.
+std::string limits_section(const BlindScore& s) {
+  std::string text = "\n## What it cannot do\n\n";
+  for (const BlindCount& c : s.counts)
+    if (!held(c))
+      text += fmt::format("- {}: {} where {} {} was aimed at.\n", c.name, percent_of(c.share()),
+                          c.at_most ? "at most" : "at least", percent_of(c.aim));
+  for (const BlindSlice& x : s.slices)
+    if (x.by == "effect" && x.seen > 0 && x.named < kOftenNamed * x.seen)
+      text += fmt::format("- {} is named in {} of {} cases only.\n", x.name, x.named, x.seen);
+  return text +
+         "- An effect that leaves less than 2 floors of mismatch is counted in the confusion matrix alone.\n"
+         "- Only drives like the rigs above were asked about: two inertias and a gap, contact stiffness and "
+         "damping "
+         "known, recordings of seconds. Nothing here says how often it is right on a real drive.\n";
 }
 
 /// Cases of the report part that were answered with an effect that is not there, or missed one.
@@ -52,9 +90,6 @@ std::string failures(const BlindScore& s) {
   text +=
       "| case | rig | severity | truth | answer | mismatch, floors | probability "
       "|\n|---|---|---|---|---|---|---|\n";
-  const auto number = [](double x, int digits) {
-    return std::isfinite(x) ? fmt::format("{:.{}f}", x, digits) : std::string("–");
-  };
   for (const ScoredCase& c : s.cases)
     if (c.part == "report" && !c.right)
       text +=
@@ -75,7 +110,8 @@ std::string blind_text(const BlindScore& s, const std::vector<FigureData>& figur
       "from "
       "what it had found, without the truth among its candidates.\n\n",
       s.name, s.report_cases, s.calibration_cases);
-  text += count_table(s) + size_lines(s) + figure_section(figures) + failures(s);
+  text += count_table(s) + size_lines(s) + limits_section(s) + figure_section(figures) + slice_table(s) +
+          failures(s);
   return text + fmt::format("\nSHA-256 of the manifest {}, seal of the answers {}.\n\ngapscope {}\n",
                             s.manifest_sha256, s.answers_seal, s.version);
 }
