@@ -1,0 +1,56 @@
+// The blind check through the command: three commands, and what they refuse.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/executable.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::text_of;
+using testing::Workplace;
+
+constexpr const char* kCheck =
+    "name: check\nreport: {first_seed: 9300001, none: 2}\nrigs: [geared]\nduration: 2\n";
+
+TEST(Blind, ThreeCommandsDoWhatOneDoes) {
+  Workplace place;
+  place.file("check.yaml", kCheck);
+  ASSERT_EQ(place.run("blind make check.yaml -o cases --labels labels.json").status, 0);
+  const auto answered = place.run("blind answer cases -o answers.json -j 1");
+  ASSERT_EQ(answered.status, 0) << answered.err;
+  EXPECT_EQ(answered.err, "");  // no terminal, no progress
+  const auto scored = place.run("blind score cases labels.json answers.json -o apart");
+  ASSERT_EQ(scored.status, 0) << scored.err;
+  EXPECT_THAT(scored.out, HasSubstr("no effect: none"));
+  const auto whole = place.run("blind run check.yaml");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  for (const char* file : {"blind.json", "report.md"})
+    EXPECT_EQ(text_of(place.folder() / "apart" / file), text_of(place.folder() / "reports/check" / file))
+        << file;
+  EXPECT_EQ(place.run("report apart").status, 0);
+}
+
+TEST(Blind, RefusesWhatWasChangedWithTheReasonAndWritesNothing) {
+  Workplace place;
+  place.file("check.yaml", kCheck);
+  ASSERT_EQ(place.run("blind run check.yaml -o all").status, 0);
+  std::string labels = text_of(place.folder() / "all/labels.json");
+  place.file("all/labels.json", labels.replace(labels.find("geared"), 6, "heavy"));
+  const auto scored = place.run("blind score all/cases all/labels.json all/answers.json -o new");
+  EXPECT_EQ(scored.status, 2);
+  EXPECT_THAT(scored.err, HasSubstr("all/labels.json: has another label of case_001"));
+  EXPECT_FALSE(place.content().contains("new"));
+}
+
+TEST(Blind, RefusesACheckWhosePartsShareASeed) {
+  Workplace place;
+  place.file("check.yaml", "report: {first_seed: 5, none: 3}\ncalibration: {first_seed: 1, known: 5}\n");
+  const auto made = place.run("blind make check.yaml -o cases --labels labels.json");
+  EXPECT_EQ(made.status, 2);
+  EXPECT_THAT(made.err, HasSubstr("check.yaml:1: report has seeds from 5 on, which calibration has too"));
+}
+
+}  // namespace
+}  // namespace gapscope

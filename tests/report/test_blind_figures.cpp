@@ -1,0 +1,92 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "gapscope/report/blind_report.h"
+#include "report/blind_figures.h"
+#include "report/draw_figure.h"
+#include "support/temporary_file.h"
+
+namespace gapscope::internal {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+BlindScore sample() {
+  BlindScore s;
+  s.name = "sample", s.version = "1";
+  s.report_cases = 60, s.calibration_cases = 20;
+  s.counts = {{"one effect: named", 17, 20, 0.9, false}, {"no effect: one blamed", 0, 20, 0.01, true}};
+  s.confusion = {{"input_delay", "input_delay", 17}, {"input_delay", "quadratic_drag", 1},
+                 {"input_delay", "unknown", 2},      {"outside", "unknown", 18},
+                 {"outside", "input_delay", 2},      {"none", "none", 20}};
+  s.slices = {{"rig", "paper", 25, 20, 18, 17, 1, 0.98}, {"effect", "input_delay", 25, 20, 18, 15, 1, 0.98}};
+  s.calibration.judged_on = 60, s.calibration.learnt_on = 50, s.calibration.weights = {0, 1, 2, 3};
+  s.calibration.bins = {{20, 0.1, 1}, {0, kNaN, 0}, {40, 0.9, 37}};
+  s.abstention = {{0.0, 60, 38}, {0.5, 40, 37}, {0.95, 0, 0}};
+  s.cases = {
+      {"case_001", "report", "paper", "input_delay", "effect", "quadratic_drag", 0.4, 12.0, 0.5, 0.7, false},
+      {"case_002", "report", "paper", "input_delay", "effect", "input_delay", 0.4, 12.0, 0.9, 0.7, true}};
+  return s;
+}
+
+const FigureData& named(const std::vector<FigureData>& figures, const std::string& file) {
+  return *std::find_if(figures.begin(), figures.end(), [&](const FigureData& f) { return f.file == file; });
+}
+
+TEST(BlindFigures, HaveNoTextsThatMeetOrAreCut) {
+  for (const FigureData& figure : blind_figures(sample())) {
+    if (!figure.missing.empty()) continue;
+    const Drawing drawing = draw_with_notes(figure);
+    const Box paper{0.0, 0.0, static_cast<double>(drawing.image.cols),
+                    static_cast<double>(drawing.image.rows)};
+    for (std::size_t i = 0; i < drawing.texts.size(); ++i) {
+      EXPECT_TRUE(paper.holds(drawing.texts[i].box))
+          << figure.file << ": cut off: " << drawing.texts[i].markup;
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_FALSE(overlap(drawing.texts[i].box, drawing.texts[k].box))
+            << figure.file << ": " << drawing.texts[i].markup << " meets " << drawing.texts[k].markup;
+    }
+  }
+}
+
+TEST(BlindFigures, ConfusionMarksWrongNamesAndNoneThatClaimNothing) {
+  const auto figures = blind_figures(sample());
+  const FigureData& figure = named(figures, "confusion.png");
+  ASSERT_EQ(figure.panels[0].tiles.size(), 6u);
+  const auto red = [&](std::size_t i) { return figure.panels[0].tiles[i].colour.red; };
+  EXPECT_EQ(red(1), red(4));  // another effect blamed
+  EXPECT_NE(red(0), red(1));
+  EXPECT_NE(red(2), red(1));
+  EXPECT_EQ(red(0), red(5));
+  EXPECT_THAT(figure.reading,
+              HasSubstr("Right in 55 of 60 cases; an effect that is not there is blamed in 3"));
+}
+
+TEST(BlindFigures, CalibrationLeavesOutBinsWithoutCases) {
+  const auto figures = blind_figures(sample());
+  const FigureData& figure = named(figures, "calibration.png");
+  EXPECT_EQ(figure.panels[0].series[1].x.size(), 2u);
+  EXPECT_DOUBLE_EQ(figure.panels[0].series[1].y[1], 92.5);
+  EXPECT_EQ(figure.panels[1].series[0].x.size(), 2u);
+}
+
+TEST(BlindReport, SaysWhatWasMissedAndListsEveryWrongAnswer) {
+  const testing::TemporaryFile place("");
+  write_blind_score(place.folder().string(), sample());
+  write_blind_report(place.folder().string());
+  std::ostringstream text;
+  text << std::ifstream(place.folder() / "report.md").rdbuf();
+  EXPECT_THAT(text.str(), HasSubstr("- one effect: named: 85.0 % where at least 90.0 % was aimed at."));
+  EXPECT_THAT(text.str(), HasSubstr("- input_delay is named in 15 of 20 cases only."));
+  EXPECT_THAT(text.str(), Not(HasSubstr("- no effect")));
+  EXPECT_THAT(text.str(), HasSubstr("| case_001 | paper | 0.40 | input_delay | quadratic_drag |"));
+  EXPECT_THAT(text.str(), Not(HasSubstr("case_002")));
+}
+
+}  // namespace
+}  // namespace gapscope::internal
