@@ -93,8 +93,8 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   figure.title = "Errors on held-out data";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
-  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs",
-                                     "$x_1$ − free run", length_unit(r), t->error_before, t->error_after));
+  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs", "$x_1$ − free run",
+                                     length_unit(r), t->error_before, t->error_after));
   figure.panels.push_back(pair_panel(r, *t, "Residual torque", "residual torque", torque_unit_of(r),
                                      t->torque_before, t->torque_after));
   Panel input = time_panel("Held-out recording", "displacement $x_1$", length_unit(r), *t);
