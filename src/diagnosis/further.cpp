@@ -35,7 +35,7 @@ FurtherStep next_step(const Study& study, const Judged& model) {
   FurtherStep step{base_of(model), {}, {}, {}};
   std::vector<const EffectEntry*> catalogue = study.catalogue;
   std::erase_if(catalogue, [&](const EffectEntry* e) { return contains(model.fitted.model, e); });
-  step.candidates = candidates_of(study, step.before, catalogue);
+  step.candidates = candidates_of(study, step.before, catalogue, false);
   step.decision = decide(step.candidates, step.before, study.repeats_badly(), {});
   return step;
 }
@@ -73,7 +73,7 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
     for (const EffectEntry* e : study.catalogue)
       if (look_alike(*e, *effect.entry) && !contains(a.after.fitted.model, e)) alike.push_back(e);
     const Judged less = refitted(study, without(a.after.fitted.model, effect.entry));
-    std::vector<Judged> ranked = candidates_of(study, base_of(less), alike);
+    std::vector<Judged> ranked = candidates_of(study, base_of(less), alike, false);
     if (ranked.empty() || ranked.front().entry == effect.entry) continue;
     if (!(ranked.front().score < log_score(a.after.windows) - kClearlyBetter)) continue;
     a.steps.back().dropped.push_back(effect.entry);

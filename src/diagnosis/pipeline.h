@@ -24,8 +24,9 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
                  const ReferenceModel& model, const DiagnosisOptions& options);
 
 /// Every effect of a list that the model could have, refitted and judged, best first.
+/// @param first_step false: candidates that have lost clearly are not tried again
 std::vector<Judged> candidates_of(const Study& study, const Judged& before,
-                                  const std::vector<const EffectEntry*>& catalogue);
+                                  const std::vector<const EffectEntry*>& catalogue, bool first_step = true);
 
 /// What the steps came to.
 struct Findings {

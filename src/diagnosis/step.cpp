@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t kSecondRound = 4;
 constexpr double kWorthComparing = 0.3;  ///< S that a candidate gains
 constexpr double kExplainsMuch = 0.5;    ///< share of the log distance to the floor
+constexpr double kLostClearly = 1.5;     ///< S behind the best, in a later step
 constexpr std::size_t kLines = 3;        ///< of the residual torque that periodic effects begin with
 
 /// Starts of every candidate; those of periodic effects from the residual torque of the model so far.
@@ -69,15 +70,18 @@ void once_more(const Study& study, const Judged& before, const std::vector<std::
 
 /// First the best few, also from the numbers of the very best; so do, wherever they came, the simpler effect
 /// that the best contains and those that contain the best. Where none of these explains much, all others.
-void further_rounds(const Study& study, const Judged& before, std::vector<Judged>& ranked) {
+/// @param all false, in a later step: only those that are near the best or easily mistaken for it
+void further_rounds(const Study& study, const Judged& before, std::vector<Judged>& ranked, bool all) {
   if (ranked.empty() || !std::isfinite(ranked.front().score)) return;
   const FittedModel first = ranked.front().fitted.model;
   const EffectEntry* best = ranked.front().entry;
+  const double near = ranked.front().score + (at_floor(ranked.front()) ? 0.0 : kLostClearly);
   std::vector<std::size_t> few, rest;
   std::set<const EffectEntry*> tried;
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     const EffectEntry* entry = ranked[i].entry;
     if (i >= kSecondRound && entry != nested_parent(*best) && nested_parent(*entry) != best) continue;
+    if (!all && ranked[i].score > near && !look_alike(*entry, *best)) continue;
     few.push_back(i);
     tried.insert(entry);
   }
@@ -85,7 +89,7 @@ void further_rounds(const Study& study, const Judged& before, std::vector<Judged
   once_more(study, before, few, ranked, [&](const Fitted& candidate) {
     return retry(study.train, candidate, first, study.sheet, options, study.observer_hz);
   });
-  if (relative_gain(before, ranked.front()) > kExplainsMuch || study.repeats_badly()) return;
+  if (!all || relative_gain(before, ranked.front()) > kExplainsMuch || study.repeats_badly()) return;
   for (std::size_t i = 0; i < ranked.size(); ++i)
     if (!tried.contains(ranked[i].entry)) rest.push_back(i);
   once_more(study, before, rest, ranked, [&](const Fitted& candidate) {
@@ -117,7 +121,7 @@ void fit_look_alikes(const Study& study, const Judged& before, const Judged& bes
 }  // namespace
 
 std::vector<Judged> candidates_of(const Study& study, const Judged& before,
-                                  const std::vector<const EffectEntry*>& catalogue) {
+                                  const std::vector<const EffectEntry*>& catalogue, bool first_step) {
   std::vector<const EffectEntry*> entries;
   for (const EffectEntry* entry : catalogue)
     if (reads_counts(*entry) ? study.seen_quantum > 0.0 : is_candidate(*entry, before.fitted.model))
@@ -157,7 +161,7 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
   const std::vector<Judged> best(judged.begin(), judged.begin() + std::min<std::size_t>(2, judged.size()));
   for (const Judged& b : best) fit_look_alikes(study, before, b, entries, starts, judged);
   rank(judged, before, study.repeats_badly());
-  further_rounds(study, before, judged);
+  further_rounds(study, before, judged, first_step);
   return judged;
 }
 
