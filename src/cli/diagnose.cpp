@@ -45,9 +45,22 @@ void write_outcome(const std::string& folder, const Configuration& c, const Diag
   write_diagnosis_result(report.path(), result);
   write_text(report.path() + "/resolved.yaml", resolved_yaml(c));
   write_text(report.path() + "/fitted.yaml", fitted_yaml(c, result.diagnosis.fitted, recording));
+  if (const NextExperiment& next = result.diagnosis.next_experiment; next.proposes()) {
+    write_text(report.path() + "/next_experiment.yaml",
+               experiment_yaml(c, result.diagnosis.rivals.front().model, next));
+    write_input_csv(report.path() + "/next_experiment.csv", next);
+  }
   write_report(report.path());
   stop_point();
   report.commit();
+}
+
+/// Where the recordings do not decide: what would.
+void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
+                 Diagnosis& d) {
+  if (d.rivals.size() < 2) return;
+  options.progress("looking for the experiment that would tell");
+  d.next_experiment = next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads);
 }
 
 void diagnose_configuration(const Arguments& a) {
@@ -69,6 +82,7 @@ void diagnose_configuration(const Arguments& a) {
                          diagnose(train_traces, held_out_traces, c.model.reference_model(), options)};
   auto& warnings = result.diagnosis.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
+  ask_further(c, train_traces.front(), options, result.diagnosis);
   options.progress("drawing the report");
   write_outcome(folder, c, result, train_traces.front());
   print_warnings(warnings);
@@ -92,6 +106,9 @@ void add_diagnose(CLI::App& app) {
       "Fits the model to recording: file, adds every effect of `gapscope effects` in turn, and judges on\n"
       "recording: held_out (a file or a list; without it on the last third of each file).\n"
       "Writes DIR/diagnosis.json [rad, N m, s], fitted.yaml, report.md, figures (PNG), traces/held_out_*.\n"
+      "Where the recordings do not decide, next_experiment.yaml and .csv hold the input that would, within\n"
+      "next_experiment: {input: ..., travel: ..., lowest_frequency: ..., highest_frequency: ..., duration: "
+      "...}.\n"
       "The verdict is effect, none (the model is at the floor) or unknown (nothing in the catalogue explains "
       "it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance");

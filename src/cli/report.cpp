@@ -40,8 +40,9 @@ void redraw(const std::string& folder) {
   else
     read_what_is_stored(folder);
   ReportFolder fresh(folder);
-  for (const char* stored : {"campaign.json", "blind.json", "result.json", "diagnosis.json", "fitted.yaml",
-                             "resolved.yaml", "timing.json", "traces"})
+  for (const char* stored :
+       {"campaign.json", "blind.json", "result.json", "diagnosis.json", "fitted.yaml", "resolved.yaml",
+        "timing.json", "next_experiment.yaml", "next_experiment.csv", "traces"})
     if (fs::exists(fs::path(folder) / stored))
       fs::copy(fs::path(folder) / stored, fs::path(fresh.path()) / stored, fs::copy_options::recursive);
   if (campaign)

@@ -84,6 +84,21 @@ std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted
   return "# The model as the diagnosis fitted it; `gapscope simulate` runs it.\n" + resolved_yaml(c);
 }
 
+std::string experiment_yaml(const Configuration& given, const ReferenceModel& model,
+                            const NextExperiment& experiment) {
+  GAPSCOPE_REQUIRE(experiment.proposes());
+  Configuration c = with_model(given, model);
+  c.name = given.name.substr(0, kLongestName) + "_next";
+  c.simulation.emplace();
+  c.simulation->rate = experiment.rate;
+  c.simulation->duration = experiment.duration;
+  c.simulation->excitation = experiment.tried.front().excitation;
+  set_plant(c);
+  return "# The experiment that the diagnosis proposes, on the model that came first; `gapscope simulate` "
+         "runs it.\n" +
+         resolved_yaml(c);
+}
+
 std::string fitted_yaml(const Configuration& given, const FitSummary& fit, const std::string& trace,
                         const MotorTrace& recording) {
   GAPSCOPE_REQUIRE(!fit.initial_states.empty());

@@ -56,11 +56,11 @@ Fitted fitted_of(const ReferenceModel& model, const FitProblem& problem, const S
 }
 
 /// Refined, with the loads' places at the beginning of the recordings chosen before and after.
-Solution descend(const FitProblem& problem, Solution point, double hz) {
+Solution descend(const FitProblem& problem, Solution point, double hz, const Work& work = kNominal) {
   choose_variants(problem, point, hz);
-  Solution found = refine(problem, point, hz, kNominal);
+  Solution found = refine(problem, point, hz, work);
   if (!found.usable() || !choose_variants(problem, found, hz)) return found;
-  const Solution again = refine(problem, found, hz, kNominal);
+  const Solution again = refine(problem, found, hz, work);
   return again.mean_square < found.mean_square ? again : found;
 }
 
@@ -169,12 +169,12 @@ Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& mode
 }
 
 Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
-                double hz) {
+                double hz, const Work& work) {
   const FitProblem problem = make_problem(recordings, from, options);
   Solution point = given_point(problem);
   point.starts =
       settled_starts(recordings, from, hz);  // else the numbers would move for the load's first place
-  return fitted_of(from, problem, descend(problem, point, hz));
+  return fitted_of(from, problem, descend(problem, point, hz, work));
 }
 
 std::vector<Base> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,

@@ -22,7 +22,7 @@ Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& mode
 
 /// The nominal model from the values of a fit to other recordings, and nowhere else.
 Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
-                double observer_hz);
+                double observer_hz, const Work& work = {8, 40, 1e-5});
 
 /// A point of the fitted model's parameters with its residuals and their derivatives there: what every
 /// candidate's race borrows, since a small effect hardly changes how the drive's own numbers act.

@@ -115,6 +115,11 @@ std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recording
   return better.usable() ? better.starts : point.starts;
 }
 
+StepperModel<double> stepper_of(const FittedModel& model, std::span<const MotorTrace> like) {
+  const FitProblem problem = make_problem(like, all_fixed(model), {});
+  return problem.stepper_model(problem.numbers<double>(nullptr));
+}
+
 std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all) {
   const FitProblem problem = make_problem(held_out.traces, all_fixed(model), {});
   const std::vector<RecordingStart> starts = settled_starts(held_out.traces, model, observer_hz);

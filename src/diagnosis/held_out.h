@@ -50,6 +50,10 @@ struct Windows {
 std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings, const FittedModel& model,
                                            double observer_hz);
 
+/// The simulator of a model whose numbers are all known.
+/// @param like recordings that its scales are taken from
+StepperModel<double> stepper_of(const FittedModel& model, std::span<const MotorTrace> like);
+
 /// Plays a model on what is held out, the load's initial position fitted. Empty if the motion diverges.
 /// @param all false: only what the score needs, innovations and free runs
 std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all);

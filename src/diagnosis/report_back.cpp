@@ -13,6 +13,9 @@
 namespace gapscope::internal {
 namespace {
 
+constexpr double kClearMargin = 0.6;  ///< S to the best other group: the evidence is not weak
+constexpr std::size_t kMostRivals = 2;
+
 std::vector<NamedValue> effect_values(const ModelEffect& effect) {
   std::vector<NamedValue> values;
   for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i) {
@@ -138,6 +141,30 @@ void tell_steps(const Study& study, const Additions& added, Diagnosis& d) {
   }
 }
 
+/// The best candidate of a step and the next one that the data hardly tells from it; none where it is clear.
+/// What contains the best is no rival: parsimony has decided.
+std::vector<Rival> rivals_of(const std::vector<Judged>& candidates, const Decision& decision) {
+  if (decision.accepted && decision.group.size() < 2 && decision.margin >= kClearMargin) return {};
+  std::vector<Rival> rivals;
+  for (const Judged& c : candidates) {
+    if (rivals.size() == kMostRivals || !std::isfinite(c.score)) break;
+    const bool contains_best = nested_parent(*c.entry) == candidates.front().entry;
+    if (!reads_counts(*c.entry) && !contains_best) rivals.push_back({c.entry->name, c.fitted.model});
+  }
+  if (rivals.size() < kMostRivals) rivals.clear();
+  return rivals;
+}
+
+/// Of the first step that leaves a question.
+std::vector<Rival> open_question(const Findings& found, const Additions& added) {
+  std::vector<Rival> rivals;
+  if (!(added.accepted && !found.decision.accepted))  // else a later step has decided it
+    rivals = rivals_of(found.candidates, found.decision);
+  for (const FurtherStep& step : added.steps)
+    if (rivals.empty() && step.decision.accepted) rivals = rivals_of(step.candidates, step.decision);
+  return rivals;
+}
+
 }  // namespace
 
 Diagnosis report_back(const Study& study, const Findings& found, const Additions& additions) {
@@ -159,6 +186,7 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
                      added ? &alone(found, additions.effects.front().entry) : nullptr);
   d.remaining = place_of(after_played, study.held_out, km, study.options.rotation, nullptr);
   d.traces = traces_of(study, before_played, after_played);
+  d.rivals = open_question(found, additions);
   d.sentence = sentence_of(d, study.options.rotation);
   return d;
 }

@@ -99,12 +99,36 @@ std::string blame_table(const DiagnosisResult& r) {
   return text;
 }
 
+std::string experiment_table(const DiagnosisResult& r) {
+  const NextExperiment& next = r.diagnosis.next_experiment;
+  if (next.sentence.empty()) return "";
+  std::string text = "\n## What to record next\n\n" + next.sentence + "\n";
+  if (!next.proposes()) return text;
+  text +=
+      "\n`next_experiment.yaml` and `next_experiment.csv` hold it. Each model was refitted to what the other "
+      "one "
+      "would record; what it then leaves counts, in units of the encoder's noise (σ).\n\n| input | travel |";
+  for (const Separation& s : next.tried.front().separations)
+    text += fmt::format(" `{}`, taken for `{}` |", s.truth, s.rival);
+  text += "\n|---|---|";
+  for (std::size_t i = 0; i < next.tried.front().separations.size(); ++i) text += "---|";
+  text += "\n";
+  for (const TriedInput& t : next.tried) {
+    text += fmt::format("| {} | {} |", t.input, quantity(t.travel, r.rotation ? "rad" : "m"));
+    for (const Separation& s : t.separations)
+      text += s.contained ? " contained, nothing can tell |" : fmt::format(" {:.3g} σ |", s.excess);
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string diagnosis_text(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
   std::string text = fmt::format("# {}: what the simulation lacks\n\n**{}**\n", r.name, r.diagnosis.sentence);
   text += bullet_section("Warnings", r.diagnosis.warnings);
-  text += measures_table(r) + ranking_table(r) + steps_table(r) + blame_table(r) + figure_section(figures);
+  text += measures_table(r) + ranking_table(r) + steps_table(r) + blame_table(r) + experiment_table(r) +
+          figure_section(figures);
   text += "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
   return text + fmt::format("\ngapscope {}\n", r.version);
 }

@@ -1,6 +1,10 @@
 #include "gapscope/results/diagnosis_result.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/require.h"
@@ -84,6 +88,14 @@ DiagnosisResult read_diagnosis_result(const std::string& folder) {
   for (const StoredMismatch& stored : document.held_out)
     document.result.diagnosis.traces.push_back(load(folder, stored));
   return std::move(document.result);
+}
+
+void write_input_csv(const std::string& path, const NextExperiment& experiment) {
+  std::string text = "t,u\n";
+  for (std::size_t i = 0; i < experiment.u.size(); ++i)
+    text += fmt::format("{},{}\n", static_cast<double>(i) / experiment.rate, experiment.u[i]);
+  std::ofstream out(path);
+  if (!(out << text)) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace gapscope

@@ -74,6 +74,30 @@ void fields(Archive& archive, DiagnosisStep& s) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Separation& s) {
+  archive("truth", s.truth);
+  archive("rival", s.rival);
+  archive("excess_sigma", s.excess);
+  archive("contained", s.contained);
+}
+
+template <class Archive>
+void fields(Archive& archive, TriedInput& t) {
+  archive("input", t.input);
+  archive("travel_rad", t.travel);
+  archive("worst_sigma", t.worst);
+  archive.list("separations", t.separations);
+}
+
+template <class Archive>
+void fields(Archive& archive, NextExperiment& n) {
+  archive("sentence", n.sentence);
+  archive("rate_hz", n.rate);
+  archive("duration_s", n.duration);
+  archive.list("tried", n.tried);
+}
+
+template <class Archive>
 void fields(Archive& archive, MismatchMeasure& m) {
   archive("measure", m.name);
   archive("unit", m.unit);
@@ -144,6 +168,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.list("ranking", g.ranking);
   archive("probabilities_calibrated", g.probabilities_calibrated);
   archive.list("steps", g.steps);
+  archive.single("next_experiment", g.next_experiment);
   archive.single("where", g.where);
   archive.single("remaining", g.remaining);
   archive("sentence", g.sentence);

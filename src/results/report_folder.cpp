@@ -50,8 +50,9 @@ std::set<std::string> figures_of(const fs::path& folder) {
 /// Is this something that a report with these figures wrote?
 bool is_ours(const fs::path& file, const std::set<std::string>& figures) {
   if (!file.has_parent_path()) {
-    static const char* const names[] = {"report.md",  "result.json",   "diagnosis.json", "campaign.json",
-                                        "blind.json", "resolved.yaml", "timing.json",    "fitted.yaml"};
+    static const char* const names[] = {
+        "report.md",     "result.json", "diagnosis.json", "campaign.json",        "blind.json",
+        "resolved.yaml", "timing.json", "fitted.yaml",    "next_experiment.yaml", "next_experiment.csv"};
     return figures.contains(file.string()) ||
            std::any_of(std::begin(names), std::end(names), [&](const char* name) { return file == name; });
   }
@@ -98,7 +99,9 @@ void ReportFolder::keep(const char* result, const std::vector<const char*>& othe
 }
 
 void ReportFolder::keep_estimate() { keep("result.json", {"timing.json"}, false); }
-void ReportFolder::keep_diagnosis() { keep("diagnosis.json", {"fitted.yaml"}, true); }
+void ReportFolder::keep_diagnosis() {
+  keep("diagnosis.json", {"fitted.yaml", "next_experiment.yaml", "next_experiment.csv"}, true);
+}
 
 void ReportFolder::commit() {
   const std::vector<fs::path> fresh = files_below(partial_);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "diagnosis/further.h"
+#include "diagnosis/look_alikes.h"
 #include "diagnosis/mismatch_size.h"
 #include "gapscope/base/random.h"
 
@@ -115,6 +116,32 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
     row.group +=
         std::any_of(truth.begin(), truth.end(), [&](const std::string& t) { return among(e.group, t); });
   row.in_group = row.group == static_cast<int>(truth.size());
+  return row;
+}
+
+StudyRow examine_question(const std::string& names, std::uint64_t seed) {
+  const std::size_t slash = names.find('/');
+  const double begin = thread_seconds();
+  const LookAlikes pair = look_alikes(names.substr(0, slash), names.substr(slash + 1), seed);
+  const MotorTrace like = pair.recording.motor_trace();
+  ExperimentLimits limits;
+  limits.highest_frequency = 25.0;
+  const NextExperiment next = next_experiment(pair.rivals, like, limits, 3.0, 1);
+  StudyRow row;
+  row.seed = seed, row.effect = names, row.rig = "paper", row.excitations = "s";
+  row.seconds = thread_seconds() - begin;
+  row.details = next.sentence;
+  row.verdict = next.separates() ? "effect" : "unknown";
+  if (!next.proposes()) return row;
+  const TriedInput& best = next.tried.front();
+  row.first = to_string(best.excitation.kind);
+  row.group = static_cast<int>(std::count_if(best.separations.begin(), best.separations.end(),
+                                             [](const Separation& s) { return s.contained; }));
+  for (const Separation& s : best.separations)
+    if (s.truth == pair.rivals[0].effect) row.before = s.excess;
+  row.shrink = seen_excess(pair, played(pair, next));
+  row.in_group = row.shrink >= 1.0;
+  row.details += fmt::format(" As recorded: {:.3g} σ.", seen_excess(pair, pair.recording));
   return row;
 }
 

@@ -22,4 +22,9 @@ std::vector<std::string> split_effects(const std::string& joined);
 ///   first step
 StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed);
 
+/// The proposed experiment for a pair of look-alikes, "truth/rival", played on the independent plant.
+///   first  the shape of the input     before, shrink  predicted and seen excess [σ]
+///   in_group  at least one σ seen     group  1 where no direction can be told
+StudyRow examine_question(const std::string& pair, std::uint64_t seed);
+
 }  // namespace gapscope::test

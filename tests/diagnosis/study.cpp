@@ -1,9 +1,10 @@
 // Not a test: the diagnosis on drives of the independent plant with an effect that it is not told.
-//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond FILE [THREADS [RIG]]
+//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask FILE [THREADS [RIG]]
 // Appends one line a case to FILE and prints the counts of all of it with Wilson limits; seeds that FILE
 // holds already are not run again. Effect and rig follow from the seed. "Removed" takes the true effect and
 // its look-alikes out of the candidates that were fitted and decides again. "pair" are two effects, "one" and
-// "beyond" a known one and one outside the catalogue where the search may take as many steps as it likes.
+// "beyond" a known one and one outside the catalogue where the search may take as many steps as it likes;
+// "ask" the next experiment for look-alikes.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -14,6 +15,7 @@
 
 #include "blind/blind_pair.h"
 #include "blind/expected_place.h"
+#include "diagnosis/look_alikes.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/pair_study.h"
 #include "diagnosis/pipeline.h"
@@ -31,6 +33,11 @@ using test::StudyRow;
 std::vector<std::string> effects_of(const std::string& kind) {
   if (kind == "none") return {"none"};
   if (kind == "pair") return test::effect_pairs();
+  if (kind == "ask") {
+    std::vector<std::string> pairs;
+    for (const auto& [truth, other] : test::look_alike_pairs()) pairs.push_back(truth + "/" + other);
+    return pairs;
+  }
   std::vector<std::string> names;
   for (const blind::EffectEntry& e : blind::effect_entries())
     if (e.in_catalogue == (kind == "known" || kind == "one") && e.name != "backlash")

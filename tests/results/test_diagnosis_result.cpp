@@ -46,6 +46,8 @@ DiagnosisResult sample() {
   step.remaining = "in the gap";
   step.ranking = {last};
   d.steps = {step};
+  d.next_experiment = {
+      "Record a sine.", 1000.0, 5.0, {{{}, "a sine", kThird, {{"a", "b", kThird, false}}, kThird}}, {}};
   d.where = {
       "in engagement", halves("gap", "engagement"), halves("backward", "forward"), {}, {}, {}, {}, {}, 24.0};
   d.remaining.headline = "nowhere";
@@ -90,6 +92,9 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.steps[0].group, a.steps[0].group);
   EXPECT_EQ(b.steps[0].gap.shrink, kThird);
   EXPECT_EQ(b.steps[0].ranking[0].effect, "input_delay");
+  ASSERT_EQ(b.next_experiment.tried.size(), 1u);
+  EXPECT_EQ(b.next_experiment.sentence, "Record a sine.");
+  EXPECT_EQ(b.next_experiment.tried[0].separations[0].excess, kThird);
   EXPECT_EQ(b.where.mode[1].share, a.where.mode[1].share);
   EXPECT_EQ(b.where.mode[1].expected, 0.5);
   EXPECT_EQ(b.where.periods_per_turn, 24.0);

@@ -5,6 +5,7 @@
 
 #include "gapscope/config/data_config.h"
 #include "gapscope/config/model_config.h"
+#include "gapscope/diagnosis/next_experiment.h"
 #include "gapscope/plant/acceleration_bound.h"
 
 namespace gapscope {
@@ -28,6 +29,8 @@ struct Configuration {
   ModelConfig model;
   DetectorConfig detector;
   FitOptions fit;  ///< `fit:` – how the reference is found; optional, every key of it too
+  ExperimentLimits
+      next_experiment;  ///< `next_experiment:` – what the diagnosis may propose; optional like it
 };
 
 /// Reads a configuration strictly: unknown and repeated keys, wrong types, numbers out of range and
@@ -52,6 +55,10 @@ Interval bound_from_model(const Configuration& configuration);
 /// @param trace relative to where the text will be stored
 std::string fitted_yaml(const Configuration& configuration, const FitSummary& fit, const std::string& trace,
                         const MotorTrace& recording);
+
+/// A proposed experiment as a configuration that `simulate` runs on one of the rivals' models.
+std::string experiment_yaml(const Configuration& configuration, const ReferenceModel& model,
+                            const NextExperiment& experiment);
 
 /// The configuration as YAML with every default filled in. It reads back as the same configuration (from the
 /// same folder: paths stay as they were given) and gives the same text again.

@@ -8,6 +8,7 @@
 
 #include "gapscope/base/statistics.h"
 #include "gapscope/diagnosis/evidence.h"
+#include "gapscope/diagnosis/next_experiment.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit.h"
 
@@ -121,6 +122,9 @@ struct Diagnosis {
   ReferenceModel fitted;  ///< the model as fitted, accepted effects included
   double observer_hz = kNaN;
   StepEvidence evidence;  ///< of the first step; not stored in diagnosis.json
+
+  std::vector<Rival> rivals;  ///< models between which these recordings do not decide well; empty: they do
+  NextExperiment next_experiment;  ///< that would; left to the caller, as it takes time
 
   std::string brief_report() const;  ///< one line: log, command line
 };

@@ -12,7 +12,7 @@ namespace gapscope {
 ///
 /// A folder holds one report, of an estimate and a diagnosis where both were made: commit() also removes what
 /// an earlier report left and the new one does not have (the figures that its report.md shows, report.md,
-/// result.json, diagnosis.json, fitted.yaml, campaign.json, blind.json, resolved.yaml, timing.json and
+/// result.json, diagnosis.json, fitted.yaml, next_experiment.*, campaign.json, blind.json, resolved.yaml, timing.json and
 /// traces/). Any other file in the folder belongs to the user and stays.
 class ReportFolder {
  public:

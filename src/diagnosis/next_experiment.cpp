@@ -1,0 +1,183 @@
+#include "gapscope/diagnosis/next_experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/candidates.h"
+#include "diagnosis/experiment_library.h"
+#include "diagnosis/held_out.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/parallel.h"
+#include "gapscope/base/require.h"
+#include "gapscope/simulation/simulate.h"
+#include "reference/rollout.h"
+
+namespace gapscope {
+namespace internal {
+namespace {
+
+constexpr Work kScreening{4, 16, 1e-3};
+constexpr std::uint64_t kSeed = 1;     ///< of phases, levels and noise
+constexpr int kHalvings = 5;           ///< of an input that travels too far
+constexpr double kSeparated = 1.0;     ///< σ
+constexpr std::size_t kConfirmed = 3;  ///< inputs whose separation is checked from a second start
+
+/// Whether the law of one effect contains that of the other.
+bool contains_law(const std::string& large, const std::string& small) {
+  const EffectEntry* entry = find_effect(large);
+  const EffectEntry* parent = entry != nullptr ? nested_parent(*entry) : nullptr;
+  return parent != nullptr && parent->name == small;
+}
+
+struct Bench {
+  std::span<const Rival> rivals;
+  MotorTrace like;
+  double noise = 0.0;  ///< of the encoder before it counts, rms [rad]
+  double hz = 3.0;
+  std::size_t samples = 0;
+
+  /// What the encoder would record of a rival; empty where its motion diverges.
+  Recording play(const Rival& truth, const Excitation& input) const {
+    SimulationOptions options;
+    options.rate = 1.0 / like.dt;
+    options.seed = kSeed;
+    options.encoder = {like.quantum, noise};
+    try {
+      Recording r =
+          simulate(stepper_of(truth.model, {&like, 1}), sample(input, options.rate, samples, kSeed), options);
+      r.quantum = like.quantum;
+      return r;
+    } catch (const std::runtime_error&) {
+      return {};
+    }
+  }
+
+  /// Mean square of a rival's innovations once it is refitted, drive and effect [σ²].
+  double left_by(const Rival& rival, const MotorTrace& seen, const ReferenceModel* drive) const {
+    ReferenceModel from = rival.model;
+    if (drive != nullptr)
+      for (std::size_t i = 0; i < from.parameters.size(); ++i)
+        from.parameters[i].value = drive->parameters[i].value;
+    return fit_near({&seen, 1}, from, {}, hz, kScreening).mean_square;
+  }
+
+  Separation separate(const Rival& truth, const Rival& rival, const Recording& recorded, bool confirm) const {
+    Separation s{truth.effect, rival.effect, kNaN, contains_law(rival.effect, truth.effect)};
+    if (recorded.x1.empty() || s.contained) return s;
+    const MotorTrace seen = recorded.motor_trace();
+    double left = left_by(rival, seen, nullptr);
+    if (confirm) left = std::min(left, left_by(rival, seen, &truth.model));
+    const double own = left_by(truth, seen, nullptr);
+    s.excess = std::sqrt(std::max(0.0, left - own));
+    return s;
+  }
+
+  TriedInput attempt(const Excitation& input, double most_travel, bool confirm) const {
+    TriedInput tried{input, describe(input), 0.0, {}, kNaN};
+    std::vector<Recording> recordings;
+    for (int i = 0; i <= kHalvings; ++i) {
+      stop_point();
+      recordings.clear();
+      tried.travel = 0.0;
+      for (const Rival& truth : rivals) {
+        recordings.push_back(play(truth, tried.excitation));
+        const std::vector<double>& x1 = recordings.back().x1;
+        if (x1.empty()) return tried;
+        const auto [low, high] = std::minmax_element(x1.begin(), x1.end());
+        tried.travel = std::max(tried.travel, *high - *low);
+      }
+      if (tried.travel <= most_travel) break;
+      if (i == kHalvings) return tried;
+      tried.excitation = scaled(tried.excitation, 0.5);
+      tried.input = describe(tried.excitation);
+    }
+    double worst = kInfinity;
+    for (std::size_t t = 0; t < rivals.size(); ++t)
+      for (std::size_t r = 0; r < rivals.size(); ++r) {
+        if (r == t) continue;
+        tried.separations.push_back(separate(rivals[t], rivals[r], recordings[t], confirm));
+        const Separation& s = tried.separations.back();
+        if (!s.contained) worst = std::min(worst, s.excess);
+      }
+    tried.worst = std::isfinite(worst) ? worst : kNaN;
+    return tried;
+  }
+};
+
+void sort_by_worst(std::vector<TriedInput>& tried) {
+  std::stable_sort(tried.begin(), tried.end(), [](const TriedInput& a, const TriedInput& b) {
+    return !std::isnan(a.worst) && (std::isnan(b.worst) || a.worst > b.worst);
+  });
+}
+
+double peak_of(const MotorTrace& t) {
+  double peak = 0.0;
+  for (const double u : t.u) peak = std::max(peak, std::abs(u));
+  return peak;
+}
+
+double travel_of(const MotorTrace& t) {
+  const auto [low, high] = std::minmax_element(t.x1.begin(), t.x1.end());
+  return *high - *low;
+}
+
+std::string sentence_of(const TriedInput& best, double duration) {
+  std::string text = fmt::format("Record {} for {:.3g} s", describe(best.excitation), duration);
+  std::string separate, apart;
+  for (const Separation& s : best.separations) {
+    if (s.contained)
+      apart += fmt::format("; where {} is the truth nothing can, because {} contains it", s.truth, s.rival);
+    else
+      separate += fmt::format("{}{:.3g} σ where {} is the truth and {} is blamed",
+                              separate.empty() ? "" : ", ", s.excess, s.truth, s.rival);
+  }
+  text += ": it leaves " + separate + apart + ".";
+  if (!(best.worst >= kSeparated)) text += " No input within the limits separates them by one σ.";
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+}  // namespace
+}  // namespace internal
+
+bool NextExperiment::separates() const { return proposes() && tried.front().worst >= internal::kSeparated; }
+
+NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& like,
+                               const ExperimentLimits& limits, double observer_hz, int threads) {
+  using namespace internal;
+  GAPSCOPE_REQUIRE(rivals.size() >= 2);
+  const double floor = encoder_floor(like), counts = like.quantum / std::sqrt(12.0);
+  const auto samples = static_cast<std::size_t>(limits.duration / like.dt);
+  const Bench bench{rivals, like, std::sqrt(std::max(0.0, floor * floor - counts * counts)), observer_hz,
+                    samples};
+  const double most_travel = limits.travel.value_or(travel_of(like));
+  const std::vector<Excitation> library = experiment_library(limits, limits.input.value_or(peak_of(like)));
+  NextExperiment next;
+  next.rate = 1.0 / like.dt, next.duration = limits.duration;
+  next.tried.resize(library.size());
+  parallel_for(library.size(), threads, [&](std::size_t i) {
+    if (excitation_problem(library[i], next.rate, next.duration).empty())
+      next.tried[i] = bench.attempt(library[i], most_travel, false);
+    else
+      next.tried[i] = {library[i], describe(library[i]), kNaN, {}, kNaN};
+  });
+  sort_by_worst(next.tried);
+  parallel_for(std::min(kConfirmed, next.tried.size()), threads, [&](std::size_t i) {
+    if (!std::isnan(next.tried[i].worst))
+      next.tried[i] = bench.attempt(next.tried[i].excitation, most_travel, true);
+  });
+  std::stable_sort(next.tried.begin(), next.tried.begin() + std::min(kConfirmed, next.tried.size()),
+                   [](const TriedInput& a, const TriedInput& b) { return a.worst > b.worst; });
+  std::erase_if(next.tried, [](const TriedInput& t) { return std::isnan(t.worst); });
+  if (!next.proposes()) {
+    next.sentence = "No input within the limits can be played on these models.";
+    return next;
+  }
+  next.u = sample(next.tried.front().excitation, next.rate, samples, kSeed);
+  next.sentence = sentence_of(next.tried.front(), next.duration);
+  return next;
+}
+
+}  // namespace gapscope

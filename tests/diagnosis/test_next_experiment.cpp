@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/look_alikes.h"
+
+namespace gapscope {
+namespace {
+
+ExperimentLimits short_limits() {
+  ExperimentLimits limits;
+  limits.duration = 2.0;
+  limits.highest_frequency = 20.0;
+  limits.input = 0.9;
+  return limits;
+}
+
+struct Asked {
+  test::LookAlikes pair;
+  NextExperiment next;
+};
+
+const Asked& of_a_delay() {
+  static const Asked asked = [] {
+    Asked a{test::look_alikes("input_delay", "actuator_lag", 510001), {}};
+    a.next = next_experiment(a.pair.rivals, a.pair.recording.motor_trace(), short_limits(), 3.0);
+    return a;
+  }();
+  return asked;
+}
+
+TEST(NextExperiment, SeparatesADelayFromALagOnTheIndependentPlant) {
+  const Asked& a = of_a_delay();
+  ASSERT_TRUE(a.next.separates()) << a.next.sentence;
+  EXPECT_LT(test::seen_excess(a.pair, a.pair.recording), 0.5);  // why one asks
+  EXPECT_GE(test::seen_excess(a.pair, test::played(a.pair, a.next)), 1.0) << a.next.sentence;
+}
+
+TEST(NextExperiment, StaysWithinItsLimits) {
+  const Asked& a = of_a_delay();
+  const auto [low, high] = std::minmax_element(a.pair.recording.x1.begin(), a.pair.recording.x1.end());
+  EXPECT_EQ(a.next.u.size(), 2000u);
+  for (const double u : a.next.u) EXPECT_LE(std::abs(u), 0.9 * (1.0 + 1e-9));
+  for (const TriedInput& t : a.next.tried) EXPECT_LE(t.travel, *high - *low);
+}
+
+TEST(NextExperiment, RanksByTheWorseDirection) {
+  const NextExperiment& next = of_a_delay().next;
+  for (const TriedInput& t : next.tried) {
+    ASSERT_EQ(t.separations.size(), 2u);
+    EXPECT_EQ(t.worst, std::min(t.separations[0].excess, t.separations[1].excess));
+    EXPECT_LE(t.worst, next.tried.front().worst);
+  }
+}
+
+TEST(NextExperiment, SaysThatNothingTellsALawFromOneThatContainsIt) {
+  const test::LookAlikes pair = test::look_alikes("stribeck_friction", "motor_coulomb_friction", 510002);
+  const NextExperiment next = next_experiment(pair.rivals, pair.recording.motor_trace(), short_limits(), 3.0);
+  ASSERT_TRUE(next.proposes());
+  EXPECT_NE(next.sentence.find("stribeck friction contains it"), std::string::npos) << next.sentence;
+}
+
+TEST(NextExperiment, NeedsTwoRivals) {
+  const Asked& a = of_a_delay();
+  EXPECT_THROW(next_experiment({a.pair.rivals.data(), 1}, a.pair.recording.motor_trace(), {}, 3.0),
+               std::logic_error);
+}
+
+}  // namespace
+}  // namespace gapscope
