@@ -166,11 +166,20 @@ StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   return row;
 }
 
+StudyRow row_of(const std::string& kind, const std::string& rig, const std::string& effect, double severity,
+                std::uint64_t seed) {
+  if (kind == "ask") return test::examine_question(effect, seed);
+  if (kind == "pair" || kind == "one" || kind == "beyond")
+    return test::examine_steps(blind::blind_pair(rig, test::split_effects(effect), severity, seed), seed);
+  return examine(blind::blind_pair(rig, effect, severity, seed), seed);
+}
+
 void print_counts(const std::string& kind, const std::vector<StudyRow>& rows) {
   if (kind == "known") print_known(rows);
   if (kind == "none") print_none(rows);
   if (kind == "outside" || kind == "beyond") print_outside(rows);
   if (kind == "pair" || kind == "one") test::print_steps(rows);
+  if (kind == "ask") test::print_questions(rows);
 }
 
 }  // namespace
@@ -181,7 +190,6 @@ int main(int argc, char** argv) {
                       cases = std::strtoull(argv[2], nullptr, 10);
   const std::string kind = argv[3], file = argv[4];
   const std::vector<std::string> effects = effects_of(kind);
-  const bool stepwise = kind == "pair" || kind == "one" || kind == "beyond";
   std::set<std::uint64_t> done;
   for (const StudyRow& row : test::read_rows(file)) done.insert(row.seed);
   std::vector<std::uint64_t> seeds;
@@ -196,10 +204,7 @@ int main(int argc, char** argv) {
         argc > 6 ? argv[6] : blind::kRigs[(seed / effects.size()) % std::size(blind::kRigs)];
     const std::string& effect = effects[seed % effects.size()];
     const double severity = uniform(g, 0.0, 1.0);
-    const StudyRow row =
-        stepwise
-            ? test::examine_steps(blind::blind_pair(rig, test::split_effects(effect), severity, seed), seed)
-            : examine(blind::blind_pair(rig, effect, severity, seed), seed);
+    const StudyRow row = row_of(kind, rig, effect, severity, seed);
     const std::lock_guard lock(writing);
     out << line_of(row) << std::endl;
   });

@@ -150,6 +150,14 @@ void print_steps(const std::vector<StudyRow>& all) {
   print_costs(all);
 }
 
+void print_questions(const std::vector<StudyRow>& rows) {
+  count("separated on the independent plant (1 sigma)", rows, [](const StudyRow& r) { return r.in_group; });
+  for (const StudyRow& r : rows)
+    fmt::print("  {:<44} {:<12} predicted {:.3g}, seen {:.3g} sigma\n", r.effect, r.first, r.before,
+               r.shrink);
+  print_costs(rows);
+}
+
 void print_outside(const std::vector<StudyRow>& all) {
   const Rows rows = only(all, [](const StudyRow& r) { return r.relevant(); });
   fmt::print("{} cases, {} of them above 2 floors\n", all.size(), rows.size());

@@ -40,6 +40,7 @@ std::vector<StudyRow> read_rows(const std::string& file);
 void print_known(const std::vector<StudyRow>& rows);
 void print_none(const std::vector<StudyRow>& rows);
 void print_outside(const std::vector<StudyRow>& rows);
-void print_steps(const std::vector<StudyRow>& rows);  ///< columns: see examine_steps()
+void print_steps(const std::vector<StudyRow>& rows);      ///< columns: see examine_steps()
+void print_questions(const std::vector<StudyRow>& rows);  ///< columns: see examine_question()
 
 }  // namespace gapscope::test
