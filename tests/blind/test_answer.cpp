@@ -10,29 +10,17 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/results/blind_files.h"
+#include "support/reading.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {
 namespace {
 
+using testing::refusal;
+using testing::text_of;
+
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-template <class Action>
-std::string refusal(Action action) {
-  try {
-    action();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 /// A check of three cases, made, answered on two threads and copied for each test.
 class Answered {

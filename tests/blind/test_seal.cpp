@@ -14,20 +14,18 @@
 #include "gapscope/config/configuration.h"
 #include "gapscope/recording/csv.h"
 #include "gapscope/results/blind_files.h"
+#include "support/reading.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {
 namespace {
 
+using testing::refusal;
+using testing::text_of;
+
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 BlindConfig small(int known, int outside, int none, int pairs) {
   BlindConfig c;
@@ -59,16 +57,6 @@ class Check {
   }
   testing::TemporaryFile place_;
 };
-
-template <class Action>
-std::string refusal(Action action) {
-  try {
-    action();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Sha256, IsThatOfItsStandard) {  // FIPS 180-2, appendix B.1, and the empty text
   EXPECT_EQ(blind::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

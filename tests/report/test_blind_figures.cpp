@@ -7,6 +7,7 @@
 
 #include "gapscope/report/blind_report.h"
 #include "report/blind_figures.h"
+#include "report/clear_texts.h"
 #include "report/draw_figure.h"
 #include "support/temporary_file.h"
 
@@ -42,15 +43,7 @@ TEST(BlindFigures, HaveNoTextsThatMeetOrAreCut) {
   for (const FigureData& figure : blind_figures(sample())) {
     if (!figure.missing.empty()) continue;
     const Drawing drawing = draw_with_notes(figure);
-    const Box paper{0.0, 0.0, static_cast<double>(drawing.image.cols),
-                    static_cast<double>(drawing.image.rows)};
-    for (std::size_t i = 0; i < drawing.texts.size(); ++i) {
-      EXPECT_TRUE(paper.holds(drawing.texts[i].box))
-          << figure.file << ": cut off: " << drawing.texts[i].markup;
-      for (std::size_t k = 0; k < i; ++k)
-        EXPECT_FALSE(overlap(drawing.texts[i].box, drawing.texts[k].box))
-            << figure.file << ": " << drawing.texts[i].markup << " meets " << drawing.texts[k].markup;
-    }
+    expect_clear_texts(figure, drawing);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "report/campaign_figures.h"
+#include "report/clear_texts.h"
 #include "report/draw_figure.h"
 
 namespace gapscope::internal {
@@ -63,15 +64,7 @@ TEST(CampaignFigures, HaveNoTextsThatMeetOrAreCut) {
     s.model_free = both;
     for (const FigureData& figure : campaign_figures(s)) {
       const Drawing drawing = draw_with_notes(figure);
-      const Box paper{0.0, 0.0, static_cast<double>(drawing.image.cols),
-                      static_cast<double>(drawing.image.rows)};
-      for (std::size_t i = 0; i < drawing.texts.size(); ++i) {
-        EXPECT_TRUE(paper.holds(drawing.texts[i].box))
-            << figure.file << ": cut off: " << drawing.texts[i].markup;
-        for (std::size_t k = 0; k < i; ++k)
-          EXPECT_FALSE(overlap(drawing.texts[i].box, drawing.texts[k].box))
-              << figure.file << ": " << drawing.texts[i].markup << " meets " << drawing.texts[k].markup;
-      }
+      expect_clear_texts(figure, drawing);
     }
   }
 }

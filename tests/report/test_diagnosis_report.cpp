@@ -9,15 +9,13 @@
 #include "gapscope/results/diagnosis_result.h"
 #include "report/diagnosis_figures.h"
 #include "results/scratch_folder.h"
+#include "support/reading.h"
 
 namespace gapscope {
 namespace {
-namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using testing::text_of;
+namespace fs = std::filesystem;
 
 std::vector<MapShare> map_of(std::initializer_list<std::string> bins) {
   std::vector<MapShare> map;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "report/clear_texts.h"
 #include "report/draw_figure.h"
 #include "report/figures.h"
 #include "report/legend_placement.h"
@@ -43,13 +44,7 @@ TEST_P(DrawnFigures, HaveNoTextsThatMeetOrAreCutAndNoLegendOverData) {
     const Drawing drawing = draw_with_notes(figure);
     const Box paper{0.0, 0.0, static_cast<double>(drawing.image.cols),
                     static_cast<double>(drawing.image.rows)};
-    for (std::size_t i = 0; i < drawing.texts.size(); ++i) {
-      EXPECT_TRUE(paper.holds(drawing.texts[i].box))
-          << figure.file << ": cut off: " << drawing.texts[i].markup;
-      for (std::size_t k = 0; k < i; ++k)
-        EXPECT_FALSE(overlap(drawing.texts[i].box, drawing.texts[k].box))
-            << figure.file << ": " << drawing.texts[i].markup << " meets " << drawing.texts[k].markup;
-    }
+    expect_clear_texts(figure, drawing);
     for (std::size_t i = 0; i < drawing.frames.size(); ++i) {
       EXPECT_TRUE(paper.holds(drawing.frames[i])) << figure.file;
       EXPECT_FALSE(drawing.plans[i].legend_inside && hides_data(drawing.plans[i]))

@@ -9,15 +9,13 @@
 #include "gapscope/report/report.h"
 #include "report/sample_run.h"
 #include "results/scratch_folder.h"
+#include "support/reading.h"
 
 namespace gapscope {
 namespace {
-namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using testing::text_of;
+namespace fs = std::filesystem;
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

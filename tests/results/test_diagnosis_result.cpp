@@ -9,9 +9,12 @@
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/report_folder.h"
 #include "results/scratch_folder.h"
+#include "support/reading.h"
 
 namespace gapscope {
 namespace {
+
+using testing::text_of;
 namespace fs = std::filesystem;
 
 constexpr double kThird = 1.0 / 3.0;
@@ -64,11 +67,6 @@ DiagnosisResult sample() {
   }
   d.traces = {t};
   return r;
-}
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST(DiagnosisResult, ReadsBackWhatWasWritten) {

@@ -8,9 +8,12 @@
 
 #include "gapscope/results/report_folder.h"
 #include "results/scratch_folder.h"
+#include "support/reading.h"
 
 namespace gapscope {
 namespace {
+
+using testing::text_of;
 namespace fs = std::filesystem;
 
 using Names = std::set<std::string>;
@@ -18,11 +21,6 @@ using Names = std::set<std::string>;
 void put(const fs::path& path, const std::string& text) {
   fs::create_directories(path.parent_path());
   std::ofstream(path) << text;
-}
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 Names files_in(const fs::path& folder) {

@@ -9,9 +9,12 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/results/run_result.h"
 #include "results/scratch_folder.h"
+#include "support/reading.h"
 
 namespace gapscope {
 namespace {
+
+using testing::text_of;
 namespace fs = std::filesystem;
 
 // Numbers that show a lost digit: none of them is short in decimal.
@@ -22,11 +25,6 @@ void expect_same(double a, double b, const char* what) {
   EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << what << ": " << a << " and " << b;
 }
 #define EXPECT_SAME(member) expect_same(a.member, b.member, #member)
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 Recording recording(const std::string& file, double offset, bool simulated) {
   Recording r{
