@@ -161,7 +161,7 @@ TEST(Layout, CeresIsSeenOnlyByTheFitAndItsJetsOnlyByTheScalarHeader) {
 }
 
 TEST(Layout, TopLevelHoldsNothingThatWasNotAgreed) {
-  const Names agreed = {"CMakeLists.txt", "src",     "include",   "configs",
+  const Names agreed = {"CMakeLists.txt", "src",     "include",   "configs", "docs",
                         "tests",          "reports", "README.md", "LICENSE"};
   for (const auto& entry : fs::directory_iterator(kRoot)) {
     const std::string name = entry.path().filename();

@@ -1,0 +1,102 @@
+// What the documents say of the sources is still so: files, constants, the table of effects.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = GAPSCOPE_SOURCE_DIR;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> found = {kRoot / "README.md"};
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// All matches of a pattern, each with its groups.
+std::vector<std::smatch> matches(const std::string& text, const std::regex& pattern) {
+  return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};
+}
+
+TEST(Documents, NameOnlyFilesThatAreThere) {
+  const std::regex named(R"rx(`((?:src|include|tests|configs|docs|\.ci)/[\w./]+)`)rx");
+  const std::regex linked(R"rx(\]\(([\w./-]+)\))rx");
+  for (const fs::path& document : documents()) {
+    const std::string text = text_of(document);
+    for (const std::smatch& m : matches(text, named))
+      EXPECT_TRUE(fs::exists(kRoot / m[1].str())) << document << " names " << m[1];
+    for (const std::smatch& m : matches(text, linked))
+      EXPECT_TRUE(fs::exists(document.parent_path() / m[1].str())) << document << " links to " << m[1];
+  }
+}
+
+/// Every constant of the sources with each value that it is given somewhere.
+std::multimap<std::string, double> constants() {
+  const std::regex defined(R"rx(\b(k[A-Z]\w+)\s*=\s*([\d.]+)\s*[;,])rx");
+  std::multimap<std::string, double> found;
+  for (const char* top : {"include", "src"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+      if (!entry.is_regular_file()) continue;
+      const std::string text = text_of(entry.path());
+      for (const std::smatch& m : matches(text, defined)) found.emplace(m[1], std::stod(m[2]));
+    }
+  return found;
+}
+
+TEST(Documents, GiveConstantsTheValuesThatTheyHaveInTheSources) {
+  const auto known = constants();
+  const std::regex given(R"rx(`(k[A-Z]\w+)` = (\d+(?:\.\d+)?))rx");
+  for (const fs::path& document : documents()) {
+    const std::string text = text_of(document);
+    for (const std::smatch& m : matches(text, given)) {
+      const auto [first, last] = known.equal_range(m[1]);
+      EXPECT_TRUE(std::any_of(first, last, [&](const auto& c) { return c.second == std::stod(m[2]); }))
+          << document << " gives " << m[1] << " as " << m[2] << ", the sources do not";
+    }
+  }
+}
+
+/// The row of an effect as the table of docs/science.md should have it.
+std::string row_of(const std::string& name) {
+  const std::string source = text_of(kRoot / "src/plant/effects" / (name + ".cpp"));
+  const auto group = [&](const char* pattern) {
+    std::smatch m;
+    return std::regex_search(source, m, std::regex(pattern)) ? m[1].str() : std::string("?");
+  };
+  std::string side = group(R"rx(side = EffectSide::k(\w+))rx"), law = group(R"rx(law =\s*"([^"]*)")rx"),
+              parameters;
+  side[0] = static_cast<char>(std::tolower(side[0]));
+  law = std::regex_replace(law, std::regex("\\|"), "\\|");
+  for (const std::smatch& m : matches(source, std::regex(R"rx(\{"(\w+)",\s*"([^"]+)",\s*[^"\s])rx")))
+    parameters += (parameters.empty() ? "`" : ", `") + m[1].str() + "` [" + m[2].str() + "]";
+  return "| `" + name + "` | " + side + " | " + law + " | " + parameters + " |";
+}
+
+TEST(Documents, ListEveryEffectWithItsLawAndParameters) {
+  const std::string science = text_of(kRoot / "docs/science.md");
+  const std::string list = text_of(kRoot / "src/plant/effects/effects.inc");
+  const auto effects = matches(list, std::regex(R"rx(GAPSCOPE_EFFECT\((\w+)\))rx"));
+  ASSERT_GT(effects.size(), 20u);
+  for (const std::smatch& m : effects)
+    EXPECT_NE(science.find(row_of(m[1])), std::string::npos) << "docs/science.md, section 2, lacks the row\n"
+                                                             << row_of(m[1]);
+}
+
+}  // namespace
