@@ -7,23 +7,28 @@
 
 namespace gapscope::cli {
 
-void FieldHelp::line(const FieldSpec& s, const std::string& value) {
-  const std::string unit = *s.unit == '\0' ? "" : fmt::format(" [{}]", s.unit);
-  text_ += fmt::format("{}{:<26}{}; {}\n", indent_, s.key + unit, s.doc, value);
+namespace {
+
+std::string written(bool value) { return value ? "default true" : "default false"; }
+std::string written(int value) { return fmt::format("default {}", value); }
+std::string written(std::uint64_t value) { return fmt::format("default {}", value); }
+std::string written(double value) {
+  return std::isnan(value) ? "required" : fmt::format("default {}", value);
+}
+std::string written(const std::optional<double>& value) {
+  return value ? fmt::format("default {}", *value) : "optional";
+}
+std::string written(const std::string& value) { return fmt::format("default '{}'", value); }
+std::string written(const std::vector<double>& value) {
+  return fmt::format("default [{}]", fmt::join(value, ", "));
 }
 
-void FieldHelp::field(const FieldSpec& s, bool& value) { line(s, value ? "default true" : "default false"); }
-void FieldHelp::field(const FieldSpec& s, int& value) { line(s, fmt::format("default {}", value)); }
-void FieldHelp::field(const FieldSpec& s, std::uint64_t& value) { line(s, fmt::format("default {}", value)); }
-void FieldHelp::field(const FieldSpec& s, double& value) {
-  line(s, std::isnan(value) ? "required" : fmt::format("default {}", value));
-}
-void FieldHelp::field(const FieldSpec& s, std::optional<double>& value) {
-  line(s, value ? fmt::format("default {}", *value) : "optional");
-}
-void FieldHelp::field(const FieldSpec& s, std::string& value) { line(s, fmt::format("default '{}'", value)); }
-void FieldHelp::field(const FieldSpec& s, std::vector<double>& value) {
-  line(s, fmt::format("default [{}]", fmt::join(value, ", ")));
+}  // namespace
+
+void FieldHelp::visit(const FieldSpec& s, FieldRef field) {
+  const std::string unit = *s.unit == '\0' ? "" : fmt::format(" [{}]", s.unit);
+  const std::string value = std::visit([](const auto* v) { return written(*v); }, field);
+  text_ += fmt::format("{}{:<26}{}; {}\n", indent_, s.key + unit, s.doc, value);
 }
 
 }  // namespace gapscope::cli

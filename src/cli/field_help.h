@@ -10,17 +10,10 @@ namespace gapscope::cli {
 class FieldHelp : public FieldVisitor {
  public:
   explicit FieldHelp(std::string indent) : indent_(std::move(indent)) {}
-  void field(const FieldSpec& s, bool& value) override;
-  void field(const FieldSpec& s, int& value) override;
-  void field(const FieldSpec& s, std::uint64_t& value) override;
-  void field(const FieldSpec& s, double& value) override;
-  void field(const FieldSpec& s, std::optional<double>& value) override;
-  void field(const FieldSpec& s, std::string& value) override;
-  void field(const FieldSpec& s, std::vector<double>& value) override;
   const std::string& text() const { return text_; }
 
  private:
-  void line(const FieldSpec& s, const std::string& value);
+  void visit(const FieldSpec& s, FieldRef field) override;
   std::string indent_;
   std::string text_;
 };

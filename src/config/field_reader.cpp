@@ -19,39 +19,30 @@ Integer clamped(double value) {
              : static_cast<Integer>(value);
 }
 
+void set(bool& value, const Value& given, const FieldSpec&) { value = given.truth(); }
+void set(int& value, const Value& given, const FieldSpec& s) {
+  value = static_cast<int>(given.integer(clamped<int>(s.low), clamped<int>(s.high)));
+}
+void set(std::uint64_t& value, const Value& given, const FieldSpec& s) {
+  value = given.natural(clamped<std::uint64_t>(s.high));
+}
+void set(double& value, const Value& given, const FieldSpec& s) { value = given.number(range_of(s)); }
+void set(std::optional<double>& value, const Value& given, const FieldSpec& s) {
+  value = given.number(range_of(s));
+}
+void set(std::string& value, const Value& given, const FieldSpec&) { value = given.text(); }
+void set(std::vector<double>& value, const Value& given, const FieldSpec& s) {
+  value = given.numbers(range_of(s));
+}
+
 }  // namespace
 
-void FieldReader::field(const FieldSpec& s, bool& value) {
-  if (const auto given = section_.find(s.key)) value = given->truth();
-}
-
-void FieldReader::field(const FieldSpec& s, int& value) {
-  if (const auto given = section_.find(s.key))
-    value = static_cast<int>(given->integer(clamped<int>(s.low), clamped<int>(s.high)));
-}
-
-void FieldReader::field(const FieldSpec& s, std::uint64_t& value) {
-  if (const auto given = section_.find(s.key)) value = given->natural(clamped<std::uint64_t>(s.high));
-}
-
-void FieldReader::field(const FieldSpec& s, double& value) {
+void FieldReader::visit(const FieldSpec& s, FieldRef field) {
   if (const auto given = section_.find(s.key)) {
-    value = given->number(range_of(s));
-  } else if (std::isnan(value)) {
+    std::visit([&](auto* value) { set(*value, *given, s); }, field);
+  } else if (const auto number = std::get_if<double*>(&field); number && std::isnan(**number)) {
     section_.require(s.key, fmt::format("{}, {}", s.doc, to_string(range_of(s))));
   }
-}
-
-void FieldReader::field(const FieldSpec& s, std::optional<double>& value) {
-  if (const auto given = section_.find(s.key)) value = given->number(range_of(s));
-}
-
-void FieldReader::field(const FieldSpec& s, std::string& value) {
-  if (const auto given = section_.find(s.key)) value = given->text();
-}
-
-void FieldReader::field(const FieldSpec& s, std::vector<double>& value) {
-  if (const auto given = section_.find(s.key)) value = given->numbers(range_of(s));
 }
 
 }  // namespace gapscope::internal

@@ -12,28 +12,18 @@ namespace gapscope::internal {
 class FieldKeys : public FieldVisitor {
  public:
   std::vector<std::string> keys;
-  void field(const FieldSpec& s, bool&) override { keys.emplace_back(s.key); }
-  void field(const FieldSpec& s, int&) override { keys.emplace_back(s.key); }
-  void field(const FieldSpec& s, std::uint64_t&) override { keys.emplace_back(s.key); }
-  void field(const FieldSpec& s, double&) override { keys.emplace_back(s.key); }
-  void field(const FieldSpec& s, std::optional<double>&) override { keys.emplace_back(s.key); }
-  void field(const FieldSpec& s, std::string&) override { keys.emplace_back(s.key); }
-  void field(const FieldSpec& s, std::vector<double>&) override { keys.emplace_back(s.key); }
+
+ private:
+  void visit(const FieldSpec& s, FieldRef) override { keys.emplace_back(s.key); }
 };
 
 /// Sets the fields that a section has. A number that is NaN and has no key is missing.
 class FieldReader : public FieldVisitor {
  public:
   explicit FieldReader(const Section& section) : section_(section) {}
-  void field(const FieldSpec& s, bool& value) override;
-  void field(const FieldSpec& s, int& value) override;
-  void field(const FieldSpec& s, std::uint64_t& value) override;
-  void field(const FieldSpec& s, double& value) override;
-  void field(const FieldSpec& s, std::optional<double>& value) override;
-  void field(const FieldSpec& s, std::string& value) override;
-  void field(const FieldSpec& s, std::vector<double>& value) override;
 
  private:
+  void visit(const FieldSpec& s, FieldRef field) override;
   const Section& section_;
 };
 

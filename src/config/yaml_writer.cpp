@@ -7,6 +7,25 @@
 #include <cmath>
 
 namespace gapscope::internal {
+namespace {
+
+using Written = std::optional<std::string>;  ///< nothing where a field is left out
+
+Written written(bool value) { return value ? "true" : "false"; }
+Written written(int value) { return fmt::format("{}", value); }
+Written written(std::uint64_t value) { return fmt::format("{}", value); }
+Written written(double value) {
+  if (std::isnan(value)) return {};
+  return yaml_number(value);
+}
+Written written(const std::optional<double>& value) {
+  if (!value) return {};
+  return yaml_number(*value);
+}
+Written written(const std::string& value) { return yaml_text(value); }
+Written written(const std::vector<double>& value) { return fmt::format("[{}]", fmt::join(value, ", ")); }
+
+}  // namespace
 
 std::string yaml_number(double value) { return fmt::format("{}", value); }
 
@@ -39,26 +58,9 @@ void YamlWriter::comment(const std::string& text) {
   text_ += std::string(2 * depth_, ' ') + "# " + text + "\n";
 }
 
-void FieldWriter::field(const FieldSpec& s, bool& value) {
-  out_.entry(s.key, value ? "true" : "false", s.unit);
-}
-void FieldWriter::field(const FieldSpec& s, int& value) {
-  out_.entry(s.key, fmt::format("{}", value), s.unit);
-}
-void FieldWriter::field(const FieldSpec& s, std::uint64_t& value) {
-  out_.entry(s.key, fmt::format("{}", value), s.unit);
-}
-void FieldWriter::field(const FieldSpec& s, double& value) {
-  if (!std::isnan(value)) out_.entry(s.key, yaml_number(value), s.unit);
-}
-void FieldWriter::field(const FieldSpec& s, std::optional<double>& value) {
-  if (value) out_.entry(s.key, yaml_number(*value), s.unit);
-}
-void FieldWriter::field(const FieldSpec& s, std::string& value) {
-  out_.entry(s.key, yaml_text(value), s.unit);
-}
-void FieldWriter::field(const FieldSpec& s, std::vector<double>& value) {
-  out_.entry(s.key, fmt::format("[{}]", fmt::join(value, ", ")), s.unit);
+void FieldWriter::visit(const FieldSpec& s, FieldRef field) {
+  const auto text = std::visit([](const auto* value) { return written(*value); }, field);
+  if (text) out_.entry(s.key, *text, s.unit);
 }
 
 }  // namespace gapscope::internal

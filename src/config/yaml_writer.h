@@ -30,15 +30,9 @@ class YamlWriter {
 class FieldWriter : public FieldVisitor {
  public:
   explicit FieldWriter(YamlWriter& out) : out_(out) {}
-  void field(const FieldSpec& s, bool& value) override;
-  void field(const FieldSpec& s, int& value) override;
-  void field(const FieldSpec& s, std::uint64_t& value) override;
-  void field(const FieldSpec& s, double& value) override;
-  void field(const FieldSpec& s, std::optional<double>& value) override;
-  void field(const FieldSpec& s, std::string& value) override;
-  void field(const FieldSpec& s, std::vector<double>& value) override;
 
  private:
+  void visit(const FieldSpec& s, FieldRef field) override;
   YamlWriter& out_;
 };
 

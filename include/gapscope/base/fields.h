@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace gapscope {
@@ -17,19 +18,23 @@ struct FieldSpec {
   double high = std::numeric_limits<double>::infinity();
 };
 
+/// What a field can be. An optional one may be absent.
+using FieldRef = std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*,
+                              std::vector<double>*>;
+
 /// Meets every field of an options struct once, in order. A struct lists its fields in one function
 /// `void fields(FieldVisitor&)`; reading YAML, writing it back, bounds, units and documentation all follow
-/// from that list. An std::optional field may be absent.
+/// from that list.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
-  virtual void field(const FieldSpec& spec, bool& value) = 0;
-  virtual void field(const FieldSpec& spec, int& value) = 0;
-  virtual void field(const FieldSpec& spec, std::uint64_t& value) = 0;
-  virtual void field(const FieldSpec& spec, double& value) = 0;
-  virtual void field(const FieldSpec& spec, std::optional<double>& value) = 0;
-  virtual void field(const FieldSpec& spec, std::string& value) = 0;
-  virtual void field(const FieldSpec& spec, std::vector<double>& value) = 0;
+  template <class T>
+  void field(const FieldSpec& spec, T& value) {
+    visit(spec, &value);
+  }
+
+ private:
+  virtual void visit(const FieldSpec& spec, FieldRef field) = 0;
 };
 
 }  // namespace gapscope
