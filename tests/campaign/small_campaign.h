@@ -5,6 +5,7 @@
 
 #include "gapscope/campaign/runner.h"
 #include "results/scratch_folder.h"
+#include "support/paper_model.h"
 
 namespace gapscope::testing {
 
@@ -20,18 +21,7 @@ simulation:
   seed: 3
   excitation: {sine: {amplitude: 0.58, frequency: 1}}
   noise: 1.0e-5
-model:
-  parameters:
-    motor_inertia: 8.78e-4
-    torque_constant: 0.172
-    motor_damping: {value: 0.062, estimate: true}
-    mass_ratio: 1
-    gap: {value: 0.019, estimate: true}
-    load_damping: 0.035
-    load_coulomb_friction: 0.05
-    contact_stiffness: 200
-    contact_damping: 0.05
-)";
+model: )" + kPaperModel;
     std::ofstream(folder.path / "c.yaml") << "name: small\nbase: base.yaml\n" << variation;
     config = load_campaign((folder.path / "c.yaml").string());
   }

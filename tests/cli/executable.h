@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 
+#include "support/reading.h"
 #include "support/temporary_file.h"
 
 namespace gapscope::testing {
@@ -19,14 +19,6 @@ struct Outcome {
   std::string out;
   std::string err;
 };
-
-/// The text of a file.
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// A folder with files, in which the real executable is run.
 class Workplace {

@@ -4,12 +4,14 @@
 #include <algorithm>
 
 #include "cli/executable.h"
+#include "support/paper_model.h"
 
 namespace gapscope {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::kPaperModel;
 using ::testing::StartsWith;
 using testing::text_of;
 using testing::Workplace;
@@ -22,18 +24,7 @@ const std::string kBase = R"(base:
     duration: 2
     excitation: {sine: {amplitude: 0.58, frequency: 1}}
     noise: 1.0e-5
-  model:
-    parameters:
-      motor_inertia: 8.78e-4
-      torque_constant: 0.172
-      motor_damping: {value: 0.062, estimate: true}
-      mass_ratio: 1
-      gap: {value: 0.019, estimate: true}
-      load_damping: 0.035
-      load_coulomb_friction: 0.05
-      contact_stiffness: 200
-      contact_damping: 0.05
-)";
+  model: )" + kPaperModel;
 
 std::string over(const std::string& axes) { return "name: small\naxes: " + axes + "\n" + kBase; }
 

@@ -6,11 +6,13 @@
 
 #include "cli/executable.h"
 #include "gapscope/base/statistics.h"
+#include "support/paper_model.h"
 
 namespace gapscope {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::kPaperModel;
 using ::testing::Not;
 using testing::text_of;
 using testing::Workplace;
@@ -23,18 +25,7 @@ simulation:
   duration: 2
   seed: 3
   excitation: {sine: {amplitude: 0.58, frequency: 1}}
-model:
-  parameters:
-    motor_inertia: 8.78e-4
-    torque_constant: 0.172
-    motor_damping: {value: 0.062, estimate: true}
-    mass_ratio: 1
-    gap: {value: 0.019, estimate: true}
-    load_damping: 0.035
-    load_coulomb_friction: 0.05
-    contact_stiffness: 200
-    contact_damping: 0.05
-)";
+model: )" + kPaperModel;
 
 /// All stored files but the one with wall times.
 std::string stored(const std::filesystem::path& folder) {
