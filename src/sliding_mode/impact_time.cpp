@@ -14,6 +14,7 @@ namespace {
 constexpr double kReaches[] = {2.4, 1.4, 0.8};  ///< after the impact, in times from start to peak of e
 constexpr double kTrust = 0.12;      ///< doubt about a kink, over its distance from where e left its floor
 constexpr double kLeastDoubt = 0.3;  ///< samples: contacts are not quite the strokes that are tried
+constexpr double kHidden = 0.4;  ///< of the time that a contact acts before it shows: doubt about its begin
 constexpr double kLeastReach = 0.5;
 constexpr double kConsistent = 3.0;  ///< standard deviations that the mean square error may exceed the noise
 constexpr double kAlmostAsGood = 4.0;  ///< in χ²
@@ -38,7 +39,19 @@ struct Kink {
   FlightLaw::Fit law;
   double time = 0.0;             ///< [samples]
   double low = 0.0, high = 0.0;  ///< first and last instant that fit almost as well [samples]
+  double hidden = 0.0;           ///< how long it acts before x1 is one standard deviation off [samples]
 };
+
+/// A contact begins softly: the samples until it has moved x1 by `sigma`, at most `most`.
+double hidden_time(const KinkFit& kink, double sigma, double most) {
+  if (std::abs(kink(kink.time + most)) <= sigma) return most;
+  double low = 0.0, high = most;
+  while (high - low > 0.01) {
+    const double middle = 0.5 * (low + high);
+    (std::abs(kink(kink.time + middle)) < sigma ? low : high) = middle;
+  }
+  return high;
+}
 
 /// Mean square of what law and kink leave over from sample `from` on [rad²].
 double left_over(const MotorTrace& trace, const FlightLaw& law, const Kink& kink, std::size_t from,
@@ -82,6 +95,8 @@ Kink find_kink(const TransitionContext& context, const Event& impact, const Flig
   kink.time = kink.low = kink.high = kink.best.time;
   for (const KinkFit& fit : fits)
     if (fit.sse <= limit) scan.widen(fit.shape, begin, end, step, limit, kink.low, kink.high);
+  kink.hidden = hidden_time(kink.best, std::hypot(context.facts.noise, context.facts.rounding),
+                            static_cast<double>(last - from));
   return kink;
 }
 
@@ -100,6 +115,7 @@ Kink find_kinks(const TransitionContext& context, const Event& impact, const Fli
     if (!longer.found || !longer.holds) continue;
     kink.low = std::min(kink.low, longer.low);
     kink.high = std::max(kink.high, longer.high);
+    kink.hidden = std::max(kink.hidden, longer.hidden);
     kink.time = 0.5 * (kink.time + longer.time);
     break;
   }
@@ -122,7 +138,9 @@ ImpactTime refine_impact(const TransitionContext& context, const Event& impact, 
   result.found = true;
   result.time = kink.time;
   const double away = std::abs(kink.time - static_cast<double>(impact.start));
-  result.half_width = std::max({0.5 * (kink.high - kink.low), kTrust * away, kLeastDoubt}) * dt;
+  const double doubt = std::max({0.5 * (kink.high - kink.low), kTrust * away, kLeastDoubt});
+  result.hidden = kink.hidden * dt;
+  result.half_width = std::hypot(doubt * dt, kHidden * result.hidden);
   result.position = before.position;
   result.speed = before.speed;
   result.acceleration = before.acceleration;

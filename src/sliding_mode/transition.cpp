@@ -34,6 +34,39 @@ const char* describe(Refusal refusal) {
   return "";
 }
 
+std::string advice(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kContrast:
+      return "no impact stands out of the motion: quasi-static, or without a free passage; use a faster "
+             "excitation "
+             "(higher frequency or amplitude) with the output free to move";
+    case Refusal::kNoReversal:
+      return "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the "
+             "motion rest "
+             "at its reversals (trapezoid or triangle), or lower the frequency";
+    case Refusal::kSmallRise:
+      return "the passages are a few encoder quanta wide; use a finer encoder or a wider motion";
+    case Refusal::kLoadHits:
+      return "the load hits the motor instead of the motor the load; let the motion rest at its reversals, "
+             "or lower "
+             "the frequency";
+    case Refusal::kNoImpactFit:
+      return "too few samples around the impacts; sample faster";
+    case Refusal::kNoRelease:
+      return "the release before the impacts cannot be located; let the motion rest at its reversals "
+             "(trapezoid), "
+             "lower the frequency, or use a finer encoder";
+    case Refusal::kThrownOff:
+    case Refusal::kLoadMoving:
+      return "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or "
+             "lower the "
+             "frequency";
+    case Refusal::kNone:
+      break;
+  }
+  return "record more periods";
+}
+
 namespace {
 
 constexpr double kWidestTravel = 0.15;   ///< of the gap: uncertainty of the load's travel
@@ -73,6 +106,7 @@ void fill_event(Transition& t, const TransitionContext& context, const ImpactTim
   t.event.gap_uncorrected = std::abs(s5);
   t.event.gap = s5 + release.load_travel;
   t.load_travel = release.load_travel;
+  t.hidden = std::abs(impact.speed) * impact.hidden;
   t.half_width = release.half_width + std::abs(impact.speed) * impact.half_width;
   t.dwell = release.dwell;
   if (release.load_travel > 0.0) t.event.remark = "corrected for the travel of the load";

@@ -24,6 +24,7 @@ enum class Refusal {
 };
 
 const char* describe(Refusal refusal);  ///< for the remark of an event
+std::string advice(Refusal refusal);    ///< what to change where it is the commonest
 
 /// One candidate passage: an impact, and the release before it.
 struct Transition {
@@ -33,6 +34,7 @@ struct Transition {
   double half_width = 0.0;    ///< systematic: where the release and the load's travel may lie [rad]
   double speed = 0.0;         ///< of the motor before the impact [rad/s]
   double acceleration = 0.0;  ///< of the motor in the gap, just before the impact [rad/s²]
+  double hidden = 0.0;        ///< way of the motor before the impact shows in the noise [rad]
   double load_travel = 0.0;   ///< assumed between t1 and t2 [rad]
   bool dwell = false;         ///< the motor rested before it entered the gap
 };

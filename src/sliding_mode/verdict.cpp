@@ -17,13 +17,14 @@ constexpr double kVisible =
 constexpr double kStriking = 2.5;     ///< contrast that is no friction's
 constexpr double kFewStriking = 0.3;  ///< of the half periods
 
-constexpr double kSystematic = 0.7;  ///< standard deviation, over the half width of a passage: calibrated
-constexpr double kWidest = 0.12;     ///< of the 95 % interval of a gap that is reported, either way
+constexpr double kSystematic = 0.53;  ///< standard deviation, over the half width of a passage: calibrated
+constexpr double kWidest = 0.095;     ///< of the 95 % interval of a gap that is reported, either way
 
 constexpr std::size_t kFewest = 2;        ///< passages in each direction
 constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
 constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
 
+constexpr double kMostHidden = 0.07;     ///< of a gap, that the motor may go on before its impact shows
 constexpr double kMostOfTravel = 0.8;    ///< that a gap may be
 constexpr double kFewestQuanta = 40.0;   ///< in a gap that can be read
 constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
@@ -82,40 +83,6 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     }
   }
   return pool;
-}
-
-/// What to change, for the commonest reason of refusal.
-std::string advice(Refusal refusal) {
-  switch (refusal) {
-    case Refusal::kContrast:
-      return "no impact stands out of the motion: quasi-static, or without a free passage; use a faster "
-             "excitation "
-             "(higher frequency or amplitude) with the output free to move";
-    case Refusal::kNoReversal:
-      return "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the "
-             "motion rest "
-             "at its reversals (trapezoid or triangle), or lower the frequency";
-    case Refusal::kSmallRise:
-      return "the passages are a few encoder quanta wide; use a finer encoder or a wider motion";
-    case Refusal::kLoadHits:
-      return "the load hits the motor instead of the motor the load; let the motion rest at its reversals, "
-             "or lower "
-             "the frequency";
-    case Refusal::kNoImpactFit:
-      return "too few samples around the impacts; sample faster";
-    case Refusal::kNoRelease:
-      return "the release before the impacts cannot be located; let the motion rest at its reversals "
-             "(trapezoid), "
-             "lower the frequency, or use a finer encoder";
-    case Refusal::kThrownOff:
-    case Refusal::kLoadMoving:
-      return "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or "
-             "lower the "
-             "frequency";
-    case Refusal::kNone:
-      break;
-  }
-  return "record more periods";
 }
 
 Refusal commonest(const Pool& pool) {
@@ -203,6 +170,12 @@ std::string objection(const Pool& pool) {
   if (gap < kFewestQuanta * pool.quantum)
     return fmt::format("a gap of {:.2g} rad is only {:.0f} encoder quanta; use a finer encoder", gap,
                        gap / pool.quantum);
+  const double hidden = median_of(pool, &Transition::hidden);
+  if (hidden > kMostHidden * gap)
+    return fmt::format(
+        "the contact is so soft that the motor goes on for {:.0f} % of the gap before the encoder shows the "
+        "impact; use a finer encoder, or record more periods",
+        100.0 * hidden / gap);
   return "";
 }
 
