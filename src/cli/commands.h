@@ -2,6 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
+
+#include "gapscope/recording/csv.h"
 
 namespace gapscope::cli {
 
@@ -16,12 +19,30 @@ void add_blind(CLI::App& app);
 void add_blind_drives(CLI::App& blind);
 void add_campaign(CLI::App& app);
 void add_diagnose(CLI::App& app);
+void add_check(CLI::App& app);
+
+/// Exit status of `check` where something will spoil the estimates.
+inline constexpr int kSpoiltRecording = 3;
 
 /// What stands in the help of every command that takes a configuration.
 inline constexpr const char* kConfigHelp = "configuration (YAML)";
 
 /// @throws std::runtime_error naming what cannot be written
 void write_text(const std::string& path, const std::string& text);
+
+/// @throws ConfigError if no file of that name can be written, or it is the command's own source
+void require_file_name(const std::string& file, const std::string& source);
+
+/// A recording that is named on the command line, and how it is to be read.
+struct RecordingArguments {
+  std::string file;
+  std::string time = "t", input = "u", position = "x1";
+  std::vector<double> window;  ///< empty or two [s]
+  double resample = 0.0;       ///< 0: as it stands [Hz]
+  bool translation = false;
+  CsvOptions options() const;
+};
+void add_recording_arguments(CLI::App& command, RecordingArguments& arguments);
 
 /// @throws ConfigError if something other than a folder has this name already, or it is no name
 void require_folder_name(const std::string& folder);

@@ -1,5 +1,6 @@
 // gapscope: one command line for both estimators, their comparison, simulated recordings and reports.
-// Exit status: 0 done, 1 the work failed, 2 the input or the command line is wrong, 130 interrupted.
+// Exit status: 0 done, 1 the work failed, 2 the input or the command line is wrong, 3 a check found what
+// spoils the estimates, 130 interrupted.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -33,6 +34,7 @@ void add_commands(CLI::App& app) {
       "Angles are in rad, torques in N m, times in s, unless a key or a message says otherwise.\n"
       "gapscope COMMAND --help tells more.\n\n"
       "Example: gapscope run configs/02_experiment.yaml");
+  add_check(app);
   add_run(app);
   add_detect(app);
   add_fit(app);
@@ -100,6 +102,8 @@ int parse_and_run(int argc, char** argv) {
     app.parse(argc, argv);  // the action of the command runs in here
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::RuntimeError& answer) {  // a command's own exit status
+    return answer.get_exit_code();
   } catch (const CLI::ParseError& error) {
     return wrong_command_line(app, what_is_wrong(app, error));
   }

@@ -23,15 +23,6 @@ struct Arguments {
   bool quiet = false;
 };
 
-void require_file_name(const std::string& file, const std::string& config) {
-  if (fs::is_directory(file)) throw ConfigError(file, "is a folder, expected the name of a file to write");
-  if (fs::exists(file) && fs::equivalent(file, config))
-    throw ConfigError(file, "is the configuration itself, expected another file to write");
-  const fs::path parent = fs::path(file).parent_path();
-  if (!parent.empty() && !fs::is_directory(parent))
-    throw ConfigError(file, "cannot be written there, expected a folder that exists");
-}
-
 void simulate_to_file(const Arguments& a) {
   const Configuration c = load_configuration(a.config);
   if (!c.simulation)

@@ -32,24 +32,16 @@ void cut_to_window(CsvTable& table, const std::pair<double, double>& window) {
   table.keep(static_cast<std::size_t>(first - table.t.begin()), static_cast<std::size_t>(last - first));
 }
 
-double mean_step(const CsvTable& table) {
-  return (table.t.back() - table.t.front()) / static_cast<double>(table.size() - 1);
-}
-
 void require_uniform(const CsvTable& table) {
-  const double mean = mean_step(table);
-  std::size_t worst = 1;
-  const auto deviation = [&](std::size_t i) { return std::abs(table.t[i] - table.t[i - 1] - mean); };
-  for (std::size_t i = 1; i < table.size(); ++i)
-    if (deviation(i) > deviation(worst)) worst = i;
-  if (deviation(worst) <= internal::kUniformTolerance * mean) return;
+  if (internal::is_uniform(table)) return;
+  const std::size_t worst = internal::worst_step(table);
+  const double mean = internal::mean_step(table), step = table.t[worst] - table.t[worst - 1];
   throw ConfigError(
       table.path, table.line[worst],
       fmt::format(
           "time is not uniform: a step of {:.6g} ms, {:.3g} % off the mean of {:.6g} ms, expected every "
           "step within 0.1 % of the mean, or resample: {{rate: ...}} (here about {:.4g} Hz)",
-          1e3 * (table.t[worst] - table.t[worst - 1]), 100.0 * deviation(worst) / mean, 1e3 * mean,
-          1.0 / mean));
+          1e3 * step, 100.0 * std::abs(step - mean) / mean, 1e3 * mean, 1.0 / mean));
 }
 
 bool reproduces_times(const CsvTable& table, double dt) {
@@ -62,7 +54,7 @@ bool reproduces_times(const CsvTable& table, double dt) {
 /// of the file exactly, one over a whole rate first, so that a recording that was written reads back the
 /// same.
 double sampling_interval(const CsvTable& table) {
-  const double mean = mean_step(table);
+  const double mean = internal::mean_step(table);
   double below = mean, above = mean;
   std::vector<double> candidates = {1.0 / std::round(1.0 / mean), mean};
   for (int ulp = 0; ulp < 3; ++ulp) {
@@ -74,7 +66,37 @@ double sampling_interval(const CsvTable& table) {
   return mean;
 }
 
-Recording as_it_stands(CsvTable&& table) {
+}  // namespace
+
+namespace internal {
+
+CsvTable read_window(const std::string& path, const CsvOptions& options, EarlierRow earlier) {
+  CsvTable table = read_table(path, options.columns, earlier);
+  require_samples(table, table.size(), "");
+  if (options.window) cut_to_window(table, *options.window);
+  return table;
+}
+
+double mean_step(const CsvTable& table) {
+  return (table.t.back() - table.t.front()) / static_cast<double>(table.size() - 1);
+}
+
+std::size_t worst_step(const CsvTable& table) {
+  const double mean = mean_step(table);
+  std::size_t worst = 1;
+  const auto deviation = [&](std::size_t i) { return std::abs(table.t[i] - table.t[i - 1] - mean); };
+  for (std::size_t i = 1; i < table.size(); ++i)
+    if (deviation(i) > deviation(worst)) worst = i;
+  return worst;
+}
+
+bool is_uniform(const CsvTable& table) {
+  const double mean = mean_step(table);
+  const std::size_t worst = worst_step(table);
+  return std::abs(table.t[worst] - table.t[worst - 1] - mean) <= kUniformTolerance * mean;
+}
+
+Recording uniform_recording(CsvTable&& table) {
   require_uniform(table);
   Recording r;
   r.start = table.t.front();
@@ -85,15 +107,13 @@ Recording as_it_stands(CsvTable&& table) {
   return r;
 }
 
-}  // namespace
+}  // namespace internal
 
 Recording read_csv(const std::string& path, const CsvOptions& options) {
-  CsvTable table = internal::read_table(path, options.columns);
-  require_samples(table, table.size(), "");
-  if (options.window) cut_to_window(table, *options.window);
+  CsvTable table = internal::read_window(path, options);
   const double quantum = seen_quantum(table.x1);  // of the raw samples: resampling hides it
   Recording r = options.resample_rate ? internal::resample(table, *options.resample_rate)
-                                      : as_it_stands(std::move(table));
+                                      : internal::uniform_recording(std::move(table));
   if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
   r.file = std::filesystem::path(path).filename().string();
   r.quantum = quantum;

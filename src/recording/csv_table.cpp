@@ -62,7 +62,10 @@ std::string whole_file(const std::string& path) {
 /// Reads the lines of one file into a table.
 class TableReader {
  public:
-  TableReader(const std::string& path, const CsvColumns& columns) : columns_(columns) { table_.path = path; }
+  TableReader(const std::string& path, const CsvColumns& columns, EarlierRow earlier)
+      : columns_(columns), earlier_(earlier) {
+    table_.path = path;
+  }
 
   CsvTable read(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -111,7 +114,9 @@ class TableReader {
   void row() {
     check_width();
     const double t = number(t_, columns_.time);
-    if (!table_.t.empty() && t <= table_.t.back())
+    const bool goes_on = table_.t.empty() || t > table_.t.back();
+    if (!goes_on && earlier_ == EarlierRow::kSkipped) return table_.skipped.push_back(line_);
+    if (!goes_on)
       fail(fmt::format("{} goes from {} to {} s, expected time that increases from row to row", columns_.time,
                        table_.t.back(), t));
     if (table_.size() == kMostSamples)
@@ -146,6 +151,7 @@ class TableReader {
   [[noreturn]] void fail(const std::string& what) const { throw ConfigError(table_.path, line_, what); }
 
   const CsvColumns& columns_;
+  const EarlierRow earlier_;
   CsvTable table_;
   std::vector<std::string_view> fields_;
   std::size_t width_ = 0;
@@ -175,9 +181,9 @@ std::string shown(std::string_view text) {
   return "'" + out + (text.size() > kMost ? "...'" : "'");
 }
 
-CsvTable read_table(const std::string& path, const CsvColumns& columns) {
+CsvTable read_table(const std::string& path, const CsvColumns& columns, EarlierRow earlier) {
   const std::string text = whole_file(path);
-  return TableReader(path, columns).read(text);
+  return TableReader(path, columns, earlier).read(text);
 }
 
 }  // namespace gapscope::internal

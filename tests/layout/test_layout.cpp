@@ -21,9 +21,9 @@ const fs::path kRoot = GAPSCOPE_SOURCE_DIR;
 /// Which modules each module may include, itself left out.
 const std::map<std::string, Names>& allowed_modules() {
   static const std::map<std::string, Names> table = [] {
-    const std::vector<std::string> order = {"base",      "recording", "plant",  "simulation", "sliding_mode",
-                                            "reference", "diagnosis", "config", "results",    "campaign",
-                                            "blind",     "report",    "cli"};
+    const std::vector<std::string> order = {
+        "base",       "recording", "plant",   "simulation", "sliding_mode", "reference", "diagnosis",
+        "inspection", "config",    "results", "campaign",   "blind",        "report",    "cli"};
     std::map<std::string, Names> t = {
         {"base", {}},
         {"recording", {"base"}},
@@ -32,7 +32,8 @@ const std::map<std::string, Names>& allowed_modules() {
         {"sliding_mode", {"base", "recording"}},  // the detector sees no model
         {"reference", {"base", "recording", "plant", "simulation"}},
         {"blind/plant", {"base", "recording"}},  // shares no code with what it checks
-        {"results", {"base", "recording", "sliding_mode", "reference", "diagnosis", "blind", "campaign"}},
+        {"results",
+         {"base", "recording", "sliding_mode", "reference", "diagnosis", "inspection", "blind", "campaign"}},
         {"report", {"base", "recording", "results"}},
     };
     Names above;

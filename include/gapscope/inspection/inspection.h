@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+#include "gapscope/recording/csv.h"
+
+namespace gapscope {
+
+/// What a finding means for the estimates: nothing, worth knowing, or they will be wrong or refused.
+enum class Severity { kFine, kNote, kSpoils };
+
+const char* to_string(Severity severity);  ///< "fine", "note", "spoils"
+
+/// One question put to a recording, and its answer.
+struct Finding {
+  std::string rule;  ///< what was looked at: "time", "sign", ...; always all of them, in the same order
+  Severity severity = Severity::kFine;
+  std::string found;   ///< what there is, with figures
+  std::string advice;  ///< what to do; empty where nothing is
+};
+
+/// The figures behind the findings; NaN where one could not be had. On a translational axis rad reads m.
+struct RecordingFacts {
+  int samples = 0;                                   ///< rows that go forward in time
+  int skipped_rows = 0;                              ///< rows that do not
+  int missing_samples = 0;                           ///< that the pauses have room for
+  double start = kNaN, duration = kNaN;              ///< [s]
+  double rate = kNaN;                                ///< one over the median step [Hz]
+  double shortest_step = kNaN, longest_step = kNaN;  ///< [s]
+  double quantum = kNaN;                             ///< step of the encoder [rad]
+  double noise = kNaN;      ///< standard deviation of a position, rounding included [rad]
+  double travel = kNaN;     ///< of x1, peak to peak, without drift [rad]
+  double speed_rms = kNaN;  ///< [rad/s]
+  double period = kNaN;     ///< of the motion [s]
+  int half_periods = 0;
+  double input_peak = kNaN;       ///< largest |u| [unit of u]
+  double input_noise = kNaN;      ///< standard deviation of a sample of u [unit of u]
+  double input_period = kNaN;     ///< after which u repeats itself [s]
+  double input_frequency = kNaN;  ///< that holds most of the power of u [Hz]
+  double line_share = kNaN;       ///< share of that power at it [-]
+  Interval input_band;            ///< that 90 % of that power lies in [Hz]
+  double clipped_share = kNaN;    ///< of the samples, in which u stays at its largest or smallest value [-]
+  double work_cosine = kNaN;      ///< ∫u w dt/√(∫u² dt ∫w² dt): of a passive drive above zero [-]
+  double inertia = kNaN;          ///< of motor and load, as one body [unit of u s²/rad]
+  double damping = kNaN;          ///< [unit of u s/rad]
+  double friction = kNaN;         ///< [unit of u]
+  double feedback = kNaN;         ///< correlation of the fast part of u with that of x1 just before [-]
+  double rest_share = kNaN;       ///< of the time in which x1 stands still [-]
+};
+
+/// What a recording says about itself before anything is estimated from it.
+struct Inspection {
+  std::string file;  ///< as it was named
+  bool rotation = true;
+  RecordingFacts facts;
+  std::vector<Finding> findings;
+  bool spoilt() const;         ///< whether any finding is kSpoils
+  std::string report() const;  ///< a line for each finding and each advice, and the sum: terminal
+};
+
+/// Puts every question to a recording. Only t, u and x1 are looked at. Rows that do not go forward in time
+/// and time that is not uniform are findings here; the other questions are then put to what is left, on a
+/// uniform grid.
+/// @param rotation  false: the position is in m
+/// @throws ConfigError where read_csv() would for another reason than time.
+Inspection inspect(const std::string& path, const CsvOptions& options = {}, bool rotation = true);
+
+}  // namespace gapscope

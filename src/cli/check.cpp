@@ -1,0 +1,58 @@
+// `check`: what a recording is worth before anything is estimated from it.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/inspection/inspection.h"
+#include "gapscope/results/inspection_result.h"
+
+namespace gapscope::cli {
+namespace {
+
+struct Arguments {
+  RecordingArguments recording;
+  std::string output;
+  bool json = false;
+};
+
+void check_recording(const Arguments& a) {
+  const RecordingArguments& r = a.recording;
+  if (!a.output.empty()) require_file_name(a.output, r.file);
+  const Inspection inspection = inspect(r.file, r.options(), !r.translation);
+  if (!a.output.empty()) write_text(a.output, inspection_json(inspection));
+  fmt::print("{}", a.json ? inspection_json(inspection) : inspection.report());
+  if (inspection.spoilt()) throw CLI::RuntimeError(kSpoiltRecording);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("check", "What a recording is worth: look before you estimate");
+  add_recording_arguments(*command, arguments->recording);
+  command->add_option("-o,--output", arguments->output, "file to write the findings into (JSON)")
+      ->type_name("FILE");
+  command->add_flag("--json", arguments->json, "the same JSON on standard output instead of the text");
+  command->footer(
+      "One line for each question: fine, note (worth knowing) or spoils (the estimates will be wrong or\n"
+      "refused), with the figures and, after ->, what to do. Nothing but t, u and x1 is looked at.\n"
+      "  time           rows in order, none missing, uniform, t in seconds\n"
+      "  unit of x1     rad (m), not counts, degrees or turns\n"
+      "  encoder        its step, its noise, the smallest gap that can be read\n"
+      "  jumps          wrapped or lost counts, spikes\n"
+      "  fresh samples  x1 read anew for every row\n"
+      "  travel, reversals, speed, standstill   what the motion offers\n"
+      "  input, clipping, spectrum              what the input offers\n"
+      "  sign, scale of u                       whether u can be what moves x1; what one body would weigh\n"
+      "  feedback       whether u answers x1 (what a loop filters away cannot be told from u and x1)\n"
+      "  diagnosis      what `gapscope diagnose` will have to judge by\n"
+      "JSON keys carry their units [s, Hz, rad, units of u].\n"
+      "Exit status: 0 nothing spoils the estimates, 3 something does, else as for every command.\n\n"
+      "Example: gapscope check drive.csv --input i_q --position theta -o drive_check.json");
+  command->callback([arguments] { check_recording(*arguments); });
+}
+
+}  // namespace gapscope::cli

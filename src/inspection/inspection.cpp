@@ -1,0 +1,121 @@
+#include "gapscope/inspection/inspection.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "inspection/rules.h"
+#include "recording/resample.h"
+
+namespace gapscope {
+namespace {
+
+using internal::CsvTable;
+using internal::Material;
+
+using Rule = Finding (*)(const Material&, RecordingFacts&);
+
+/// In the order in which they are told: what the others rest on comes first.
+constexpr Rule kRules[] = {
+    internal::check_time, internal::check_position_unit, internal::check_encoder,  internal::check_jumps,
+    internal::check_hold, internal::check_travel,        internal::check_periods,  internal::check_speed,
+    internal::check_rest, internal::check_input,         internal::check_clipping, internal::check_spectrum,
+    internal::check_sign, internal::check_scale,         internal::check_feedback, internal::check_repeats};
+
+/// A grid at the median step, but never many times finer than the rows: one row far off must not fill the
+/// memory.
+double grid_rate(const CsvTable& rows) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(rows.t[i] - rows.t[i - 1]);
+  return std::min(1.0 / median(std::move(steps)), 4.0 / internal::mean_step(rows));
+}
+
+/// The step of the encoder; where it is seen too rarely to be counted, the smallest one there is.
+double quantum_of(const std::vector<double>& x1) {
+  constexpr double kMostlyStill = 0.95;
+  if (const double q = seen_quantum(x1); q > 0.0) return q;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < x1.size(); ++i)
+    if (x1[i] != x1[i - 1]) steps.push_back(std::abs(x1[i] - x1[i - 1]));
+  const double still = 1.0 - static_cast<double>(steps.size()) / static_cast<double>(x1.size());
+  return steps.empty() || still < kMostlyStill ? 0.0 : *std::min_element(steps.begin(), steps.end());
+}
+
+Recording on_grid(CsvTable rows, const CsvOptions& options) {
+  const double quantum = quantum_of(rows.x1);
+  Recording r = options.resample_rate        ? internal::resample(rows, *options.resample_rate)
+                : internal::is_uniform(rows) ? internal::uniform_recording(std::move(rows))
+                                             : internal::resample(rows, grid_rate(rows));
+  r.quantum = quantum;
+  return r;
+}
+
+std::string wrapped(const std::string& text, std::size_t indent) {
+  constexpr std::size_t kWidth = 110;
+  std::string out, line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (!line.empty() && indent + line.size() + 1 + word.size() > kWidth) {
+      out += line + "\n" + std::string(indent, ' ');
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    at = end + 1;
+  }
+  return out + line;
+}
+
+std::string sum_of(const Inspection& inspection) {
+  std::vector<std::string> spoiling;
+  std::size_t notes = 0;
+  for (const Finding& f : inspection.findings) {
+    if (f.severity == Severity::kSpoils) spoiling.push_back(f.rule);
+    notes += f.severity == Severity::kNote;
+  }
+  const std::size_t all = inspection.findings.size();
+  if (spoiling.empty())
+    return fmt::format("nothing of {} questions will spoil the estimates ({} worth a note)", all, notes);
+  return fmt::format("{} of {} will spoil the estimates: {}", spoiling.size(), all,
+                     fmt::join(spoiling, ", "));
+}
+
+}  // namespace
+
+const char* to_string(Severity severity) {
+  return severity == Severity::kFine ? "fine" : severity == Severity::kNote ? "note" : "spoils";
+}
+
+bool Inspection::spoilt() const {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& f) { return f.severity == Severity::kSpoils; });
+}
+
+std::string Inspection::report() const {
+  constexpr std::size_t kIndent = 27;
+  std::string text = fmt::format("{:<12}{}\n", "recording", file);
+  for (const Finding& f : findings) {
+    text += fmt::format("{:<12}{:<15}{}\n", to_string(f.severity), f.rule, wrapped(f.found, kIndent));
+    if (!f.advice.empty())
+      text += std::string(kIndent, ' ') + wrapped("-> " + f.advice, kIndent + 3).append("\n");
+  }
+  return text + fmt::format("{:<12}{}\n", "answer", sum_of(*this));
+}
+
+Inspection inspect(const std::string& path, const CsvOptions& options, bool rotation) {
+  Material m;
+  m.rows = internal::read_window(path, options, internal::EarlierRow::kSkipped);
+  m.recording = on_grid(m.rows, options);
+  m.resampled = options.resample_rate.has_value();
+  m.rotation = rotation;
+  m.signal = internal::read_facts(m.recording.motor_trace());
+  Inspection inspection;
+  inspection.file = path;
+  inspection.rotation = rotation;
+  for (const Rule rule : kRules) inspection.findings.push_back(rule(m, inspection.facts));
+  return inspection;
+}
+
+}  // namespace gapscope

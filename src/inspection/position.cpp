@@ -1,0 +1,162 @@
+// What the samples of x1 say about the encoder and the unit they are given in.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "inspection/rules.h"
+
+namespace gapscope::internal {
+namespace {
+
+using Samples = std::span<const double>;
+
+constexpr double kFastestRotation = 3000.0;  ///< no motor turns faster [rad/s]
+constexpr double kFastestSlide = 50.0;       ///< no axis moves faster [m/s]
+constexpr double kGapInQuanta = 40.0;        ///< smallest gap that the detector reads
+constexpr double kJump = 10.0;               ///< step over those around it
+constexpr double kSmallestJump = 20.0;       ///< … and over the noise of one position
+constexpr double kFastStep = 3.0;            ///< quanta per sample at which no sample should stand still
+constexpr double kMostHeld = 0.3;            ///< share of samples that stand still all the same
+
+/// Counts per turn that encoders are made with, beside the powers of two.
+constexpr std::array kDecimalCounts = {1000.0, 2000.0,  2500.0,  4000.0,  5000.0,
+                                       8000.0, 10000.0, 20000.0, 40000.0, 50000.0};
+
+bool near(double value, double usual) { return std::abs(value - usual) < 1e-4 * usual; }
+
+bool is_power_of_two(double counts) {
+  return counts > 50.0 && near(counts, std::exp2(std::round(std::log2(counts))));
+}
+
+bool is_usual(double counts) {
+  return is_power_of_two(counts) || std::any_of(kDecimalCounts.begin(), kDecimalCounts.end(),
+                                                [&](double usual) { return near(counts, usual); });
+}
+
+/// 0.001, 1e-5, ...: what rounding to so many decimals leaves.
+bool is_decimal(double step) { return std::abs(std::log10(step) - std::round(std::log10(step))) < 1e-6; }
+
+bool whole_numbers(Samples x) {
+  return std::all_of(x.begin(), x.end(), [](double v) { return v == std::round(v); });
+}
+
+double fastest(const Material& m) {
+  const Samples x = m.recording.x1;
+  const std::size_t reach = std::max<std::size_t>(1, x.size() / 1000);
+  double most = 0.0;
+  for (std::size_t i = reach; i < x.size(); ++i) most = std::max(most, std::abs(x[i] - x[i - reach]));
+  return most / (m.recording.dt * static_cast<double>(reach));
+}
+
+Finding wrong_unit(const std::string& found, const std::string& advice) {
+  return {"unit of x1", Severity::kSpoils, found, advice};
+}
+
+double median_of_four(std::array<double, 4> v) {
+  std::sort(v.begin(), v.end());
+  return 0.5 * (v[1] + v[2]);
+}
+
+/// Steps that stand alone among their neighbours: a body with inertia makes none.
+std::vector<std::size_t> jumps(const Material& m) {
+  const Samples x = m.rows.x1;
+  const auto step = [&](std::size_t i) { return std::abs(x[i] - x[i - 1]); };
+  const double least = kSmallestJump * std::max(m.signal.noise, m.recording.quantum);
+  std::vector<std::size_t> found;
+  for (std::size_t i = 3; i + 2 < x.size(); ++i) {
+    const double around = median_of_four({step(i - 2), step(i - 1), step(i + 1), step(i + 2)});
+    if (step(i) > kJump * around + least) found.push_back(i);
+  }
+  return found;
+}
+
+/// Share of the samples of fast motion in which x1 stands still, and how many come between two that move.
+struct Held {
+  double share = 0.0, every = 1.0;
+};
+
+Held held(const Material& m) {
+  constexpr std::size_t kReach = 8;
+  const Samples x = m.recording.x1;
+  const double least = kFastStep * m.recording.quantum;
+  std::size_t fast = 0, still = 0;
+  for (std::size_t i = kReach; i + kReach < x.size(); ++i) {
+    if (std::abs(x[i + kReach] - x[i - kReach]) < 2.0 * kReach * least) continue;
+    ++fast;
+    still += x[i] == x[i - 1];
+  }
+  if (fast < 100) return {};
+  const double share = static_cast<double>(still) / static_cast<double>(fast);
+  return {share, 1.0 / (1.0 - std::min(share, 0.999))};
+}
+
+}  // namespace
+
+Finding check_position_unit(const Material& m, RecordingFacts&) {
+  const double q = m.recording.quantum, turn = 2.0 * std::numbers::pi;
+  const double speed = fastest(m), limit = m.rotation ? kFastestRotation : kFastestSlide;
+  if (m.moves() && whole_numbers(m.rows.x1))
+    return wrong_unit("all positions are whole numbers: counts?",
+                      fmt::format("give x1 in {}", m.rotation ? "rad: counts x 2 pi/counts per turn" : "m"));
+  if (m.rotation && q > 0.0 && !is_usual(turn / q) && is_usual(360.0 / q))
+    return wrong_unit(fmt::format("x1 steps by 360/{:.0f}: degrees?", 360.0 / q),
+                      "give x1 in rad: degrees x pi/180");
+  if (m.rotation && q > 0.0 && !is_usual(turn / q) && is_power_of_two(1.0 / q))
+    return wrong_unit(fmt::format("x1 steps by 1/{:.0f}: turns?", 1.0 / q), "give x1 in rad: turns x 2 pi");
+  const std::string speeds = fmt::format("up to {:.4g} {}/s", speed, m.unit());
+  if (speed > limit)
+    return wrong_unit(speeds + fmt::format(", more than {:.0f}", limit),
+                      fmt::format("give x1 in {} and t in s", m.unit()));
+  return {"unit of x1", Severity::kFine, speeds + fmt::format(", as a motor in {} may move", m.unit()), ""};
+}
+
+Finding check_encoder(const Material& m, RecordingFacts& facts) {
+  const double q = m.recording.quantum, noise = m.signal.noise;
+  facts.noise = noise;
+  if (!(q > 0.0))
+    return {"encoder", Severity::kNote,
+            fmt::format("no smallest step is seen; noise {:.3g} {} per position", noise, m.unit()),
+            "if x1 was filtered, interpolated or computed, record the raw counts: filters blur the impacts"};
+  facts.quantum = q;
+  if (m.rotation && is_decimal(q))
+    return {"encoder", Severity::kNote,
+            fmt::format("x1 steps by {:.4g} rad, a round number: so many decimals, not the counts", q),
+            "write x1 with more digits, and give the real step as encoder: {bits: ...}"};
+  const double per_turn = 2.0 * std::numbers::pi / q;
+  return {"encoder", Severity::kFine,
+          fmt::format("x1 steps by {:.4g} {}{}, noise {:.2g} steps; a gap below {:.3g} {} (40 steps) is too "
+                      "coarse for the detector",
+                      q, m.unit(), m.rotation ? fmt::format(" ({:.0f} per turn)", per_turn) : "", noise / q,
+                      kGapInQuanta * q, m.unit()),
+          ""};
+}
+
+Finding check_jumps(const Material& m, RecordingFacts&) {
+  const std::vector<std::size_t> found = jumps(m);
+  if (found.empty()) return {"jumps", Severity::kFine, "x1 has none", ""};
+  const std::size_t i = found.front();
+  const double size = std::abs(m.rows.x1[i] - m.rows.x1[i - 1]), turns = size / (2.0 * std::numbers::pi);
+  const bool wraps = m.rotation && turns > 0.9 && std::abs(turns - std::round(turns)) < 0.05 * turns;
+  return {"jumps", Severity::kSpoils,
+          fmt::format("x1 jumps {} times, first by {:.4g} {} in line {}", found.size(), size, m.unit(),
+                      m.rows.line[i]),
+          wraps ? "a whole turn: count x1 on over the turns (unwrap it)"
+                : "lost counts, a wrapped counter or a spike: mend the cause, or leave that part out with "
+                  "recording: window"};
+}
+
+Finding check_hold(const Material& m, RecordingFacts&) {
+  const Held h = held(m);
+  if (h.share < kMostHeld) return {"fresh samples", Severity::kFine, "x1 is read anew for every row", ""};
+  const double rate = 1.0 / (m.recording.dt * h.every);
+  return {"fresh samples", Severity::kSpoils,
+          fmt::format("x1 changes in every {:.2g}th row only while it moves: read at some {:.4g} Hz and held",
+                      h.every, rate),
+          fmt::format("record at the rate of the encoder, or recording: resample: {{rate: {:.4g}}}", rate)};
+}
+
+}  // namespace gapscope::internal

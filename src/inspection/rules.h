@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "gapscope/inspection/inspection.h"
+#include "gapscope/recording/recording.h"
+#include "recording/csv_table.h"
+#include "sliding_mode/signal_facts.h"
+
+namespace gapscope::internal {
+
+/// A recording as it is looked at.
+struct Material {
+  CsvTable rows;           ///< as they stand in the file
+  Recording recording;     ///< the same on a uniform grid
+  SignalFacts signal;      ///< of its x1
+  bool resampled = false;  ///< on request: irregular time is taken care of
+  bool rotation = true;
+  const char* unit() const { return rotation ? "rad" : "m"; }
+  bool moves() const { return signal.speed_rms > 0.0; }
+};
+
+/// One question each; fills the facts that it finds.
+Finding check_time(const Material& m, RecordingFacts& facts);
+Finding check_position_unit(const Material& m, RecordingFacts& facts);
+Finding check_encoder(const Material& m, RecordingFacts& facts);
+Finding check_jumps(const Material& m, RecordingFacts& facts);
+Finding check_hold(const Material& m, RecordingFacts& facts);
+Finding check_travel(const Material& m, RecordingFacts& facts);
+Finding check_periods(const Material& m, RecordingFacts& facts);
+Finding check_speed(const Material& m, RecordingFacts& facts);
+Finding check_rest(const Material& m, RecordingFacts& facts);
+Finding check_input(const Material& m, RecordingFacts& facts);
+Finding check_clipping(const Material& m, RecordingFacts& facts);
+Finding check_spectrum(const Material& m, RecordingFacts& facts);
+Finding check_sign(const Material& m, RecordingFacts& facts);
+Finding check_scale(const Material& m, RecordingFacts& facts);
+Finding check_feedback(const Material& m, RecordingFacts& facts);
+Finding check_repeats(const Material& m, RecordingFacts& facts);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,95 @@
+// Whether the rows follow each other in time as every command expects.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "inspection/rules.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kPause = 1.5;    ///< steps longer than this many median steps have lost a sample
+constexpr double kSlowest = 5.0;  ///< rate below which t is hardly in seconds [Hz]
+constexpr double kFastest = 1e6;  ///< … above which
+
+struct Steps {
+  double median = kNaN, shortest = kNaN, longest = kNaN;  ///< [s]
+  std::size_t longest_row = 0, pauses = 0;
+  double missing = 0.0;
+};
+
+Steps steps_of(const CsvTable& rows) {
+  std::vector<double> all;
+  for (std::size_t i = 1; i < rows.size(); ++i) all.push_back(rows.t[i] - rows.t[i - 1]);
+  Steps s;
+  const auto [shortest, longest] = std::minmax_element(all.begin(), all.end());
+  s.shortest = *shortest, s.longest = *longest;
+  s.longest_row = static_cast<std::size_t>(longest - all.begin());
+  s.median = median(all);
+  for (const double step : all) {
+    if (step <= kPause * s.median) continue;
+    ++s.pauses;
+    s.missing += std::round(step / s.median) - 1.0;
+  }
+  return s;
+}
+
+std::string resample_advice(const RecordingFacts& facts) {
+  return fmt::format(
+      "every command refuses it as it stands: recording: resample: {{rate: {:.4g}}} makes it uniform, times "
+      "within a step stay unsure",
+      facts.rate);
+}
+
+Finding skipped_rows(const Material& m) {
+  return {"time", Severity::kSpoils,
+          fmt::format("{} rows are not later than the row before, the first in line {}",
+                      m.rows.skipped.size(), m.rows.skipped.front()),
+          "export each sample once and in order; the rest is judged without these rows"};
+}
+
+Finding pauses(const Material& m, const Steps& s, const RecordingFacts& facts) {
+  return {
+      "time", m.resampled ? Severity::kNote : Severity::kSpoils,
+      fmt::format("{:.0f} samples are missing at {} places, most of them in {:.4g} s from t = {:.6g} s on",
+                  s.missing, s.pauses, s.longest, m.rows.t[s.longest_row]),
+      m.resampled
+          ? "the resampled motion is a straight line there; better record without losses"
+          : "record without losses, or cut a whole part with recording: window; " + resample_advice(facts)};
+}
+
+Finding jitter(const Material& m, const Steps& s, const RecordingFacts& facts) {
+  return {
+      "time", m.resampled ? Severity::kNote : Severity::kSpoils,
+      fmt::format("steps of {:.4g} to {:.4g} ms, {:.4g} ms in the middle: not uniform within 0.1 %",
+                  1e3 * s.shortest, 1e3 * s.longest, 1e3 * s.median),
+      m.resampled ? "resampled; delays and high frequencies are not to be trusted" : resample_advice(facts)};
+}
+
+}  // namespace
+
+Finding check_time(const Material& m, RecordingFacts& facts) {
+  const Steps s = steps_of(m.rows);
+  facts.samples = static_cast<int>(m.rows.size());
+  facts.skipped_rows = static_cast<int>(m.rows.skipped.size());
+  facts.missing_samples = static_cast<int>(std::min(s.missing, 2e9));
+  facts.start = m.rows.t.front();
+  facts.duration = m.rows.t.back() - m.rows.t.front() + s.median;
+  facts.rate = 1.0 / s.median;
+  facts.shortest_step = s.shortest, facts.longest_step = s.longest;
+  if (!m.rows.skipped.empty()) return skipped_rows(m);
+  if (facts.rate < kSlowest || facts.rate > kFastest)
+    return {"time", Severity::kSpoils,
+            fmt::format("t goes on by {:.4g} from row to row: {:.4g} Hz if it is in seconds", s.median,
+                        facts.rate),
+            "give t in seconds (row numbers, ms or µs?)"};
+  if (s.pauses > 0) return pauses(m, s, facts);
+  if (!is_uniform(m.rows)) return jitter(m, s, facts);
+  return {
+      "time", Severity::kFine,
+      fmt::format("{} samples, {:.5g} s at {:.5g} Hz, uniform", facts.samples, facts.duration, facts.rate),
+      ""};
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,133 @@
+// Whether the input can be what moves x1: its sign, its scale, and whether x1 feeds back into it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "inspection/rules.h"
+#include "reference/rough_drive.h"
+#include "sliding_mode/torque_cycles.h"
+
+namespace gapscope::internal {
+namespace {
+
+using Samples = std::span<const double>;
+
+constexpr double kTaken = -0.02;        ///< work cosine below which the drive gives back more than it takes
+constexpr double kLongestDelay = 0.02;  ///< of a measurement that could make it look so [s]
+constexpr double kFollows = 0.9;        ///< share of x1 that goes with u against a locked output
+constexpr std::size_t kLags = 8;        ///< samples in which a loop answers
+constexpr double kAnswers = 0.15;       ///< correlation that is an answer
+
+/// ∫u dx1 over what it could be at most: u is held, so the sum is exact.
+double work_cosine(const Material& m) {
+  const Recording& r = m.recording;
+  double work = 0.0, input = 0.0;
+  for (std::size_t i = 0; i + 1 < r.size(); ++i) {
+    work += r.u[i] * (r.x1[i + 1] - r.x1[i]);
+    input += r.u[i] * r.u[i] * r.dt;
+  }
+  return work / std::sqrt(input * m.signal.speed_rms * m.signal.speed_rms * r.duration());
+}
+
+/// The delay between u and x1 that would turn a body's vanishing work into this [s].
+double explaining_delay(const Material& m, double cosine) {
+  const double angle = std::asin(std::min(1.0, -cosine));
+  const double rate = m.signal.half_period > 0.0 ? std::numbers::pi / m.signal.half_period
+                                                 : m.signal.speed_rms / m.signal.amplitude;
+  return angle / rate;
+}
+
+/// The fast part of a signal, outliers drawn in, of unit power; empty if there is none.
+std::vector<double> fast_part(Samples y) {
+  std::vector<double> d;
+  for (std::size_t i = 4; i < y.size(); ++i)
+    d.push_back(y[i] - 4.0 * y[i - 1] + 6.0 * y[i - 2] - 4.0 * y[i - 3] + y[i - 4]);
+  const double width = 3.0 * robust_std(d),
+               least = 1e-9 * (*std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
+  if (!(width > least)) return {};
+  for (double& v : d) v = std::clamp(v, -width, width);
+  const double power = rms(d);
+  for (double& v : d) v /= power;
+  return d;
+}
+
+/// The correlation of u with x1 some samples before that is strongest.
+struct Answer {
+  double correlation = 0.0;
+  std::size_t lag = 0;
+};
+
+Answer answer_of(const std::vector<double>& u, const std::vector<double>& x) {
+  Answer best;
+  for (std::size_t lag = 0; lag < kLags; ++lag) {
+    double sum = 0.0;
+    for (std::size_t i = lag; i < u.size(); ++i) sum += u[i] * x[i - lag];
+    const double c = sum / static_cast<double>(u.size() - lag);
+    if (std::abs(c) > std::abs(best.correlation)) best = {c, lag};
+  }
+  return best;
+}
+
+}  // namespace
+
+Finding check_sign(const Material& m, RecordingFacts& facts) {
+  if (!m.moves() || facts.input_peak == 0.0)
+    return {"sign", Severity::kNote, "cannot be told without motion and input", "see travel and input"};
+  const double cosine = facts.work_cosine = work_cosine(m);
+  const std::string found = fmt::format("u works on x1 with a cosine of {:.2f}", cosine);
+  if (cosine >= 0.0) return {"sign", Severity::kFine, found + ": it drives the motion", ""};
+  const double delay = explaining_delay(m, cosine);
+  if (cosine < kTaken && delay > kLongestDelay)
+    return {"sign", Severity::kSpoils,
+            found + ": the motion would drive the motor, as no passive load can for long",
+            "turn the sign of u or of x1 (unless a weight or another motor drives this one)"};
+  return {"sign", Severity::kNote,
+          found + fmt::format(": little, and less than none, as where x1 is {:.2g} ms late", 1e3 * delay),
+          "look whether a positive u accelerates towards positive x1, and whether t is that of u and of x1 "
+          "alike"};
+}
+
+Finding check_scale(const Material& m, RecordingFacts& facts) {
+  const MotorTrace trace = m.recording.motor_trace();
+  if (!m.moves()) return {"scale of u", Severity::kNote, "cannot be told without motion", "see travel"};
+  if (torque_cycles(trace).following > kFollows)
+    return {"scale of u", Severity::kFine,
+            "x1 goes with u, as against a locked output: it says nothing about the inertia", ""};
+  const RoughDrive rough = rough_drive(std::span(&trace, 1));
+  facts.inertia = rough.inertia, facts.damping = rough.damping, facts.friction = rough.friction;
+  const char* const units = m.rotation ? "kg m^2, N m s, N m" : "kg, N s/m, N";
+  const std::string inertia =
+      rough.inertia > 0.0 ? fmt::format("{:.3g}", rough.inertia) : "too small to be seen";
+  if (!(rough.inertia > 0.0) && !(rough.damping > 0.0))
+    return {"scale of u", Severity::kNote, "no inertia and no damping is seen in how x1 answers u",
+            "look at the sign of u; add faster parts to the excitation"};
+  return {"scale of u", Severity::kFine,
+          fmt::format("as one body: inertia {}, damping {:.3g}, friction {:.3g}, each times torque_constant "
+                      "in {}; compare with the sheets of motor and load",
+                      inertia, rough.damping, rough.friction, units),
+          ""};
+}
+
+Finding check_feedback(const Material& m, RecordingFacts& facts) {
+  const std::vector<double> u = fast_part(m.recording.u), x = fast_part(m.recording.x1);
+  const char* const open = "a slow loop, or one with filters, leaves no trace in u and x1 alone";
+  if (u.empty() || x.empty()) {
+    facts.feedback = 0.0;
+    return {"feedback", Severity::kFine,
+            fmt::format("u is as smooth as a computed command: no trace of a closed loop ({})", open), ""};
+  }
+  const Answer answer = answer_of(u, x);
+  facts.feedback = answer.correlation;
+  if (std::abs(answer.correlation) < kAnswers)
+    return {"feedback", Severity::kFine, fmt::format("u does not answer the noise of x1 ({})", open), ""};
+  return {
+      "feedback", Severity::kNote,
+      fmt::format("u answers the steps of x1 {} samples later (correlation {:.2f}): a closed loop",
+                  answer.lag, answer.correlation),
+      "no harm if u is what reached the motor, not the reference of the loop; a free run of a model drifts "
+      "more than in an open loop"};
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,342 @@
+// Every question of a check must be answered one way by a good recording and the other way by a spoilt one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/inspection/inspection.h"
+#include "inspection/rows.h"
+#include "support/data.h"
+#include "support/reading.h"
+#include "support/temporary_file.h"
+
+namespace gapscope {
+namespace {
+
+using testing::closed_loop;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::rig;
+using testing::Rows;
+using testing::TemporaryFile;
+
+Inspection inspected(const Rows& rows, const CsvOptions& options = {}, bool rotation = true) {
+  const TemporaryFile file(rows.csv());
+  return inspect(file.path(), options, rotation);
+}
+
+const Finding& finding(const Inspection& inspection, const std::string& rule) {
+  const auto found = std::find_if(inspection.findings.begin(), inspection.findings.end(),
+                                  [&](const Finding& f) { return f.rule == rule; });
+  if (found == inspection.findings.end()) throw std::logic_error("no rule " + rule);
+  return *found;
+}
+
+std::vector<std::string> rules_with(const Inspection& inspection, Severity severity) {
+  std::vector<std::string> rules;
+  for (const Finding& f : inspection.findings)
+    if (f.severity == severity) rules.push_back(f.rule);
+  return rules;
+}
+
+double trapezoid(double t) { return 0.6 * std::clamp(2.5 * std::sin(6.283185307179586 * t), -1.0, 1.0); }
+double ramped(double t) {  // straight flanks, flat tops
+  const double phase = t - std::floor(t), up = phase < 0.5 ? phase : 0.5 - (phase - 0.5);
+  return 0.6 * std::clamp(8.0 * (up - 0.25), -1.0, 1.0);
+}
+double two_tones(double t) { return 0.5 * std::sin(6.283185307179586 * t) + 0.3 * std::sin(21.3 * t); }
+
+double noise_of(std::size_t i) { return std::sin(1e4 * static_cast<double>(i * i % 7919)); }
+
+const Rows& good() {
+  static const Rows rows = rig();
+  return rows;
+}
+
+TEST(Inspection, AGoodRecordingIsTold) {
+  const Inspection i = inspected(good());
+  EXPECT_FALSE(i.spoilt()) << i.report();
+  EXPECT_THAT(rules_with(i, Severity::kNote), ElementsAre("spectrum")) << i.report();  // one sine
+  EXPECT_EQ(i.facts.samples, 8000);
+  EXPECT_NEAR(i.facts.rate, 1000.0, 1e-6);
+  EXPECT_NEAR(i.facts.quantum, 2.0 * kPi / 262144.0, 1e-9);
+  EXPECT_NEAR(i.facts.period, 1.0, 0.01);
+  EXPECT_NEAR(i.facts.input_period, 1.0, 1e-3);
+  EXPECT_NEAR(i.facts.input_frequency, 1.0, 0.1);
+  EXPECT_THAT(i.report(), HasSubstr("nothing of 16 questions will spoil the estimates"));
+}
+
+struct Fault {
+  const char* name;
+  std::function<Rows()> make;
+  std::vector<std::string> spoils;  ///< the rules that must say so, and no other
+  const char* words;                ///< what the first of them says
+};
+
+void PrintTo(const Fault& f, std::ostream* out) { *out << f.name; }
+
+class FaultTest : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(FaultTest, IsNamedAndNothingElse) {
+  const Inspection i = inspected(GetParam().make());
+  EXPECT_EQ(rules_with(i, Severity::kSpoils), GetParam().spoils) << i.report();
+  const Finding& f = finding(i, GetParam().spoils.front());
+  EXPECT_THAT(f.found + " -> " + f.advice, HasSubstr(GetParam().words));
+  EXPECT_FALSE(f.advice.empty());
+  EXPECT_TRUE(i.spoilt());
+}
+
+Rows changed(Rows rows, const std::function<void(Rows&)>& change) {
+  change(rows);
+  return rows;
+}
+Rows changed(const std::function<void(Rows&)>& change) { return changed(good(), change); }
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& v : values) v *= factor;
+}
+
+const std::vector<Fault> kFaults = {
+    {"repeated_rows",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = 100; i < 103; ++i) r.t[i] = r.t[99];
+       });
+     },
+     {"time"},
+     "3 rows are not later than the row before, the first in line 102"},
+    {"missing_rows",
+     [] { return changed([](Rows& r) { r.erase(3000, 12); }); },
+     {"time"},
+     "12 samples are missing"},
+    {"jitter",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = 0; i < r.t.size(); ++i) r.t[i] += 2e-4 * noise_of(i);
+       });
+     },
+     {"time"},
+     "resample: {rate: "},
+    {"milliseconds",
+     [] { return changed([](Rows& r) { scale(r.t, 1000.0); }); },
+     {"time"},
+     "give t in seconds"},
+    {"counts",
+     [] {
+       return changed([](Rows& r) {
+         for (double& x : r.x1) x = std::round(x * 262144.0 / (2.0 * kPi));
+       });
+     },
+     {"unit of x1"},
+     "counts per turn"},
+    {"degrees", [] { return changed([](Rows& r) { scale(r.x1, 180.0 / kPi); }); }, {"unit of x1"}, "degrees"},
+    {"turns", [] { return changed([](Rows& r) { scale(r.x1, 0.5 / kPi); }); }, {"unit of x1"}, "turns"},
+    {"far_too_fast",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = 0; i < r.x1.size(); ++i) r.x1[i] = 1e4 * r.x1[i] + 1e-3 * noise_of(i);
+       });
+     },
+     {"unit of x1"},
+     "rad/s, more than 3000"},
+    {"wrapped",
+     [] {
+       return changed([](Rows& r) {
+         for (double& x : r.x1) x = x < 0.05 ? x + 2.0 * kPi : x;
+       });
+     },
+     {"jumps"},
+     "unwrap"},
+    {"spike", [] { return changed([](Rows& r) { r.x1[4321] += 0.3; }); }, {"jumps"}, "in line 4323"},
+    {"held_position",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = 0; i < r.x1.size(); ++i) r.x1[i] = r.x1[i - i % 4];
+       });
+     },
+     {"fresh samples"},
+     "every 4th row"},
+    {"no_motion",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = 0; i < r.x1.size(); ++i) r.x1[i] = kPi / 131072.0 * std::round(noise_of(i));
+       });
+     },
+     {"travel", "reversals"},
+     "raise the excitation"},
+    {"few_steps_of_the_encoder",
+     [] { return rig(sine(0.5814, 1.0), {}, 6); },
+     {"travel", "reversals"},
+     "raise the excitation"},
+    {"one_way",
+     [] { return rig([](double) { return 0.5; }); },
+     {"reversals", "input"},
+     "the detector will be inconclusive"},
+    {"constant_input",
+     [] { return changed([](Rows& r) { std::fill(r.u.begin(), r.u.end(), 0.3); }); },
+     {"input"},
+     "u is 0.3 all the time"},
+    {"wrong_sign", [] { return changed([](Rows& r) { scale(r.u, -1.0); }); }, {"sign"}, "turn the sign"},
+    {"wrong_sign_of_a_closed_loop",
+     [] { return changed(closed_loop(), [](Rows& r) { scale(r.u, -1.0); }); },
+     {"sign"},
+     "turn the sign"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Inspection, FaultTest, ::testing::ValuesIn(kFaults),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+struct Harmless {
+  const char* name;
+  std::function<Rows()> make;
+  const char* rule;
+  Severity severity;
+  const char* words;
+};
+
+void PrintTo(const Harmless& h, std::ostream* out) { *out << h.name; }
+
+class HarmlessTest : public ::testing::TestWithParam<Harmless> {};
+
+TEST_P(HarmlessTest, SpoilsNothing) {
+  const Inspection i = inspected(GetParam().make());
+  EXPECT_THAT(rules_with(i, Severity::kSpoils), IsEmpty()) << i.report();
+  const Finding& f = finding(i, GetParam().rule);
+  EXPECT_EQ(f.severity, GetParam().severity) << i.report();
+  EXPECT_THAT(f.found, HasSubstr(GetParam().words));
+  EXPECT_EQ(f.advice.empty(), f.severity == Severity::kFine);
+}
+
+const std::vector<Harmless> kHarmless = {
+    {"jitter_within_a_thousandth",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = 0; i < r.t.size(); ++i) r.t[i] += 4e-7 * noise_of(i);
+       });
+     },
+     "time", Severity::kFine, "uniform"},
+    {"positions_without_steps",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = 0; i < r.x1.size(); ++i) r.x1[i] += 1e-5 * noise_of(i);
+       });
+     },
+     "encoder", Severity::kNote, "no smallest step is seen"},
+    {"ramps_and_flat_tops", [] { return rig(ramped); }, "clipping", Severity::kFine, "as it was commanded"},
+    {"cut_off", [] { return rig(trapezoid); }, "clipping", Severity::kNote,
+     "u is cut off at 0.6 in 16 plateaus"},
+    {"rounded_crests",
+     [] {
+       return changed([](Rows& r) {
+         for (double& u : r.u) u = std::round(1e3 * u) / 1e3;
+       });
+     },
+     "clipping", Severity::kFine, "does not stay"},
+    {"positions_of_four_decimals",
+     [] {
+       return changed([](Rows& r) {
+         for (double& x : r.x1) x = std::round(1e4 * x) / 1e4;
+       });
+     },
+     "encoder", Severity::kNote, "so many decimals"},
+    {"two_frequencies", [] { return rig(two_tones); }, "spectrum", Severity::kFine, "90 % of the power"},
+    {"input_in_percent",
+     [] {
+       return changed([](Rows& r) {
+         for (double& u : r.u) u = std::round(100.0 * u);
+       });
+     },
+     "input", Severity::kNote, "whole numbers"},
+    {"a_weight_on_the_input",
+     [] {
+       return changed([](Rows& r) {
+         for (double& u : r.u) u += 1.0;
+       });
+     },
+     "input", Severity::kNote, "never changes its sign"},
+    {"coarse_encoder", [] { return rig(sine(0.5814, 1.0), {}, 12); }, "speed", Severity::kNote,
+     "steps of the encoder per sample"},
+    {"closed_loop", closed_loop, "feedback", Severity::kNote, "a closed loop"},
+    {"measured_current",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = 0; i < r.u.size(); ++i) r.u[i] += 0.01 * noise_of(i);
+       });
+     },
+     "feedback", Severity::kFine, "does not answer"},
+    {"inertia_measured_late",
+     [] {
+       TestDrive heavy;
+       heavy.m2 = 0.0, heavy.d1 = 1e-4;
+       return changed(rig([](double t) { return 0.5 * std::cos(94.25 * t); }, heavy), [](Rows& r) {
+         r.x1.insert(r.x1.begin(), 3, r.x1.front());
+         r.x1.resize(r.u.size());
+       });
+     },
+     "sign", Severity::kNote, "late"},
+    {"a_motion_that_dwells",
+     [] {
+       return rig([](double t) {
+         return std::abs(std::sin(3.14159 * t)) < 0.7 ? 0.0 : 0.6 * std::copysign(1.0, std::sin(3.14159 * t));
+       });
+     },
+     "standstill", Severity::kFine, "x1 rests"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Inspection, HarmlessTest, ::testing::ValuesIn(kHarmless),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(Inspection, AnInputThatDoesNotRepeatLeavesTheDiagnosisTheEncoderAlone) {
+  const Inspection swept = inspected(rig([](double t) { return 0.6 * std::sin(3.0 * t + 0.7 * t * t); }));
+  EXPECT_EQ(finding(swept, "diagnosis").severity, Severity::kNote);
+  EXPECT_EQ(finding(inspected(good()), "diagnosis").severity, Severity::kFine);
+}
+
+TEST(Inspection, IrregularTimeIsANoteOnceItIsResampled) {
+  Rows rows = good();
+  for (std::size_t i = 0; i < rows.t.size(); ++i) rows.t[i] += 2e-4 * noise_of(i);
+  CsvOptions options;
+  options.resample_rate = 900.0;
+  const Inspection i = inspected(rows, options);
+  EXPECT_EQ(finding(i, "time").severity, Severity::kNote) << i.report();
+  EXPECT_FALSE(i.spoilt()) << i.report();
+}
+
+TEST(Inspection, APauseOfAgesCostsNoMemory) {
+  Rows rows = good();
+  for (std::size_t i = 5000; i < rows.t.size(); ++i) rows.t[i] += 1e9;
+  const Inspection i = inspected(rows);
+  EXPECT_THAT(finding(i, "time").found, HasSubstr("from t = 4.999 s on"));
+}
+
+TEST(Inspection, WhatIsNoRecordingIsRefusedAsEverywhere) {
+  const TemporaryFile word("t,u,x1\n0,zero,1\n"), few("t,u,x1\n0,0,0\n1,0,0\n");
+  EXPECT_THAT(testing::refusal([&] { inspect(word.path()); }), HasSubstr("r.csv:2: u is 'zero', expected"));
+  EXPECT_THAT(testing::refusal([&] { inspect(few.path()); }), HasSubstr("2 samples, expected at least 50"));
+}
+
+TEST(Inspection, TheRealRecordings) {
+  GAPSCOPE_NEEDS_DATA();
+  const std::string data = testing::data_folder();
+  const Inspection axis = inspect(data + "/emps/emps_train.csv", {}, false);
+  EXPECT_FALSE(axis.spoilt()) << axis.report();
+  EXPECT_NEAR(axis.facts.quantum, 5e-8, 1e-10);
+  EXPECT_EQ(finding(axis, "feedback").severity, Severity::kNote);  // it was recorded in a position loop
+  EXPECT_NEAR(axis.facts.inertia, 95.1, 10.0);                     // kg: one unit of u is one N
+  EXPECT_FALSE(inspect(data + "/emps/emps_pulses.csv", {}, false).spoilt());
+  for (const char* reducer : {"baseline_pos1", "splitpreload3_pos1"}) {
+    const std::string path = data + "/cycloidal/" + reducer + ".csv";
+    EXPECT_THAT(rules_with(inspect(path), Severity::kSpoils), ElementsAre("time"));
+    CsvOptions options;
+    options.resample_rate = 400.0;
+    const Inspection uniform = inspect(path, options);
+    EXPECT_FALSE(uniform.spoilt()) << uniform.report();
+    EXPECT_EQ(finding(uniform, "feedback").severity, Severity::kFine);  // torque mode
+  }
+}
+
+}  // namespace
+}  // namespace gapscope
