@@ -79,12 +79,13 @@ std::string describe(const Excitation& e) {
   std::string name = to_string(e.kind);
   for (char& c : name)
     if (c == '_') c = ' ';
-  std::string text = fmt::format("{} {} of {:.3g}", name == "steps" ? "random" : "a", name, e.amplitude);
+  std::string text =
+      fmt::format("{} {} of {:.3g} units of u", name == "steps" ? "random" : "a", name, e.amplitude);
   if (std::isfinite(e.frequency)) text += fmt::format(" at {:.3g} Hz", e.frequency);
   if (std::isfinite(e.low)) text += fmt::format(" from {:.3g} to {:.3g} Hz", e.low, e.high);
   if (std::isfinite(e.hold)) text += fmt::format(", each held {:.3g} s", e.hold);
   if (e.dwell > 0.0) text += fmt::format(", at rest for {:.0f} % of the period", 100.0 * e.dwell);
-  if (e.offset != 0.0) text += fmt::format(" on a constant {:.3g}", e.offset);
+  if (e.offset != 0.0) text += fmt::format(" on a constant {:.3g} units of u", e.offset);
   return text;
 }
 

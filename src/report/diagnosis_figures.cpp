@@ -30,6 +30,12 @@ std::string readable(std::string name) {
   return name;
 }
 
+/// What the model has been given: its one effect, or all of them.
+std::string with_added(const DiagnosisResult& r) {
+  const auto& effects = r.diagnosis.effects;
+  return effects.size() == 1 ? "with " + readable(effects.front()) : "with all that was added";
+}
+
 Series over_time(const std::string& label, const LineStyle& style, const MismatchTrace& t,
                  const std::vector<double>& values) {
   Series s{label, style, {}, {}};
@@ -57,9 +63,7 @@ Panel pair_panel(const DiagnosisResult& r, const MismatchTrace& t, const std::st
                  const std::vector<double>& after) {
   Panel panel = time_panel(title, name, unit, t);
   panel.series.push_back(over_time(added(r) ? "nominal model" : "", before_style(), t, before));
-  if (added(r))
-    panel.series.push_back(
-        over_time("with " + readable(r.diagnosis.effects.back()), after_style(), t, after));
+  if (added(r)) panel.series.push_back(over_time(with_added(r), after_style(), t, after));
   return panel;
 }
 
@@ -103,9 +107,8 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   const MismatchSize& g = r.diagnosis.gap;
   figure.reading = fmt::format("On {} the error is {} (median over windows), the floor {}", t->file,
                                quantity(g.before, length_unit(r)), quantity(g.floor, length_unit(r)));
-  figure.reading += added(r) ? fmt::format("; with {} it is {}.", readable(r.diagnosis.effects.back()),
-                                           quantity(g.after, length_unit(r)))
-                             : ".";
+  figure.reading +=
+      added(r) ? fmt::format("; {} it is {}.", with_added(r), quantity(g.after, length_unit(r))) : ".";
   return figure;
 }
 
@@ -214,6 +217,9 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
     for (const FigureData& figure : figures)
       if (figure.file == file && figure.missing.empty() && index < figure.panels.size())
         sheet.panels.push_back(figure.panels[index]);
+  for (std::size_t i = 0; i + 1 < sheet.panels.size(); i += 2)  // neighbours are equally high
+    sheet.panels[i].height = sheet.panels[i + 1].height =
+        std::max(sheet.panels[i].height, sheet.panels[i + 1].height);
   sheet.reading = r.diagnosis.sentence;
   if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");
   return sheet;

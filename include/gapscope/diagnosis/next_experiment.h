@@ -66,7 +66,7 @@ struct NextExperiment {
 NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& like,
                                const ExperimentLimits& limits, double observer_hz, int threads = 0);
 
-/// An input in words: "a sine of 0.5 at 0.3 Hz".
+/// An input in words: "a sine of 0.5 units of u at 0.3 Hz".
 std::string describe(const Excitation& excitation);
 
 }  // namespace gapscope
