@@ -71,6 +71,7 @@ void diagnose_configuration(const Arguments& a) {
   require_folder_name(folder);
   DiagnosisOptions options;
   options.fit = c.fit;
+  options.known = c.diagnosis;
   options.excluded = a.excluded;
   options.rotation = c.rotation;
   options.progress = progress_on_terminal(a.quiet);
@@ -109,6 +110,11 @@ void add_diagnose(CLI::App& app) {
       "Where the recordings do not decide, next_experiment.yaml and .csv hold the input that would, within\n"
       "next_experiment: {input: ..., travel: ..., lowest_frequency: ..., highest_frequency: ..., duration: "
       "...}.\n"
+      "diagnosis: {periods_per_turn: [4], periods: [2.5e-3], outside_catalogue: 0.5} tells it of pole pairs "
+      "or\n"
+      "teeth, of a screw's pitch [rad; m with coordinates: translation], and how likely the catalogue lacks "
+      "what\n"
+      "is missing.\n"
       "The verdict is effect, none (the model is at the floor) or unknown (nothing in the catalogue explains "
       "it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance");

@@ -115,7 +115,7 @@ std::string read_name(const Section& root, const std::string& file) {
 
 Configuration read_configuration(const Value& document) {
   const Section root(document, {"name", "recording", "simulation", "encoder", "coordinates", "model",
-                                "detector", "fit", "next_experiment"});
+                                "detector", "fit", "next_experiment", "diagnosis"});
   Configuration c;
   c.file = document.file();
   c.name = read_name(root, c.file);
@@ -130,6 +130,7 @@ Configuration read_configuration(const Value& document) {
   read_data(root, model, c);
   if (c.simulation) c.fit.seed = c.simulation->seed;
   if (const auto fit = root.find("fit")) read_fields(*fit, c.fit);
+  if (const auto diagnosis = root.find("diagnosis")) read_fields(*diagnosis, c.diagnosis);
   if (const auto next = root.find("next_experiment")) {
     read_fields(*next, c.next_experiment);
     if (!(c.next_experiment.lowest_frequency < c.next_experiment.highest_frequency))

@@ -151,6 +151,7 @@ void write_detector(YamlWriter& out, const DetectorConfig& detector) {
 std::string resolved_yaml(const Configuration& c) {
   FitOptions fit = c.fit;
   ExperimentLimits limits = c.next_experiment;
+  DiagnosisKnowledge known = c.diagnosis;
   YamlWriter out;
   out.comment("The configuration of this report, every default filled in; paths are those of the original.");
   out.entry("name", yaml_text(c.name));
@@ -170,6 +171,9 @@ std::string resolved_yaml(const Configuration& c) {
   out.close();
   out.open("next_experiment");
   limits.fields(fields);
+  out.close();
+  out.open("diagnosis");
+  known.fields(fields);
   out.close();
   return out.text();
 }

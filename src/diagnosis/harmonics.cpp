@@ -20,8 +20,8 @@ struct AngleSums {
   double travel() const { return width * kBins; }
 };
 
-AngleSums angle_sums(const std::vector<Playback>& playbacks, std::span<const MotorTrace> traces,
-                     double torque_constant) {
+/// The motor angles that the recordings come to, and the width of one bin of them.
+AngleSums empty_sums(std::span<const MotorTrace> traces) {
   double low = kInfinity, high = -kInfinity;
   for (const MotorTrace& t : traces) {
     const auto [least, most] = std::minmax_element(t.x1.begin(), t.x1.end());
@@ -30,12 +30,18 @@ AngleSums angle_sums(const std::vector<Playback>& playbacks, std::span<const Mot
   AngleSums sums;
   sums.low = low;
   sums.width = std::max(high - low, 1e-300) / kBins;
+  return sums;
+}
+
+AngleSums angle_sums(std::span<const std::vector<double>> torques, std::span<const MotorTrace> traces,
+                     double torque_constant) {
+  AngleSums sums = empty_sums(traces);
   for (std::size_t r = 0; r < traces.size(); ++r)
     for (std::size_t i = 0; i < traces[r].size(); ++i) {
-      const double place = (traces[r].x1[i] - low) / sums.width;
+      const double place = (traces[r].x1[i] - sums.low) / sums.width;
       const std::size_t bin = std::min(kBins - 1, static_cast<std::size_t>(place));
       const double w = torque_constant != 0.0 ? torque_constant * traces[r].u[i] : 1.0;
-      const double torque = playbacks[r].torque[i];
+      const double torque = torques[r][i];
       sums.product[bin] += w * torque;
       sums.weight[bin] += w * w;
       sums.square += torque * torque;
@@ -66,15 +72,31 @@ Harmonic regress(const AngleSums& sums, double periods) {
 
 }  // namespace
 
-std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
-                                      std::span<const MotorTrace> traces, double torque_constant,
-                                      std::size_t count) {
-  if (playbacks.size() != traces.size()) return {};
-  const AngleSums sums = angle_sums(playbacks, traces, torque_constant);
+std::vector<Harmonic> angle_spectrum(std::span<const std::vector<double>> torque,
+                                     std::span<const MotorTrace> traces, double torque_constant) {
+  const AngleSums sums = angle_sums(torque, traces, torque_constant);
   std::vector<Harmonic> lines;
   const double per_cycle = 2.0 * kPi / sums.travel();
   for (double cycles = kFirstCycles; cycles < kLastCycles; cycles += kStep)
     lines.push_back(regress(sums, cycles * per_cycle));
+  return lines;
+}
+
+Harmonic line_at(std::span<const std::vector<double>> torque, std::span<const MotorTrace> traces,
+                 double torque_constant, double periods) {
+  return regress(angle_sums(torque, traces, torque_constant), periods);
+}
+
+double one_cycle(std::span<const MotorTrace> traces) { return 2.0 * kPi / empty_sums(traces).travel(); }
+
+std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
+                                      std::span<const MotorTrace> traces, double torque_constant,
+                                      std::size_t count) {
+  if (playbacks.size() != traces.size()) return {};
+  std::vector<std::vector<double>> torque;
+  for (const Playback& p : playbacks) torque.push_back(p.torque);
+  std::vector<Harmonic> lines = angle_spectrum(torque, traces, torque_constant);
+  const double per_cycle = one_cycle(traces);
   std::stable_sort(lines.begin(), lines.end(),
                    [](const Harmonic& a, const Harmonic& b) { return a.explained > b.explained; });
   std::vector<Harmonic> best;

@@ -15,9 +15,21 @@ struct Harmonic {
   double explained = 0.0;  ///< share of the squared residual torque
 };
 
-/// The strongest lines of the residual torque over the motor angle, by regression on a grid of N from half a
-/// cycle to hundreds over the travel, best first, none beside a stronger one.
+/// The residual torque over the motor angle, line by line: regression on a grid of N from three quarters of a
+/// cycle to hundreds over the travel, in rising order.
+/// @param torque one series per recording [N m]
 /// @param torque_constant multiplies u where the line follows the drive's torque; 0: it does not
+std::vector<Harmonic> angle_spectrum(std::span<const std::vector<double>> torque,
+                                     std::span<const MotorTrace> traces, double torque_constant);
+
+/// The same at one N.
+Harmonic line_at(std::span<const std::vector<double>> torque, std::span<const MotorTrace> traces,
+                 double torque_constant, double periods);
+
+/// One cycle over the travel of all recordings, in units of N.
+double one_cycle(std::span<const MotorTrace> traces);
+
+/// The strongest lines of that spectrum, best first, none beside a stronger one.
 std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
                                       std::span<const MotorTrace> traces, double torque_constant,
                                       std::size_t count);

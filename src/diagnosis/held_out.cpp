@@ -59,20 +59,42 @@ bool play_slow(const PlantModel<double>& model, const DriveState<double>& start,
                   });
 }
 
+/// Residual torque of an observer's innovation.
+class ResidualTorque {
+ public:
+  ResidualTorque(const PlantModel<double>& model, const ObserverGain& gain, double dt)
+      : motor_(model.drive.motor_inertia * gain.speed / dt), both_(motor_) {
+    if (model.structure.has_load && model.structure.load == LoadKind::kFree)
+      both_ *= 1.0 + model.drive.mass_ratio;
+  }
+  double operator()(const DriveStepper<double>& observer, double error) const {
+    return (observer.mode().contact != 0 ? both_ : motor_) * error;
+  }
+
+ private:
+  double motor_, both_;
+};
+
 bool play_fast(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
   const ObserverGain gain = ObserverGain::poles(kFastHz, trace.dt);
   const double quantum = model_quantum(model);
-  const double m1 = model.drive.motor_inertia;
-  const double both = model.structure.has_load && model.structure.load == LoadKind::kFree
-                          ? m1 * (1.0 + model.drive.mass_ratio)
-                          : m1;
+  const ResidualTorque torque(model, gain, trace.dt);
   return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
     const double e = beyond_count(trace.x1[i] - observer.measured(), quantum);
     out.fast.push_back(e);
-    out.torque.push_back((observer.mode().contact != 0 ? both : m1) * gain.speed * e / trace.dt);
+    out.torque.push_back(torque(observer, e));
     out.w1.push_back(observer.state().w1);
     out.mode.push_back(model.structure.has_load ? mode_of(observer) : Mode::kEngagementPlus);
+  });
+}
+
+bool play_ripple(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
+                 Playback& out) {
+  const ObserverGain gain = ObserverGain::poles(ripple_hz(trace.dt), trace.dt);
+  const ResidualTorque torque(model, gain, trace.dt);
+  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+    out.ripple.push_back(torque(observer, trace.x1[i] - observer.measured()));
   });
 }
 
@@ -131,7 +153,8 @@ std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, do
     const MotorTrace& trace = held_out.traces[r];
     if (!play_scored(plant, state, trace, held_out.restart(r), observer_hz, playbacks[r])) return {};
     if (!all) continue;
-    if (!play_slow(plant, state, trace, playbacks[r]) || !play_fast(plant, state, trace, playbacks[r]))
+    if (!play_slow(plant, state, trace, playbacks[r]) || !play_fast(plant, state, trace, playbacks[r]) ||
+        !play_ripple(plant, state, trace, playbacks[r]))
       return {};
   }
   return playbacks;

@@ -11,6 +11,10 @@ namespace gapscope::internal {
 /// Poles of the two observers [Hz]: slow drifts show at the lower gain, ripple at the higher one.
 constexpr double kSlowHz = 3.0, kFastHz = 30.0;
 
+/// Poles of an observer that follows a torque over the motor angle at most speeds [Hz].
+constexpr double kRippleHz = 150.0;
+inline double ripple_hz(double dt) { return std::min(kRippleHz, 0.15 / dt); }
+
 /// A model whose numbers are all known.
 using FittedModel = ReferenceModel;
 
@@ -34,6 +38,7 @@ struct Playback {
   std::vector<double> free;        ///< error of free runs restarted from that observer's state [rad]
   std::vector<double> slow, fast;  ///< innovations at kSlowHz and kFastHz [rad]
   std::vector<double> torque;      ///< residual torque from the fast ones [N m]
+  std::vector<double> ripple;      ///< the same from an observer at ripple_hz()
   std::vector<double> w1;          ///< of the observer at kFastHz [rad/s]
   std::vector<Mode> mode;
 };

@@ -28,6 +28,9 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
 std::vector<Judged> candidates_of(const Study& study, const Judged& before,
                                   const std::vector<const EffectEntry*>& catalogue, bool first_step = true);
 
+/// The model beside what it was fitted to, see play().
+std::vector<Playback> play_on_train(const Study& study, const FittedModel& model);
+
 /// What the steps came to.
 struct Findings {
   Judged before;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "diagnosis/probability.h"
+
 namespace gapscope::internal {
 namespace {
 
@@ -27,12 +29,6 @@ const double kFloorScore = std::log(1.0 + kScoreOffset);
 
 bool names(std::span<const char* const> list, std::string_view name) {
   return std::any_of(list.begin(), list.end(), [&](const char* other) { return name == other; });
-}
-
-double probability_of(double rel, double margin, double gain) {
-  if (!(gain > 0.0)) return 0.0;
-  const double z = -2.5 + 4.4 * rel + 1.2 * std::log(std::max(margin, 0.0) + 0.05) - 0.4 * std::log(gain);
-  return 1.0 / (1.0 + std::exp(-z));
 }
 
 }  // namespace
@@ -111,7 +107,7 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   d.margin = other - best.score;
   // A drive that repeats itself badly has no floor that a share of the log distance could be told of.
   const double closed = repeats_badly ? 1.0 - best.median_innovation / before.median_innovation : d.rel;
-  d.probability = probability_of(closed, d.margin, d.gain);
+  d.probability = group_probability(closed, d.margin, d.gain);
   const bool of_other_form = d.rel >= kOtherFormRel && d.margin >= kOtherFormMargin &&
                              best.median_free < (1.0 - kOtherFormShrink) * before.median_free;
   const bool enough = repeats_badly ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows

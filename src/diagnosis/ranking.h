@@ -36,7 +36,7 @@ struct Decision {
   double gain = kNaN;                     ///< S before − S after
   double margin = kNaN;                   ///< S of the best outside the group − S of the best
   double windows_better = kNaN;           ///< of those above the floor
-  double probability = kNaN;              ///< preliminary
+  double probability = kNaN;  ///< that the group holds what is missing, at even odds of the catalogue
 };
 
 /// Best first: by score; a nested parent goes before its child unless the child gains much more.

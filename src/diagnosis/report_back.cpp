@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "diagnosis/mismatch_size.h"
+#include "diagnosis/periodic_torque.h"
+#include "diagnosis/probability.h"
 #include "diagnosis/where.h"
 #include "diagnosis/words.h"
 
@@ -33,8 +35,7 @@ std::vector<RankedEffect> ranking_of(const Study& study, const Judged& before,
   const double floor = judged_floor(study);
   const auto windows = judged_windows(study);
   const double size_before = median_size(before.windows.*windows);
-  double weights = 0.0;
-  for (const Judged& c : candidates) weights += weight_of(c, candidates.front());
+  const Shares shares = probability_shares(candidates, decision, study.options.known.outside_catalogue);
   for (const Judged& c : candidates) {
     RankedEffect r;
     r.effect = c.entry->name;
@@ -46,7 +47,7 @@ std::vector<RankedEffect> ranking_of(const Study& study, const Judged& before,
       r.held_out = floor * size;
       r.shrink = shrink_of(size_before, size);
     }
-    r.probability = decision.probability * weight_of(c, candidates.front()) / weights;
+    r.probability = shares.candidates[ranking.size()];
     if (!c.fitted.model.effects.empty()) r.parameters = effect_values(c.fitted.model.effects.back());
     r.remark = remark_on(c, before);
     ranking.push_back(r);
@@ -180,6 +181,10 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   const double km = d.fitted.parameters[place::kTorqueConstant].value;
   const auto before_played = play(found.before.fitted.model, study.held_out, study.observer_hz, true);
   const auto after_played = added ? play(d.fitted, study.held_out, study.observer_hz, true) : before_played;
+  d.periodic = periodic_torques(study, d.fitted, after_played);
+  if (!found.candidates.empty())
+    d.outside_probability =
+        probability_shares(found.candidates, found.decision, study.options.known.outside_catalogue).outside;
   d.gap = mismatch_size(study, found.before, after);
   d.measures = measures_of(study, before_played, after_played);
   d.where = place_of(before_played, study.held_out, km, study.options.rotation,

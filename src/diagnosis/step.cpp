@@ -6,7 +6,7 @@
 #include <mutex>
 #include <set>
 
-#include "diagnosis/harmonics.h"
+#include "diagnosis/periodic_torque.h"
 #include "diagnosis/pipeline.h"
 #include "diagnosis/ranking.h"
 #include "gapscope/base/interrupt.h"
@@ -24,14 +24,29 @@ constexpr double kExplainsMuch = 0.5;    ///< share of the log distance to the f
 constexpr double kLostClearly = 1.5;     ///< S behind the best, in a later step
 constexpr std::size_t kLines = 3;        ///< of the residual torque that periodic effects begin with
 
+/// Lines that periodic effects begin with: the strongest of the residual torque, one that stands out from its
+/// neighbours, and those whose period was given.
+std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback>& playbacks,
+                                  std::span<const TorqueLine> standing, double torque_constant) {
+  std::vector<Harmonic> lines = strongest_lines(playbacks, study.train, torque_constant, kLines);
+  const auto add = [&](double periods) {
+    const double apart = one_cycle(study.train);
+    for (const Harmonic& l : lines)
+      if (std::abs(l.periods - periods) < apart) return;
+    std::vector<std::vector<double>> torque;
+    for (const Playback& p : playbacks) torque.push_back(p.torque);
+    lines.push_back(line_at(torque, study.train, torque_constant, periods));
+  };
+  if (!lines.empty() && !standing.empty()) add(standing.front().line.periods);
+  for (const double periods : given_periods(study.options.known)) add(periods);
+  return lines;
+}
+
 /// Starts of every candidate; those of periodic effects from the residual torque of the model so far.
 std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judged& before,
                                                  std::span<const EffectEntry* const> entries) {
-  HeldOut own;
-  own.traces = study.train;
-  own.scored_from.assign(own.traces.size(), 0);
-  own.periods = own.scored_from;
-  const std::vector<Playback> playbacks = play(before.fitted.model, own, study.observer_hz, true);
+  const std::vector<Playback> playbacks = play_on_train(study, before.fitted.model);
+  const std::vector<TorqueLine> standing = standing_lines(ripples_of(playbacks), study.train);
   const RoughDrive rough = rough_drive(study.train);
   const double km = before.fitted.model.parameters[place::kTorqueConstant].value;
   std::vector<std::vector<EffectStart>> starts;
@@ -39,7 +54,7 @@ std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judge
     starts.push_back(effect_starts(*entry));
     if (!std::isnan(starts.back().front()[1])) continue;
     const bool ripple = entry->name == std::string_view("torque_ripple");
-    const auto lines = strongest_lines(playbacks, study.train, ripple ? km : 0.0, kLines);
+    const auto lines = first_lines(study, playbacks, standing, ripple ? km : 0.0);
     starts.back() = line_starts(*entry, lines, km * rough.peak_input, rough.travel);
   }
   return starts;
@@ -119,6 +134,14 @@ void fit_look_alikes(const Study& study, const Judged& before, const Judged& bes
 }
 
 }  // namespace
+
+std::vector<Playback> play_on_train(const Study& study, const FittedModel& model) {
+  HeldOut own;
+  own.traces = study.train;
+  own.scored_from.assign(own.traces.size(), 0);
+  own.periods = own.scored_from;
+  return play(model, own, study.observer_hz, true);
+}
 
 std::vector<Judged> candidates_of(const Study& study, const Judged& before,
                                   const std::vector<const EffectEntry*>& catalogue, bool first_step) {

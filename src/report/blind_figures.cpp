@@ -135,7 +135,7 @@ FigureData calibration(const BlindScore& s) {
   figure.panels = {reliability_panel(c), abstention_panel(s)};
   figure.reading = fmt::format(
       "{} decisions, those without the truth among the candidates included; {}. Mean distance from the "
-      "diagonal {:.3f} ({:.3f} with the preliminary probabilities), Brier score {:.3f} ({:.3f}).",
+      "diagonal {:.3f} ({:.3f} with the built-in probabilities), Brier score {:.3f} ({:.3f}).",
       c.judged_on,
       c.weights.empty() ? std::string("not calibrated, for lack of cases to learn from")
                         : fmt::format("calibrated on {} others", c.learnt_on),

@@ -42,12 +42,18 @@ std::string parameters_of(const RankedEffect& e, bool rotation) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::string outside_words(const Diagnosis& d) {
+  if (!std::isfinite(d.outside_probability)) return "";
+  return fmt::format("; with {:.2f} the catalogue lacks what is missing", d.outside_probability);
+}
+
 std::string ranking_table(const DiagnosisResult& r) {
   if (r.diagnosis.ranking.empty()) return "";
   std::string text =
       "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive. Probabilities are "
-      "preliminary.\n\n| effect | probability | closed share (log) | shrink | windows better | parameters | "
-      "remark "
+      "those of simulated drives with one missing effect" +
+      outside_words(r.diagnosis) +
+      ".\n\n| effect | probability | closed share (log) | shrink | windows better | parameters | remark "
       "|\n|---|---|---|---|---|---|---|\n";
   for (const RankedEffect& e : r.diagnosis.ranking)
     text +=
@@ -79,6 +85,23 @@ std::string steps_table(const DiagnosisResult& r) {
          "effect | outcome | not told from | error before | after | shrink of this step | parameters | made "
          "superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
          text;
+}
+
+std::string periodic_table(const DiagnosisResult& r) {
+  if (r.diagnosis.periodic.empty()) return "";
+  const std::string angle = r.rotation ? "rad" : "m", torque = r.rotation ? "N·m" : "N";
+  std::string text =
+      "\n## Torque that repeats with the position\n\nIn what the model leaves with all that was added. "
+      "Listed, not "
+      "added: `cogging_torque` and `torque_ripple` are candidates like any other.\n\n| period | cycles per "
+      "turn | amplitude | over neighbouring periods | held-out windows better | holds there "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const PeriodicTorque& p : r.diagnosis.periodic)
+    text += fmt::format("| {} | {} | {} | {} | {} of {} | {} |\n", quantity(p.period, angle),
+                        r.rotation ? number(p.periods_per_turn) : "–", quantity(p.amplitude, torque),
+                        p.given ? "given" : fmt::format("{:.3g} times", p.stands_out), p.better, p.windows,
+                        p.holds ? "yes" : "no");
+  return text;
 }
 
 std::string blame_table(const DiagnosisResult& r) {
@@ -127,8 +150,8 @@ std::string experiment_table(const DiagnosisResult& r) {
 std::string diagnosis_text(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
   std::string text = fmt::format("# {}: what the simulation lacks\n\n**{}**\n", r.name, r.diagnosis.sentence);
   text += bullet_section("Warnings", r.diagnosis.warnings);
-  text += measures_table(r) + ranking_table(r) + steps_table(r) + blame_table(r) + experiment_table(r) +
-          figure_section(figures);
+  text += measures_table(r) + ranking_table(r) + steps_table(r) + periodic_table(r) + blame_table(r) +
+          experiment_table(r) + figure_section(figures);
   text += "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
   return text + fmt::format("\ngapscope {}\n", r.version);
 }

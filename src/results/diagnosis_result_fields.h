@@ -74,6 +74,19 @@ void fields(Archive& archive, DiagnosisStep& s) {
 }
 
 template <class Archive>
+void fields(Archive& archive, PeriodicTorque& p) {
+  archive("periods_per_turn", p.periods_per_turn);
+  archive("period_rad", p.period);
+  archive("amplitude_nm", p.amplitude);
+  archive("phase_rad", p.phase);
+  archive("over_neighbours_ratio", p.stands_out);
+  archive("windows", p.windows);
+  archive("windows_better", p.better);
+  archive("holds", p.holds);
+  archive("given", p.given);
+}
+
+template <class Archive>
 void fields(Archive& archive, Separation& s) {
   archive("truth", s.truth);
   archive("rival", s.rival);
@@ -166,8 +179,9 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("group", g.group);
   archive.single("gap", g.gap);
   archive.list("ranking", g.ranking);
-  archive("probabilities_calibrated", g.probabilities_calibrated);
+  archive("outside_catalogue_probability", g.outside_probability);
   archive.list("steps", g.steps);
+  archive.list("periodic_torque", g.periodic);
   archive.single("next_experiment", g.next_experiment);
   archive.single("where", g.where);
   archive.single("remaining", g.remaining);

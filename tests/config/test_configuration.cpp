@@ -154,6 +154,16 @@ TEST(Configuration, TheBoundCanBeANumberOrComeFromTheModel) {
               147.0, 0.5);
 }
 
+TEST(Configuration, TheDiagnosisIsToldWhatIsKnown) {
+  const Configuration c = parse_configuration(
+      std::string(kSimulated) +
+          "diagnosis: {periods_per_turn: [4, 24], periods: [0.0025], outside_catalogue: 0.2}\n",
+      "a.yaml");
+  EXPECT_EQ(c.diagnosis.periods_per_turn, (std::vector<double>{4.0, 24.0}));
+  EXPECT_EQ(c.diagnosis.periods, std::vector<double>{0.0025});
+  EXPECT_EQ(c.diagnosis.outside_catalogue, 0.2);
+}
+
 TEST(Configuration, TranslationCountsInMetres) {
   const Configuration c = parse_configuration(
       with(with(kRecorded, "rotation", "translation"), "{bits: 20}", "{quantum: 5.0e-8}"), "a.yaml");

@@ -75,9 +75,9 @@ Removed without(const std::string& effect, std::vector<Judged> candidates, const
   Removed removed{decide(candidates, before, false, parents), ""};
   if (!candidates.empty())
     removed.details =
-        fmt::format("; removed: {} rel {:.2f} margin {:.2f} shrink {:.2f}", candidates.front().entry->name,
-                    removed.decision.rel, removed.decision.margin,
-                    shrink_of(before.median_free, candidates.front().median_free));
+        fmt::format("; removed: {} rel {:.2f} margin {:.2f} gain {:.2f} shrink {:.2f}",
+                    candidates.front().entry->name, removed.decision.rel, removed.decision.margin,
+                    removed.decision.gain, shrink_of(before.median_free, candidates.front().median_free));
   return removed;
 }
 

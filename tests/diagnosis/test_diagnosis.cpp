@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "blind/blind_pair.h"
+#include "diagnosis/one_inertia.h"
 #include "diagnosis/pipeline.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording.h"
@@ -138,6 +139,17 @@ TEST(Diagnosis, RefusesAnUnknownExclusion) {
   EXPECT_THROW(diagnosis_of(blind::blind_pair("geared", "none", 0.0, 500001), options), std::logic_error);
 }
 
+TEST(Diagnosis, FindsTwoEffectsOneAfterTheOther) {
+  blind::MotorEffects both;
+  both.friction.level_nm = 0.03;
+  both.cogging = {0.02, 13.7, 0.4, 0.0};
+  const Diagnosis d = diagnosis_of(test::one_inertia(both, 500022));
+  EXPECT_EQ(d.effects.size(), 2u) << d.sentence;
+  EXPECT_TRUE(contains(d.effects, "motor_coulomb_friction")) << d.sentence;
+  EXPECT_TRUE(contains(d.effects, "cogging_torque")) << d.sentence;
+  EXPECT_GT(d.gap.shrink, 0.9);
+}
+
 // The tempting wrong answers.
 
 TEST(TemptingAnswers, ACompliantShaftIsNotCalledADelay) {
@@ -148,28 +160,10 @@ TEST(TemptingAnswers, ACompliantShaftIsNotCalledADelay) {
   }
 }
 
-/// A drive without a load behind a gap, so that backlash is a candidate.
-blind::BlindPair one_inertia(double friction, std::uint64_t seed) {
-  blind::BlindCase c;
-  c.drive.load = blind::LoadKind::kNone;
-  c.drive.motor_inertia *= 2.0;
-  c.drive.effects.motor.friction.level_nm = friction;
-  c.options = {1000.0, 5.0, seed, blind::kFastTolerance};
-  c.sensor = blind::BlindSensor::with_bits(16, 0.5);
-  c.excitation.amplitude = 1.2;
-  blind::BlindPair pair;
-  pair.train = simulate_blind(c).recording;
-  c.excitation.waveform = blind::Waveform::kSteps;
-  pair.held_out = simulate_blind(c).recording;
-  pair.sheet.structure.has_load = false;
-  pair.sheet.parameters[place::kMotorInertia] = {1.6 * 8.78e-4, true, kNaN, kNaN, {}};
-  pair.sheet.parameters[place::kTorqueConstant].value = 0.172;
-  pair.sheet.parameters[place::kMotorDamping] = {0.05, true, kNaN, kNaN, {}};
-  return pair;
-}
-
 TEST(TemptingAnswers, CoulombFrictionIsNotCalledBacklash) {
-  const Diagnosis d = diagnosis_of(one_inertia(0.03, 500006));
+  blind::MotorEffects friction;
+  friction.friction.level_nm = 0.03;
+  const Diagnosis d = diagnosis_of(test::one_inertia(friction, 500006));
   EXPECT_EQ(d.effects, std::vector<std::string>{"motor_coulomb_friction"}) << d.sentence;
   EXPECT_FALSE(contains(d.group, "backlash"));
 }

@@ -45,6 +45,7 @@ DiagnosisResult sample(DiagnosisVerdict verdict) {
   d.where.speed = d.where.angle = d.where.input = d.where.frequency = d.where.time =
       map_of({"0..1", "1..2", "2..3"});
   d.where.periods_per_turn = 24.0;
+  d.periodic = {{24.3, 2.0 * kPi / 24.3, 0.002, 0.4, 31.0, 20, 19, true, false}};
   d.blame = {{"motor_damping", "N m s/rad", 0.08, 0.06}};
   MismatchTrace t;
   t.file = "held.csv", t.dt = 1e-3;
@@ -74,6 +75,8 @@ TEST(DiagnosisReport, EveryFigureIsThereAndNotBlankAndTheTextShowsTheBlame) {
   }
   EXPECT_NE(text.find("| `motor_damping` | 0.0800 N·m s/rad"), std::string::npos) << text;
   EXPECT_NE(text.find("33.3 % high"), std::string::npos) << text;
+  EXPECT_NE(text.find("| 259 mrad | 24.3 | 2.00 mN·m | 31 times | 19 of 20 | yes |"), std::string::npos)
+      << text;
 }
 
 TEST(DiagnosisReport, WithoutCandidatesTheRankingIsLeftOutWithItsReason) {

@@ -49,6 +49,8 @@ DiagnosisResult sample() {
   step.remaining = "in the gap";
   step.ranking = {last};
   d.steps = {step};
+  d.outside_probability = 0.05;
+  d.periodic = {{24.3, kThird, 0.002, 0.4, kNaN, 20, 19, true, true}};
   d.next_experiment = {
       "Record a sine.", 1000.0, 5.0, {{{}, "a sine", kThird, {{"a", "b", kThird, false}}, kThird}}, {}};
   d.where = {
@@ -90,6 +92,12 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.steps[0].group, a.steps[0].group);
   EXPECT_EQ(b.steps[0].gap.shrink, kThird);
   EXPECT_EQ(b.steps[0].ranking[0].effect, "input_delay");
+  EXPECT_EQ(b.outside_probability, 0.05);
+  ASSERT_EQ(b.periodic.size(), 1u);
+  EXPECT_EQ(b.periodic[0].period, kThird);
+  EXPECT_EQ(b.periodic[0].better, 19);
+  EXPECT_TRUE(b.periodic[0].given);
+  EXPECT_TRUE(std::isnan(b.periodic[0].stands_out));
   ASSERT_EQ(b.next_experiment.tried.size(), 1u);
   EXPECT_EQ(b.next_experiment.sentence, "Record a sine.");
   EXPECT_EQ(b.next_experiment.tried[0].separations[0].excess, kThird);

@@ -5,7 +5,7 @@
 
 #include "gapscope/config/data_config.h"
 #include "gapscope/config/model_config.h"
-#include "gapscope/diagnosis/next_experiment.h"
+#include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/acceleration_bound.h"
 
 namespace gapscope {
@@ -30,7 +30,8 @@ struct Configuration {
   DetectorConfig detector;
   FitOptions fit;  ///< `fit:` – how the reference is found; optional, every key of it too
   ExperimentLimits
-      next_experiment;  ///< `next_experiment:` – what the diagnosis may propose; optional like it
+      next_experiment;           ///< `next_experiment:` – what the diagnosis may propose; optional like it
+  DiagnosisKnowledge diagnosis;  ///< `diagnosis:` – what it is told beforehand; optional
 };
 
 /// Reads a configuration strictly: unknown and repeated keys, wrong types, numbers out of range and

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/fields.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/diagnosis/evidence.h"
 #include "gapscope/diagnosis/next_experiment.h"
@@ -49,7 +50,7 @@ struct MismatchSize {
 /// A candidate of one step, really refitted.
 struct RankedEffect {
   std::string effect;
-  double probability = kNaN;     ///< preliminary: of being the missing effect, softmax of the score
+  double probability = kNaN;     ///< of being the missing effect; see Diagnosis::outside_probability
   double held_out = kNaN;        ///< the gap's measure with this effect [rad]
   double shrink = kNaN;          ///< of that measure
   double score = kNaN;           ///< S, see diagnose(); lower is better
@@ -78,6 +79,18 @@ struct MismatchPlace {
   std::string headline;
   std::vector<MapShare> mode, direction, speed, angle, input, frequency, time;
   double periods_per_turn = kNaN;  ///< of a residual that repeats with the motor angle [1/rev]
+};
+
+/// A torque that repeats with the motor angle, -A sin(N x1 + phase), in what the model leaves.
+struct PeriodicTorque {
+  double periods_per_turn = kNaN;  ///< N [1/rev]
+  double period = kNaN;            ///< 2π/N [rad]
+  double amplitude = kNaN;         ///< A [N m]
+  double phase = kNaN;             ///< [rad]
+  double stands_out = kNaN;        ///< times what neighbouring periods show; NaN where the period was given
+  int windows = 0, better = 0;     ///< held-out windows, and those that it improves
+  bool holds = false;              ///< more of them improve than chance would let, at 1 %
+  bool given = false;              ///< the period was given, not found
 };
 
 /// A step after the first: every candidate on top of the effects so far.
@@ -111,9 +124,10 @@ struct Diagnosis {
   std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
   MismatchSize gap;
   std::vector<MismatchMeasure> measures;
-  std::vector<RankedEffect> ranking;      ///< first step, best first
-  bool probabilities_calibrated = false;  ///< false: those of the ranking are preliminary
-  std::vector<DiagnosisStep> steps;       ///< the later steps; the last one may not have been taken
+  std::vector<RankedEffect> ranking;     ///< first step, best first
+  double outside_probability = kNaN;     ///< that no effect of the catalogue is what is missing first
+  std::vector<DiagnosisStep> steps;      ///< the later steps; the last one may not have been taken
+  std::vector<PeriodicTorque> periodic;  ///< in what the accepted effects leave: given, then found ones
   MismatchPlace where;
   MismatchPlace remaining;  ///< of what the accepted effects leave
   std::vector<BlameShift> blame;
@@ -129,8 +143,18 @@ struct Diagnosis {
   std::string brief_report() const;  ///< one line: log, command line
 };
 
+/// `diagnosis:` – what is known of the drive beforehand.
+struct DiagnosisKnowledge {
+  std::vector<double> periods_per_turn;  ///< pole pairs, slots, teeth: cycles of a torque [1/rev]
+  std::vector<double> periods;           ///< the same as a length, such as a screw's pitch [rad]
+  double outside_catalogue = 0.5;  ///< how likely, before any recording, the catalogue lacks what is missing
+
+  void fields(FieldVisitor& visitor);
+};
+
 struct DiagnosisOptions {
-  FitOptions fit;                     ///< of the nominal model
+  FitOptions fit;  ///< of the nominal model
+  DiagnosisKnowledge known;
   std::vector<std::string> excluded;  ///< effects that are no candidates
   int threads = 0;                    ///< 0: all cores; the answer is the same for any number
   bool rotation = true;               ///< false: rad and N·m mean m and N in texts

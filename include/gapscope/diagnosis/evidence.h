@@ -41,7 +41,7 @@ struct StepOutcome {
   double margin = kNaN;       ///< S of the best outside the group − S of the best
   double gain = kNaN;         ///< S before − S after
   double shrink = kNaN;       ///< of the restarted free runs' median
-  double probability = kNaN;  ///< preliminary
+  double probability = kNaN;  ///< of the group, at even odds of the catalogue
 };
 StepOutcome decide_again(const StepEvidence& evidence, const std::vector<std::string>& excluded = {});
 

@@ -1,0 +1,209 @@
+#include "diagnosis/periodic_torque.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/rollout.h"
+
+namespace gapscope::internal {
+namespace {
+
+using Series = std::vector<double>;
+
+constexpr double kSpike = 3.0;          ///< robust standard deviations at which a torque is cut
+constexpr double kStandsOut = 20.0;     ///< times the median of the neighbours' shares
+constexpr double kWorthTelling = 0.01;  ///< share of the squared residual torque
+constexpr std::size_t kMostLines = 3;
+constexpr double kNeighbours = 1.5;    ///< ratio of periods within which lines are neighbours
+constexpr double kFewestCycles = 6.0;  ///< and at least so many cycles over the travel apart
+constexpr double kOwn = 1.5;           ///< cycles over the travel that a line itself is wide
+constexpr double kFine = 0.02;         ///< step of the refined period, in cycles over the travel
+constexpr int kFineSteps = 20;
+constexpr double kSure = 2.33;  ///< normal quantile of 99 %
+
+/// What the observer makes of a torque: the double pole that its residual torque answers with.
+class Passed {
+ public:
+  explicit Passed(double dt) : p_(std::exp(-2.0 * kPi * ripple_hz(dt) * dt)) {}
+  /// @param torque mean of the step that begins at this sample
+  double operator()(double torque) {
+    second_ = p_ * second_ + (1.0 - p_) * first_;
+    first_ = p_ * first_ + (1.0 - p_) * 0.5 * (torque + last_);
+    last_ = torque;
+    return second_;
+  }
+
+ private:
+  double p_, first_ = 0.0, second_ = 0.0, last_ = 0.0;
+};
+
+struct Waves {
+  Series sine, cosine;
+};
+
+Waves waves_of(const MotorTrace& trace, double periods) {
+  Waves w;
+  Passed sine(trace.dt), cosine(trace.dt);
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const double middle = 0.5 * (trace.x1[i] + trace.x1[std::min(i + 1, trace.size() - 1)]);
+    w.sine.push_back(sine(std::sin(periods * middle)));
+    w.cosine.push_back(cosine(std::cos(periods * middle)));
+  }
+  return w;
+}
+
+/// Sums of a torque against both waves.
+class Regression {
+ public:
+  void add(const Waves& w, const Series& torque, std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      const double s = w.sine[i], c = w.cosine[i], t = torque[i];
+      ss_ += s * s, sc_ += s * c, cc_ += c * c;
+      ts_ += t * s, tc_ += t * c, square_ += t * t;
+    }
+  }
+
+  Harmonic line(double periods) const {
+    Harmonic line{periods};
+    const double determinant = ss_ * cc_ - sc_ * sc_;
+    if (determinant <= 1e-9 * ss_ * cc_) return line;
+    line.sine = (ts_ * cc_ - tc_ * sc_) / determinant;
+    line.cosine = (tc_ * ss_ - ts_ * sc_) / determinant;
+    line.explained = (line.sine * ts_ + line.cosine * tc_) / std::max(square_, 1e-300);
+    return line;
+  }
+
+ private:
+  double ss_ = 0.0, sc_ = 0.0, cc_ = 0.0, ts_ = 0.0, tc_ = 0.0, square_ = 0.0;
+};
+
+bool improves(const Harmonic& line, const Waves& w, const Series& torque, std::size_t from, std::size_t to) {
+  double before = 0.0, after = 0.0;
+  for (std::size_t i = from; i < to; ++i) {
+    const double left = torque[i] - line.sine * w.sine[i] - line.cosine * w.cosine[i];
+    before += torque[i] * torque[i], after += left * left;
+  }
+  return after < before;
+}
+
+void take_out(const Harmonic& line, std::span<const MotorTrace> traces, std::vector<Series>& torque) {
+  for (std::size_t r = 0; r < traces.size(); ++r) {
+    const Waves w = waves_of(traces[r], line.periods);
+    for (std::size_t i = 0; i < torque[r].size(); ++i)
+      torque[r][i] -= line.sine * w.sine[i] + line.cosine * w.cosine[i];
+  }
+}
+
+/// Share of each line over the median of its neighbours'.
+Series standing_of(const std::vector<Harmonic>& spectrum, double per_cycle) {
+  Series over;
+  for (const Harmonic& line : spectrum) {
+    const double apart = std::max(line.periods * (kNeighbours - 1.0), kFewestCycles * per_cycle);
+    Series around;
+    for (const Harmonic& other : spectrum)
+      if (const double distance = std::abs(other.periods - line.periods);
+          distance > kOwn * per_cycle && distance < apart)
+        around.push_back(other.explained);
+    over.push_back(around.empty() ? 0.0 : line.explained / std::max(median(std::move(around)), 1e-12));
+  }
+  return over;
+}
+
+Harmonic refined(std::span<const Series> torque, std::span<const MotorTrace> traces, double periods) {
+  Harmonic best{periods};
+  for (int i = -kFineSteps; i <= kFineSteps; ++i) {
+    const Harmonic line = fitted_line(torque, traces, periods + i * kFine * one_cycle(traces)).line;
+    if (line.explained > best.explained) best = line;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Series> ripples_of(const std::vector<Playback>& playbacks) {
+  std::vector<Series> torque;
+  for (const Playback& p : playbacks) {
+    const double most = kSpike * robust_std(p.ripple);
+    torque.push_back(p.ripple);
+    for (double& t : torque.back()) t = std::clamp(t, -most, most);
+  }
+  return torque;
+}
+
+TorqueLine fitted_line(std::span<const Series> torque, std::span<const MotorTrace> traces, double periods) {
+  Regression sums;
+  for (std::size_t r = 0; r < traces.size(); ++r)
+    sums.add(waves_of(traces[r], periods), torque[r], 0, torque[r].size());
+  return {sums.line(periods), kNaN};
+}
+
+std::vector<TorqueLine> standing_lines(std::vector<Series> torque, std::span<const MotorTrace> traces) {
+  std::vector<TorqueLine> lines;
+  if (torque.size() != traces.size()) return lines;
+  while (lines.size() < kMostLines) {
+    const std::vector<Harmonic> spectrum = angle_spectrum(torque, traces, 0.0);
+    const Series over = standing_of(spectrum, one_cycle(traces));
+    const auto best = std::max_element(over.begin(), over.end());
+    if (best == over.end() || !(*best > kStandsOut)) break;
+    const Harmonic& found = spectrum[static_cast<std::size_t>(best - over.begin())];
+    const Harmonic line = refined(torque, traces, found.periods);
+    if (!(line.explained > kWorthTelling)) break;
+    lines.push_back({line, *best});
+    take_out(line, traces, torque);
+  }
+  return lines;
+}
+
+bool LineCheck::holds() const {
+  return windows > 0 && better - 0.5 * windows > kSure * 0.5 * std::sqrt(static_cast<double>(windows));
+}
+
+LineCheck check_line(double periods, std::span<const Series> torque, const HeldOut& held_out) {
+  LineCheck check;
+  for (std::size_t r = 0; r < torque.size(); ++r) {
+    const Waves w = waves_of(held_out.traces[r], periods);
+    const std::size_t restart = held_out.restart(r), half = restart / 2;
+    const std::size_t from = (held_out.scored_from[r] + restart) / restart * restart;
+    const std::size_t windows = torque[r].size() > from ? (torque[r].size() - from) / half : 0;
+    Regression every_other[2];
+    for (std::size_t k = 0; k < windows; ++k)
+      every_other[k % 2].add(w, torque[r], from + k * half, from + (k + 1) * half);
+    for (std::size_t k = 0; k < windows; ++k) {
+      const Harmonic line = every_other[1 - k % 2].line(periods);
+      ++check.windows;
+      check.better += improves(line, w, torque[r], from + k * half, from + (k + 1) * half) ? 1 : 0;
+    }
+  }
+  return check;
+}
+
+std::vector<double> given_periods(const DiagnosisKnowledge& known) {
+  std::vector<double> n = known.periods_per_turn;
+  for (const double period : known.periods) n.push_back(2.0 * kPi / period);
+  return n;
+}
+
+std::vector<PeriodicTorque> periodic_torques(const Study& study, const FittedModel& model,
+                                             const std::vector<Playback>& held_out) {
+  const std::vector<Series> fitted = ripples_of(play_on_train(study, model));
+  const std::vector<Series> held = ripples_of(held_out);
+  if (fitted.empty() || held.empty()) return {};
+  std::vector<PeriodicTorque> found;
+  const auto tell = [&](const TorqueLine& line, bool given) {
+    const LineCheck check = check_line(line.line.periods, held, study.held_out);
+    if (!given && !check.holds()) return;
+    found.push_back({line.line.periods, 2.0 * kPi / line.line.periods,
+                     std::hypot(line.line.sine, line.line.cosine),
+                     std::atan2(-line.line.cosine, -line.line.sine), line.over, check.windows, check.better,
+                     check.holds(), given});
+  };
+  for (const double n : given_periods(study.options.known)) tell(fitted_line(fitted, study.train, n), true);
+  for (const TorqueLine& line : standing_lines(fitted, study.train))
+    if (std::none_of(found.begin(), found.end(), [&](const PeriodicTorque& other) {
+          return std::abs(other.periods_per_turn - line.line.periods) < one_cycle(study.train);
+        }))
+      tell(line, false);
+  return found;
+}
+
+}  // namespace gapscope::internal

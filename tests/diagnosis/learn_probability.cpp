@@ -1,0 +1,56 @@
+// Not a test: learns what probability a first step has of naming what is missing, and judges it.
+//   learn_probability LEARN JUDGE
+// Both are files of study_diagnosis with rows of the kinds known and outside, from different seeds. A known
+// case counts twice: as it is, and with its effect and what looks like it taken out of the candidates.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+
+#include "blind/scored.h"
+#include "diagnosis/probability.h"
+#include "diagnosis/study_row.h"
+
+namespace {
+
+using namespace gapscope;
+using blind::Judgement;
+
+/// The numbers of a decision that a row's details hold after `mark`; without gain where they do not.
+StepOutcome outcome_after(const std::string& details, const std::string& mark) {
+  StepOutcome o;
+  const std::size_t at = details.find(mark);
+  const std::size_t from = at == std::string::npos ? at : details.find(" rel ", at);
+  if (from == std::string::npos ||
+      std::sscanf(details.c_str() + from, " rel %lf margin %lf gain %lf", &o.rel, &o.margin, &o.gain) != 3)
+    return {};
+  o.ranking = {"first"};  // there was a candidate
+  o.probability = internal::group_probability(o.rel, o.margin, o.gain);
+  return o;
+}
+
+std::vector<Judgement> judgements_of(const char* file) {
+  std::vector<Judgement> all;
+  const auto add = [&](const StepOutcome& outcome, bool right) {
+    if (outcome.gain > 0.0) all.push_back({outcome, right});
+  };
+  for (const test::StudyRow& row : test::read_rows(file)) {
+    add(outcome_after(row.details, "free "), row.in_group);
+    if (find_effect(row.effect) != nullptr) add(outcome_after(row.details, "removed: "), false);
+  }
+  return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const BlindCalibration c = blind::calibrate(judgements_of(argv[1]), judgements_of(argv[2]));
+  fmt::print("weights {:.3f} from {} decisions\n", fmt::join(c.weights, ", "), c.learnt_on);
+  fmt::print(
+      "on {} decisions: calibration error {:.3f}, Brier score {:.3f}; with the built-in weights {:.3f}, "
+      "{:.3f}\n",
+      c.judged_on, c.error, c.brier, c.error_before, c.brier_before);
+  for (const ReliabilityBin& b : c.bins)
+    if (b.cases > 0) fmt::print("  predicted {:.2f}, right {} of {}\n", b.predicted, b.right, b.cases);
+}
