@@ -87,6 +87,7 @@ std::vector<StudyRow> read_rows(const std::string& file) {
           probability >> r.seconds))
       continue;
     r.in_group = in_group != 0;
+    if (const std::size_t bar = line.find(" | "); bar != std::string::npos) r.details = line.substr(bar + 3);
     r.before = std::stod(before), r.shrink = std::stod(shrink), r.probability = std::stod(probability);
     rows.push_back(r);
   }
