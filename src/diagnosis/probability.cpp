@@ -30,7 +30,7 @@ double group_probability(double rel, double margin, double gain) {
 Shares probability_shares(const std::vector<Judged>& ranked, const Decision& decision, double outside) {
   Shares shares;
   shares.candidates.assign(ranked.size(), 0.0);
-  if (ranked.empty() || !std::isfinite(decision.probability)) return shares;
+  if (!std::isfinite(decision.probability)) return {std::vector<double>(ranked.size(), kNaN), kNaN};
   const double inside = 1.0 / odds(outside);
   const double group = from_odds(odds(decision.probability) * inside);
   const double mistaken = (1.0 - group) * from_odds(odds(kMistakenOrder) * inside);

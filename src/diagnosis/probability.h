@@ -12,7 +12,7 @@ double group_probability(double rel, double margin, double gain);
 /// How a step's probability is shared out.
 struct Shares {
   std::vector<double> candidates;  ///< in the order of the ranking
-  double outside = 1.0;            ///< of the catalogue; all together they make 1
+  double outside = 1.0;  ///< of the catalogue; all together they make 1, NaN where the model before diverges
 };
 
 /// The group shares its probability by the scores, the other candidates what is left to a mistaken order.

@@ -57,7 +57,8 @@ std::string ranking_table(const DiagnosisResult& r) {
       "|\n|---|---|---|---|---|---|---|\n";
   for (const RankedEffect& e : r.diagnosis.ranking)
     text +=
-        fmt::format("| `{}` | {:.2f} | {} | {} | {} | {} | {} |\n", e.effect, e.probability, number(e.rel),
+        fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", e.effect,
+                    std::isfinite(e.probability) ? fmt::format("{:.2f}", e.probability) : "–", number(e.rel),
                     number(e.shrink), number(e.windows_better), parameters_of(e, r.rotation), e.remark);
   return text;
 }

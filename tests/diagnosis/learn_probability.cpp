@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "blind/scored.h"
@@ -32,7 +33,7 @@ StepOutcome outcome_after(const std::string& details, const std::string& mark) {
 std::vector<Judgement> judgements_of(const char* file) {
   std::vector<Judgement> all;
   const auto add = [&](const StepOutcome& outcome, bool right) {
-    if (outcome.gain > 0.0) all.push_back({outcome, right});
+    if (outcome.gain > 0.0 && std::isfinite(outcome.rel)) all.push_back({outcome, right});
   };
   for (const test::StudyRow& row : test::read_rows(file)) {
     add(outcome_after(row.details, "free "), row.in_group);
