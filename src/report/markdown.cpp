@@ -107,7 +107,7 @@ std::vector<std::string> notes_of(const RunResult& run) {
     const bool told = std::any_of(run.notes.begin(), run.notes.end(), [&](const std::string& note) {
       return note.find(r.resampling) != std::string::npos;
     });
-    if (!told) notes.push_back(fmt::format("`{}`: {}", r.file, r.resampling));
+    if (!r.resampling.empty() && !told) notes.push_back(fmt::format("`{}`: {}", r.file, r.resampling));
   }
   return notes;
 }

@@ -82,6 +82,16 @@ TEST(Report, TellsWhichBoundDecidedAndWhatThePublishedOneIs) {
             std::string::npos);
 }
 
+TEST(Report, SaysNothingOfAResamplingThatWasNotMade) {
+  ScratchFolder scratch;
+  const RunResult run = sample_run({.samples = 6000, .load_recorded = false, .fitted = false});
+  ASSERT_TRUE(run.notes.empty());
+  ASSERT_TRUE(run.recordings.front().resampling.empty());
+  write_run_result(scratch.path.string(), run);
+  write_report(scratch.path.string());
+  EXPECT_FALSE(has(text_of(scratch.path / "report.md"), "`: \n"));
+}
+
 TEST(Report, OfAFolderWithoutAResultIsAnErrorOfTheInput) {
   ScratchFolder scratch;
   EXPECT_THROW(write_report(scratch.path.string()), ConfigError);
