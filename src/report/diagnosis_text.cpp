@@ -44,7 +44,11 @@ std::string parameters_of(const RankedEffect& e, bool rotation) {
 
 std::string outside_words(const Diagnosis& d) {
   if (!std::isfinite(d.outside_probability)) return "";
-  return fmt::format("; with {:.2f} the catalogue lacks what is missing", d.outside_probability);
+  const bool repeatability = d.gap.floor_from == FloorSource::kRepeatability;
+  return fmt::format("; with {:.2f} the catalogue lacks what is missing{}", d.outside_probability,
+                     repeatability ? ". None was learned on drives that are judged by their repeatability, "
+                                     "as this one is: take them for an order"
+                                   : "");
 }
 
 std::string ranking_table(const DiagnosisResult& r) {
