@@ -133,5 +133,16 @@ TEST(RealRecordings, APreloadedReducerWithALockedOutputHasNoPlay) {
   EXPECT_LT(r.model_free->smallest_visible_gap, 0.006);
 }
 
+TEST(Configurations, ADriveWithDetentsIsSaidToLackThemAndNothingElse) {
+  const Workplace place;
+  const auto config = std::filesystem::path(GAPSCOPE_SOURCE_DIR) / "configs/08_missing_cogging.yaml";
+  const auto outcome = place.run("diagnose " + config.string() + " -o report");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              ::testing::HasSubstr("The model lacks cogging torque: with it the held-out error"));
+  EXPECT_THAT(outcome.out, ::testing::HasSubstr("periodic in the motor angle with 24 cycles per turn"));
+  EXPECT_TRUE(std::filesystem::exists(place.folder() / "report/diagnosis.png"));
+}
+
 }  // namespace
 }  // namespace gapscope
