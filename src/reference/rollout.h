@@ -21,14 +21,26 @@ struct ObserverGain {
   }
 };
 
+/// The drive's state where the sensor reads start.x1: what the sensor adds to the motor's angle shifts the
+/// drive, not the first sample.
+template <class T>
+DriveState<T> behind_the_sensor(DriveStepper<T>& stepper, const DriveState<T>& start) {
+  stepper.reset(start);
+  const T added = stepper.measured() - start.x1;
+  DriveState<T> drive = start;
+  drive.x1 -= added, drive.x2 -= added;
+  return drive;
+}
+
 /// Plays a recording's input on the model and hands each sample's index and stepper to `visit` before the
 /// measurement is injected. @returns false when the motion left the numbers, or chatters: more events than
 /// samples, all in all, are no motion that the recording could show.
+/// @param start of the drive, with the motor where the sensor reads it
 template <class T, class Visit>
 bool roll_out(const StepperModel<T>& model, const DriveState<T>& start, const MotorTrace& recording,
               const ObserverGain& gain, Visit&& visit) {
   DriveStepper<T> stepper(model, recording.dt);
-  stepper.reset(start);
+  stepper.reset(behind_the_sensor(stepper, start));
   for (std::size_t i = 0; i < recording.size(); ++i) {
     visit(i, stepper);
     if (gain.position > 0.0) {
