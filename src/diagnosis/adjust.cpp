@@ -15,6 +15,15 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 constexpr double kBorrowedDamping = 0.01;  ///< of derivatives that were taken elsewhere
 constexpr double kWorthwhile = 0.97;       ///< of the cost: below it a further step is made
 
+/// Residuals of one recording at a point; empty if the motion diverges.
+Vector residuals_at(const FitProblem& problem, const Solution& at, std::size_t r, double hz) {
+  const RecordingCost cost(problem, r, at.starts[r], hz);
+  std::vector<double> q = at.q;
+  for (const int s : cost.states()) q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
+  Vector residuals(static_cast<Eigen::Index>(problem.recordings[r].size()));
+  return cost.evaluate(q.data(), residuals.data(), nullptr) ? residuals : Vector();
+}
+
 /// Gauss–Newton of the first numbers with borrowed derivatives.
 class Adjustment {
  public:
@@ -51,11 +60,8 @@ class Adjustment {
     gradient_ = Vector::Zero(moving_);
     double sum = 0.0, count = 0.0;
     for (std::size_t r = 0; r < at.starts.size(); ++r) {
-      const RecordingCost cost(problem_, r, at.starts[r], hz_);
-      std::vector<double> q = at.q;
-      for (const int s : cost.states()) q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
-      Vector residuals(static_cast<Eigen::Index>(problem_.recordings[r].size()));
-      if (!cost.evaluate(q.data(), residuals.data(), nullptr)) return kInfinity;
+      const Vector residuals = residuals_at(problem_, at, r, hz_);
+      if (residuals.size() == 0) return kInfinity;
       gradient_ += borrowed_[r].derivatives.transpose() * residuals;
       sum += residuals.squaredNorm();
       count += static_cast<double>(residuals.size());
@@ -93,6 +99,32 @@ std::vector<Linear> linearise(const FitProblem& problem, const Solution& at, dou
 Solution adjust(const FitProblem& problem, const Solution& from, std::span<const Linear> borrowed, double hz,
                 int steps) {
   return Adjustment(problem, borrowed, hz).run(from, steps);
+}
+
+std::optional<SineStart> sine_start(const FitProblem& problem, const Solution& at,
+                                    std::span<const Linear> borrowed, double small, double hz) {
+  const std::size_t amplitude = at.q.size() - 2, phase = at.q.size() - 1;
+  const Eigen::Index shared = borrowed.front().derivatives.cols();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(shared + 2, shared + 2);
+  Vector gradient = Vector::Zero(shared + 2);
+  for (std::size_t r = 0; r < at.starts.size(); ++r) {
+    Eigen::MatrixXd columns(borrowed[r].residuals.size(), shared + 2);
+    columns.leftCols(shared) = borrowed[r].derivatives;
+    for (const Eigen::Index quarter : {0, 1}) {
+      Solution point = at;
+      point.q[amplitude] = problem.free_parameter(amplitude).coordinate.solver(small);
+      point.q[phase] = problem.free_parameter(phase).coordinate.solver(0.5 * kPi * double(quarter));
+      const Vector with = residuals_at(problem, point, r, hz);
+      if (with.size() == 0) return {};
+      columns.col(shared + quarter) = (with - borrowed[r].residuals) / small;
+    }
+    normal += columns.transpose() * columns;
+    gradient += columns.transpose() * borrowed[r].residuals;
+  }
+  normal.diagonal() *= 1.0 + 1e-9;
+  const Vector step = normal.ldlt().solve(-gradient);
+  if (!step.allFinite()) return {};
+  return SineStart{std::hypot(step[shared], step[shared + 1]), std::atan2(step[shared + 1], step[shared])};
 }
 
 }  // namespace gapscope::internal

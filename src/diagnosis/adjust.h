@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,5 +22,18 @@ std::vector<Linear> linearise(const FitProblem& problem, const Solution& at, dou
 /// long as that helps; the rest stays. Plain runs only: one for the cost, one a step.
 Solution adjust(const FitProblem& problem, const Solution& from, std::span<const Linear> borrowed,
                 double observer_hz, int steps);
+
+/// Where the search for a sine begins.
+struct SineStart {
+  double amplitude = 0.0;  ///< in the unit of the effect
+  double phase = 0.0;      ///< [rad]
+};
+
+/// Amplitude and phase of a sine, the last two numbers of a problem, that explain with all the others what a
+/// model without it leaves: both quarters of the sine act in proportion to their size while it is small.
+/// @param borrowed residuals without the sine, derivatives by the other numbers
+/// @param small size of the sine at which its action is tried
+std::optional<SineStart> sine_start(const FitProblem& problem, const Solution& at,
+                                    std::span<const Linear> borrowed, double small, double observer_hz);
 
 }  // namespace gapscope::internal

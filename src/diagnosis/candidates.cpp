@@ -18,6 +18,7 @@ constexpr Work kRetry{8, 40, 1e-4};    ///< of the few that came nearest
 constexpr double kPromising = 0.9;     ///< of the mean square without the effect
 constexpr double kFurther = 0.995;     ///< of the mean square: a retry that got further
 constexpr double kFloorSquare = 1.25;  ///< mean square [floor²] at which no other start can be better
+constexpr double kSmallSine = 0.1;     ///< of the start: there it acts in proportion
 constexpr int kWeakenings = 2;
 constexpr double kWeaker = 0.15;  ///< of the start
 constexpr double kClose = 30.0;   ///< a start from elsewhere is followed while it is within this ratio
@@ -118,6 +119,11 @@ double weaker(const FitProblem& problem, const EffectEntry& entry, std::size_t i
   return std::isfinite(absent) ? absent + kWeaker * (value - absent) : std::min(value / kWeaker, p.high);
 }
 
+/// Whether an amplitude and a phase are all that the effect has.
+bool is_sine(const EffectEntry& entry) {
+  return entry.parameters.size() == 2 && entry.parameters[1].key == std::string_view("phase_rad");
+}
+
 /// Whether the model's last effect is the simpler one that this one contains, and so takes the place of.
 bool replaces_last(const ReferenceModel& model, const EffectEntry& entry) {
   return !model.effects.empty() && nested_parent(entry) == model.effects.back().entry;
@@ -208,6 +214,14 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
     for (std::size_t i = 0; i < values.size(); ++i) point.effects.back().parameters[i].value = values[i];
     race(point, &base);
   };
+  for (const Base& base : bases) {
+    if (!is_sine(entry) || starts.empty()) break;
+    std::vector<double> values = effect_values(problem, entry, starts.front());
+    Solution point{point_of(problem, extended), nominal.starts, kInfinity, false};
+    std::copy(base.q.begin(), base.q.end(), point.q.begin());
+    const auto sine = sine_start(problem, point, base.recordings, kSmallSine * values[0], hz);
+    if (sine) race_effect({sine->amplitude, sine->phase}, base);
+  }
   for (const EffectStart& start : starts) {
     std::vector<double> values = effect_values(problem, entry, start);
     for (const Base& base : bases) race_effect(values, base);
