@@ -7,6 +7,7 @@
 
 #include "diagnosis/evidence.h"
 #include "diagnosis/further.h"
+#include "diagnosis/mismatch_size.h"
 #include "diagnosis/pipeline.h"
 #include "diagnosis/repeatability.h"
 #include "diagnosis/report_back.h"
@@ -26,7 +27,9 @@ constexpr double kOnGrid = 0.1;            ///< [quanta] from a whole number of 
 constexpr double kShareOnGrid = 0.9;
 constexpr double kNearFloor = 4.0;  ///< mean square [floor²] of a fit that may only have missed the best one
 constexpr double kAsGood = 0.05;    ///< S: as good a fit
-constexpr double kFarBetter = 0.5;  ///< of the mean square
+constexpr double kExplained = 1.69;    ///< mean square [floor²]
+constexpr double kNearlyWhole = 0.97;  ///< shrink
+constexpr double kFarBetter = 0.5;     ///< of the mean square
 
 void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
   for (const MotorTrace& file : files) {
@@ -178,9 +181,7 @@ const EffectEntry* excluded_parent(const Study& study, const std::vector<Judged>
   return std::find(all.begin(), all.end(), parent) == all.end() ? parent : nullptr;
 }
 
-}  // namespace
-
-Findings investigate(Study& study) {
+Findings first_look(Study& study) {
   Findings found;
   study.options.progress("fitting the nominal model");
   found.before = judged_nominal(study);
@@ -209,8 +210,61 @@ Findings investigate(Study& study) {
   }
   if (const EffectEntry* parent = excluded_parent(study, found.candidates))
     found.excluded_parents = candidates_of(study, found.before, {parent});
-  found.decision = decide(found.candidates, found.before, study.repeats_badly(), found.excluded_parents);
+  found.decision =
+      decide_alone(found.candidates, found.before, study.repeats_badly(), found.excluded_parents);
   return found;
+}
+
+/// Whether the recordings that were fitted are explained while those held out are not: they do not ask for
+/// what the others need, neither of the drive nor of the effect.
+bool asked_too_little(const Study& study, const Findings& found) {
+  if (found.candidates.empty() || study.repeats_badly() || study.held_out.scored_from.front() > 0)
+    return false;
+  const Judged& best = found.candidates.front();
+  if (at_floor(best)) return false;
+  if (found.decision.accepted && !(shrink_of(found.before.median_free, best.median_free) < kNearlyWhole))
+    return false;
+  double least = found.before.fitted.mean_square;
+  for (const Judged& c : found.candidates) least = std::min(least, c.fitted.mean_square);
+  return least < kExplained;
+}
+
+/// Moves the first half of what is held out to what is fitted.
+void fit_half_of_the_held_out(Study& study) {
+  HeldOut& held = study.held_out;
+  for (std::size_t r = 0; r < held.traces.size(); ++r) {
+    const std::size_t half = held.traces[r].size() / 2;
+    study.train.push_back(part(held.traces[r], 0, half));
+    held.scored_from[r] = half;
+  }
+}
+
+/// What the fitted recordings leave open, for the reader.
+std::string undetermined(const Findings& found) {
+  const std::string left = fmt::format(
+      "the recordings that were fitted do not determine the model: it leaves {:.3g} floors on those that "
+      "were "
+      "held out",
+      found.alone);
+  if (found.candidates.empty()) return left + ", and none of it once these are fitted with them.";
+  return left + "; their first half was fitted with the others, and the second half judges.";
+}
+
+}  // namespace
+
+Findings investigate(Study& study) {
+  const Findings found = first_look(study);
+  if (!asked_too_little(study, found)) return found;
+  const std::vector<MotorTrace> train = study.train;
+  const HeldOut held_out = study.held_out;
+  fit_half_of_the_held_out(study);
+  Findings wider = first_look(study);
+  if (wider.candidates.empty() || study.repeats_badly()) {  // the other half is not worth a judgement
+    study.train = train, study.held_out = held_out, study.observer_hz = kSlowHz;
+    return found;
+  }
+  wider.alone = std::max(found.before.median_free, found.before.median_innovation);
+  return wider;
 }
 
 }  // namespace internal
@@ -236,11 +290,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "no recording is held out: the last third of each file was, which tests the model on the same kind "
         "of "
         "excitation only.");
-  if (std::isfinite(found.alone))
-    diagnosis.warnings.push_back(fmt::format(
-        "the recordings that were fitted do not determine the model: it leaves {:.3g} floors on those "
-        "that were held out, and none of it once these are fitted with them.",
-        found.alone));
+  if (std::isfinite(found.alone)) diagnosis.warnings.push_back(undetermined(found));
   return diagnosis;
 }
 

@@ -58,7 +58,7 @@ StepOutcome decide_again(const StepEvidence& evidence, const std::vector<std::st
     (contains(excluded, e.effect) ? parents : candidates).push_back(judged_by(e));
   for (const ModelEvidence& e : evidence.excluded_parents) parents.push_back(judged_by(e));
   rank(candidates, before, evidence.repeats_badly);
-  const Decision decision = decide(candidates, before, evidence.repeats_badly, parents);
+  const Decision decision = decide_alone(candidates, before, evidence.repeats_badly, parents);
   StepOutcome out;
   for (const Judged& c : candidates) out.ranking.push_back(c.entry->name);
   for (const EffectEntry* entry : decision.group) out.group.push_back(entry->name);

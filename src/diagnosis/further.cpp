@@ -112,7 +112,7 @@ Additions add_further(const Study& study, const Findings& found) {
   const auto& ranked = found.candidates;
   if (ranked.empty() || !(sure.accepted || worth_following(found.before, ranked.front()))) return {};
   Additions a = follow(study, ranked.front(), sure.group);
-  a.accepted = sure.accepted || at_floor(a.after);
+  a.accepted = sure.accepted || at_floor(a.after) || (sure.in_part && a.effects.size() > 1);
   for (std::size_t i = 1; !a.accepted && i < std::min(kBranches, ranked.size()); ++i) {
     if (!worth_following(found.before, ranked[i])) continue;
     Additions other = follow(study, ranked[i], {ranked[i].entry});

@@ -25,10 +25,27 @@ constexpr double kNestedShare = 0.8;        ///< of the child's gain: the parent
 constexpr double kNestedMargin = 0.6;       ///< S by which the child may be better all the same
 constexpr double kNestedShareOfSize = 0.5;  ///< the same of what the prediction error shrinks by
 constexpr double kLeastDistance = 0.3;      ///< S to the floor of which a share can be told
+constexpr double kTrace = 0.02;             ///< share of the free runs' size that such a law may leave
+constexpr double kParentAsGood = 0.1;       ///< S, at the floor
 const double kFloorScore = std::log(1.0 + kScoreOffset);
 
 bool names(std::span<const char* const> list, std::string_view name) {
   return std::any_of(list.begin(), list.end(), [&](const char* other) { return name == other; });
+}
+
+/// Whether the law has no shape that could be another than the real one's, just a size.
+bool law_is_fixed(const EffectEntry& entry) {
+  static constexpr const char* kFixed[] = {"actuator_lag",     "input_delay",    "measurement_lag",
+                                           "shaft_compliance", "impact_damping", "constant_load_torque",
+                                           "load_unbalance",   "input_dead_zone"};
+  return names(kFixed, entry.name);
+}
+
+/// Whether such an effect leaves more than a trace of the free runs' error: it is then at best a part of the
+/// cause.
+bool leaves_a_part(const Judged& after, const Judged& before) {
+  return law_is_fixed(*after.entry) && !at_floor(after) &&
+         after.median_free - 1.0 > kTrace * (before.median_free - 1.0);
 }
 
 }  // namespace
@@ -78,7 +95,12 @@ void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_ba
   const EffectEntry* parent = nested_parent(*best.entry);
   const auto found = std::find_if(candidates.begin(), candidates.end(),
                                   [&](const Judged& c) { return parent != nullptr && c.entry == parent; });
-  if (found == candidates.end() || at_floor(best)) return;
+  if (found == candidates.end()) return;
+  if (at_floor(best)) {
+    if (at_floor(*found) && found->score - best.score < kParentAsGood)
+      std::rotate(candidates.begin(), found, std::next(found));
+    return;
+  }
   const double share = repeats_badly ? (before.median_innovation - found->median_innovation) /
                                            (before.median_innovation - best.median_innovation)
                                      : (before.score - found->score) / (before.score - best.score);
@@ -119,6 +141,14 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   for (const Judged& parent : excluded_parents)
     if (nested_parent(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)
       d.accepted = false;
+  return d;
+}
+
+Decision decide_alone(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
+                      std::span<const Judged> excluded_parents) {
+  Decision d = decide(ranked, before, repeats_badly, excluded_parents);
+  d.in_part = d.accepted && !repeats_badly && leaves_a_part(ranked.front(), before);
+  d.accepted = d.accepted && !d.in_part;
   return d;
 }
 

@@ -31,6 +31,7 @@ bool at_floor(const Judged& judged);
 /// How sure a step is.
 struct Decision {
   bool accepted = false;
+  bool in_part = false;  ///< all speaks for it but what it leaves: not accepted unless a further step is
   std::vector<const EffectEntry*> group;  ///< all that the first cannot be told from, itself first
   double rel = kNaN;                      ///< share of the log distance to the floor
   double gain = kNaN;                     ///< S before − S after
@@ -51,6 +52,11 @@ void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_ba
 ///   better than its parent alone is the parent under another name, and is not accepted
 Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
                 std::span<const Judged> excluded_parents);
+
+/// The same of an effect that is to be all that is missing. A law that is fixed but for its size leaves
+/// nothing where it is the cause: where it leaves more than a trace, it is at best a part.
+Decision decide_alone(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
+                      std::span<const Judged> excluded_parents);
 
 double relative_gain(const Judged& before, const Judged& after);
 double share_of_windows_better(const Judged& before, const Judged& after);

@@ -72,7 +72,7 @@ Removed without(const std::string& effect, std::vector<Judged> candidates, const
   std::erase_if(parents, [&](const Judged& p) {
     return place_of_truth(candidates, p.entry->name) < candidates.size();
   });
-  Removed removed{decide(candidates, before, false, parents), ""};
+  Removed removed{decide_alone(candidates, before, false, parents), ""};
   if (!candidates.empty())
     removed.details =
         fmt::format("; removed: {} rel {:.2f} margin {:.2f} gain {:.2f} shrink {:.2f}",
@@ -86,6 +86,7 @@ std::string describe(const Findings& f, const std::string& effect) {
       fmt::format("free {:.3g} inn {:.3g} fit {:.3g} S {:.2f}", f.before.median_free,
                   f.before.median_innovation, std::sqrt(f.before.fitted.mean_square), f.before.score);
   if (f.candidates.empty()) return text;
+  if (std::isfinite(f.alone)) text += fmt::format(" (alone {:.3g})", f.alone);
   text += fmt::format(" rel {:.2f} margin {:.2f} gain {:.2f} better {:.2f};", f.decision.rel,
                       f.decision.margin, f.decision.gain, f.decision.windows_better);
   const auto add = [&](const Judged& c) {

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "blind/blind_pair.h"
+#include "blind/plant/severity.h"
 #include "diagnosis/one_inertia.h"
 #include "diagnosis/pipeline.h"
 #include "gapscope/diagnosis/diagnosis.h"
@@ -105,6 +107,61 @@ TEST(Diagnosis, DecidesAgainFromItsEvidenceAlone) {
   const StepOutcome without = decide_again(d.evidence, {d.effects.front()});
   EXPECT_NE(without.ranking.front(), d.effects.front());
   EXPECT_LT(without.gain, again.gain);
+}
+
+/// What a first step decides by: a model of 20 floors, and one effect that leaves some of it.
+StepEvidence evidence_of(const std::string& effect, double left) {
+  StepEvidence e;
+  e.nominal = {"", 6.0, 100.0, 20.0, 20.0, kNaN};
+  e.candidates = {{effect, 2.0, 1.0, left, left, 1.0}, {"contact_adhesion", 5.9, 90.0, 19.0, 19.0, 0.5}};
+  return e;
+}
+
+TEST(Diagnosis, AcceptsALawThatIsFixedButForItsSizeOnlyWhereItLeavesNothing) {
+  EXPECT_TRUE(decide_again(evidence_of("shaft_compliance", 1.2)).accepted);
+  EXPECT_FALSE(decide_again(evidence_of("shaft_compliance", 3.0)).accepted);
+  EXPECT_TRUE(decide_again(evidence_of("presliding_friction", 3.0)).accepted);  // real ones differ in shape
+  StepEvidence real_drive = evidence_of("input_delay", 3.0);
+  real_drive.repeats_badly = true;  // no model can reach the floor
+  EXPECT_TRUE(decide_again(real_drive).accepted);
+}
+
+TEST(Diagnosis, PrefersTheSimplerOfTwoNestedEffectsAtTheFloor) {
+  StepEvidence e = evidence_of("friction_asymmetry", 1.0);
+  e.candidates[0].score = 0.10;
+  e.candidates.push_back({"motor_coulomb_friction", 0.15, 1.0, 1.0, 1.0, 1.0});
+  EXPECT_EQ(decide_again(e).ranking.front(), "motor_coulomb_friction");
+  EXPECT_EQ(decide_again(e).group, std::vector<std::string>{"motor_coulomb_friction"});
+  e.candidates[2].score = 0.35;
+  EXPECT_EQ(decide_again(e).ranking.front(), "friction_asymmetry");
+}
+
+TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereTheOtherRecordingAsksForTooLittle) {
+  DiagnosisOptions few;
+  for (const EffectEntry* e : effect_table())
+    if (e->name != std::string("encoder_eccentricity") && e->name != std::string("quadratic_drag"))
+      few.excluded.emplace_back(e->name);
+  const Diagnosis d = diagnosis_of(blind::blind_pair("heavy", "encoder_eccentricity", 0.117, 442492), few);
+  EXPECT_EQ(d.effects, std::vector<std::string>{"encoder_eccentricity"}) << d.sentence;
+  ASSERT_EQ(d.warnings.size(), 1u);
+  EXPECT_NE(d.warnings.front().find("first half"), std::string::npos);
+}
+
+TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
+  blind::BlindCase truth;
+  truth.sensor = blind::BlindSensor::with_bits(20);
+  give_effect(truth, "encoder_eccentricity", 0.5, 400012);
+  const blind::BlindPair pair = blind::blind_pair("paper", "encoder_eccentricity", 0.5, 400012);
+  const MotorTrace train[] = {pair.train.motor_trace()};
+  const internal::Fitted nominal = internal::fit_nominal(train, pair.sheet, {}, 3.0);
+  const internal::EffectStart far{0.02, 0.0};
+  const internal::Fitted found =
+      internal::fit_candidate(train, nominal, internal::bases_of(train, nominal, pair.sheet, {}, 3.0),
+                              *find_effect("encoder_eccentricity"), {&far, 1}, nullptr, {}, 3.0);
+  const auto& values = found.model.effects.back().parameters;
+  EXPECT_NEAR(values[0].value / truth.drive.effects.sensor.eccentricity_rad, 1.0, 0.02);
+  EXPECT_NEAR(std::remainder(values[1].value - truth.drive.effects.sensor.eccentricity_phase_rad, 2.0 * kPi),
+              0.0, 0.02);
 }
 
 TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {

@@ -21,8 +21,9 @@ struct ModelEvidence {
 /// been no candidates: no fit is repeated, and none of the others had its start from them taken away.
 struct StepEvidence {
   ModelEvidence nominal;
-  double alone =
-      kNaN;  ///< larger median of the nominal model where it was then fitted to all recordings; NaN
+  /// Larger median of the nominal model where it was then fitted to held-out recordings too; else NaN
+  /// [floor].
+  double alone = kNaN;
   bool repeats_badly = false;             ///< the floor is the drive's repeatability
   std::vector<ModelEvidence> candidates;  ///< best first; empty at the floor
   std::vector<ModelEvidence>
