@@ -35,6 +35,7 @@ void add_commands(CLI::App& app) {
       "gapscope COMMAND --help tells more.\n\n"
       "Example: gapscope run configs/02_experiment.yaml");
   add_check(app);
+  add_init(app);
   add_run(app);
   add_detect(app);
   add_fit(app);

@@ -21,15 +21,6 @@ namespace {
 constexpr const char* kNameForm =
     "a plain folder name of letters, digits, '_', '-' and '.', not beginning with '.' or '-'";
 
-bool is_plain_name(const std::string& name) {
-  const auto plain = [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  };
-  return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), plain) &&
-         name[0] != '.' && name[0] != '-';
-}
-
 /// `bound: auto`, a number, or {from_model: {input_limit, load_force_bound}}.
 DetectorConfig read_detector(const Value& value) {
   const Section section(value, {"bound"});
@@ -101,6 +92,15 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
 }
 
 }  // namespace
+
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), plain) &&
+         name[0] != '.' && name[0] != '-';
+}
 
 std::string read_name(const Section& root, const std::string& file) {
   if (const auto given = root.find("name")) {

@@ -73,6 +73,7 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
   const Steps s = steps_of(m.rows);
   facts.samples = static_cast<int>(m.rows.size());
   facts.skipped_rows = static_cast<int>(m.rows.skipped.size());
+  facts.uniform = is_uniform(m.rows) && m.rows.skipped.empty();
   facts.missing_samples = static_cast<int>(std::min(s.missing, 2e9));
   facts.start = m.rows.t.front();
   facts.duration = m.rows.t.back() - m.rows.t.front() + s.median;
@@ -85,7 +86,7 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
                         facts.rate),
             "give t in seconds (row numbers, ms or µs?)"};
   if (s.pauses > 0) return pauses(m, s, facts);
-  if (!is_uniform(m.rows)) return jitter(m, s, facts);
+  if (!facts.uniform) return jitter(m, s, facts);
   return {
       "time", Severity::kFine,
       fmt::format("{} samples, {:.5g} s at {:.5g} Hz, uniform", facts.samples, facts.duration, facts.rate),

@@ -19,6 +19,7 @@ template <class Archive>
 void fields(Archive& archive, RecordingFacts& f) {
   archive("samples", f.samples);
   archive("skipped_rows", f.skipped_rows);
+  archive("uniform", f.uniform);
   archive("missing_samples", f.missing_samples);
   archive("start_s", f.start);
   archive("duration_s", f.duration);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/recording/csv.h"
+
+namespace gapscope {
+
+/// What kind of drive a configuration describes.
+enum class StarterModel { kAsSeen, kGap, kLocked, kOneBody };
+
+/// A first configuration for a recording of which nothing else is known.
+struct Starter {
+  std::string yaml;                   ///< run, fit, detect and diagnose accept it as it is
+  std::string model;                  ///< which structure was chosen, and why
+  std::vector<std::string> spoiling;  ///< what `check` says will spoil the estimates
+};
+
+/// Reads off a recording what it tells (columns, uniform rate, encoder, whether there is a gap, a locked
+/// output or one body, and of one body the first numbers) and marks the rest as GUESS or leaves it to the
+/// fit. Torques are in units of u until torque_constant is given; gaps do not depend on it.
+/// @param model   kAsSeen: the detector decides
+/// @param folder  where the configuration will be: the recording is named relative to it
+/// @throws ConfigError where the recording cannot be read
+Starter starter_configuration(const std::string& recording, CsvOptions options, bool rotation,
+                              const std::string& folder, StarterModel model = StarterModel::kAsSeen);
+
+}  // namespace gapscope

@@ -1,0 +1,67 @@
+// `init`: a first configuration from a recording.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/config/starter.h"
+
+namespace gapscope::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  RecordingArguments recording;
+  std::string output;
+  StarterModel model = StarterModel::kAsSeen;
+};
+
+void write_starter(const Arguments& a) {
+  const RecordingArguments& r = a.recording;
+  const std::string output = a.output.empty() ? fs::path(r.file).stem().string() + ".yaml" : a.output;
+  require_file_name(output, r.file);
+  if (fs::exists(output))
+    throw ConfigError(output, "is there already, expected another name (-o FILE) or that it is moved away");
+  const fs::path parent = fs::path(output).parent_path();
+  const Starter starter = starter_configuration(r.file, r.options(), !r.translation,
+                                                parent.empty() ? "." : parent.string(), a.model);
+  write_text(output, starter.yaml);
+  print_warnings(starter.spoiling);
+  fmt::print("{:<12}{}\n{:<12}{}\n{:<12}fill in what is marked GUESS, then gapscope run {}\n", "written",
+             output, "model", starter.model, "next", output);
+}
+
+}  // namespace
+
+void add_init(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("init", "A first configuration from a recording");
+  add_recording_arguments(*command, arguments->recording);
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "configuration to write (default: the recording's name with .yaml, here)")
+      ->type_name("CONFIG");
+  const std::map<std::string, StarterModel> models = {
+      {"gap", StarterModel::kGap}, {"locked", StarterModel::kLocked}, {"one_body", StarterModel::kOneBody}};
+  command
+      ->add_option("--model", arguments->model,
+                   "gap, locked (the output does not move) or one_body (default: what the detector sees)")
+      ->type_name("KIND")
+      ->transform(CLI::CheckedTransformer(models).description(""));
+  command->footer(
+      "Reads off the recording what it tells: columns, a uniform rate where the time is not, the step of "
+      "the\n"
+      "encoder [rad], and whether the model needs a gap, a locked output or one body (the detector "
+      "decides).\n"
+      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit.\n"
+      "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
+      "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
+  command->callback([arguments] { write_starter(*arguments); });
+}
+
+}  // namespace gapscope::cli

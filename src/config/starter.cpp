@@ -1,0 +1,174 @@
+#include "gapscope/config/starter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "config/configuration_reader.h"
+#include "config/yaml_writer.h"
+#include "gapscope/inspection/inspection.h"
+#include "gapscope/sliding_mode/detector.h"
+
+namespace gapscope {
+namespace {
+
+using internal::yaml_number;
+using internal::yaml_text;
+using internal::YamlWriter;
+
+struct Choice {
+  StarterModel structure = StarterModel::kGap;
+  std::string why;
+};
+
+/// What the detector saw decides: a locked output is one whose position is a loop over the input.
+Choice as_seen(const MotorTrace& trace, const char* unit) {
+  const GapEstimate g = detect_gap(std::span(&trace, 1));
+  if (g.method == GapMethod::kLostMotion)
+    return {StarterModel::kLocked, "locked output: x1 follows u in a loop"};
+  if (g.verdict == GapVerdict::kNone)
+    return {StarterModel::kOneBody,
+            fmt::format("one body: a gap above {:.3g} {} would have shown", g.smallest_visible_gap, unit)};
+  if (g.verdict == GapVerdict::kBacklash)
+    return {StarterModel::kGap,
+            fmt::format("gap and free load: the detector reads a gap of {:.3g} {}", g.gap, unit)};
+  return {StarterModel::kGap, "gap and free load, unproven: the detector says nothing (" + g.reason + ")"};
+}
+
+Choice choose(StarterModel model, const MotorTrace& trace, bool rotation) {
+  switch (model) {
+    case StarterModel::kAsSeen:
+      return as_seen(trace, rotation ? "rad" : "m");
+    case StarterModel::kGap:
+      return {model, "gap and free load, as asked for"};
+    case StarterModel::kLocked:
+      return {model, "locked output, as asked for"};
+    case StarterModel::kOneBody:
+      return {model, "one body, as asked for"};
+  }
+  return {};
+}
+
+/// Two digits, not above: a rate that the recording has.
+double round_down(double rate) {
+  const double unit = std::pow(10.0, std::floor(std::log10(rate)) - 1.0);
+  return std::floor(rate / unit * (1.0 + 1e-9)) * unit;
+}
+
+/// A name that a folder may have.
+std::string plain_name(const std::string& path) {
+  std::string name = std::filesystem::path(path).stem().string().substr(0, 100);
+  for (char& c : name)
+    if (!internal::is_plain_name("a" + std::string(1, c))) c = '_';
+  return internal::is_plain_name(name) ? name : "drive_" + name.substr(0, 90);
+}
+
+/// The recording as it is named in a configuration of that folder.
+std::string named_from(const std::string& folder, const std::string& recording) {
+  const bool stays = std::filesystem::path(recording).is_absolute() || std::filesystem::path(folder) == ".";
+  return stays ? recording : std::filesystem::proximate(recording, folder).generic_string();
+}
+
+void write_recording(YamlWriter& out, const std::string& file, const CsvOptions& options, bool resampled) {
+  out.open("recording");
+  out.entry("file", yaml_text(file));
+  out.comment(
+      "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
+  const CsvColumns& c = options.columns;
+  out.entry("columns", fmt::format("{{time: {}, input: {}, position: {}}}", yaml_text(c.time),
+                                   yaml_text(c.input), yaml_text(c.position)));
+  if (options.window)
+    out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second), "s");
+  if (options.resample_rate)
+    out.entry("resample", fmt::format("{{rate: {}}}", *options.resample_rate),
+              resampled ? "Hz; the time in the file is not uniform" : "Hz");
+  out.close();
+}
+
+void write_encoder(YamlWriter& out, const RecordingFacts& f, bool rotation) {
+  const char* unit = rotation ? "rad" : "m";
+  if (std::isnan(f.quantum))
+    return out.comment(rotation ? "encoder: {bits: 20}   # GUESS: no step is seen in x1; what the sheet says"
+                                : "encoder: {quantum: 1e-6}   # GUESS: no step is seen in x1; m");
+  const double bits = std::log2(2.0 * std::numbers::pi / f.quantum);
+  const bool binary = rotation && std::abs(bits - std::round(bits)) < 1e-3;
+  out.entry("encoder",
+            binary ? fmt::format("{{bits: {:.0f}}}", bits) : fmt::format("{{quantum: {:.5g}}}", f.quantum),
+            fmt::format("read: x1 steps by {:.5g} {}", f.quantum, unit));
+}
+
+/// {value: …, estimate: true} with a number that was read, else without.
+void write_estimated(YamlWriter& out, const char* key, double value, const std::string& unit) {
+  const bool known = value > 0.0;
+  out.entry(key, known ? fmt::format("{{value: {:.3g}, estimate: true}}", value) : "{estimate: true}",
+            unit + (known ? "; read, as one body" : "; the fit finds its start"));
+}
+
+void write_motor(YamlWriter& out, const RecordingFacts& f, bool rotation, bool one_body) {
+  out.entry(
+      "torque_constant", "1",
+      fmt::format("GUESS: {} per unit of u; with 1 all torques are in units of u", rotation ? "N m" : "N"));
+  write_estimated(out, "motor_inertia", one_body ? f.inertia : kNaN,
+                  std::string(rotation ? "kg m^2" : "kg") + " (over torque_constant); better the sheet's");
+  write_estimated(out, "motor_damping", one_body ? f.damping : kNaN, rotation ? "N m s/rad" : "N s/m");
+}
+
+void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f, bool rotation) {
+  const bool load = choice.structure != StarterModel::kOneBody, free = choice.structure == StarterModel::kGap;
+  out.open("model");
+  out.comment(choice.why);
+  if (load) out.entry("contact", "compliant");
+  if (load) out.entry("load", free ? "free" : "locked");
+  out.open("parameters");
+  write_motor(out, f, rotation, !load);
+  if (!load)
+    out.entry("mass_ratio", "0",
+              "one body; for a drive with a gap: {estimate: true}, and gap, contact_stiffness alike");
+  if (free) write_estimated(out, "mass_ratio", kNaN, "load over motor");
+  if (load) write_estimated(out, "gap", kNaN, rotation ? "rad" : "m");
+  if (free) write_estimated(out, "load_damping", kNaN, rotation ? "N m s/rad" : "N s/m");
+  if (free) write_estimated(out, "load_coulomb_friction", kNaN, rotation ? "N m" : "N");
+  if (load) write_estimated(out, "contact_stiffness", kNaN, rotation ? "N m/rad" : "N/m");
+  if (load) write_estimated(out, "contact_damping", kNaN, rotation ? "N m s/rad" : "N s/m");
+  out.close();
+  out.entry("effects", "[]", "what is known to be there beside it; `gapscope effects` lists them");
+  out.close();
+}
+
+}  // namespace
+
+Starter starter_configuration(const std::string& recording, CsvOptions options, bool rotation,
+                              const std::string& folder, StarterModel model) {
+  const Inspection seen = inspect(recording, options, rotation);
+  const bool irregular = !options.resample_rate && !seen.facts.uniform;
+  if (irregular) options.resample_rate = round_down(seen.facts.rate);
+  const Recording r = read_csv(recording, options);
+  const Choice choice = choose(model, r.motor_trace(), rotation);
+  Starter starter;
+  starter.model = choice.why;
+  YamlWriter out;
+  out.comment(
+      "A first configuration, read off the recording. What is marked GUESS it does not tell: put in what");
+  out.comment(
+      "the sheet says. A bare number is fixed; {estimate: true} is fitted, from a value if one stands "
+      "there.");
+  for (const Finding& f : seen.findings) {
+    const bool settled = f.rule == "time" && irregular;
+    if (f.severity != Severity::kSpoils || settled) continue;
+    starter.spoiling.push_back(f.rule + ": " + f.found);
+    out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back() + " -> " + f.advice);
+  }
+  out.entry("name", plain_name(recording), "of the report: reports/<name>");
+  write_recording(out, named_from(folder, recording), options, irregular);
+  write_encoder(out, seen.facts, rotation);
+  out.entry("coordinates", rotation ? "rotation" : "translation");
+  write_model(out, choice, seen.facts, rotation);
+  out.entry("detector", "{bound: auto}");
+  starter.yaml = out.text();
+  return starter;
+}
+
+}  // namespace gapscope

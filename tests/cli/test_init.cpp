@@ -1,0 +1,93 @@
+// What `init` writes is taken by the other commands as it is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/executable.h"
+#include "inspection/rows.h"
+#include "support/data.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Workplace;
+
+/// Runs init, run and diagnose in turn. @returns the configuration
+std::string tried(Workplace& place, const std::string& arguments) {
+  const auto init = place.run("init " + arguments + " -o drive.yaml");
+  EXPECT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(init.out, HasSubstr("gapscope run drive.yaml"));
+  for (const char* command : {"run", "diagnose"}) {
+    const auto outcome = place.run(std::string(command) + " drive.yaml -o report");
+    EXPECT_EQ(outcome.status, 0) << command << ": " << outcome.err;
+  }
+  for (const char* file : {"report/result.json", "report/diagnosis.json", "report/report.md"})
+    EXPECT_TRUE(place.content().count(file)) << file;
+  return testing::text_of(place.folder() / "drive.yaml");
+}
+
+TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {
+  Workplace place;
+  TestDrive body;
+  body.m2 = 0.0, body.d1 = 0.01;
+  TestEncoder encoder;
+  encoder.rate = 500.0, encoder.duration = 6.0, encoder.bits = 18, encoder.step = 1e-4;
+  const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
+  place.file("logs/my drive 7.csv", testing::rows_of(record(body, input, encoder)).csv());
+  const std::string yaml = tried(place, "'logs/my drive 7.csv' --model one_body");
+  EXPECT_THAT(yaml, HasSubstr("name: my_drive_7"));
+  EXPECT_THAT(yaml, HasSubstr("file: \"logs/my drive 7.csv\""));
+  EXPECT_THAT(yaml, HasSubstr("encoder: {bits: 18}"));
+  EXPECT_THAT(yaml, HasSubstr("mass_ratio: 0"));
+  EXPECT_THAT(yaml, HasSubstr("torque_constant: 1  # GUESS"));
+  EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.005"));  // 8.78e-4/0.172 = 5.1e-3 units of u s^2/rad
+  EXPECT_THAT(yaml, Not(HasSubstr("SPOILS")));
+}
+
+TEST(Init, AGapIsSeenAndLeftToTheFit) {
+  Workplace place;
+  TestEncoder encoder;
+  encoder.rate = 1000.0, encoder.duration = 5.0, encoder.bits = 18, encoder.step = 2e-5;
+  place.file("r.csv", testing::rows_of(record({}, sine(0.5814, 1.0), encoder)).csv());
+  const std::string yaml = tried(place, "r.csv");
+  EXPECT_THAT(yaml, HasSubstr("the detector reads a gap of 0.01"));
+  EXPECT_THAT(yaml,
+              HasSubstr("gap: {estimate: true}"));  // the fit is to stand beside the detector, not on it
+  EXPECT_THAT(place.run("detect drive.yaml").out, HasSubstr("backlash"));
+  const auto again = place.run("init r.csv -o drive.yaml");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("drive.yaml: is there already, expected another name"));
+}
+
+TEST(Init, IrregularTimeIsResampledAndWhatSpoilsIsWrittenDown) {
+  Workplace place;
+  testing::Rows rows = testing::rig();
+  for (std::size_t i = 0; i < rows.t.size(); ++i) {
+    rows.t[i] += 1e-4 * static_cast<double>(i % 3);
+    rows.u[i] = -rows.u[i];
+  }
+  place.file("r.csv", "when,u,x1" + rows.csv().substr(6));
+  const auto init = place.run("init r.csv --time when");
+  EXPECT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(init.err, HasSubstr("warning: sign:"));
+  const std::string yaml = testing::text_of(place.folder() / "r.yaml");
+  EXPECT_THAT(yaml, HasSubstr("# SPOILS THE ESTIMATES, sign:"));
+  EXPECT_THAT(yaml, HasSubstr("columns: {time: \"when\""));
+  EXPECT_THAT(yaml, HasSubstr("resample: {rate: "));
+  EXPECT_EQ(place.run("detect r.yaml").status, 0);
+}
+
+TEST(Init, ARealAxisFromTheFileToTheDiagnosis) {
+  GAPSCOPE_NEEDS_DATA();
+  Workplace place;
+  const std::string file = (testing::data_folder() / "emps/emps_train.csv").string();
+  const std::string yaml = tried(place, file + " --translation");
+  EXPECT_THAT(yaml, HasSubstr("encoder: {quantum: 5e-08}"));
+  EXPECT_THAT(yaml, HasSubstr("mass_ratio: 0"));
+  EXPECT_THAT(testing::text_of(place.folder() / "report/diagnosis.json"),
+              HasSubstr("motor_coulomb_friction"));
+}
+
+}  // namespace
+}  // namespace gapscope
