@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal {
@@ -24,7 +25,14 @@ Database::Database(const std::string& file, bool create) : file_(file) {
 
 Database::~Database() { sqlite3_close(handle_); }
 
-void Database::fail() const { throw std::runtime_error(file_ + ": " + sqlite3_errmsg(handle_)); }
+void Database::fail() const {
+  const int code = sqlite3_errcode(handle_);
+  const std::string what = sqlite3_errmsg(handle_);
+  if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT ||
+      code == SQLITE_ERROR)  // the last: a table is not there
+    throw ConfigError(file_, "is damaged or no store (" + what + "), expected one that `campaign` wrote");
+  throw std::runtime_error(file_ + ": " + what);
+}
 
 void Database::execute(const std::string& sql) {
   if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();

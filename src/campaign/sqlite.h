@@ -8,7 +8,8 @@
 
 namespace gapscope::internal {
 
-/// A database file. Every failure throws std::runtime_error with the file and what SQLite says.
+/// A database file. A failure throws with the file and what SQLite says: ConfigError where the file is no
+/// store or a damaged one, else std::runtime_error.
 class Database {
  public:
   /// @param create  false: it must be there, and is only read

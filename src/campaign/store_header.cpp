@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <charconv>
 #include <sstream>
 
 #include "campaign/recorded_data.h"
@@ -58,6 +60,16 @@ std::string fact(Database& database, const std::string& file, const char* key) {
     throw ConfigError(file, fmt::format("has no {}, expected the store of a campaign", key));
   std::string value;
   select.read(value);
+  return value;
+}
+
+std::uint64_t number_fact(Database& database, const std::string& file, const char* key) {
+  const std::string text = fact(database, file, key);
+  std::uint64_t value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size() || value == 0)
+    throw ConfigError(file,
+                      fmt::format("{} is '{}', expected a whole number from 1 on", key, text.substr(0, 40)));
   return value;
 }
 
@@ -168,8 +180,11 @@ CampaignHeader read_header(Database& database, const std::string& file) {
   const std::string estimators = fact(database, file, "estimators");
   h.model_free = estimators != "reference";
   h.reference = estimators != "model_free";
-  h.runs = std::stoull(fact(database, file, "runs"));
-  h.shard = {std::stoull(fact(database, file, "shard")), std::stoull(fact(database, file, "shards"))};
+  h.runs = number_fact(database, file, "runs");
+  h.shard = {number_fact(database, file, "shard"), number_fact(database, file, "shards")};
+  if (h.shard.number > h.shard.of)
+    throw ConfigError(
+        file, fmt::format("holds shard {}, expected a number up to {}", to_string(h.shard), h.shard.of));
   read_axes(database, h);
   return h;
 }
@@ -180,8 +195,9 @@ std::string difference(const CampaignHeader& stored, const CampaignHeader& wante
   const auto a = lines_of(stored.identity), b = lines_of(wanted.identity);
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     const auto shown = [i](const std::vector<std::string>& lines) {
-      return i < lines.size() ? "'" + lines[i].substr(lines[i].find_first_not_of(' ')) + "'"
-                              : std::string("nothing");
+      return i < lines.size()
+                 ? "'" + lines[i].substr(std::min(lines[i].find_first_not_of(' '), lines[i].size())) + "'"
+                 : std::string("nothing");
     };
     if (i >= a.size() || i >= b.size() || a[i] != b[i])
       return fmt::format("belongs to another campaign: it has {}, expected {}", shown(a), shown(b));

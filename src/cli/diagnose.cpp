@@ -77,6 +77,7 @@ void diagnose_configuration(const Arguments& a) {
   options.progress = progress_on_terminal(a.quiet);
   Outcome loaded;
   const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
+  require_possible_experiment(c, train.front().dt);
   const std::vector<Recording> held_out = load_held_out(c, options.progress, loaded);
   const std::vector<MotorTrace> train_traces = traces_of(train), held_out_traces = traces_of(held_out);
   DiagnosisResult result{c.name, version(), c.rotation,

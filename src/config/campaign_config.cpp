@@ -76,9 +76,15 @@ void require_separate_paths(const CampaignConfig& c) {
 }
 
 void require_possible_number(const CampaignConfig& c, const std::vector<WrittenAxis>& axes, const Value& at) {
-  double runs = c.hypercube ? static_cast<double>(c.hypercube->samples) : 1.0;
-  if (!c.hypercube)
-    for (const WrittenAxis& a : axes) runs *= static_cast<double>(a.count);
+  double runs = c.hypercube ? static_cast<double>(c.hypercube->samples) : 1.0, values = 0.0;
+  for (const WrittenAxis& a : axes) {
+    values += static_cast<double>(a.count);
+    if (!c.hypercube) runs *= static_cast<double>(a.count);
+    if (values > kMostCampaignRuns)
+      throw ConfigError(c.file, a.axis.line,
+                        fmt::format("{} brings the values of all axes to {:.0f}, expected at most {:.0f}",
+                                    a.axis.path, values, kMostCampaignRuns));
+  }
   if (runs > kMostCampaignRuns)
     at.fail(fmt::format("{} {:.0f} runs, expected at most {:.0f}", c.hypercube ? "asks for" : "give", runs,
                         kMostCampaignRuns));

@@ -133,6 +133,7 @@ Configuration read_configuration(const Value& document) {
   if (const auto diagnosis = root.find("diagnosis")) read_fields(*diagnosis, c.diagnosis);
   if (const auto next = root.find("next_experiment")) {
     read_fields(*next, c.next_experiment);
+    c.next_experiment_line = next->line();
     if (!(c.next_experiment.lowest_frequency < c.next_experiment.highest_frequency))
       next->fail_expecting("lowest_frequency below highest_frequency");
   }
@@ -160,6 +161,15 @@ void require_reference_model(const Configuration& c) {
         fmt::format("model.parameters has no {0}, expected a number [{1}] or {0}: {{estimate: true}}",
                     kDriveParameters[i].key, kDriveParameters[i].unit));
   }
+}
+
+void require_possible_experiment(const Configuration& c, double dt) {
+  const double samples = c.next_experiment.duration / dt;
+  if (samples > kMostSimulatedSamples)
+    throw ConfigError(c.file, std::max(1, c.next_experiment_line),
+                      fmt::format("next_experiment.duration is {} s, {:.3g} samples at the {:.5g} Hz of the "
+                                  "recording, expected at most {:.3g}",
+                                  c.next_experiment.duration, samples, 1.0 / dt, kMostSimulatedSamples));
 }
 
 Interval bound_from_model(const Configuration& c) {

@@ -50,9 +50,13 @@ std::string whole_file(const std::string& path) {
   if (!fs::exists(status)) throw ConfigError(path, "there is no such file, expected a recording as CSV");
   if (!fs::is_regular_file(status))
     throw ConfigError(path, "is no regular file, expected a recording as CSV");
+  const std::uintmax_t bytes = fs::file_size(path);
+  if (bytes > kMostBytes)
+    throw ConfigError(path, fmt::format("has {:.3g} bytes, expected at most {:.3g}",
+                                        static_cast<double>(bytes), static_cast<double>(kMostBytes)));
   std::ifstream in(path, std::ios::binary);
   if (!in) throw ConfigError(path, "cannot be opened, expected a readable file");
-  std::string text(static_cast<std::size_t>(fs::file_size(path)), '\0');
+  std::string text(static_cast<std::size_t>(bytes), '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
   if (in.bad()) throw ConfigError(path, "cannot be read, expected a readable file");

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace gapscope::internal {
 
 /// More rows or samples than this are refused: a mistyped rate must not eat the machine.
 constexpr std::size_t kMostSamples = 20'000'000;
+
+/// Files of recordings with more bytes than this are refused: kMostSamples rows of 200 characters.
+constexpr std::uintmax_t kMostBytes = 200 * std::uintmax_t{kMostSamples};
 
 /// Largest deviation of a step from the mean step that still counts as uniform [-].
 constexpr double kUniformTolerance = 1e-3;

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "gapscope/base/errors.h"
 #include "gapscope/blind/records.h"
 #include "results/json_archive.h"
 
@@ -28,9 +27,7 @@ template <class Struct>
 Struct read_document(const std::string& path, const std::string& expected) {
   const Json json = load_json(path);
   JsonReader reader(json, path, "");
-  std::string schema;
-  reader("schema", schema);
-  if (schema != expected) throw ConfigError(path, "has the schema " + schema + ", expected " + expected);
+  reader.schema(expected);
   Struct value;
   fields(reader, value);
   return value;

@@ -25,7 +25,7 @@ void write_bound_map(const std::string& path, const BoundMap& map) {
 
 void read_bound_map(const std::string& path, BoundMap& map) {
   std::ifstream in(path);
-  if (!in) throw ConfigError(path, "is missing, the stored result names it");
+  if (!in) throw ConfigError(path, "there is no such file, expected the map that the stored result names");
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
@@ -35,7 +35,7 @@ void read_bound_map(const std::string& path, BoundMap& map) {
       double value = 0.0;
       const auto end = std::from_chars(field.data(), field.data() + field.size(), value);
       if (end.ec != std::errc() || end.ptr != field.data() + field.size())
-        throw ConfigError(path, number, "\"" + field + "\" is not a number");
+        throw ConfigError(path, number, "'" + field.substr(0, 40) + "' is no number, expected one");
       map.levels.push_back(value);
     }
     if (fields != map.bounds.size())

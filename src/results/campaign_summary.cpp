@@ -110,10 +110,7 @@ CampaignSummary read_campaign_summary(const std::string& folder) {
   const std::string path = file_in(folder);
   const internal::Json json = internal::load_json(path);
   internal::JsonReader reader(json, path, "");
-  std::string schema;
-  reader("schema", schema);
-  if (schema != internal::kCampaignSchema)
-    throw ConfigError(path, "has the schema " + schema + ", expected " + internal::kCampaignSchema);
+  reader.schema(internal::kCampaignSchema);
   CampaignSummary summary;
   internal::fields(reader, summary);
   return summary;

@@ -43,7 +43,7 @@ StoredMismatch store(const std::string& folder, std::size_t index, const Mismatc
 }
 
 MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
-  const std::string path = folder + "/" + stored.trace;
+  const std::string path = internal::trace_path(folder, stored.trace);
   TraceSet set;
   internal::read_trace(path, set);
   if (static_cast<int>(set.recording.size()) != stored.samples)
@@ -65,7 +65,6 @@ void write_diagnosis_result(const std::string& folder, const DiagnosisResult& re
   std::filesystem::create_directories(folder + "/traces");
   DiagnosisDocument document;
   document.result = result;
-  document.coordinates = result.rotation ? "rotation" : "translation";
   for (std::size_t i = 0; i < result.diagnosis.traces.size(); ++i)
     document.held_out.push_back(store(folder, i, result.diagnosis.traces[i]));
   JsonWriter writer;
@@ -78,13 +77,8 @@ DiagnosisResult read_diagnosis_result(const std::string& folder) {
   const internal::Json json = internal::load_json(path);
   JsonReader reader(json, path, "");
   DiagnosisDocument document;
-  reader("schema", document.schema);
-  if (document.schema != internal::kDiagnosisSchema)
-    throw ConfigError(path, "has the schema " + document.schema + ", expected " + internal::kDiagnosisSchema);
+  reader.schema(internal::kDiagnosisSchema);
   fields(reader, document);
-  if (document.coordinates != "rotation" && document.coordinates != "translation")
-    throw ConfigError(path, "coordinates is " + document.coordinates + ", expected rotation or translation");
-  document.result.rotation = document.coordinates == "rotation";
   for (const StoredMismatch& stored : document.held_out)
     document.result.diagnosis.traces.push_back(load(folder, stored));
   return std::move(document.result);

@@ -22,7 +22,6 @@ struct StoredMismatch {
 struct DiagnosisDocument {
   std::string schema = kDiagnosisSchema;
   DiagnosisResult result;
-  std::string coordinates;
   std::vector<StoredMismatch> held_out;
 };
 
@@ -192,7 +191,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("warnings", g.warnings);
   archive("name", d.result.name);
   archive("version", d.result.version);
-  archive("coordinates", d.coordinates);
+  archive.choice("coordinates", d.result.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
   archive.list("held_out", d.held_out);
 }
 

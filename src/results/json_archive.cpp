@@ -1,12 +1,22 @@
 #include "results/json_archive.h"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "results/json_place.h"
 
 namespace gapscope::internal {
+
+std::string shown(const Json& json) {
+  constexpr std::size_t kMost = 40;
+  const std::string text = json.dump(-1, ' ', true);
+  return text.size() > kMost ? text.substr(0, kMost) + "..." : text;
+}
 
 Json to_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -16,13 +26,20 @@ void save_json(const std::string& path, const Json& json) {
   if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-Json load_json(const std::string& path) {
+std::string text_of_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw ConfigError(path, "there is no such file, expected a stored result");
+  if (!in || std::filesystem::is_directory(path))
+    throw ConfigError(path, "there is no such file, expected a stored result");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Json load_json(const std::string& path) {
+  const std::string text = text_of_file(path);
   try {
-    return Json::parse(in);
+    return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    throw ConfigError(path, std::string("is damaged: ") + error.what());
+    throw ConfigError(path, line_of_byte(text, error.byte > 0 ? error.byte - 1 : 0),
+                      "is no valid JSON from here on, expected a stored result");
   }
 }
 
@@ -46,40 +63,52 @@ void JsonWriter::bound(const char* key, double& value) {
 
 JsonReader::JsonReader(const Json& json, std::string file, std::string place)
     : json_(json), file_(std::move(file)), place_(std::move(place)) {
-  if (!json_.is_object())
-    throw ConfigError(file_, (place_.empty() ? "the document" : place_) + " is not an object");
+  if (!json_.is_object()) fail_at(place_, "is " + shown(json_) + ", expected an object");
 }
 
 const Json& JsonReader::at(const char* key) const {
   const auto item = json_.find(key);
-  if (item == json_.end()) fail(key, "is missing");
+  if (item == json_.end()) fail(key, "is missing, expected all that this version stores");
   return *item;
 }
 
-void JsonReader::fail(const char* key, const std::string& what) const {
-  throw ConfigError(file_, place_of(key) + " " + what);
+void JsonReader::fail(const char* key, const std::string& what) const { fail_at(place_of(key), what); }
+
+void JsonReader::fail_at(const std::string& place, const std::string& what) const {
+  const std::string message = (place.empty() ? "the document" : place) + " " + what;
+  if (!std::filesystem::is_regular_file(file_)) throw ConfigError(file_, message);
+  throw ConfigError(file_, line_of_place(text_of_file(file_), place), message);
+}
+
+void JsonReader::schema(const std::string& expected) {
+  std::string found;
+  (*this)("schema", found);
+  if (found != expected) fail("schema", "is \"" + found + "\", expected \"" + expected + "\"");
 }
 
 double JsonReader::number(const Json& json, const char* key) const {
   if (json.is_null()) return kNaN;
-  if (!json.is_number()) fail(key, "is " + json.dump() + ", expected a number or null");
+  if (!json.is_number()) fail(key, "is " + shown(json) + ", expected a number or null");
   return json.get<double>();
 }
 
 void JsonReader::operator()(const char* key, double& value) { value = number(at(key), key); }
 
 void JsonReader::operator()(const char* key, int& value) {
-  if (!at(key).is_number_integer()) fail(key, "is " + at(key).dump() + ", expected a whole number");
-  value = at(key).get<int>();
+  const Json& json = at(key);
+  constexpr double kMost = std::numeric_limits<int>::max();
+  if (!json.is_number_integer() || std::abs(json.get<double>()) > kMost)
+    fail(key, "is " + shown(json) + ", expected a whole number");
+  value = json.get<int>();
 }
 
 void JsonReader::operator()(const char* key, bool& value) {
-  if (!at(key).is_boolean()) fail(key, "is " + at(key).dump() + ", expected true or false");
+  if (!at(key).is_boolean()) fail(key, "is " + shown(at(key)) + ", expected true or false");
   value = at(key).get<bool>();
 }
 
 void JsonReader::operator()(const char* key, std::string& value) {
-  if (!at(key).is_string()) fail(key, "is " + at(key).dump() + ", expected text");
+  if (!at(key).is_string()) fail(key, "is " + shown(at(key)) + ", expected text");
   value = at(key).get<std::string>();
 }
 
@@ -92,23 +121,23 @@ void JsonReader::operator()(const char* key, Interval& value) {
   value = {};
   const Json& pair = at(key);
   if (pair.is_null()) return;
-  if (!pair.is_array() || pair.size() != 2) fail(key, "is " + pair.dump() + ", expected [low, high] or null");
+  if (!pair.is_array() || pair.size() != 2) fail(key, "is " + shown(pair) + ", expected [low, high] or null");
   value = {number(pair[0], key), number(pair[1], key)};
 }
 
 void JsonReader::operator()(const char* key, std::vector<std::string>& values) {
   const Json& array = at(key);
-  if (!array.is_array()) fail(key, "is not a list");
+  if (!array.is_array()) fail(key, "is " + shown(array) + ", expected a list");
   values.clear();
   for (const Json& item : array) {
-    if (!item.is_string()) fail(key, "holds " + item.dump() + ", expected text");
+    if (!item.is_string()) fail(key, "holds " + shown(item) + ", expected text");
     values.push_back(item.get<std::string>());
   }
 }
 
 void JsonReader::operator()(const char* key, std::vector<double>& values) {
   const Json& array = at(key);
-  if (!array.is_array()) fail(key, "is not a list");
+  if (!array.is_array()) fail(key, "is " + shown(array) + ", expected a list");
   values.clear();
   for (const Json& item : array) values.push_back(number(item, key));
 }

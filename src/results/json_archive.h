@@ -24,6 +24,9 @@ using Words = std::initializer_list<std::pair<Enum, const char*>>;
 Json to_json(double value);
 inline Json to_json(const std::string& text) { return text; }
 
+/// What a message shows of a value: its first characters.
+std::string shown(const Json& json);
+
 /// Text of a JSON document with a final newline; doubles come out shortest and read back the same.
 void save_json(const std::string& path, const Json& json);
 /// @throws ConfigError where the file is missing or no JSON.
@@ -102,24 +105,31 @@ class JsonReader {
   void operator()(const char* key, std::vector<double>& values);
   void bound(const char* key, double& value);
 
+  /// Refuses the document of another schema.
+  void schema(const std::string& expected);
+
   template <class Enum>
   void choice(const char* key, Enum& value, Words<Enum> words) {
     const Json& word = at(key);
-    for (const auto& [meaning, text] : words)
+    std::string all;
+    for (const auto& [meaning, text] : words) {
       if (word == text) return void(value = meaning);
-    fail(key, "is " + word.dump() + ", which is none of its words");
+      all += (all.empty() ? "" : ", ") + std::string(text);
+    }
+    fail(key, "is " + shown(word) + ", expected one of " + all);
   }
   template <class Struct>
   void list(const char* key, std::vector<Struct>& values) {
     const Json& array = at(key);
-    if (!array.is_array()) fail(key, "is not a list");
+    if (!array.is_array()) fail(key, "is " + shown(array) + ", expected a list");
     values.clear();
-    for (const Json& item : array) read(item, place_of(key), values.emplace_back());
+    for (const Json& item : array)
+      read(item, place_of(key) + "[" + std::to_string(values.size()) + "]", values.emplace_back());
   }
   template <class Struct>
   void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {
     const Json& object = at(key);
-    if (!object.is_object()) fail(key, "is not an object");
+    if (!object.is_object()) fail(key, "is " + shown(object) + ", expected an object");
     values.clear();
     for (const auto& [item, json] : object.items()) {
       read(json, place_of(key) + "." + item, values.emplace_back());
@@ -131,7 +141,7 @@ class JsonReader {
   void named_members(const char* key, std::vector<Struct>& values, std::string Struct::*name,
                      Member Struct::*member) {
     const Json& object = at(key);
-    if (!object.is_object()) fail(key, "is not an object");
+    if (!object.is_object()) fail(key, "is " + shown(object) + ", expected an object");
     values.resize(object.size());
     JsonReader inner(object, file_, place_of(key));
     std::size_t i = 0;
@@ -154,6 +164,7 @@ class JsonReader {
   const Json& at(const char* key) const;
   std::string place_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
   [[noreturn]] void fail(const char* key, const std::string& what) const;
+  [[noreturn]] void fail_at(const std::string& place, const std::string& what) const;
   double number(const Json& json, const char* key) const;
 
   template <class Struct>

@@ -67,7 +67,7 @@ StoredRecording store_recording(const std::string& folder, std::size_t index, co
 }
 
 void load_recording(const std::string& folder, const StoredRecording& stored, RunResult& run) {
-  const std::string path = folder + "/" + stored.trace;
+  const std::string path = internal::trace_path(folder, stored.trace);
   internal::TraceSet set;
   set.recording = stored.recording;
   set.error.file = set.fit.file = stored.recording.file;
@@ -75,6 +75,10 @@ void load_recording(const std::string& folder, const StoredRecording& stored, Ru
   if (static_cast<int>(set.recording.size()) != stored.samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
                                 std::to_string(stored.samples));
+  if (stored.has_error && set.error.error.empty())
+    throw ConfigError(path, 1, "there is no column e_x_rad, expected it as result.json says");
+  if (stored.has_fit && set.fit.x1.empty())
+    throw ConfigError(path, 1, "there is no column fit_x1_rad, expected it as result.json says");
   if (stored.has_error && run.model_free) run.model_free->traces.push_back(std::move(set.error));
   if (stored.has_fit && run.reference) run.reference->traces.push_back(std::move(set.fit));
   run.recordings.push_back(std::move(set.recording));
@@ -89,7 +93,6 @@ void write_run_result(const std::string& folder, const RunResult& result) {
   if (!result.recordings.empty()) make_folder(fs::path(folder) / "traces");
   Document document;
   document.run = result;
-  document.coordinates = result.rotation ? "rotation" : "translation";
   for (std::size_t i = 0; i < result.recordings.size(); ++i)
     document.recordings.push_back(store_recording(folder, i, result.recordings[i], errors[i], fits[i]));
   if (result.model_free && result.model_free->map && !result.recordings.empty())
@@ -104,14 +107,9 @@ RunResult read_run_result(const std::string& folder) {
   const internal::Json json = internal::load_json(path);
   JsonReader reader(json, path, "");
   Document document;
-  reader("schema", document.schema);
-  if (document.schema != kSchema)
-    throw ConfigError(path, "has the schema " + document.schema + ", expected " + kSchema);
+  reader.schema(kSchema);
   fields(reader, document);
-  if (document.coordinates != "rotation" && document.coordinates != "translation")
-    throw ConfigError(path, "coordinates is " + document.coordinates + ", expected rotation or translation");
   RunResult& run = document.run;
-  run.rotation = document.coordinates == "rotation";
   for (const StoredRecording& stored : document.recordings) load_recording(folder, stored, run);
   if (run.model_free && run.model_free->map && !run.recordings.empty())
     internal::read_bound_map(folder + "/traces/" + internal::kBoundMapName, *run.model_free->map);

@@ -24,7 +24,6 @@ struct StoredRecording {
 struct Document {
   std::string schema = kSchema;
   RunResult run;
-  std::string coordinates;
   std::vector<StoredRecording> recordings;
 };
 
@@ -175,7 +174,7 @@ void fields(Archive& archive, Document& d) {
   archive("schema", d.schema);
   archive("name", d.run.name);
   archive("version", d.run.version);
-  archive("coordinates", d.coordinates);
+  archive.choice("coordinates", d.run.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
   archive.part("model_free", d.run.model_free);
   archive.part("reference", d.run.reference);
   archive.part("comparison", d.run.comparison);

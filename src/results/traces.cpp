@@ -104,41 +104,60 @@ std::string_view next_field(std::string_view& line) {
   return field;
 }
 
+std::string shown_field(std::string_view field) {
+  constexpr std::size_t kMost = 40;
+  return "'" + std::string(field.substr(0, kMost)) + (field.size() > kMost ? "...'" : "'");
+}
+
 double number_of(std::string_view field) {
   double value = kNaN;
   if (field.empty()) return value;
   const auto end = std::from_chars(field.data(), field.data() + field.size(), value);
   if (end.ec != std::errc() || end.ptr != field.data() + field.size())
-    throw std::invalid_argument("\"" + std::string(field) + "\" is not a number");
+    throw std::invalid_argument(shown_field(field) + " is no number, expected one or nothing");
   return value;
 }
 
 Mode mode_of(std::string_view field) {
   for (const Mode mode : kModes)
     if (field == to_string(mode)) return mode;
-  throw std::invalid_argument("\"" + std::string(field) + "\" is not a mode");
+  throw std::invalid_argument(shown_field(field) +
+                              " is no mode, expected gap, engagement+, engagement- or impact");
+}
+
+template <class Column>
+bool holds(const std::vector<Column>& columns, std::string_view name) {
+  return std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return name == c.name; });
 }
 
 Columns columns_of_header(std::string_view header) {
   Columns columns;
-  if (next_field(header) != "t_s") throw std::invalid_argument("the first column is not t_s");
+  if (next_field(header) != "t_s")
+    throw std::invalid_argument("the first column is not t_s, expected a stored trace");
   while (!header.empty()) {
     const std::string_view name = next_field(header);
     const std::size_t before = columns.numbers.size() + columns.modes.size();
     for (const NumberColumn& column : kNumbers)
-      if (name == column.name) columns.numbers.push_back(column);
+      if (name == column.name && !holds(columns.numbers, name)) columns.numbers.push_back(column);
     for (const ModeColumn& column : kModeColumns)
-      if (name == column.name) columns.modes.push_back(column);
+      if (name == column.name && !holds(columns.modes, name)) columns.modes.push_back(column);
     if (columns.numbers.size() + columns.modes.size() == before)
-      throw std::invalid_argument("unknown column " + std::string(name));
+      throw std::invalid_argument("there is a column " + shown_field(name) +
+                                  ", expected only those of a stored trace, each once");
   }
+  for (const char* needed : {"u", "x1_rad"})
+    if (!holds(columns.numbers, needed))
+      throw std::invalid_argument(std::string("there is no column ") + needed +
+                                  ", expected one in every trace");
   return columns;
 }
 
 void read_row(std::string_view line, const Columns& columns, TraceSet& set) {
   const auto commas = static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
   if (commas != columns.numbers.size() + columns.modes.size())
-    throw std::invalid_argument("another number of fields than in the header");
+    throw std::invalid_argument("has " + std::to_string(commas + 1) + " fields, expected " +
+                                std::to_string(1 + columns.numbers.size() + columns.modes.size()) +
+                                " as in the header");
   next_field(line);  // time is start + i dt
   for (const NumberColumn& column : columns.numbers) column.of(set).push_back(number_of(next_field(line)));
   for (const ModeColumn& column : columns.modes) column.of(set).push_back(mode_of(next_field(line)));
@@ -158,10 +177,19 @@ void write_trace(const std::string& path, const Recording& recording, const Erro
               TraceSet{recording, error ? *error : ErrorTrace{}, fit ? *fit : FitTrace{}, {}, {}, {}, {}});
 }
 
+std::string trace_path(const std::string& folder, const std::string& name) {
+  const std::filesystem::path path(name);
+  if (path.parent_path() != "traces" || path.filename() == ".." || path.filename() == ".")
+    throw ConfigError(
+        folder, "its stored result names the trace " + shown_field(name) + ", expected a file in traces/");
+  return folder + "/" + name;
+}
+
 void read_trace(const std::string& path, TraceSet& set) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw ConfigError(path, "is missing, the stored result names it");
+  if (!in) throw ConfigError(path, "there is no such file, expected the trace that the stored result names");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.empty()) throw ConfigError(path, "is empty, expected a stored trace");
   std::string_view rest = text;
   Columns columns;
   for (int line = 1; !rest.empty(); ++line) {

@@ -212,6 +212,19 @@ TEST(BadConfig, AliasesOfAliasesCostNothing) {
   EXPECT_THAT(refusal(bomb), HasSubstr("unknown key 'a0'"));
 }
 
+TEST(BadConfig, AnExperimentThatWouldNotFitIsRefusedWithItsNumber) {
+  const Configuration c = parse_configuration(kRecorded + "next_experiment: {duration: 3600}\n", "c.yaml");
+  require_possible_experiment(c, 1e-3);
+  try {
+    require_possible_experiment(c, 1e-5);
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("c.yaml:25: next_experiment.duration is 3600 s, 3.6e+08 samples at the "
+                          "1e+05 Hz of the recording, expected at most 2e+07"));
+  }
+}
+
 TEST(BadConfig, FilesThatAreNoConfigurationAreRefused) {
   const auto load = [](const std::string& path) -> std::string {
     try {

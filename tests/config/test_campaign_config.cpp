@@ -208,6 +208,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCampaign{"same_place", "axes:\n  simulation: [1]\n  simulation.rate: [1000]\n", "c.yaml:4"},
         BadCampaign{"unknown_estimator", "axes:\n  simulation.rate: [1000]\nestimators: [kalman]\n",
                     "'kalman'"},
+        BadCampaign{
+            "endless_axis",
+            "sampling: {latin_hypercube: {samples: 4}}\naxes:\n  simulation.rate: {range: [1000, 2000], "
+            "count: 1000000000000}\n",
+            "c.yaml:4: simulation.rate brings the values of all axes to 1000000000000, expected at most "
+            "10000000"},
         BadCampaign{"no_samples",
                     "axes:\n  simulation.rate: [1000]\nsampling: {latin_hypercube: {seed: 1}}\n",
                     "has no samples"},

@@ -179,6 +179,17 @@ TEST(Csv, AMissingFileAFolderAndAnEmptyWindowAreRefused) {
   fails_with(file.path(), options, "0 samples in the window 3 to 4 s (the file has 0 to 0.059 s)");
 }
 
+TEST(Csv, AFileLargerThanAnyRecordingIsRefusedUnread) {
+  const TemporaryFile file(kHead + rows(60));
+  std::filesystem::resize_file(file.path(), 5'000'000'000);  // a hole: no disk is used
+  try {
+    read_csv(file.path());
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("r.csv: has 5e+09 bytes, expected at most 4e+09"));
+  }
+}
+
 TEST(Csv, AnUnwritableFolderIsAFailureThatLeavesNothing) {
   Recording r;
   r.dt = 1.0;

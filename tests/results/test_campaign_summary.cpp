@@ -53,7 +53,7 @@ TEST(CampaignSummary, AnotherSchemaIsRefused) {
     read_campaign_summary(folder.path.string());
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("expected gapscope.campaign/1"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("expected \"gapscope.campaign/1\""));
   }
 }
 

@@ -30,7 +30,8 @@ struct Configuration {
   DetectorConfig detector;
   FitOptions fit;  ///< `fit:` – how the reference is found; optional, every key of it too
   ExperimentLimits
-      next_experiment;           ///< `next_experiment:` – what the diagnosis may propose; optional like it
+      next_experiment;  ///< `next_experiment:` – what the diagnosis may propose; optional like it
+  int next_experiment_line = 0;
   DiagnosisKnowledge diagnosis;  ///< `diagnosis:` – what it is told beforehand; optional
 };
 
@@ -45,6 +46,10 @@ Configuration parse_configuration(const std::string& text, const std::string& fi
 /// @throws ConfigError unless the model has all that a fit needs: every parameter of its structure either
 /// given or estimated.
 void require_reference_model(const Configuration& configuration);
+
+/// @throws ConfigError where an experiment of next_experiment: duration, sampled like a recording, would have
+/// more than kMostSimulatedSamples samples.
+void require_possible_experiment(const Configuration& configuration, double dt);
 
 /// The bounds that eq. (13) gives for the model's own numbers.  @throws std::logic_error without
 /// `from_model`.

@@ -1,0 +1,92 @@
+// A store that is damaged, of something else or contradicts itself is refused by name, and not written to.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <filesystem>
+
+#include "campaign/small_campaign.h"
+#include "gapscope/base/errors.h"
+#include "support/reading.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::SmallCampaign;
+
+struct Damage {
+  const char* name;
+  const char* sql;    ///< what is done to a good store; "": its file is replaced
+  const char* bytes;  ///< by these
+  const char* message;
+};
+
+void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
+
+class DamagedStoreTest : public ::testing::TestWithParam<Damage> {};
+
+void execute(const std::string& file, const char* sql) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+  sqlite3_close(database);
+}
+
+TEST_P(DamagedStoreTest, IsRefusedByName) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  { CampaignStore(small.place("store"), campaign_header(small.config, {})); }
+  const std::string file = small.place("store/results.sqlite");
+  if (*GetParam().sql != '\0')
+    execute(file, GetParam().sql);
+  else
+    std::ofstream(file, std::ios::binary) << GetParam().bytes;
+  const std::string before = testing::text_of(file);
+  const std::string read =
+      testing::refusal([&] { SmallCampaign::exported(CampaignStore(small.place("store"))); });
+  EXPECT_THAT(read, HasSubstr("store/results.sqlite: " + std::string(GetParam().message)));
+  EXPECT_THAT(read, HasSubstr(", expected "));
+  EXPECT_EQ(testing::text_of(file), before);
+}
+
+const std::vector<Damage> kDamages = {
+    {"text", "", "run,gap\n1,0.01\n and so on, long enough to be no header of a database at all, but words\n",
+     "is damaged or no store (file is not a database)"},
+    {"empty", "", "", "holds no campaign"},
+    {"another_database", "DROP TABLE campaign", "", "holds no campaign"},
+    {"other_schema", "UPDATE campaign SET value = 'gapscope.campaign/9' WHERE key = 'schema'", "",
+     "has the schema gapscope.campaign/9, expected gapscope.campaign/1"},
+    {"no_schema", "DELETE FROM campaign WHERE key = 'schema'", "", "has no schema"},
+    {"no_version", "DELETE FROM campaign WHERE key = 'version'", "", "has no version"},
+    {"no_identity", "DELETE FROM campaign WHERE key = 'identity'", "", "has no identity"},
+    {"runs_word", "UPDATE campaign SET value = 'many' WHERE key = 'runs'", "",
+     "runs is 'many', expected a whole number from 1 on"},
+    {"runs_negative", "UPDATE campaign SET value = '-3' WHERE key = 'runs'", "", "runs is '-3'"},
+    {"runs_null", "UPDATE campaign SET value = NULL WHERE key = 'runs'", "", "runs is ''"},
+    {"runs_beyond", "UPDATE campaign SET value = '99999999999999999999999' WHERE key = 'runs'", "",
+     "runs is '99999999999999999999999'"},
+    {"shards_none", "UPDATE campaign SET value = '0' WHERE key = 'shards'", "", "shards is '0'"},
+    {"shard_beyond", "UPDATE campaign SET value = '5' WHERE key = 'shard'", "", "holds shard 5/1"},
+    {"no_axes", "DROP TABLE axes", "", "is damaged or no store (no such table: axes)"},
+    {"no_runs", "DROP TABLE runs", "", "is damaged or no store (no such table: runs)"},
+    {"other_axis", "UPDATE axes SET path = 'encoder.bats'", "", "is damaged or no store (no such column"},
+    {"no_timing", "DROP TABLE timing", "", "is damaged or no store (no such table: timing)"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Store, DamagedStoreTest, ::testing::ValuesIn(kDamages),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(DamagedStore, PagesThatWereOverwrittenAreToldAsDamage) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  small.run("store", 1);
+  const std::string file = small.place("store/results.sqlite");
+  std::string bytes = testing::text_of(file);
+  ASSERT_GT(bytes.size(), 8192u);
+  std::fill(bytes.begin() + 4096, bytes.end(), '\xa5');
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_THAT(testing::refusal([&] { SmallCampaign::exported(CampaignStore(small.place("store"))); }),
+              HasSubstr("results.sqlite: is damaged or no store"));
+}
+
+}  // namespace
+}  // namespace gapscope
