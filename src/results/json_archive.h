@@ -123,8 +123,10 @@ class JsonReader {
     const Json& array = at(key);
     if (!array.is_array()) fail(key, "is " + shown(array) + ", expected a list");
     values.clear();
-    for (const Json& item : array)
-      read(item, place_of(key) + "[" + std::to_string(values.size()) + "]", values.emplace_back());
+    for (const Json& item : array) {
+      const std::string place = place_of(key) + "[" + std::to_string(values.size()) + "]";
+      read(item, place, values.emplace_back());
+    }
   }
   template <class Struct>
   void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {
