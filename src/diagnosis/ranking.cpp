@@ -104,7 +104,8 @@ void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_ba
   const double share = repeats_badly ? (before.median_innovation - found->median_innovation) /
                                            (before.median_innovation - best.median_innovation)
                                      : (before.score - found->score) / (before.score - best.score);
-  const bool little_worse = repeats_badly || found->score - best.score < kNestedMargin;
+  const bool little_worse =
+      repeats_badly ? before.score - found->score >= kLeastGain : found->score - best.score < kNestedMargin;
   if (little_worse && share > (repeats_badly ? kNestedShareOfSize : kNestedShare))
     std::rotate(candidates.begin(), found, std::next(found));
 }

@@ -65,6 +65,20 @@ TEST(RealRecordings, ABallScrewAxisLacksCoulombFrictionAndNoBacklash) {
   expect_asymmetry_next(d);
 }
 
+TEST(RealRecordings, WhereCoulombFrictionAloneDoesNotHelpItsAsymmetryIsNamed) {
+  GAPSCOPE_NEEDS_DATA();
+  const Recording whole = ball_screw("emps_train.csv");
+  const std::size_t third = whole.size() / 3;
+  const Recording most = part(whole, 0, whole.size() - third),
+                  last = part(whole, whole.size() - third, third);
+  const MotorTrace train[] = {most.motor_trace()}, held_out[] = {last.motor_trace()};
+  const Diagnosis d = diagnose(train, held_out, plain_axis());
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
+  ASSERT_FALSE(d.effects.empty());
+  EXPECT_EQ(d.effects.front(), "friction_asymmetry") << d.sentence;
+  EXPECT_GE(d.gap.shrink, 0.85);
+}
+
 TEST(RealRecordings, TheSameOnARecordingWithForcePulses) {
   GAPSCOPE_NEEDS_DATA();
   const Recording plain = ball_screw("emps_train.csv"), pulses = ball_screw("emps_pulses.csv");
