@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "gapscope/base/units.h"
 #include "gapscope/plant/drive.h"
 
 namespace gapscope::internal {
@@ -20,19 +21,6 @@ const std::map<std::string, AxisName>& plain_names() {
       {"detector.bound", {"bound L", "rad/s²"}},
   };
   return names;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-/// "N m s/rad" as a reader expects it, in metres for a translational axis.
-std::string shown_unit(const std::string& unit, bool rotation) {
-  std::string text = unit == "-" ? "" : unit;
-  if (!rotation) text = replaced(replaced(replaced(text, "kg m^2", "kg"), "N m", "N"), "rad", "m");
-  return replaced(replaced(text, "kg m^2", "kg·m²"), "N m", "N·m");
 }
 
 /// The drive parameter that a path such as simulation.model.parameters.gap.value leads to; nullptr for

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gapscope/base/units.h"
+
 namespace gapscope::cli {
 namespace {
 
@@ -52,6 +54,20 @@ std::string reference_line(const FitSummary& f, bool rotation) {
   return fmt::format("{} {}", estimate(gap->value, gap->ci95, rotation), quality);
 }
 
+/// Every number that the fit found, but for the gap.
+void print_parameters(const FitSummary& f, bool rotation) {
+  for (const FittedParameter& p : f.parameters) {
+    if (!p.estimated || p.key == "gap") continue;
+    const std::string unit = p.unit == "-" ? "" : " " + axis_unit(p.unit, rotation);
+    const std::string interval = !p.identifiable ? "not identifiable"
+                                 : std::isnan(p.ci95.low)
+                                     ? "no interval"
+                                     : fmt::format("[{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high);
+    fmt::print("  {:<24}{:<18}{}{}\n", p.key, fmt::format("{:.4g}{}", p.value, unit), interval,
+               p.at_bound ? ", at its bound" : "");
+  }
+}
+
 std::string comparison_line(const Comparison& c, bool rotation) {
   if (std::isnan(c.difference)) return "-";
   const char* word = !c.agree ? "not comparable" : *c.agree ? "agree" : "disagree";
@@ -74,6 +90,7 @@ void print_headline(const std::string& folder, const RunResult& r) {
   line("report", folder);
   if (r.model_free) line("model-free", model_free_line(*r.model_free, r.rotation));
   if (r.reference) line("reference", reference_line(*r.reference, r.rotation));
+  if (r.reference && !r.model_free) print_parameters(*r.reference, r.rotation);
   if (r.comparison) line("difference", comparison_line(*r.comparison, r.rotation));
   if (r.comparison && !std::isnan(r.comparison->map_width))
     line("load side",

@@ -88,8 +88,9 @@ void write_model(YamlWriter& out, const ModelConfig& model) {
     const ParameterSetting& p = model.parameters[i];
     if (!p.estimate && std::isnan(p.value)) continue;
     const bool derived = p.estimate && (std::isnan(p.low) || std::isnan(p.value));
-    out.entry(kDriveParameters[i].key, setting_text(p),
-              std::string(kDriveParameters[i].unit) + (derived ? "; what is not here the fit derives" : ""));
+    out.quantity(
+        kDriveParameters[i].key, setting_text(p),
+        std::string(kDriveParameters[i].unit) + (derived ? "; what is not here the fit derives" : ""));
   }
   out.close();
   write_effects(out, model.effects);
@@ -103,8 +104,8 @@ void write_plant(YamlWriter& out, const SimulatedPlant& plant) {
   out.open("parameters");
   for (int i = 0; i < kDriveParameterCount; ++i)
     if (has_parameter(plant.structure, i) || (i == ratio && !plant.structure.has_load))
-      out.entry(kDriveParameters[i].key, yaml_number(drive_parameter(plant.drive, i)),
-                kDriveParameters[i].unit);
+      out.quantity(kDriveParameters[i].key, yaml_number(drive_parameter(plant.drive, i)),
+                   kDriveParameters[i].unit);
   out.close();
   write_effects(out, plant.effects);
   out.close();
@@ -124,7 +125,7 @@ void write_simulation(YamlWriter& out, SimulationConfig simulation) {
   out.open("initial");
   simulation.initial.fields(fields);
   out.close();
-  out.entry("noise", yaml_number(simulation.noise), "rad");
+  out.quantity("noise", yaml_number(simulation.noise), "rad");
   out.entry("plant", simulation.independent ? "independent" : "simulator");
   write_plant(out, simulation.plant);
   out.close();
@@ -136,12 +137,12 @@ void write_detector(YamlWriter& out, const DetectorConfig& detector) {
     out.open("bound");
     out.open("from_model");
     out.entry("input_limit", yaml_number(detector.from_model->input_limit), "unit of u");
-    out.entry("load_force_bound", yaml_number(detector.from_model->load_force_bound), "N m");
+    out.quantity("load_force_bound", yaml_number(detector.from_model->load_force_bound), "N m");
     out.close();
     out.close();
   } else {
-    out.entry("bound", detector.bound ? yaml_number(*detector.bound) : "auto",
-              detector.bound ? "rad/s^2" : "");
+    out.quantity("bound", detector.bound ? yaml_number(*detector.bound) : "auto",
+                 detector.bound ? "rad/s^2" : "");
   }
   out.close();
 }
@@ -152,7 +153,7 @@ std::string resolved_yaml(const Configuration& c) {
   FitOptions fit = c.fit;
   ExperimentLimits limits = c.next_experiment;
   DiagnosisKnowledge known = c.diagnosis;
-  YamlWriter out;
+  YamlWriter out(c.rotation);
   out.comment("The configuration of this report, every default filled in; paths are those of the original.");
   out.entry("name", yaml_text(c.name));
   if (c.recording) write_recording(out, *c.recording);
@@ -160,7 +161,7 @@ std::string resolved_yaml(const Configuration& c) {
   if (c.encoder.bits) {
     out.entry("encoder", fmt::format("{{bits: {}}}", *c.encoder.bits));
   } else if (c.encoder.quantum > 0.0) {
-    out.entry("encoder", fmt::format("{{quantum: {}}}", c.encoder.quantum), "rad");
+    out.quantity("encoder", fmt::format("{{quantum: {}}}", c.encoder.quantum), "rad");
   }
   out.entry("coordinates", c.rotation ? "rotation" : "translation");
   write_model(out, c.model);

@@ -149,7 +149,7 @@ Starter starter_configuration(const std::string& recording, CsvOptions options, 
   const Choice choice = choose(model, r.motor_trace(), rotation);
   Starter starter;
   starter.model = choice.why;
-  YamlWriter out;
+  YamlWriter out(rotation);
   out.comment(
       "A first configuration, read off the recording. What is marked GUESS it does not tell: put in what");
   out.comment(

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/units.h"
+
 namespace gapscope::internal {
 namespace {
 
@@ -54,13 +56,17 @@ void YamlWriter::entry(const std::string& key, const std::string& value, const s
   text_ += comment.empty() || comment == "-" ? "\n" : "  # " + comment + "\n";
 }
 
+void YamlWriter::quantity(const std::string& key, const std::string& value, const std::string& unit) {
+  entry(key, value, axis_unit(unit, rotation_));
+}
+
 void YamlWriter::comment(const std::string& text) {
   text_ += std::string(2 * depth_, ' ') + "# " + text + "\n";
 }
 
 void FieldWriter::visit(const FieldSpec& s, FieldRef field) {
   const auto text = std::visit([](const auto* value) { return written(*value); }, field);
-  if (text) out_.entry(s.key, *text, s.unit);
+  if (text) out_.quantity(s.key, *text, s.unit);
 }
 
 }  // namespace gapscope::internal

@@ -15,13 +15,18 @@ std::string yaml_text(const std::string& text);
 /// Writes block-style YAML line by line.
 class YamlWriter {
  public:
+  /// @param rotation  of the axis whose units stand behind the values
+  explicit YamlWriter(bool rotation) : rotation_(rotation) {}
   void open(const std::string& key);  ///< a map begins
   void close() { --depth_; }
   void entry(const std::string& key, const std::string& value, const std::string& comment = "");
+  /// @param unit  of a rotational drive, for the comment
+  void quantity(const std::string& key, const std::string& value, const std::string& unit);
   void comment(const std::string& text);
   const std::string& text() const { return text_; }
 
  private:
+  bool rotation_;
   std::string text_;
   int depth_ = 0;
 };

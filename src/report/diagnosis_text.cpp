@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "gapscope/base/units.h"
 #include "report/diagnosis_figures.h"
 #include "report/markdown.h"
 #include "report/wording.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/units.h"
 #include "report/rich_text.h"
 #include "report/wording.h"
 

@@ -27,12 +27,6 @@ std::string scientific(double value, int digits) {
   return text.substr(0, e) + "e" + std::to_string(std::stoi(text.substr(e + 1)));
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 std::string what_was_read(const GapEstimate& g) {
   return g.quantity == GapQuantity::kPlayAtZeroTorque ? "play at zero torque" : "backlash gap";
 }
@@ -134,11 +128,6 @@ std::string counted(std::size_t count, const std::string& noun) {
 
 std::string position_unit(const RunResult& run) { return run.rotation ? "rad" : "m"; }
 std::string torque_unit(const RunResult& run) { return run.rotation ? "N·m" : "N"; }
-
-std::string shown_unit(const std::string& unit, bool rotation) {
-  if (rotation) return replaced(replaced(unit, "N m", "N·m"), "m^2", "m²");
-  return replaced(replaced(replaced(unit, "N m", "N"), "kg m^2", "kg"), "rad", "m");
-}
 
 const FittedParameter* parameter(const RunResult& run, const std::string& key) {
   if (!run.reference) return nullptr;

@@ -27,8 +27,6 @@ std::string counted(std::size_t count, const std::string& noun);
 
 std::string position_unit(const RunResult& run);  ///< "rad" or "m"
 std::string torque_unit(const RunResult& run);    ///< "N·m" or "N"
-/// The unit of a fitted parameter as a reader expects it, for either kind of coordinates.
-std::string shown_unit(const std::string& unit, bool rotation);
 
 /// The parameter of that key, nullptr if there is none.
 const FittedParameter* parameter(const RunResult& run, const std::string& key);

@@ -160,7 +160,9 @@ TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {
   Workplace place;
   place.file("c.yaml", kConfig);
   ASSERT_EQ(place.run("detect c.yaml -o d").status, 0);
-  ASSERT_EQ(place.run("fit c.yaml -o f").status, 0);
+  const auto fit = place.run("fit c.yaml -o f");
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  EXPECT_THAT(fit.out, HasSubstr("\n  motor_damping           0.06"));
   const std::string detected = text_of(place.folder() / "d/result.json");
   const std::string fitted = text_of(place.folder() / "f/result.json");
   EXPECT_THAT(detected, HasSubstr("\"reference\": null"));

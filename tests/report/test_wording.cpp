@@ -21,14 +21,6 @@ TEST(Wording, NamesTheUnknownAndTheVerySmall) {
   EXPECT_EQ(quantity(1.2, "-"), "1.20");
 }
 
-TEST(Wording, SpeaksOfMetresAndNewtonsOnATranslationAxis) {
-  EXPECT_EQ(shown_unit("N m s/rad", true), "N·m s/rad");
-  EXPECT_EQ(shown_unit("N m s/rad", false), "N s/m");
-  EXPECT_EQ(shown_unit("kg m^2", false), "kg");
-  EXPECT_EQ(shown_unit("kg m^2", true), "kg m²");
-  EXPECT_EQ(shown_unit("N m/rad", false), "N/m");
-}
-
 TEST(Headline, TellsEveryVerdict) {
   RunResult run = sample_run({.samples = 6000});
   EXPECT_EQ(
