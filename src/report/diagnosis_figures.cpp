@@ -89,6 +89,12 @@ Panel map_panel(const std::string& title, const std::vector<MapShare>& map) {
   return panel;
 }
 
+/// "0.99"; no minus before a zero.
+std::string share_text(double share) {
+  if (!std::isfinite(share)) return "diverges";
+  return fmt::format("{:.2f}", std::abs(share) < 0.005 ? 0.0 : share);
+}
+
 }  // namespace
 
 FigureData diagnosis_traces(const DiagnosisResult& r) {
@@ -126,8 +132,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   s.joined = false, s.marker = Marker::kDisc;
   for (std::size_t i = 0; i < std::min(kShownCandidates, ranking.size()); ++i) {
     panel.y.categories.push_back(readable(ranking[i].effect));
-    panel.y.remarks.push_back(std::isfinite(ranking[i].rel) ? fmt::format("{:.2f}", ranking[i].rel)
-                                                            : "diverges");
+    panel.y.remarks.push_back(share_text(ranking[i].rel));
     const double rel = std::isfinite(ranking[i].rel) ? std::clamp(ranking[i].rel, -0.25, 1.1) : -0.25;
     s.x.push_back(rel), s.y.push_back(static_cast<double>(i));
     s.x_intervals.push_back({std::min(0.0, rel), std::max(0.0, rel)});

@@ -6,6 +6,7 @@ namespace gapscope::internal {
 namespace {
 
 constexpr double kBetween = 34.0;  // rows, and columns
+constexpr double kFarFromTicks = 120.0;
 
 /// Breaks a text into lines no wider than `width`; never within a formula.
 std::vector<std::string> wrapped(const std::string& text, double width, const Typesetter& typesetter) {
@@ -58,6 +59,13 @@ std::vector<Margins> panel_margins(const FigureData& figure, const Typesetter& t
   return margins;
 }
 
+/// Where a panel's y label stands, from its frame: in line with those of its column, unless that is far from
+/// its ticks.
+double label_margin(const Panel& panel, double of_column, const Typesetter& typesetter) {
+  const double own = side_margins(panel, typesetter).left;
+  return of_column - own > kFarFromTicks ? own : of_column;
+}
+
 FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
   FigurePlan plan;
   plan.margins = panel_margins(figure, typesetter);
@@ -101,8 +109,8 @@ Drawing draw_with_notes(const FigureData& figure) {
   Drawing drawing;
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const PanelPlan& panel = plan.panels[i];
-    draw_panel(canvas, figure.panels[i], panel, plan.titles[i], plan.corners[i], plan.margins[i].left,
-               typesetter);
+    draw_panel(canvas, figure.panels[i], panel, plan.titles[i], plan.corners[i],
+               label_margin(figure.panels[i], plan.margins[i].left, typesetter), typesetter);
     drawing.frames.push_back({plan.corners[i].x, plan.corners[i].y, panel.width, panel.height});
   }
   drawing.image = canvas.image();
