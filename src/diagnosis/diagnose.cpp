@@ -242,9 +242,8 @@ void fit_half_of_the_held_out(Study& study) {
 /// What the fitted recordings leave open, for the reader.
 std::string undetermined(const Findings& found) {
   const std::string left = fmt::format(
-      "the recordings that were fitted do not determine the model: it leaves {:.3g} floors on those that "
-      "were "
-      "held out",
+      "the recordings that were fitted do not determine the model: it leaves {:.3g} floors on those "
+      "that were held out",
       found.alone);
   if (found.candidates.empty()) return left + ", and none of it once these are fitted with them.";
   return left + "; their first half was fitted with the others, and the second half judges.";
@@ -287,9 +286,8 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   diagnosis.evidence = evidence_of(study, found);
   if (held_out.empty())
     diagnosis.warnings.push_back(
-        "no recording is held out: the last third of each file was, which tests the model on the same kind "
-        "of "
-        "excitation only.");
+        "no recording is held out: the last third of each file was, which tests the model on the same "
+        "kind of excitation only.");
   if (std::isfinite(found.alone)) diagnosis.warnings.push_back(undetermined(found));
   return diagnosis;
 }
