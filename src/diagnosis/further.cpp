@@ -82,6 +82,11 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
   }
 }
 
+/// Whether a further step has led to the floor. A first step that is there alone has been decided upon.
+bool led_to_floor(const Additions& a) {
+  return !a.steps.empty() && a.steps.front().decision.accepted && at_floor(a.after);
+}
+
 /// Forward from a candidate of the first step.
 Additions follow(const Study& study, const Judged& first, std::vector<const EffectEntry*> group) {
   Additions a;
@@ -112,11 +117,11 @@ Additions add_further(const Study& study, const Findings& found) {
   const auto& ranked = found.candidates;
   if (ranked.empty() || !(sure.accepted || worth_following(found.before, ranked.front()))) return {};
   Additions a = follow(study, ranked.front(), sure.group);
-  a.accepted = sure.accepted || at_floor(a.after) || (sure.in_part && a.effects.size() > 1);
+  a.accepted = sure.accepted || led_to_floor(a) || (sure.in_part && a.effects.size() > 1);
   for (std::size_t i = 1; !a.accepted && i < std::min(kBranches, ranked.size()); ++i) {
     if (!worth_following(found.before, ranked[i])) continue;
     Additions other = follow(study, ranked[i], {ranked[i].entry});
-    other.accepted = at_floor(other.after);
+    other.accepted = led_to_floor(other);
     if (other.accepted) a = std::move(other);
   }
   return a;

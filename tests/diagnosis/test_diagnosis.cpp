@@ -147,6 +147,15 @@ TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereTheOtherRecordingAsksForTooLittle) {
   EXPECT_NE(d.warnings.front().find("first half"), std::string::npos);
 }
 
+TEST(Diagnosis, AcceptsNoRefusedFirstStepForReachingTheFloorAlone) {
+  DiagnosisOptions lags;
+  for (const EffectEntry* e : effect_table())
+    if (e->name != std::string("measurement_lag") && e->name != std::string("quadratic_drag"))
+      lags.excluded.emplace_back(e->name);
+  const Diagnosis d = diagnosis_of(blind::blind_pair("heavy", "input_jitter", 0.504, 650033), lags);
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kUnknown) << d.sentence;
+}
+
 TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
   blind::BlindCase truth;
   truth.sensor = blind::BlindSensor::with_bits(20);
