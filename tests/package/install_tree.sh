@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# install_tree.sh SOURCE BUILD: installs the build into a folder of its own, builds docs/example against that and
+# runs it; then a project that includes every installed header and links all libraries.
+set -euo pipefail
+source=$1 build=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() { echo "install_tree.sh: $*" >&2; exit 1; }
+
+# says PATTERN COMMAND...: the command succeeds and its output has a line like that.
+says() {
+  local pattern=$1 out
+  shift
+  out=$("$@" 2>&1) || fail "'$*' failed: $out"
+  grep -qE "$pattern" <<<"$out" || fail "'$*' says '$out', expected '$pattern'"
+}
+
+# build_project FOLDER NAME [OPTION...]
+build_project() {
+  local log=$work/$2.log
+  { cmake -S "$1" -B "$work/$2" -DCMAKE_PREFIX_PATH="$work/tree" "${@:3}" &&
+    cmake --build "$work/$2" -j 2; } >"$log" 2>&1 || fail "$2: $(cat "$log")"
+}
+
+cmake --install "$build" --prefix "$work/tree" >/dev/null
+says '^gapscope [0-9]' "$work/tree/bin/gapscope" --version
+
+# The example asks for the detector and the fit, which need no library for figures, files or stores.
+build_project "$source/docs/example" example -DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON \
+  -DCMAKE_DISABLE_FIND_PACKAGE_yaml-cpp=ON -DCMAKE_DISABLE_FIND_PACKAGE_SQLite3=ON
+says '^gap 2[123]\.[0-9]+ mrad' "$work/example/measure_gap" "$source/configs/03_recording.csv"
+says '^gap \[rad\] .* 0\.021[789]' "$work/example/fit_drive" "$source/configs/03_recording.csv"
+awk 'BEGIN { print "t,u,x1"; for (i = 0; i < 100; ++i) print i / 1000 ",0,0" }' >"$work/rest.csv"
+says '^inconclusive: .+' "$work/example/measure_gap" "$work/rest.csv"
+
+mkdir "$work/everything"
+(cd "$work/tree/include" && find gapscope -name '*.h' | sort | sed 's/.*/#include <&>/') >"$work/everything/main.cpp"
+cat >>"$work/everything/main.cpp" <<'END'
+int main(int argc, char** argv) {
+  if (argc > 1) gapscope::write_blind_report(argv[1]);  // the uppermost library, and through it all others
+}
+END
+cat >"$work/everything/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.22)
+project(everything LANGUAGES CXX)
+find_package(gapscope 0.1 REQUIRED)
+add_executable(everything main.cpp)
+target_link_libraries(everything PRIVATE gapscope::gapscope)
+END
+build_project "$work/everything" everything
+"$work/everything/everything"
