@@ -1,33 +1,13 @@
 #!/usr/bin/env bash
 # install_tree.sh SOURCE BUILD: installs the build into a folder of its own, builds docs/example against that and
 # runs it; then a project that includes every installed header and links all libraries.
-set -euo pipefail
-source=$1 build=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-fail() { echo "install_tree.sh: $*" >&2; exit 1; }
-
-# says PATTERN COMMAND...: the command succeeds and its output has a line like that.
-says() {
-  local pattern=$1 out
-  shift
-  out=$("$@" 2>&1) || fail "'$*' failed: $out"
-  grep -qE "$pattern" <<<"$out" || fail "'$*' says '$out', expected '$pattern'"
-}
-
-# build_project FOLDER NAME [OPTION...]
-build_project() {
-  local log=$work/$2.log
-  { cmake -S "$1" -B "$work/$2" -DCMAKE_PREFIX_PATH="$work/tree" "${@:3}" &&
-    cmake --build "$work/$2" -j 2; } >"$log" 2>&1 || fail "$2: $(cat "$log")"
-}
+source "$(dirname "$0")/expect.sh"
 
 cmake --install "$build" --prefix "$work/tree" >/dev/null
 says '^gapscope [0-9]' "$work/tree/bin/gapscope" --version
 
 # The example asks for the detector and the fit, which need no library for figures, files or stores.
-build_project "$source/docs/example" example -DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON \
+build_project "$source/docs/example" example "$work/tree" -DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_yaml-cpp=ON -DCMAKE_DISABLE_FIND_PACKAGE_SQLite3=ON
 says '^gap 2[123]\.[0-9]+ mrad' "$work/example/measure_gap" "$source/configs/03_recording.csv"
 says '^gap \[rad\] .* 0\.021[789]' "$work/example/fit_drive" "$source/configs/03_recording.csv"
@@ -48,5 +28,5 @@ find_package(gapscope 0.1 REQUIRED)
 add_executable(everything main.cpp)
 target_link_libraries(everything PRIVATE gapscope::gapscope)
 END
-build_project "$work/everything" everything
-"$work/everything/everything"
+build_project "$work/everything" all "$work/tree"
+"$work/all/everything"
