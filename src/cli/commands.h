@@ -20,6 +20,7 @@ void add_blind_drives(CLI::App& blind);
 void add_campaign(CLI::App& app);
 void add_diagnose(CLI::App& app);
 void add_check(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_init(CLI::App& app);
 
 /// Exit status of `check` where something will spoil the estimates.

@@ -40,6 +40,7 @@ void add_commands(CLI::App& app) {
   add_detect(app);
   add_fit(app);
   add_diagnose(app);
+  add_compare(app);
   add_simulate(app);
   add_report(app);
   add_effects(app);

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "cli/commands.h"
@@ -11,6 +13,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/report/blind_report.h"
 #include "gapscope/report/campaign_report.h"
+#include "gapscope/report/changes_report.h"
 #include "gapscope/results/blind_score.h"
 #include "gapscope/results/campaign_summary.h"
 #include "gapscope/results/diagnosis_result.h"
@@ -28,29 +31,33 @@ void read_what_is_stored(const std::string& folder) {
     read_run_result(folder);
 }
 
+/// What a folder may hold: how that is told, read and drawn.
+struct Kind {
+  bool (*is_in)(const std::string& folder);
+  void (*read)(const std::string& folder);
+  void (*draw)(const std::string& folder);
+};
+
+constexpr Kind kKinds[] = {
+    {has_campaign_summary, [](const std::string& f) { read_campaign_summary(f); }, write_campaign_report},
+    {has_blind_score, [](const std::string& f) { read_blind_score(f); }, write_blind_report},
+    {has_drive_changes, [](const std::string& f) { read_drive_changes(f); }, write_changes_report},
+    {[](const std::string&) { return true; }, read_what_is_stored, write_report},
+};
+
 /// Draws aside, so that the old report stands until the new one is complete.
 void redraw(const std::string& folder) {
   namespace fs = std::filesystem;
-  const bool campaign = has_campaign_summary(folder), blind = has_blind_score(folder);
-  // Read here, so that what is wrong is told with its place in the folder that the user knows.
-  if (campaign)
-    read_campaign_summary(folder);
-  else if (blind)
-    read_blind_score(folder);
-  else
-    read_what_is_stored(folder);
+  const Kind& kind =
+      *std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.is_in(folder); });
+  kind.read(folder);  // so that what is wrong is told with its place in the folder that the user knows
   ReportFolder fresh(folder);
   for (const char* stored :
-       {"campaign.json", "blind.json", "result.json", "diagnosis.json", "fitted.yaml", "resolved.yaml",
-        "timing.json", "next_experiment.yaml", "next_experiment.csv", "traces"})
+       {"campaign.json", "blind.json", "compare.json", "result.json", "diagnosis.json", "fitted.yaml",
+        "resolved.yaml", "timing.json", "next_experiment.yaml", "next_experiment.csv", "traces"})
     if (fs::exists(fs::path(folder) / stored))
       fs::copy(fs::path(folder) / stored, fs::path(fresh.path()) / stored, fs::copy_options::recursive);
-  if (campaign)
-    write_campaign_report(fresh.path());
-  else if (blind)
-    write_blind_report(fresh.path());
-  else
-    write_report(fresh.path());
+  kind.draw(fresh.path());
   fresh.commit();
 }
 

@@ -27,7 +27,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(folder));
   const auto is_result = [](const fs::path& f) {
-    return f == "result.json" || f == "diagnosis.json" || f == "campaign.json" || f == "blind.json";
+    return f == "result.json" || f == "diagnosis.json" || f == "campaign.json" || f == "blind.json" ||
+           f == "compare.json";
   };
   std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
     return std::make_pair(is_result(a), a) < std::make_pair(is_result(b), b);
@@ -51,8 +52,9 @@ std::set<std::string> figures_of(const fs::path& folder) {
 bool is_ours(const fs::path& file, const std::set<std::string>& figures) {
   if (!file.has_parent_path()) {
     static const char* const names[] = {
-        "report.md",     "result.json", "diagnosis.json", "campaign.json",        "blind.json",
-        "resolved.yaml", "timing.json", "fitted.yaml",    "next_experiment.yaml", "next_experiment.csv"};
+        "report.md",   "result.json",          "diagnosis.json",     "campaign.json",
+        "blind.json",  "compare.json",         "resolved.yaml",      "timing.json",
+        "fitted.yaml", "next_experiment.yaml", "next_experiment.csv"};
     return figures.contains(file.string()) ||
            std::any_of(std::begin(names), std::end(names), [&](const char* name) { return file == name; });
   }

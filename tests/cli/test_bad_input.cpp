@@ -155,6 +155,9 @@ const std::vector<BadInput> kCommandLines = {
     line("check_window_reversed", "check r.csv --window 3 1", "gapscope: --window goes backwards"),
     line("check_rate", "check r.csv --resample 0", "gapscope: --resample"),
     line("check_over_its_recording", "check r.csv -o ./r.csv", "./r.csv: is the input itself"),
+    line("compare_one", "compare folder", "gapscope: DIR"),
+    line("compare_nothing", "compare folder nowhere", "folder/result.json: there is no such file"),
+    line("compare_into_a_file", "compare folder nowhere -o r.csv", "r.csv: is a file"),
     line("report_of_nothing", "report nowhere", "nowhere: there is no such folder"),
     line("report_of_another_folder", "report folder", "folder"),
 };

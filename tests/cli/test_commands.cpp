@@ -40,7 +40,8 @@ std::string stored(const std::filesystem::path& folder) {
 TEST(Commands, HelpAndVersionAreAnswersOnStandardOutput) {
   const Workplace place;
   EXPECT_THAT(place.run("--version").out, ::testing::StartsWith("gapscope "));
-  for (const char* command : {"check", "init", "run", "detect", "fit", "diagnose", "simulate", "report"}) {
+  for (const char* command :
+       {"check", "compare", "init", "run", "detect", "fit", "diagnose", "simulate", "report"}) {
     const auto help = place.run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("Example: gapscope ") + command));

@@ -12,8 +12,8 @@ namespace gapscope {
 ///
 /// A folder holds one report, of an estimate and a diagnosis where both were made: commit() also removes what
 /// an earlier report left and the new one does not have (the figures that its report.md shows, report.md,
-/// result.json, diagnosis.json, fitted.yaml, next_experiment.*, campaign.json, blind.json, resolved.yaml,
-/// timing.json and traces/). Any other file in the folder belongs to the user and stays.
+/// result.json, diagnosis.json, fitted.yaml, next_experiment.*, campaign.json, blind.json, compare.json,
+/// resolved.yaml, timing.json and traces/). Any other file in the folder belongs to the user and stays.
 class ReportFolder {
  public:
   /// Makes the temporary folder, and the folders above it where they are missing.

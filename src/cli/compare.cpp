@@ -1,0 +1,84 @@
+// `compare`: the same drive in several reports.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/report/changes_report.h"
+#include "gapscope/results/report_folder.h"
+
+namespace gapscope::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<std::string> folders;
+  std::string output;
+};
+
+/// A comparison that went into one of its reports would remove that report.
+void require_another_folder(const Arguments& a) {
+  require_folder_name(a.output);
+  for (const std::string& folder : a.folders)
+    if (fs::exists(a.output) && fs::exists(folder) && fs::equivalent(a.output, folder))
+      throw ConfigError(a.output, "is one of the reports itself, expected another folder for the comparison");
+}
+
+void write_comparison(const std::string& folder, const DriveChanges& all) {
+  ReportFolder report(folder);
+  write_drive_changes(report.path(), all);
+  write_changes_report(report.path());
+  stop_point();
+  report.commit();
+}
+
+void compare(const Arguments& a) {
+  if (!a.output.empty()) require_another_folder(a);
+  std::vector<DriveReport> reports;
+  for (const std::string& folder : a.folders) {
+    stop_point();
+    reports.push_back(read_drive_report(folder));
+  }
+  const DriveChanges all = changes(reports);
+  if (!a.output.empty()) write_comparison(a.output, all);
+  print_warnings(all.warnings);
+  if (!a.output.empty()) fmt::print("{:<12}{}\n", "report", a.output);
+  fmt::print("{}", changes_text(all));
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "The same drive in several reports: over months, before and after a repair");
+  command->add_option("DIR", arguments->folders, "folders of run, detect or fit, in order of time")
+      ->required()
+      ->expected(2, 1000);
+  command
+      ->add_option("-o,--output", arguments->output, "folder of the comparison (default: nothing is written)")
+      ->type_name("DIR");
+  command->footer(
+      "Reads DIR/result.json and what belongs to it: the model-free gap and every parameter that a "
+      "reference\n"
+      "has estimated, and sets each against the first report. The interval of a difference is that of both\n"
+      "standard errors together, 1.96 sqrt(s^2 + s^2). `changed` is what is more than chance at 5 % for all\n"
+      "comparisons taken together (Holm); `not beyond chance`: its own interval leaves zero out, but so "
+      "would\n"
+      "one in twenty; a gap that was denied may be anything up to the smallest that would have shown.\n"
+      "Warned of: other numbers given, another excitation, encoder or method, the same recording twice, a\n"
+      "model that does not explain its recording. Intervals are those of single recordings; what a drive "
+      "does\n"
+      "differently from day to day is not in them, so see a small change twice before you believe it.\n"
+      "Writes compare.json (units in the keys; rad means m on a translational axis), report.md and\n"
+      "gap_over_recordings.png into the folder of -o.\n\n"
+      "Example: gapscope compare reports/march reports/june reports/june_repaired -o reports/2026");
+  command->callback([arguments] { compare(*arguments); });
+}
+
+}  // namespace gapscope::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "gapscope/results/drive_changes.h"
+#include "report/figure_data.h"
+
+namespace gapscope::internal {
+
+/// Both estimators' gap, report by report.
+FigureData gap_over_recordings(const DriveChanges& changes);
+
+}  // namespace gapscope::internal

@@ -1,0 +1,67 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/executable.h"
+#include "support/paper_model.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using testing::text_of;
+using testing::Workplace;
+
+/// A report of the paper's rig with a gap, made by the plant that shares no code with the estimators.
+void make_report(Workplace& place, const std::string& name, const std::string& gap, int seed) {
+  place.file(name + ".yaml",
+             "name: " + name +
+                 "\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 5, noise: 1.0e-5, plant: "
+                 "independent, seed: " +
+                 std::to_string(seed) +
+                 ", excitation: {sine: {amplitude: 0.58, frequency: 1}}, model: {parameters: {gap: " + gap +
+                 "}}}\nmodel: " + testing::kPaperModel);
+  const auto made = place.run("detect " + name + ".yaml");
+  ASSERT_EQ(made.status, 0) << made.err;
+}
+
+TEST(Compare, AGapThatGrewIsToldAndOneThatDidNotIsNot) {
+  Workplace place;
+  make_report(place, "march", "0.019", 1);
+  make_report(place, "april", "0.019", 2);
+  make_report(place, "june", "0.025", 3);
+  const auto same = place.run("compare reports/march reports/april");
+  EXPECT_EQ(same.status, 0) << same.err;
+  EXPECT_THAT(same.out, HasSubstr("gap (model-free)\n"));
+  EXPECT_THAT(same.out, HasSubstr("no change seen"));
+  EXPECT_THAT(same.out, HasSubstr("\n0 of 1 differences"));
+  const auto grown = place.run("compare reports/march reports/april reports/june -o both");
+  EXPECT_EQ(grown.status, 0) << grown.err;
+  EXPECT_EQ(grown.err, "");
+  const auto stored = nlohmann::json::parse(text_of(place.folder() / "both/compare.json"));
+  EXPECT_EQ(stored["schema"], "gapscope.compare/1");
+  const auto& gap = stored["quantities"]["model_free.gap_rad"]["changes"];
+  EXPECT_EQ(gap[0]["verdict"], "not_seen");
+  EXPECT_EQ(gap[1]["verdict"], "changed");
+  EXPECT_NEAR(gap[1]["difference"].get<double>(), 0.006, 3e-4);
+  EXPECT_LT(gap[1]["ci95"][1].get<double>() - gap[1]["ci95"][0].get<double>(), 1.5e-3);
+  const std::string report = text_of(place.folder() / "both/report.md"),
+                    png = text_of(place.folder() / "both/gap_over_recordings.png");
+  EXPECT_EQ(place.run("report both").status, 0);
+  EXPECT_EQ(text_of(place.folder() / "both/report.md"), report);
+  EXPECT_EQ(text_of(place.folder() / "both/gap_over_recordings.png"), png);
+  const auto into = place.run("compare reports/march reports/june -o reports/june/");
+  EXPECT_EQ(into.status, 2);
+  EXPECT_THAT(into.err, StartsWith("reports/june/: is one of the reports itself, expected"));
+  place.file("reports/june/result.json", "{\"schema\": \"gapscope.result/1\", ");
+  const auto damaged = place.run("compare reports/march reports/june -o other");
+  EXPECT_EQ(damaged.status, 2);
+  EXPECT_EQ(damaged.out, "");
+  EXPECT_THAT(damaged.err, StartsWith("reports/june/result.json:1: is no valid JSON"));
+  EXPECT_FALSE(std::filesystem::exists(place.folder() / "other"));
+}
+
+}  // namespace
+}  // namespace gapscope

@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "gapscope/report/changes_report.h"
+#include "report/changes_figure.h"
+#include "report/clear_texts.h"
+#include "results/scratch_folder.h"
+#include "support/reading.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Observed read(double value, double std) { return {value, std, {value - 1.96 * std, value + 1.96 * std}, ""}; }
+
+/// Six reports of which the last but one denies the gap and the last tells none.
+DriveChanges sample() {
+  DriveChanges all;
+  all.version = "1.2.3";
+  DriveQuantity free{"gap", "model_free", "rad", {}, {}}, fitted{"gap", "reference", "rad", {}, {}};
+  for (int i = 0; i < 6; ++i) {
+    all.reports.push_back("reports/recording_of_month_" + std::to_string(i + 1));
+    free.observed.push_back(read(0.019 + 0.001 * i, 2e-4));
+    fitted.observed.push_back(read(0.0192 + 0.001 * i, 5e-5));
+    if (i == 0) continue;
+    const Interval ci{0.001 * i - 5e-4, 0.001 * i + 5e-4};
+    free.changes.push_back({0.001 * i, ci, 1e-9, ChangeVerdict::kChanged});
+    fitted.changes.push_back({0.001 * i, ci, 1e-9, ChangeVerdict::kChanged});
+  }
+  free.observed[4] = {kNaN, kNaN, {0.0, 0.008}, "none above 0.008 rad"};
+  free.changes[3] = {kNaN, {-0.019, -0.011}, 1e-9, ChangeVerdict::kChanged};
+  free.observed[5] = {kNaN, kNaN, {}, "inconclusive"};
+  free.changes[4] = {};
+  all.quantities = {free, fitted};
+  all.compared = 9;
+  all.warnings = {"reports/recording_of_month_2: another excitation"};
+  return all;
+}
+
+TEST(ChangesReport, TheFigureShowsEveryReadingAndHoldsItsTextsApart) {
+  for (const bool rotation : {true, false}) {
+    DriveChanges all = sample();
+    all.rotation = rotation;
+    const internal::FigureData figure = internal::gap_over_recordings(all);
+    const internal::Drawing drawing = internal::draw_with_notes(figure);
+    internal::expect_clear_texts(figure, drawing);
+    std::string texts;
+    for (const internal::DrawnText& t : drawing.texts) texts += t.markup + "\n";
+    for (const char* expected : {"model-free", "reference", "model-free: none above", "recording_of_month_1"})
+      EXPECT_THAT(texts, HasSubstr(expected));
+    EXPECT_THAT(texts, HasSubstr(rotation ? "(mrad)" : "(mm)"));
+    ASSERT_EQ(figure.panels.at(0).series.size(), 3u);
+    EXPECT_EQ(figure.panels[0].series[0].y.size(), 6u);
+    EXPECT_EQ(figure.panels[0].series[1].y, std::vector{0.008});
+  }
+}
+
+TEST(ChangesReport, IsDrawnFromTheStoredComparisonAlone) {
+  ScratchFolder scratch;
+  write_drive_changes(scratch.path.string(), sample());
+  write_changes_report(scratch.path.string());
+  EXPECT_EQ(cv::imread((scratch.path / "gap_over_recordings.png").string()).cols, 1600);
+  const std::string text = testing::text_of(scratch.path / "report.md");
+  EXPECT_THAT(text, HasSubstr("9 of 9 differences from reports/recording_of_month_1"));
+  EXPECT_THAT(text, HasSubstr("](gap_over_recordings.png)"));
+  EXPECT_THAT(text, HasSubstr("| none above 8.00 mrad | −19.0 to −11.0 mrad, changed |"));
+  EXPECT_THAT(text, HasSubstr("| inconclusive | cannot be told |"));
+  EXPECT_THAT(text, HasSubstr("- reports/recording_of_month_2: another excitation"));
+}
+
+TEST(ChangesReport, OfReportsWithoutAGapHasNoFigure) {
+  DriveChanges all = sample();
+  for (DriveQuantity& q : all.quantities) q.key = "load_damping", q.unit = "N m s/rad";
+  EXPECT_THAT(internal::gap_over_recordings(all).missing, HasSubstr("no report tells a gap"));
+  EXPECT_THAT(changes_text(all), Not(HasSubstr("mrad")));
+}
+
+}  // namespace
+}  // namespace gapscope

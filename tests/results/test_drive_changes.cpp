@@ -1,0 +1,232 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/random.h"
+#include "gapscope/results/drive_changes.h"
+#include "results/scratch_folder.h"
+#include "support/reading.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+FittedParameter estimated(const std::string& key, double value, double std) {
+  FittedParameter p;
+  p.key = key, p.unit = "N m", p.value = value, p.std = std;
+  p.ci95 = {value - 1.96 * std, value + 1.96 * std};
+  p.estimated = p.identifiable = true;
+  return p;
+}
+
+FittedParameter given(const std::string& key, double value) {
+  FittedParameter p;
+  p.key = key, p.unit = "kg m^2", p.value = value;
+  return p;
+}
+
+DriveReport report(const std::string& folder, double gap, double std,
+                   std::vector<FittedParameter> fitted = {}) {
+  DriveReport r;
+  r.folder = folder;
+  r.model_free.emplace();
+  r.model_free->verdict = GapVerdict::kBacklash;
+  r.model_free->gap = gap, r.model_free->std = std;
+  r.model_free->ci95 = {gap - 1.96 * std, gap + 1.96 * std};
+  r.reference.emplace();
+  r.reference->status = FitStatus::kConverged;
+  r.reference->parameters = std::move(fitted);
+  r.reference->innovation_rmse = r.reference->floor = 1e-5;
+  Excited e;
+  e.samples = 10000, e.rate = 1000.0, e.quantum = 1e-5, e.input_rms = 0.4, e.input_peak = 0.58,
+  e.input_frequency = 1.0;
+  e.position_rms = gap;  // of another recording in every report
+  r.recordings = {e};
+  return r;
+}
+
+DriveChanges compared(std::initializer_list<DriveReport> reports) {
+  return changes(std::vector<DriveReport>(reports));
+}
+
+const DriveQuantity& quantity(const DriveChanges& all, const std::string& from, const std::string& key) {
+  const DriveQuantity* q = all.find(from, key);
+  if (q == nullptr) throw std::logic_error("no quantity " + key);
+  return *q;
+}
+
+TEST(DriveChanges, HoldEachReportAgainstTheFirstAndBothErrors) {
+  const auto friction = [](double value) {
+    return std::vector{estimated("load_coulomb_friction", value, 0.004)};
+  };
+  const DriveChanges c =
+      compared({report("a", 0.020, 3e-4, friction(0.05)), report("b", 0.030, 4e-4, friction(0.06)),
+                report("c", 0.0205, 4e-4, friction(0.09))});
+  const DriveQuantity& gap = quantity(c, "model_free", "gap");
+  ASSERT_EQ(gap.changes.size(), 2u);
+  EXPECT_NEAR(gap.changes[0].difference, 0.010, 1e-12);
+  EXPECT_NEAR(gap.changes[0].ci95.low, 0.010 - 1.96 * 5e-4, 1e-9);  // √(3² + 4²) = 5
+  EXPECT_NEAR(gap.changes[0].ci95.high, 0.010 + 1.96 * 5e-4, 1e-9);
+  EXPECT_EQ(gap.changes[0].verdict, ChangeVerdict::kChanged);
+  EXPECT_EQ(gap.changes[1].verdict, ChangeVerdict::kNotSeen);  // one standard error
+  EXPECT_NEAR(gap.changes[1].p, 0.3173, 1e-4);
+  const DriveQuantity& fitted = quantity(c, "reference", "load_coulomb_friction");
+  EXPECT_EQ(fitted.changes[0].verdict, ChangeVerdict::kNotSeen);  // 1.77 standard errors
+  EXPECT_EQ(fitted.changes[1].verdict, ChangeVerdict::kChanged);
+  EXPECT_EQ(c.compared, 4);
+  EXPECT_THAT(c.warnings, IsEmpty());
+}
+
+TEST(DriveChanges, AnIntervalWiderThanItsStandardErrorCounts) {
+  DriveReport wide = report("a", 0.020, 1e-4);
+  wide.model_free->ci95 = {0.018, 0.022};  // ± 2 mrad
+  const DriveChanges c = compared({wide, report("b", 0.0215, 1e-4)});
+  EXPECT_EQ(quantity(c, "model_free", "gap").changes[0].verdict, ChangeVerdict::kNotSeen);
+}
+
+TEST(DriveChanges, OneOfManyThatChanceWouldBringIsNotCalledAChange) {
+  std::vector<FittedParameter> before, after;
+  for (int i = 0; i < 20; ++i) {
+    before.push_back(estimated("effect.p" + std::to_string(i), 1.0, 0.1));
+    after.push_back(
+        estimated("effect.p" + std::to_string(i), i == 0 ? 1.3 : 1.05, 0.1));  // 2.1 standard errors
+  }
+  const DriveChanges many = compared({report("a", 0.02, 1e-4, before), report("b", 0.02, 1e-4, after)});
+  EXPECT_EQ(quantity(many, "reference", "effect.p0").changes[0].verdict, ChangeVerdict::kChance);
+  const DriveChanges one =
+      compared({report("a", kNaN, kNaN, {before[0]}), report("b", kNaN, kNaN, {after[0]})});
+  EXPECT_EQ(quantity(one, "reference", "effect.p0").changes[0].verdict, ChangeVerdict::kChanged);
+}
+
+TEST(DriveChanges, OfAnUnchangedDriveAreCalledInAtMostOneComparisonOfTwenty) {
+  // 7 quantities in 4 reports; the standard deviation of 400 counts of 5 % is 4.4.
+  std::mt19937_64 random = random_stream(7, "unchanged drives");
+  int alarms = 0;
+  for (int drive = 0; drive < 400; ++drive) {
+    std::vector<DriveReport> reports;
+    for (int i = 0; i < 4; ++i) {
+      std::vector<FittedParameter> p;
+      for (int k = 0; k < 6; ++k)
+        p.push_back(estimated("effect.p" + std::to_string(k), 1.0 + 0.1 * normal(random), 0.1));
+      reports.push_back(report(std::to_string(i), 0.02 + 1e-4 * normal(random), 1e-4, p));
+    }
+    bool alarm = false;
+    for (const DriveQuantity& q : changes(reports).quantities)
+      for (const Change& c : q.changes) alarm = alarm || c.verdict == ChangeVerdict::kChanged;
+    alarms += alarm;
+  }
+  EXPECT_LE(alarms, 20 + 3 * 4.4);
+  EXPECT_GE(alarms, 1);  // it can alarm at all
+}
+
+TEST(DriveChanges, AGapThatIsNoLongerSeenHasChangedWhereItWouldHaveShown) {
+  DriveReport after = report("b", kNaN, kNaN);
+  after.model_free->verdict = GapVerdict::kNone;
+  for (const double visible : {0.005, 0.030}) {
+    after.model_free->smallest_visible_gap = visible;
+    const DriveQuantity gap = quantity(compared({report("a", 0.020, 1e-4), after}), "model_free", "gap");
+    EXPECT_EQ(gap.changes[0].verdict, visible < 0.01 ? ChangeVerdict::kChanged : ChangeVerdict::kNotSeen)
+        << visible;
+    EXPECT_TRUE(std::isnan(gap.changes[0].difference));
+    EXPECT_NEAR(gap.changes[0].ci95.high, visible - (0.020 - 1.96e-4), 1e-12);
+    EXPECT_THAT(gap.observed[1].remark, HasSubstr("none above"));
+  }
+  after.model_free->verdict = GapVerdict::kInconclusive;
+  const DriveQuantity gap = quantity(compared({report("a", 0.020, 1e-4), after}), "model_free", "gap");
+  EXPECT_EQ(gap.changes[0].verdict, ChangeVerdict::kUntold);
+}
+
+TEST(DriveChanges, APlayAtZeroTorqueIsNotHeldAgainstAGap) {
+  DriveReport play = report("b", 0.030, 1e-4);
+  play.model_free->quantity = GapQuantity::kPlayAtZeroTorque;
+  play.model_free->method = GapMethod::kLostMotion;
+  const DriveChanges c = compared({report("a", 0.020, 1e-4), play});
+  EXPECT_EQ(quantity(c, "model_free", "gap").changes[0].verdict, ChangeVerdict::kUntold);
+  EXPECT_EQ(quantity(c, "model_free", "play_at_zero_torque").changes[0].verdict, ChangeVerdict::kUntold);
+  EXPECT_THAT(c.warnings, ElementsAre(HasSubstr("another method than in a (lost_motion, not impact)")));
+}
+
+TEST(DriveChanges, WhatWasGivenOrNotDeterminedIsNoFinding) {
+  FittedParameter vague = estimated("mass_ratio", 2.0, 1.0);
+  vague.identifiable = false;
+  FittedParameter pressed = estimated("motor_damping", 0.1, 0.01);
+  pressed.at_bound = true;
+  const DriveChanges c =
+      compared({report("a", 0.02, 1e-4,
+                       {given("motor_inertia", 1e-3), vague, estimated("motor_damping", 0.05, 0.001)}),
+                report("b", 0.021, 1e-4, {given("motor_inertia", 1.1e-3), vague, pressed})});
+  EXPECT_EQ(c.quantities.size(), 2u);  // gap and motor_damping
+  const DriveQuantity& damping = quantity(c, "reference", "motor_damping");
+  EXPECT_EQ(damping.changes[0].verdict, ChangeVerdict::kUntold);
+  EXPECT_EQ(damping.observed[1].remark, "at a bound");
+  EXPECT_THAT(c.warnings,
+              ElementsAre(HasSubstr("b: motor_inertia was given as 0.0011 kg m^2, in a as 0.001")));
+}
+
+TEST(DriveChanges, OtherRecordingsAndPoorModelsAreTold) {
+  const DriveReport first = report("a", 0.020, 1e-4);
+  DriveReport other = report("b", 0.021, 1e-4), poor = report("c", 0.022, 1e-4),
+              same = report("d", 0.020, 1e-4);
+  other.recordings[0].input_rms = 0.3;
+  other.recordings[0].input_frequency = 2.5;
+  poor.reference->innovation_rmse = 5e-5;
+  const DriveChanges c = compared({first, other, poor, same});
+  ASSERT_EQ(c.warnings.size(), 3u);
+  EXPECT_THAT(c.warnings[0],
+              HasSubstr("b: another excitation or another encoder than in a (input rms 0.3 instead of "
+                        "0.4 units of u, input frequency 2.5 instead of 1 Hz)"));
+  EXPECT_THAT(c.warnings[1],
+              HasSubstr("c: the model does not explain the recording (prediction error 5 floors)"));
+  EXPECT_THAT(c.warnings[2], HasSubstr("d: the recording is the one of a"));
+}
+
+TEST(DriveChanges, ReportsOfAnotherKindOfAxisAreRefused) {
+  DriveReport screw = report("b", 0.02, 1e-4);
+  screw.rotation = false;
+  try {
+    compared({report("a", 0.02, 1e-4), screw});
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_THAT(e.what(),
+                HasSubstr("b/result.json: has coordinates: translation, expected rotation as in a"));
+  }
+}
+
+TEST(DriveChanges, ComeBackFromTheFileAndADamagedOneIsRefused) {
+  ScratchFolder scratch;
+  const std::string folder = scratch.path.string(), path = folder + "/compare.json";
+  FittedParameter damping = estimated("load_damping", 0.03, 0.001);
+  damping.unit = "N m s/rad";
+  const DriveChanges c = compared({report("a", 0.02, 1e-4, {damping}), report("b", 0.03, 1e-4, {damping})});
+  write_drive_changes(folder, c);
+  const std::string text = testing::text_of(path);
+  EXPECT_THAT(text, HasSubstr("\"model_free.gap_rad\""));
+  EXPECT_THAT(text, HasSubstr("\"reference.load_damping_nm_s_rad\""));
+  const DriveChanges back = read_drive_changes(folder);
+  EXPECT_EQ(back.quantities[0].changes[0].p, c.quantities[0].changes[0].p);
+  EXPECT_EQ(back.quantities[0].changes[0].verdict, ChangeVerdict::kChanged);
+  EXPECT_EQ(back.find("reference", "load_damping")->observed[1].ci95.high,
+            c.find("reference", "load_damping")->observed[1].ci95.high);
+  const auto damaged = [&](const std::string& from, const std::string& to) {
+    std::string other = text;
+    std::ofstream(path) << other.replace(other.find(from), from.size(), to);
+    try {
+      read_drive_changes(folder);
+    } catch (const ConfigError& e) {
+      return std::string(e.what());
+    }
+    return std::string("read");
+  };
+  EXPECT_THAT(damaged("compare/1", "compare/2"), HasSubstr("schema is \"gapscope.compare/2\", expected"));
+  EXPECT_THAT(damaged("\"a\",", ""), HasSubstr("expected 1 and one less"));
+  EXPECT_THAT(damaged("\"changed\"", "\"grown\""), HasSubstr("expected one of untold, not_seen"));
+}
+
+}  // namespace
+}  // namespace gapscope
