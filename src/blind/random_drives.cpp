@@ -60,8 +60,7 @@ std::string configuration(const std::string& name, const BlindCase& c, const Bli
 constexpr const char* kTruthHeader =
     "name,kind,gap_rad,mass_ratio,contact_stiffness_nm_rad,contact_damping_nms_rad,motor_damping_nms_rad,"
     "load_damping_nms_rad,load_coulomb_friction_nm,torque_amplitude_nm,frequency_hz,rate_hz,quantum_rad,"
-    "noise_rad,"
-    "load_travel_share\n";
+    "noise_rad,load_travel_share\n";
 
 /// Median travel of the load while the gap was crossed, over the gap.
 double load_travel_share(const blind::BlindTruth& truth) {

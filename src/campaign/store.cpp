@@ -88,8 +88,7 @@ std::string selection(const CampaignHeader& header, bool configurations) {
   }
   return fmt::format(
       "SELECT {}, model_free_s, reference_s, run_s FROM runs LEFT JOIN timing ON timing.run = runs.run ORDER "
-      "BY "
-      "runs.run",
+      "BY runs.run",
       fmt::join(columns, ", "));
 }
 

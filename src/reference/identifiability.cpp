@@ -87,8 +87,7 @@ void mark_null(const FitProblem& problem, const Solution& at, const Eigen::Vecto
       keys.size() == 1
           ? fmt::format("{} cannot be told apart from the initial state: not identifiable.", keys[0])
           : fmt::format("{} change together without a trace: {} determined. Fix one of them; what would tell "
-                        "them apart "
-                        "is {}.",
+                        "them apart is {}.",
                         list(keys), what_is_determined(changes), excitation_for_any(keys)));
 }
 

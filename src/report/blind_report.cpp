@@ -47,10 +47,9 @@ std::string count_table(const BlindScore& s) {
 std::string size_lines(const BlindScore& s) {
   return fmt::format(
       "\nShrink of the held-out error, of effects that were named and had at least 3 floors of mismatch: "
-      "median {} "
-      "(aim 0.97), tenth percentile {} (aim 0.8); of effects whose law is another than the catalogue's, "
-      "median {} "
-      "(aim 0.9). Effects in a group that the data does not tell apart: median {}, mean {}.\n",
+      "median {} (aim 0.97), tenth percentile {} (aim 0.8); of effects whose law is another than the "
+      "catalogue's, median {} (aim 0.9). Effects in a group that the data does not tell apart: median {}, "
+      "mean {}.\n",
       number(s.shrink_median, 3), number(s.shrink_tenth, 3), number(s.shrink_other_law, 3),
       number(s.group_median, 0), number(s.group_mean, 2));
 }
@@ -58,8 +57,7 @@ std::string size_lines(const BlindScore& s) {
 std::string slice_table(const BlindScore& s) {
   std::string text =
       "\n## One effect, by rig, severity and effect\n\n| | cases | above 2 floors | first | named | another "
-      "named | "
-      "median shrink |\n|---|---|---|---|---|---|---|\n";
+      "named | median shrink |\n|---|---|---|---|---|---|---|\n";
   for (const BlindSlice& x : s.slices)
     text += fmt::format("| {} {} | {} | {} | {} | {} | {} | {} |\n", x.by, x.name, x.cases, x.seen, x.first,
                         x.named, x.wrong, number(x.shrink, 3));
@@ -80,8 +78,7 @@ std::string limits_section(const BlindScore& s) {
   return text +
          "- An effect that leaves less than 2 floors of mismatch is counted in the confusion matrix alone.\n"
          "- Only drives like the rigs above were asked about: two inertias and a gap, contact stiffness and "
-         "damping "
-         "known, recordings of seconds. Nothing here says how often it is right on a real drive.\n";
+         "damping known, recordings of seconds. Nothing here says how often it is right on a real drive.\n";
 }
 
 /// Cases of the report part that were answered with an effect that is not there, or missed one.
@@ -101,14 +98,10 @@ std::string failures(const BlindScore& s) {
 std::string blind_text(const BlindScore& s, const std::vector<FigureData>& figures) {
   std::string text = fmt::format(
       "# {}\n\n{} cases were counted; {} others served to calibrate the probabilities. Recordings are made "
-      "by a "
-      "plant that shares no code with the diagnosis, which saw recordings and data sheets alone; labels were "
-      "opened "
-      "when the answers were sealed.\n\nOne and two effects are counted where the refitted nominal model "
-      "leaves more "
-      "than 2 floors. Named: the effect, or a group that holds it. Taken out: the first step decides again "
-      "from "
-      "what it had found, without the truth among its candidates.\n\n",
+      "by a plant that shares no code with the diagnosis, which saw recordings and data sheets alone; labels "
+      "were opened when the answers were sealed.\n\nOne and two effects are counted where the refitted "
+      "nominal model leaves more than 2 floors. Named: the effect, or a group that holds it. Taken out: the "
+      "first step decides again from what it had found, without the truth among its candidates.\n\n",
       s.name, s.report_cases, s.calibration_cases);
   text += count_table(s) + size_lines(s) + limits_section(s) + figure_section(figures) + slice_table(s) +
           failures(s);

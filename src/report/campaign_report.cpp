@@ -23,8 +23,7 @@ std::string score_row(const char* name, const EstimatorScore& e) {
 std::string score_table(const CampaignSummary& s) {
   std::string text =
       "| estimator | answers | median error | 90 % below | bias | 95 % interval holds the true gap (Wilson "
-      "limits) | "
-      "denied a gap |\n|---|---|---|---|---|---|---|\n";
+      "limits) | denied a gap |\n|---|---|---|---|---|---|---|\n";
   for (const CampaignEstimator& e : estimators_of(s)) text += score_row(e.name, s.total.*(e.score));
   return text;
 }
@@ -33,8 +32,7 @@ std::string answer_table(const CampaignSummary& s) {
   if (s.answers.empty()) return "";
   std::string text =
       "\n## What is needed\n\nFor at least 90 % of all runs to be within the tolerance (a run without an "
-      "answer is not "
-      "within):\n\n| for at most | of | estimator | needs |\n|---|---|---|---|\n";
+      "answer is not within):\n\n| for at most | of | estimator | needs |\n|---|---|---|---|\n";
   for (const SummaryAnswer& a : s.answers)
     text +=
         fmt::format("| {:g} % | {} | {} | {} |\n", 100.0 * a.tolerance, a.parameters, a.estimator, a.needs);
@@ -51,8 +49,7 @@ std::string disagreement(const SummaryCell& total) {
   if (total.both == 0) return "";
   return fmt::format(
       "\nBoth answered in {} runs; in {} of these ({}) they differ beyond their joint uncertainty, and then "
-      "the "
-      "model-free estimate was nearer to the true gap in {}.\n",
+      "the model-free estimate was nearer to the true gap in {}.\n",
       total.both, total.disagree, percent(static_cast<double>(total.disagree) / total.both),
       total.model_free_nearer);
 }

@@ -87,9 +87,8 @@ std::string steps_table(const DiagnosisResult& r) {
   }
   if (text.empty()) return "";
   return "\n## Further steps\n\nEvery candidate was refitted on top of what was found before it.\n\n| on top "
-         "of | "
-         "effect | outcome | not told from | error before | after | shrink of this step | parameters | made "
-         "superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
+         "of | effect | outcome | not told from | error before | after | shrink of this step | parameters | "
+         "made superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
          text;
 }
 
@@ -98,9 +97,8 @@ std::string periodic_table(const DiagnosisResult& r) {
   const std::string angle = r.rotation ? "rad" : "m", torque = r.rotation ? "N·m" : "N";
   std::string text =
       "\n## Torque that repeats with the position\n\nIn what the model leaves with all that was added. "
-      "Listed, not "
-      "added: `cogging_torque` and `torque_ripple` are candidates like any other.\n\n| period | cycles per "
-      "turn | amplitude | over neighbouring periods | held-out windows better | holds there "
+      "Listed, not added: `cogging_torque` and `torque_ripple` are candidates like any other.\n\n| period | "
+      "cycles per turn | amplitude | over neighbouring periods | held-out windows better | holds there "
       "|\n|---|---|---|---|---|---|\n";
   for (const PeriodicTorque& p : r.diagnosis.periodic)
     text += fmt::format("| {} | {} | {} | {} | {} of {} | {} |\n", quantity(p.period, angle),
@@ -114,9 +112,7 @@ std::string blame_table(const DiagnosisResult& r) {
   if (r.diagnosis.blame.empty()) return "";
   std::string text =
       "\n## What the model took the blame for\n\n| parameter | nominal model | with all that was added | the "
-      "first "
-      "reads "
-      "|\n|---|---|---|---|\n";
+      "first reads |\n|---|---|---|---|\n";
   for (const BlameShift& b : r.diagnosis.blame) {
     const double percent = 100.0 * (b.without - b.with) / std::abs(b.with);
     text += fmt::format(
@@ -135,8 +131,8 @@ std::string experiment_table(const DiagnosisResult& r) {
   if (!next.proposes()) return text;
   text +=
       "\n`next_experiment.yaml` and `next_experiment.csv` hold it. Each model was refitted to what the other "
-      "one "
-      "would record; what it then leaves counts, in units of the encoder's noise (σ).\n\n| input | travel |";
+      "one would record; what it then leaves counts, in units of the encoder's noise (σ).\n\n| input | "
+      "travel |";
   for (const Separation& s : next.tried.front().separations)
     text += fmt::format(" `{}`, taken for `{}` |", s.truth, s.rival);
   text += "\n|---|---|";

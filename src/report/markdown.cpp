@@ -81,8 +81,7 @@ std::string parameter_table(const RunResult& run) {
   if (!run.reference || run.reference->parameters.empty()) return "";
   std::string text =
       "\n## Parameters of the reference\n\n| parameter | value (± half of the 95 % interval) | identifiable "
-      "| start | "
-      "remark |\n|---|---|---|---|---|\n";
+      "| start | remark |\n|---|---|---|---|---|\n";
   for (const FittedParameter& p : run.reference->parameters) text += parameter_row(p, run.rotation);
   const FitSummary& fit = *run.reference;
   text += "\n" + sentence(fit.message) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";

@@ -156,8 +156,7 @@ void report_disagreement(const std::vector<Level>& levels, GapEstimate& estimate
     estimate.reason += (&level == &levels.front() ? " " : ", ") + described(level);
   estimate.reason +=
       "; friction or compliance makes up the difference and no gap is larger than the smallest; ramp to "
-      "small "
-      "torques just above the friction, or free the output and use the impacts";
+      "small torques just above the friction, or free the output and use the impacts";
 }
 
 void report_play(const std::vector<Level>& levels, GapEstimate& estimate) {
@@ -174,8 +173,7 @@ void report_play(const std::vector<Level>& levels, GapEstimate& estimate) {
   if (levels.size() == 1)
     estimate.warnings.push_back(
         "the play at zero torque was read at one torque level only; ramp to another amplitude as well: a "
-        "play that "
-        "depends on it is friction or compliance");
+        "play that depends on it is friction or compliance");
   estimate.reason = "branches of the lost-motion loop: ";
   for (const Level& level : levels)
     estimate.reason += (&level == &levels.front() ? "" : ", ") + described(level);
@@ -203,8 +201,7 @@ void decide(const std::vector<Level>& levels, GapEstimate& estimate) {
   if (shown == 0 && !leaps) return report_none(levels, estimate);
   estimate.verdict = GapVerdict::kInconclusive;
   estimate.reason = leaps ? "the drive sticks and leaps within a ramp, which hides or imitates a play; ramp "
-                            "the torque further "
-                            "beyond the friction of the motor, or add a dither"
+                            "the torque further beyond the friction of the motor, or add a dither"
                           : "x1 runs free at some torque levels only; ramp the torque further beyond the "
                             "friction of the motor";
 }

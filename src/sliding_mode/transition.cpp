@@ -38,29 +38,24 @@ std::string advice(Refusal refusal) {
   switch (refusal) {
     case Refusal::kContrast:
       return "no impact stands out of the motion: quasi-static, or without a free passage; use a faster "
-             "excitation "
-             "(higher frequency or amplitude) with the output free to move";
+             "excitation (higher frequency or amplitude) with the output free to move";
     case Refusal::kNoReversal:
       return "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the "
-             "motion rest "
-             "at its reversals (trapezoid or triangle), or lower the frequency";
+             "motion rest at its reversals (trapezoid or triangle), or lower the frequency";
     case Refusal::kSmallRise:
       return "the passages are a few encoder quanta wide; use a finer encoder or a wider motion";
     case Refusal::kLoadHits:
       return "the load hits the motor instead of the motor the load; let the motion rest at its reversals, "
-             "or lower "
-             "the frequency";
+             "or lower the frequency";
     case Refusal::kNoImpactFit:
       return "too few samples around the impacts; sample faster";
     case Refusal::kNoRelease:
       return "the release before the impacts cannot be located; let the motion rest at its reversals "
-             "(trapezoid), "
-             "lower the frequency, or use a finer encoder";
+             "(trapezoid), lower the frequency, or use a finer encoder";
     case Refusal::kThrownOff:
     case Refusal::kLoadMoving:
       return "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or "
-             "lower the "
-             "frequency";
+             "lower the frequency";
     case Refusal::kNone:
       break;
   }

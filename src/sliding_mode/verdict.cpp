@@ -154,8 +154,7 @@ std::string objection(const Pool& pool) {
   if (2.0 * disagreement > 0.25 * gap)
     return fmt::format(
         "{:.3g} rad with rising and {:.3g} rad with falling x1 contradict each other; remove the offset of "
-        "the "
-        "excitation, or let the motion rest at its reversals",
+        "the excitation, or let the motion rest at its reversals",
         median(plus), median(minus));
   if (gap > kMostOfTravel * pool.travel)
     return fmt::format("the estimate of {:.3g} rad is most of the travel of {:.3g} rad; raise the amplitude",
@@ -200,8 +199,7 @@ std::string slow_motion(const Pool& pool) {
           : "the impact of no gap would show";
   return fmt::format(
       "no impact to be expected: quasi-static motion, locked output or coarse encoder, {}; use a faster "
-      "excitation "
-      "(higher frequency or amplitude) with the output free to move, or a finer encoder",
+      "excitation (higher frequency or amplitude) with the output free to move, or a finer encoder",
       limit);
 }
 
@@ -226,8 +224,7 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   estimate.verdict = GapVerdict::kInconclusive;
   estimate.reason = fmt::format(
       "a gap of {:.2g} rad is seen, but only to {:.0f} %: use a finer encoder, faster sampling or more "
-      "periods, or let "
-      "the motion rest at its reversals",
+      "periods, or let the motion rest at its reversals",
       estimate.gap, 196.0 * estimate.std / estimate.gap);
   estimate.gap = estimate.std = kNaN;
   estimate.ci95 = {};
