@@ -23,7 +23,8 @@ constexpr double kStraight = 2e-3;      ///< largest deviation of a flank from i
 constexpr double kAbrupt =
     0.2;  ///< slope just before a plateau, over the rms slope: a rounded crest has less
 constexpr std::size_t kMostForSpectrum = 1u << 16;
-constexpr double kOneLine = 0.9;  ///< share of the power that makes one line all there is
+constexpr double kLeastOfCounts = 5.0;  ///< peak of whole numbers that are no rounded torque
+constexpr double kOneLine = 0.9;        ///< share of the power that makes one line all there is
 
 struct Extremes {
   double low, high;
@@ -32,10 +33,6 @@ struct Extremes {
 Extremes extremes(Samples u) {
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
   return {*low, *high};
-}
-
-bool whole_numbers(Samples u, double peak) {
-  return peak > 5.0 && std::all_of(u.begin(), u.end(), [](double v) { return v == std::round(v); });
 }
 
 /// Samples in which u stays at its largest or its smallest value, for five samples or more.
@@ -165,7 +162,7 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
             "record what drives the motor while it moves"};
   const std::string found =
       fmt::format("{:.4g} to {:.4g} units of u, noise {:.2g}", low, high, facts.input_noise);
-  if (whole_numbers(u, facts.input_peak))
+  if (facts.input_peak > kLeastOfCounts && whole_numbers(u))
     return {"input", Severity::kNote, found + ", whole numbers: counts or percent?",
             "torque_constant has to be N m (N) per one such unit"};
   if (low >= 0.0 || high <= 0.0)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/sliding_mode/gap_estimate.h"
 #include "inspection/rules.h"
 #include "sliding_mode/folding.h"
 
@@ -12,9 +13,9 @@ namespace {
 
 using Samples = std::span<const double>;
 
-constexpr double kFewestQuanta = 60.0;  ///< of travel: 1.5 of the smallest gaps that can be read
-constexpr double kFewQuanta = 400.0;    ///< of travel, below which most gaps are too small
-constexpr double kRest = 0.02;          ///< shortest standstill that counts [s]
+constexpr double kFewestQuanta = 1.5 * kFewestGapQuanta;  ///< of travel
+constexpr double kFewQuanta = 400.0;                      ///< of travel, below which most gaps are too small
+constexpr double kRest = 0.02;                            ///< shortest standstill that counts [s]
 constexpr double kSlow = 5.0;   ///< … in times that the rms speed takes for what still counts as one place
 constexpr double kStill = 2.0;  ///< quanta, or 4 σ, that x1 may move in it
 constexpr double kFewestRepeats = 3.0;  ///< of the input, for repeatability

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "gapscope/sliding_mode/gap_estimate.h"
 #include "inspection/rules.h"
 
 namespace gapscope::internal {
@@ -16,7 +17,6 @@ using Samples = std::span<const double>;
 
 constexpr double kFastestRotation = 3000.0;  ///< no motor turns faster [rad/s]
 constexpr double kFastestSlide = 50.0;       ///< no axis moves faster [m/s]
-constexpr double kGapInQuanta = 40.0;        ///< smallest gap that the detector reads
 constexpr double kJump = 10.0;               ///< step over those around it
 constexpr double kSmallestJump = 20.0;       ///< … and over the noise of one position
 constexpr double kFastStep = 3.0;            ///< quanta per sample at which no sample should stand still
@@ -39,10 +39,6 @@ bool is_usual(double counts) {
 
 /// 0.001, 1e-5, ...: what rounding to so many decimals leaves.
 bool is_decimal(double step) { return std::abs(std::log10(step) - std::round(std::log10(step))) < 1e-6; }
-
-bool whole_numbers(Samples x) {
-  return std::all_of(x.begin(), x.end(), [](double v) { return v == std::round(v); });
-}
 
 double fastest(const Material& m) {
   const Samples x = m.recording.x1;
@@ -131,7 +127,7 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
           fmt::format("x1 steps by {:.4g} {}{}, noise {:.2g} steps; a gap below {:.3g} {} (40 steps) is too "
                       "coarse for the detector",
                       q, m.unit(), m.rotation ? fmt::format(" ({:.0f} per turn)", per_turn) : "", noise / q,
-                      kGapInQuanta * q, m.unit()),
+                      kFewestGapQuanta * q, m.unit()),
           ""};
 }
 

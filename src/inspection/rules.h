@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <vector>
 
 #include "gapscope/inspection/inspection.h"
@@ -19,6 +22,10 @@ struct Material {
   const char* unit() const { return rotation ? "rad" : "m"; }
   bool moves() const { return signal.speed_rms > 0.0; }
 };
+
+inline bool whole_numbers(std::span<const double> samples) {
+  return std::all_of(samples.begin(), samples.end(), [](double v) { return v == std::round(v); });
+}
 
 /// One question each; fills the facts that it finds.
 Finding check_time(const Material& m, RecordingFacts& facts);

@@ -26,7 +26,6 @@ constexpr double kMost = 0.6;             ///< of the half periods, and of what 
 
 constexpr double kMostHidden = 0.07;     ///< of a gap, that the motor may go on before its impact shows
 constexpr double kMostOfTravel = 0.8;    ///< that a gap may be
-constexpr double kFewestQuanta = 40.0;   ///< in a gap that can be read
 constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
 constexpr double kLeastMoving = 0.1;     ///< … that is to be checked by the other direction
 constexpr double kFewMoving = 0.2;       ///< passages refused for it, over those that are used
@@ -166,7 +165,7 @@ std::string objection(const Pool& pool) {
   if (only != 0 && moved > kLeastMoving * gap) return advice(Refusal::kLoadMoving);
   if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
     return advice(Refusal::kLoadMoving);
-  if (gap < kFewestQuanta * pool.quantum)
+  if (gap < kFewestGapQuanta * pool.quantum)
     return fmt::format("a gap of {:.2g} rad is only {:.0f} encoder quanta; use a finer encoder", gap,
                        gap / pool.quantum);
   const double hidden = median_of(pool, &Transition::hidden);
