@@ -27,7 +27,6 @@ constexpr double kOnGrid = 0.1;            ///< [quanta] from a whole number of 
 constexpr double kShareOnGrid = 0.9;
 constexpr double kNearFloor = 4.0;  ///< mean square [floor²] of a fit that may only have missed the best one
 constexpr double kAsGood = 0.05;    ///< S: as good a fit
-constexpr double kExplained = 1.69;    ///< mean square [floor²]
 constexpr double kNearlyWhole = 0.97;  ///< shrink
 constexpr double kFarBetter = 0.5;     ///< of the mean square
 

@@ -1,5 +1,7 @@
 #include "diagnosis/effect_starts.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <string_view>
 
@@ -65,6 +67,13 @@ const EffectEntry* nested_parent(const EffectEntry& entry) {
   if (name == "friction_asymmetry" || name == "stribeck_friction" || name == "presliding_friction")
     return find_effect("motor_coulomb_friction");
   return nullptr;
+}
+
+bool law_is_fixed(const EffectEntry& entry) {
+  static constexpr std::string_view kFixed[] = {"actuator_lag",     "input_delay",    "measurement_lag",
+                                                "shaft_compliance", "impact_damping", "constant_load_torque",
+                                                "load_unbalance",   "input_dead_zone"};
+  return std::find(std::begin(kFixed), std::end(kFixed), entry.name) != std::end(kFixed);
 }
 
 }  // namespace gapscope::internal

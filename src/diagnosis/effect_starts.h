@@ -18,4 +18,8 @@ std::vector<EffectStart> effect_starts(const EffectEntry& entry);
 /// The simpler effect that this one contains, whose fit is one of its starts; nullptr if there is none.
 const EffectEntry* nested_parent(const EffectEntry& entry);
 
+/// Whether the law has no shape that could be another than the real one's, just a size: where it is the cause
+/// it leaves nothing.
+bool law_is_fixed(const EffectEntry& entry);
+
 }  // namespace gapscope::internal

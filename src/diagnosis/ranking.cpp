@@ -9,9 +9,9 @@
 namespace gapscope::internal {
 namespace {
 
-constexpr double kFloorRatio = 1.3;         ///< medians within it: at the floor
-constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate
-constexpr double kIndistinct = 0.08;        ///< the same for effects that no table calls alike
+const double kFloorRatio = std::sqrt(kExplained);  ///< medians within it: at the floor
+constexpr double kAlike = 0.3;                     ///< S between look-alikes that the data does not separate
+constexpr double kIndistinct = 0.08;               ///< the same for effects that no table calls alike
 constexpr double kLeastRel = 0.4;           ///< share of the log distance to the floor that a step closes
 constexpr double kLeastMargin = 0.3;        ///< S by which it beats all others
 constexpr double kOtherFormRel = 0.2;       ///< the same of an effect whose real law is another than ours,
@@ -31,14 +31,6 @@ const double kFloorScore = std::log(1.0 + kScoreOffset);
 
 bool names(std::span<const char* const> list, std::string_view name) {
   return std::any_of(list.begin(), list.end(), [&](const char* other) { return name == other; });
-}
-
-/// Whether the law has no shape that could be another than the real one's, just a size.
-bool law_is_fixed(const EffectEntry& entry) {
-  static constexpr const char* kFixed[] = {"actuator_lag",     "input_delay",    "measurement_lag",
-                                           "shaft_compliance", "impact_damping", "constant_load_torque",
-                                           "load_unbalance",   "input_dead_zone"};
-  return names(kFixed, entry.name);
 }
 
 /// Whether such an effect leaves more than a trace of the free runs' error: it is then at best a part of the
@@ -80,7 +72,7 @@ double share_of_windows_better(const Judged& before, const Judged& after) {
   if (after.windows.free.empty()) return after.windows_better;
   double above = 0.0, better = 0.0;
   for (std::size_t i = 0; i < std::min(before.windows.free.size(), after.windows.free.size()); ++i) {
-    if (before.windows.free[i] < kFloorRatio * kFloorRatio) continue;
+    if (before.windows.free[i] < kExplained) continue;
     above += 1.0;
     better += after.windows.free[i] < before.windows.free[i] ? 1.0 : 0.0;
   }
@@ -136,7 +128,7 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   const bool enough = repeats_badly ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows
                                     : d.rel >= kLeastRel || of_other_form;
   const double fitted = best.fitted.mean_square;
-  const double share = fitted < kFloorRatio * kFloorRatio ? kAskedForAtFloor : kAskedFor;
+  const double share = fitted < kExplained ? kAskedForAtFloor : kAskedFor;
   const bool asked_for = reads_counts(*best.entry) || fitted < share * before.fitted.mean_square;
   d.accepted = enough && asked_for && d.margin >= kLeastMargin;
   for (const Judged& parent : excluded_parents)

@@ -25,6 +25,9 @@ Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, d
 /// Whether the table of the catalogue names one as a look-alike of the other.
 bool look_alike(const EffectEntry& a, const EffectEntry& b);
 
+/// Mean square of a fit that leaves nothing to explain [floor²].
+inline constexpr double kExplained = 1.69;
+
 /// Both medians within 1.3 floors.
 bool at_floor(const Judged& judged);
 
