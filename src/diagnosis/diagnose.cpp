@@ -89,6 +89,15 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
   return study;
 }
 
+std::vector<MotorTrace> everything(const Study& study) {
+  const std::vector<MotorTrace>& held = study.held_out.traces;
+  const bool parts_are_fitted = study.held_out.scored_from.front() > 0;  // these stand last
+  std::vector<MotorTrace> all(study.train.begin(),
+                              study.train.end() - (parts_are_fitted ? std::ssize(held) : 0));
+  all.insert(all.end(), held.begin(), held.end());
+  return all;
+}
+
 namespace {
 
 Judged judged_nominal(const Study& study) {
@@ -104,13 +113,6 @@ HeldOut whole(const Study& study) {
     all.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
     all.periods.push_back(input_period(t));
   }
-  return all;
-}
-
-std::vector<MotorTrace> everything(const Study& study) {
-  if (study.held_out.scored_from.front() > 0) return study.held_out.traces;  // parts of the same files
-  std::vector<MotorTrace> all = study.train;
-  all.insert(all.end(), study.held_out.traces.begin(), study.held_out.traces.end());
   return all;
 }
 
@@ -281,13 +283,18 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   GAPSCOPE_REQUIRE(!train.empty());
   Study study = make_study(train, held_out, model, options);
   const Findings found = investigate(study);
-  Diagnosis diagnosis = report_back(study, found, add_further(study, found));
+  const Additions added = add_further(study, found);
+  Diagnosis diagnosis = report_back(study, found, added);
   diagnosis.evidence = evidence_of(study, found);
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "
         "kind of excitation only.");
   if (std::isfinite(found.alone)) diagnosis.warnings.push_back(undetermined(found));
+  if (added.accepted && added.explained)
+    diagnosis.warnings.push_back(
+        "the recordings that were fitted do not determine all numbers: what is left on those that were held "
+        "out vanishes once these are fitted with them, without a further effect.");
   return diagnosis;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/probability.h"
+
 namespace gapscope::internal {
 namespace {
 
@@ -11,6 +13,12 @@ constexpr double kWorthFollowingWindows = 0.6;  ///< share of the windows that i
 constexpr std::size_t kBranches = 2;            ///< first steps that are followed where the best is unsure
 constexpr double kClearlyBetter = 0.1;          ///< S, of a look-alike
 constexpr double kStandIn = 0.15;               ///< S that an earlier effect must still be worth
+constexpr double kLaterGain = 0.5;     ///< S of a later step that stays far from the floor for an earlier law
+constexpr double kLaterWindows = 0.8;  ///< share of the windows that it improves
+constexpr double kLaterMargin = 0.5;   ///< S by which it beats all others
+constexpr double kAskedFor = 0.85;     ///< of the mean square that was fitted
+constexpr double kMostWay =
+    0.7;  ///< share of the log distance to the floor that makes up for an unsure first step
 
 /// The model so far as the one to add to. An effect that others contain comes last: they take its place.
 Judged base_of(const Judged& model) {
@@ -37,6 +45,10 @@ FurtherStep next_step(const Study& study, const Judged& model) {
   std::erase_if(catalogue, [&](const EffectEntry* e) { return contains(model.fitted.model, e); });
   step.candidates = candidates_of(study, step.before, catalogue, false);
   step.decision = decide(step.candidates, step.before, study.repeats_badly(), {});
+  if (study.repeats_badly() || step.candidates.empty()) return step;
+  Decision& d = step.decision;
+  d.probability = later_probability(d.rel, d.margin, d.gain);
+  d.accepted = d.accepted || clearly_better(step.before, step.candidates.front(), d);
   return step;
 }
 
@@ -82,9 +94,14 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
   }
 }
 
-/// Whether a further step has led to the floor. A first step that is there alone has been decided upon.
-bool led_to_floor(const Additions& a) {
-  return !a.steps.empty() && a.steps.front().decision.accepted && at_floor(a.after);
+/// Whether one set of numbers leaves nothing to explain, though those of the fitted recordings alone leave
+/// something on the others: these asked for what the fitted ones do not determine.
+bool explained_together(const Study& study, const Judged& model) {
+  if (study.repeats_badly() || !(model.fitted.mean_square < kExplained)) return false;
+  const Judged together =
+      judge(nullptr, fit_near(everything(study), model.fitted.model, study.options.fit, study.observer_hz),
+            study.held_out, study.observer_hz);
+  return at_floor(together) && together.fitted.mean_square < kExplained;
 }
 
 /// Forward from a candidate of the first step.
@@ -93,6 +110,8 @@ Additions follow(const Study& study, const Judged& first, std::vector<const Effe
   a.after = first;
   a.effects = {{first.entry, std::move(group)}};
   while (a.steps.size() + 1 < kMostEffects && !at_floor(a.after)) {
+    a.explained = explained_together(study, a.after);
+    if (a.explained) break;
     study.options.progress("looking for a further effect");
     a.steps.push_back(next_step(study, a.after));
     const FurtherStep& step = a.steps.back();
@@ -112,16 +131,26 @@ bool contains(const FittedModel& model, const EffectEntry* entry) {
                      [&](const ModelEffect& e) { return e.entry == entry; });
 }
 
+bool clearly_better(const Judged& before, const Judged& best, const Decision& d) {
+  return d.gain >= kLaterGain && d.windows_better >= kLaterWindows && d.margin >= kLaterMargin &&
+         best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
+}
+
+bool borne_out(const Judged& before, const Additions& a) {
+  if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
+  return a.explained || at_floor(a.after) || relative_gain(before, a.after) >= kMostWay;
+}
+
 Additions add_further(const Study& study, const Findings& found) {
   const Decision& sure = found.decision;
   const auto& ranked = found.candidates;
   if (ranked.empty() || !(sure.accepted || worth_following(found.before, ranked.front()))) return {};
   Additions a = follow(study, ranked.front(), sure.group);
-  a.accepted = sure.accepted || led_to_floor(a) || (sure.in_part && a.effects.size() > 1);
+  a.accepted = sure.accepted || borne_out(found.before, a) || (sure.in_part && a.effects.size() > 1);
   for (std::size_t i = 1; !a.accepted && i < std::min(kBranches, ranked.size()); ++i) {
     if (!worth_following(found.before, ranked[i])) continue;
     Additions other = follow(study, ranked[i], {ranked[i].entry});
-    other.accepted = led_to_floor(other);
+    other.accepted = borne_out(found.before, other);
     if (other.accepted) a = std::move(other);
   }
   return a;

@@ -23,6 +23,7 @@ struct Addition {
 /// What the search for several effects came to.
 struct Additions {
   bool accepted = false;
+  bool explained = false;  ///< what is left on the held-out recordings is the drive's numbers, not an effect
   std::vector<Addition> effects;   ///< those that stay, in the order in which they were found
   Judged after;                    ///< with all of them
   std::vector<FurtherStep> steps;  ///< the last one may not have been taken
@@ -32,8 +33,16 @@ struct Additions {
 ///
 /// Forward: every effect of the catalogue on top of the model so far, judged like the first. Backward: an
 /// earlier effect without which the later ones do as well was only their stand-in and goes. A first step that
-/// is not sure in itself, as half of a cause cannot be, counts once others lead from it to the floor.
+/// is not sure in itself, as half of a cause cannot be, counts once others lead from it to the floor or near.
 Additions add_further(const Study& study, const Findings& found);
+
+/// Whether a later step counts that does not come far towards the floor, since an earlier effect's law is
+/// another than the real one's and keeps it away.
+bool clearly_better(const Judged& before, const Judged& best, const Decision& decision);
+
+/// Whether further steps have shown that an unsure first one was right: they end at the floor or near it. A
+/// first step that is there alone has been decided upon.
+bool borne_out(const Judged& before, const Additions& additions);
 
 /// Whether the effect is in the model.
 bool contains(const FittedModel& model, const EffectEntry* entry);

@@ -23,6 +23,9 @@ struct Study {
 Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                  const ReferenceModel& model, const DiagnosisOptions& options);
 
+/// What is fitted and what is held out.
+std::vector<MotorTrace> everything(const Study& study);
+
 /// Every effect of a list that the model could have, refitted and judged, best first.
 /// @param first_step false: candidates that have lost clearly are not tried again
 std::vector<Judged> candidates_of(const Study& study, const Judged& before,

@@ -9,10 +9,19 @@ namespace gapscope::internal {
 namespace {
 
 /// Constant, share of the log distance, log margin, log gain. `learn_probability` learns them again.
-constexpr double kWeights[] = {-1.706, 2.294, 1.026, 0.091};
+using Weights = double[4];
+constexpr Weights kFirst = {-1.706, 2.294, 1.026, 0.091};
+constexpr Weights kLater = {-1.706, 2.294, 1.026, 0.091};
 constexpr double kMarginOffset = 0.05;
 constexpr double kLeastGain = 1e-3;
 constexpr double kMistakenOrder = 0.04;  ///< of the cases where the group is wrong, at even odds
+
+double probability(const Weights& w, double rel, double margin, double gain) {
+  if (!(gain > 0.0)) return 0.0;
+  const double z = w[0] + w[1] * rel + w[2] * std::log(std::max(margin, 0.0) + kMarginOffset) +
+                   w[3] * std::log(std::max(gain, kLeastGain));
+  return 1.0 / (1.0 + std::exp(-z));
+}
 
 double odds(double p) { return p / (1.0 - p); }
 double from_odds(double o) { return std::isfinite(o) ? o / (1.0 + o) : 1.0; }
@@ -20,11 +29,11 @@ double from_odds(double o) { return std::isfinite(o) ? o / (1.0 + o) : 1.0; }
 }  // namespace
 
 double group_probability(double rel, double margin, double gain) {
-  if (!(gain > 0.0)) return 0.0;
-  const double z = kWeights[0] + kWeights[1] * rel +
-                   kWeights[2] * std::log(std::max(margin, 0.0) + kMarginOffset) +
-                   kWeights[3] * std::log(std::max(gain, kLeastGain));
-  return 1.0 / (1.0 + std::exp(-z));
+  return probability(kFirst, rel, margin, gain);
+}
+
+double later_probability(double rel, double margin, double gain) {
+  return probability(kLater, rel, margin, gain);
 }
 
 Shares probability_shares(const std::vector<Judged>& ranked, const Decision& decision, double outside) {

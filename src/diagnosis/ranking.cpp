@@ -9,9 +9,8 @@
 namespace gapscope::internal {
 namespace {
 
-const double kFloorRatio = std::sqrt(kExplained);  ///< medians within it: at the floor
-constexpr double kAlike = 0.3;                     ///< S between look-alikes that the data does not separate
-constexpr double kIndistinct = 0.08;               ///< the same for effects that no table calls alike
+constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate
+constexpr double kIndistinct = 0.08;        ///< the same for effects that no table calls alike
 constexpr double kLeastRel = 0.4;           ///< share of the log distance to the floor that a step closes
 constexpr double kLeastMargin = 0.3;        ///< S by which it beats all others
 constexpr double kOtherFormRel = 0.2;       ///< the same of an effect whose real law is another than ours,

@@ -25,8 +25,8 @@ Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, d
 /// Whether the table of the catalogue names one as a look-alike of the other.
 bool look_alike(const EffectEntry& a, const EffectEntry& b);
 
-/// Mean square of a fit that leaves nothing to explain [floor²].
-inline constexpr double kExplained = 1.69;
+inline constexpr double kFloorRatio = 1.3;                       ///< medians within it: at the floor
+inline constexpr double kExplained = kFloorRatio * kFloorRatio;  ///< mean square of a fit [floor²]
 
 /// Both medians within 1.3 floors.
 bool at_floor(const Judged& judged);

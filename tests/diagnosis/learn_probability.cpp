@@ -1,7 +1,8 @@
-// Not a test: learns what probability a first step has of naming what is missing, and judges it.
-//   learn_probability LEARN JUDGE
-// Both are files of study_diagnosis with rows of the kinds known and outside, from different seeds. A known
-// case counts twice: as it is, and with its effect and what looks like it taken out of the candidates.
+// Not a test: learns what probability a step has of naming what is missing, and judges it.
+//   learn_probability LEARN JUDGE [later]
+// Both are files of study_diagnosis from different seeds: for a first step with rows of the kinds known and
+// outside, for later ones of the kinds pair, one and beyond. A step that could find what is missing counts
+// twice: as it is, and with that and what looks like it taken out of the candidates.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -30,6 +31,20 @@ StepOutcome outcome_after(const std::string& details, const std::string& mark) {
   return o;
 }
 
+/// Later steps stand in the details as "{later right: rel ... margin ... gain ...}".
+std::vector<Judgement> later_judgements_of(const char* file) {
+  std::vector<Judgement> all;
+  for (const test::StudyRow& row : test::read_rows(file))
+    for (std::size_t at = row.details.find("{later "); at != std::string::npos;
+         at = row.details.find("{later ", at + 1)) {
+      StepOutcome o = outcome_after(row.details.substr(at), "{later ");
+      if (!(o.gain > 0.0)) continue;
+      o.probability = internal::later_probability(o.rel, o.margin, o.gain);
+      all.push_back({o, row.details.compare(at, 12, "{later right") == 0});
+    }
+  return all;
+}
+
 std::vector<Judgement> judgements_of(const char* file) {
   std::vector<Judgement> all;
   const auto add = [&](const StepOutcome& outcome, bool right) {
@@ -45,8 +60,9 @@ std::vector<Judgement> judgements_of(const char* file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
-  const BlindCalibration c = blind::calibrate(judgements_of(argv[1]), judgements_of(argv[2]));
+  if (argc != 3 && argc != 4) return 2;
+  const auto read = argc == 4 ? later_judgements_of : judgements_of;
+  const BlindCalibration c = blind::calibrate(read(argv[1]), read(argv[2]));
   fmt::print("weights {:.3f} from {} decisions\n", fmt::join(c.weights, ", "), c.learnt_on);
   fmt::print(
       "on {} decisions: calibration error {:.3f}, Brier score {:.3f}; with the built-in weights {:.3f}, "

@@ -65,6 +65,30 @@ std::string describe(const Judged& before, const std::vector<Judged>& ranked, co
   return text + "] ";
 }
 
+/// What a later step says, and what it would say without those true effects that it could find; both for
+/// learn_probability.
+std::string judgements(const FurtherStep& step, const Names& truth) {
+  if (step.candidates.empty()) return "";
+  Names missing;
+  for (const std::string& t : truth)
+    if (!contains(step.before.fitted.model, find_effect(t))) missing.push_back(t);
+  const auto numbers = [](const Decision& d) {
+    return fmt::format("rel {:.4g} margin {:.4g} gain {:.4g}", d.rel, d.margin, d.gain);
+  };
+  const bool right = std::any_of(missing.begin(), missing.end(),
+                                 [&](const std::string& t) { return among(step.decision.group, t); });
+  std::string text = fmt::format("{{later {}: {}}} ", right ? "right" : "wrong", numbers(step.decision));
+  std::vector<Judged> others = step.candidates;
+  std::erase_if(others, [&](const Judged& c) {
+    return std::any_of(missing.begin(), missing.end(), [&](const std::string& t) {
+      return c.entry == find_effect(t) || look_alike(*c.entry, *find_effect(t));
+    });
+  });
+  if (missing.empty() || others.empty()) return text;
+  rank(others, step.before, false);
+  return text + fmt::format("{{later wrong: {}}} ", numbers(decide(others, step.before, false, {})));
+}
+
 }  // namespace
 
 std::vector<std::string> split_effects(const std::string& joined) {
@@ -104,9 +128,11 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
   row.before = truth.size() > 1 ? left_by_one(f, truth) : left(f.before);
   row.verdict = f.candidates.empty() && at_floor(f.before) ? "none" : a.accepted ? "effect" : "unknown";
   row.details = describe(f.before, f.candidates, f.decision);
-  for (const FurtherStep& s : a.steps) row.details += describe(s.before, s.candidates, s.decision);
+  for (const FurtherStep& s : a.steps)
+    row.details += describe(s.before, s.candidates, s.decision) + judgements(s, truth);
   if (f.candidates.empty()) return row;
-  row.details += fmt::format("after {:.3g}/{:.3g}", a.after.median_free, a.after.median_innovation);
+  row.details += fmt::format("after {:.3g}/{:.3g}{}", a.after.median_free, a.after.median_innovation,
+                             a.explained ? ", explained together" : "");
   row.shrink = shrink_of(f.before.median_free, a.after.median_free);
   Names found;
   for (const Addition& e : a.effects) found.push_back(e.entry->name);

@@ -1,0 +1,64 @@
+// When later steps count, by their numbers alone; the whole search runs in test_diagnosis.cpp.
+#include <gtest/gtest.h>
+
+#include "diagnosis/further.h"
+
+namespace gapscope::internal {
+namespace {
+
+Judged model(double score, double median, double mean_square) {
+  Judged j;
+  j.score = score;
+  j.median_free = j.median_innovation = median;
+  j.fitted.mean_square = mean_square;
+  return j;
+}
+
+Decision step(double gain, double margin, double windows_better) {
+  Decision d;
+  d.gain = gain, d.margin = margin, d.windows_better = windows_better;
+  return d;
+}
+
+/// Two effects, the second one accepted or not, that leave `after`.
+Additions two(bool second_accepted, const Judged& after) {
+  Additions a;
+  a.effects.resize(2);
+  a.steps.resize(1);
+  a.steps.front().decision.accepted = second_accepted;
+  a.after = after;
+  return a;
+}
+
+TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromNearToTheFloor) {
+  const Judged before = model(7.0, 180.0, 1e4);
+  EXPECT_TRUE(borne_out(before, two(true, model(1.7, 2.5, 4.0))));
+  EXPECT_TRUE(borne_out(before, two(true, model(0.3, 1.1, 1.0))));
+  EXPECT_FALSE(borne_out(before, two(true, model(4.0, 30.0, 900.0)))) << "half of the way only";
+  EXPECT_FALSE(borne_out(before, two(false, model(0.3, 1.1, 1.0)))) << "no second step was taken";
+}
+
+TEST(FurtherSteps, DoNotBearOutAFirstOneThatStandsAlone) {
+  Additions a = two(true, model(0.3, 1.1, 1.0));
+  a.steps.clear();
+  EXPECT_FALSE(borne_out(model(7.0, 180.0, 1e4), a));
+}
+
+TEST(FurtherSteps, BearOutTheFirstOneWhereOneSetOfNumbersExplainsAllRecordings) {
+  Additions a = two(true, model(4.0, 30.0, 1.2));
+  a.explained = true;
+  EXPECT_TRUE(borne_out(model(7.0, 180.0, 1e4), a));
+}
+
+TEST(FurtherSteps, CountFarFromTheFloorOnlyWhereTheyAreClearInEveryRespect) {
+  const Judged before = model(7.0, 110.0, 5000.0), best = model(6.1, 60.0, 1300.0);
+  EXPECT_TRUE(clearly_better(before, best, step(0.9, 0.87, 0.9)));
+  EXPECT_FALSE(clearly_better(before, best, step(0.25, 0.87, 0.9))) << "gain";
+  EXPECT_FALSE(clearly_better(before, best, step(0.9, 0.2, 0.9))) << "margin";
+  EXPECT_FALSE(clearly_better(before, best, step(0.9, 0.87, 0.6))) << "windows";
+  EXPECT_FALSE(clearly_better(before, model(6.1, 60.0, 4900.0), step(0.9, 0.87, 0.9)))
+      << "what was fitted does not ask for it";
+}
+
+}  // namespace
+}  // namespace gapscope::internal
