@@ -71,7 +71,8 @@ std::string judgements(const FurtherStep& step, const Names& truth) {
   if (step.candidates.empty()) return "";
   Names missing;
   for (const std::string& t : truth)
-    if (!contains(step.before.fitted.model, find_effect(t))) missing.push_back(t);
+    if (find_effect(t) != nullptr && !contains(step.before.fitted.model, find_effect(t)))
+      missing.push_back(t);
   const auto numbers = [](const Decision& d) {
     return fmt::format("rel {:.4g} margin {:.4g} gain {:.4g}", d.rel, d.margin, d.gain);
   };
