@@ -17,8 +17,8 @@ constexpr double kLaterGain = 0.5;     ///< S of a later step that stays far fro
 constexpr double kLaterWindows = 0.8;  ///< share of the windows that it improves
 constexpr double kLaterMargin = 0.5;   ///< S by which it beats all others
 constexpr double kAskedFor = 0.85;     ///< of the mean square that was fitted
-constexpr double kMostWay =
-    0.7;  ///< share of the log distance to the floor that makes up for an unsure first step
+constexpr double kMuchOfTheWay = 0.4;  ///< share of the log distance to the floor that makes up for an unsure
+constexpr double kSureMargin = 0.9;    ///< … first step, with a second one that beats all others by this S
 
 /// The model so far as the one to add to. An effect that others contain comes last: they take its place.
 Judged base_of(const Judged& model) {
@@ -138,7 +138,8 @@ bool clearly_better(const Judged& before, const Judged& best, const Decision& d)
 
 bool borne_out(const Judged& before, const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
-  return a.explained || at_floor(a.after) || relative_gain(before, a.after) >= kMostWay;
+  if (a.explained || at_floor(a.after)) return true;
+  return a.steps.front().decision.margin >= kSureMargin && relative_gain(before, a.after) >= kMuchOfTheWay;
 }
 
 Additions add_further(const Study& study, const Findings& found) {

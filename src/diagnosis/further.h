@@ -33,15 +33,16 @@ struct Additions {
 ///
 /// Forward: every effect of the catalogue on top of the model so far, judged like the first. Backward: an
 /// earlier effect without which the later ones do as well was only their stand-in and goes. A first step that
-/// is not sure in itself, as half of a cause cannot be, counts once others lead from it to the floor or near.
+/// is not sure in itself, as half of a cause cannot be, counts once others lead from it to the floor or far
+/// towards it.
 Additions add_further(const Study& study, const Findings& found);
 
 /// Whether a later step counts that does not come far towards the floor, since an earlier effect's law is
 /// another than the real one's and keeps it away.
 bool clearly_better(const Judged& before, const Judged& best, const Decision& decision);
 
-/// Whether further steps have shown that an unsure first one was right: they end at the floor or near it. A
-/// first step that is there alone has been decided upon.
+/// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
+/// themselves and come far towards it. A first step that is there alone has been decided upon.
 bool borne_out(const Judged& before, const Additions& additions);
 
 /// Whether the effect is in the model.

@@ -21,20 +21,23 @@ Decision step(double gain, double margin, double windows_better) {
 }
 
 /// Two effects, the second one accepted or not, that leave `after`.
-Additions two(bool second_accepted, const Judged& after) {
+Additions two(bool second_accepted, const Judged& after, double margin = 2.0) {
   Additions a;
   a.effects.resize(2);
   a.steps.resize(1);
   a.steps.front().decision.accepted = second_accepted;
+  a.steps.front().decision.margin = margin;
   a.after = after;
   return a;
 }
 
-TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromNearToTheFloor) {
+TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloorOrFarTowardsIt) {
   const Judged before = model(7.0, 180.0, 1e4);
   EXPECT_TRUE(borne_out(before, two(true, model(1.7, 2.5, 4.0))));
   EXPECT_TRUE(borne_out(before, two(true, model(0.3, 1.1, 1.0))));
-  EXPECT_FALSE(borne_out(before, two(true, model(4.0, 30.0, 900.0)))) << "half of the way only";
+  EXPECT_TRUE(borne_out(before, two(true, model(0.3, 1.1, 1.0), 0.4)));
+  EXPECT_FALSE(borne_out(before, two(true, model(1.7, 2.5, 4.0), 0.4))) << "a second step that is not clear";
+  EXPECT_FALSE(borne_out(before, two(true, model(5.0, 80.0, 6000.0)))) << "a third of the way only";
   EXPECT_FALSE(borne_out(before, two(false, model(0.3, 1.1, 1.0)))) << "no second step was taken";
 }
 
