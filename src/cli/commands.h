@@ -22,6 +22,8 @@ void add_diagnose(CLI::App& app);
 void add_check(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_init(CLI::App& app);
+void add_completion(CLI::App& app);
+void add_man(CLI::App& app);
 
 /// Exit status of `check` where something will spoil the estimates.
 inline constexpr int kSpoiltRecording = 3;

@@ -10,6 +10,7 @@
 #include <exception>
 #include <string>
 
+#include "cli/command_tree.h"
 #include "cli/commands.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
@@ -32,7 +33,9 @@ void add_commands(CLI::App& app) {
   app.require_subcommand(1);
   app.footer(
       "Angles are in rad, torques in N m, times in s, unless a key or a message says otherwise.\n"
-      "gapscope COMMAND --help tells more.\n\n"
+      "gapscope COMMAND --help tells more.\n"
+      "Exit status: 0 done, whatever the answer; 1 the work failed; 2 the input or the command line is\n"
+      "wrong; 130 interrupted, what was complete is kept.\n\n"
       "Example: gapscope run configs/02_experiment.yaml");
   add_check(app);
   add_init(app);
@@ -46,6 +49,8 @@ void add_commands(CLI::App& app) {
   add_effects(app);
   add_campaign(app);
   add_blind(app);
+  add_completion(app);
+  add_man(app);
 }
 
 std::string command_names(const CLI::App& app) {
@@ -55,24 +60,11 @@ std::string command_names(const CLI::App& app) {
   return names;
 }
 
-/// "CONFIG", "-o FILE", "[--quiet]".
-std::string usage_of(const CLI::Option& option) {
-  std::string text = option.get_name();
-  if (!option.get_positional()) {
-    text = option.get_snames().empty() ? "--" + option.get_lnames()[0] : "-" + option.get_snames()[0];
-    if (option.get_items_expected_max() > 0) text += " " + option.get_type_name();
-  }
-  return option.get_required() ? text : "[" + text + "]";
-}
-
 /// "gapscope run CONFIG [-o DIR] [--quiet]" of the command that was being read, else the names of all.
 std::string expectation(const CLI::App& app) {
-  const auto used = app.get_subcommands();
-  if (used.empty()) return "one of the commands " + command_names(app);
-  std::string usage = "gapscope " + used[0]->get_name();
-  for (const CLI::Option* option : used[0]->get_options())
-    if (option != used[0]->get_help_ptr()) usage += " " + usage_of(*option);
-  return usage;
+  const CLI::App* used = &app;
+  while (!used->get_subcommands().empty()) used = used->get_subcommands()[0];
+  return used == &app ? "one of the commands " + command_names(app) : usage(describe(*used));
 }
 
 bool is_unknown_command(const CLI::App& app, const std::string& word) {

@@ -20,5 +20,8 @@ says '^gapscope [0-9]' "$usr/bin/gapscope" --version
 says '^model-free +22\.[0-9]+ mrad' "$usr/bin/gapscope" detect "$usr/share/doc/gapscope/examples/03_recording.yaml" \
   -o "$work/report"
 [ -s "$work/report/overview.png" ] || fail "the report has no figure"
+for file in man/man1/gapscope.1 bash-completion/completions/gapscope zsh/vendor-completions/_gapscope; do
+  grep -q diagnose "$usr/share/$file" || fail "share/$file does not know diagnose"
+done
 build_project "$usr/share/doc/libgapscope-dev/examples" example "$usr"
 says '^gap 22\.[0-9]+ mrad' "$work/example/measure_gap" "$usr/share/doc/gapscope/examples/03_recording.csv"
