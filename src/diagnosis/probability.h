@@ -9,7 +9,8 @@ namespace gapscope::internal {
 /// Learned on drives of the independent plant with one effect, of the catalogue, of none, or taken out of it.
 double group_probability(double rel, double margin, double gain);
 
-/// The same of a later step, learned on drives with two effects, with what the step could find or without it.
+/// The same of a later step, learned on drives with one and two effects, with what the step could find or
+/// without it.
 double later_probability(double rel, double margin, double gain);
 
 /// How a step's probability is shared out.
