@@ -43,7 +43,4 @@ bool is_uniform(const CsvTable& table);
 /// The columns as they stand.  @throws ConfigError unless they are uniform
 Recording uniform_recording(CsvTable&& table);
 
-/// What a message shows of a text from a file: the first characters, in quotes, printable.
-std::string shown(std::string_view text);
-
 }  // namespace gapscope::internal

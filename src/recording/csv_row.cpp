@@ -1,0 +1,119 @@
+#include "recording/csv_row.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "gapscope/base/errors.h"
+
+namespace gapscope::internal {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const char* const blanks = " \t\r\v\f";
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string_view unquoted(std::string_view field) {
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+    return trimmed(field.substr(1, field.size() - 2));
+  return field;
+}
+
+/// Splits at commas outside quotes; a `#` outside quotes ends the line. The vector is reused: no allocation
+/// per row. A line with nothing but blanks and comment gives no field.
+void split(std::string_view text, std::vector<std::string_view>& fields) {
+  fields.clear();
+  std::size_t begin = 0, end = 0;
+  bool quoted = false;
+  for (; end < text.size() && (quoted || text[end] != '#'); ++end) {
+    if (text[end] == '"') quoted = !quoted;
+    if (text[end] != ',' || quoted) continue;
+    fields.push_back(unquoted(trimmed(text.substr(begin, end - begin))));
+    begin = end + 1;
+  }
+  const std::string_view last = trimmed(text.substr(begin, end - begin));
+  if (!last.empty() || !fields.empty()) fields.push_back(unquoted(last));
+}
+
+}  // namespace
+
+bool CsvRow::next(std::string_view line) {
+  if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  split(line, fields_);
+  if (fields_.empty()) return false;
+  if (has_header_) check_width();
+  if (has_header_) return true;
+  header();
+  return false;
+}
+
+void CsvRow::require_header() const {
+  if (!has_header_) throw ConfigError(name_, "is empty, expected a header with " + wanted());
+}
+
+void CsvRow::fail(const std::string& what) const { throw ConfigError(name_, line_, what); }
+
+std::string CsvRow::wanted() const {
+  return fmt::format("the columns {}, {}, {}", columns_.time, columns_.input, columns_.position);
+}
+
+/// Place of a column in the header; -1 if it is not there and need not be.
+int CsvRow::place(const std::string& name, bool required) const {
+  const auto found = std::find(fields_.begin(), fields_.end(), name);
+  if (found == fields_.end()) {
+    if (!required) return -1;
+    fail(fmt::format("there is no column {}, expected a header with {}", shown(name), wanted_with(name)));
+  }
+  if (std::find(found + 1, fields_.end(), name) != fields_.end())
+    fail(fmt::format("the column {} is there twice, expected it once", shown(name)));
+  return static_cast<int>(found - fields_.begin());
+}
+
+std::string CsvRow::wanted_with(const std::string& name) const {
+  return name == columns_.load_position ? wanted() + ", " + name : wanted();
+}
+
+void CsvRow::header() {
+  has_header_ = true;
+  while (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
+  width_ = fields_.size();
+  t_ = place(columns_.time, true);
+  u_ = place(columns_.input, true);
+  x1_ = place(columns_.position, true);
+  x2_ = place(columns_.load_position, columns_.load_position_required);
+}
+
+/// More fields than the header are fine while they are empty (a trailing comma); decimal commas are not.
+void CsvRow::check_width() const {
+  std::size_t filled = fields_.size();
+  while (filled > width_ && fields_[filled - 1].empty()) --filled;
+  if (filled < width_ || filled > width_)
+    fail(fmt::format("{} fields, expected {} as in the header", filled, width_));
+}
+
+double CsvRow::number(int place, const std::string& column) const {
+  std::string_view text = fields_[static_cast<std::size_t>(place)];
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = end == text.data() + text.size() && !text.empty();
+  if (whole && problem == std::errc() && std::isfinite(value)) return value;
+  const bool vanishes = text.find("e-") != text.npos || text.find("E-") != text.npos;
+  if (whole && problem == std::errc::result_out_of_range && vanishes) return 0.0;
+  fail(fmt::format("{} is {}, expected a finite number", column, text.empty() ? "empty" : shown(text)));
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string out(text.substr(0, kMost));
+  std::replace_if(
+      out.begin(), out.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  return "'" + out + (text.size() > kMost ? "...'" : "'");
+}
+
+}  // namespace gapscope::internal

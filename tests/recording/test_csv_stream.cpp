@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/recording/csv_stream.h"
+#include "support/temporary_file.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string rows(int count, double dt = 0.0004) {
+  std::string text = "# rig\nt,u,x1,x2\n";
+  for (int i = 0; i < count; ++i)
+    text +=
+        std::to_string(dt * i) + "," + std::to_string(0.01 * i) + "," + std::to_string(-1e-3 * i) + ",0\n";
+  return text;
+}
+
+std::vector<CsvStream::Sample> read(CsvStream& csv, const std::string& text, std::size_t piece) {
+  std::vector<CsvStream::Sample> all;
+  const auto take = [&] {
+    if (csv.has_clock())
+      for (const CsvStream::Sample& s : csv.take()) all.push_back(s);
+  };
+  for (std::size_t at = 0; at < text.size(); at += piece)
+    csv.feed(std::string_view(text).substr(at, piece)), take();
+  csv.finish();
+  take();
+  return all;
+}
+
+std::string refusal(const std::string& text, std::size_t piece = 7) {
+  CsvStream csv("standard input");
+  try {
+    read(csv, text, piece);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(CsvStream, GivesWhatTheFileGivesHoweverItIsCut) {
+  const std::string text = rows(1500);
+  const testing::TemporaryFile file(text);
+  const Recording whole = read_csv(file.path());
+  for (const std::size_t piece : {std::size_t{1}, std::size_t{13}, text.size()}) {
+    CsvStream csv("standard input");
+    const auto samples = read(csv, text.substr(0, text.size() - 1), piece);  // the last line need not end
+    ASSERT_EQ(samples.size(), whole.size());
+    EXPECT_EQ(csv.start(), whole.start);
+    EXPECT_EQ(csv.dt(), whole.dt);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      ASSERT_EQ(samples[i].u, whole.u[i]);
+      ASSERT_EQ(samples[i].x1, whole.x1[i]);
+    }
+  }
+}
+
+TEST(CsvStream, RefusesBrokenLinesWithTheirNumber) {
+  EXPECT_THAT(refusal(""),
+              HasSubstr("standard input: is empty, expected a header with the columns t, u, x1"));
+  EXPECT_THAT(refusal("t,u\n0,1\n"), HasSubstr("standard input:1: there is no column 'x1'"));
+  EXPECT_THAT(refusal(rows(49)), HasSubstr("standard input: 49 samples, expected at least 50"));
+  EXPECT_THAT(refusal(rows(60) + "0.024,x,0,0\n"),
+              HasSubstr("standard input:63: u is 'x', expected a finite number"));
+  EXPECT_THAT(refusal(rows(60) + "0.024,1\n"), HasSubstr("standard input:63: 2 fields, expected 4"));
+  EXPECT_THAT(refusal(rows(60) + "0.0236,0,0,0\n"),
+              HasSubstr("standard input:63: t goes from 0.0236 to 0.0236 s"));
+  EXPECT_THAT(refusal(rows(1200) + "0.4804,0,0,0\n"),
+              HasSubstr("standard input:1203: time is not uniform: a step of 0.8 ms, expected 0.4 ms"));
+  EXPECT_THAT(refusal(rows(1200) + "nan,0,0,0\n"), HasSubstr("standard input:1203: t is 'nan'"));
+  EXPECT_THAT(refusal(rows(60) + std::string(100000, '1'), 4096),
+              HasSubstr("standard input:63: a line of more than 65536 characters"));
+}
+
+TEST(CsvStream, RowsBeforeABrokenOneCanStillBeTaken) {
+  CsvStream csv("standard input");
+  EXPECT_THROW(csv.feed(rows(1100) + "broken\n"), ConfigError);
+  EXPECT_EQ(csv.take().size(), 1100u);
+}
+
+}  // namespace
+}  // namespace gapscope
