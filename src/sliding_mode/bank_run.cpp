@@ -5,7 +5,6 @@
 
 #include "gapscope/base/random.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/sliding_mode/bound_bank.h"
 
 namespace gapscope::internal {
 namespace {
@@ -27,11 +26,15 @@ std::vector<double> surrogate(const SignalFacts& facts, double dt) {
   return y;
 }
 
-std::vector<double> run_errors(std::span<const double> y, double dt, const std::vector<double>& bounds,
-                               Discretisation discretisation, double speed) {
+BoundBank started(double y, double speed, double dt, std::span<const double> bounds,
+                  Discretisation discretisation) {
   BoundBank bank(bounds, discretisation);
-  std::vector<double> errors(y.size() * bounds.size());
-  bank.start(y[0] - speed * dt, speed);
+  bank.start(y - speed * dt, speed);
+  return bank;
+}
+
+std::vector<double> run_errors(std::span<const double> y, double dt, BoundBank bank) {
+  std::vector<double> errors(y.size() * bank.size());
   bank.run(y, dt, errors);
   return errors;
 }
@@ -76,14 +79,20 @@ std::vector<double> bound_grid(const SignalFacts& facts, double dt) {
   return bounds;
 }
 
+BoundBank started_bank(const MotorTrace& trace, const SignalFacts& facts, std::span<const double> bounds,
+                       Discretisation discretisation) {
+  return started(trace.x1[0], first_speed(trace, facts), trace.dt, bounds, discretisation);
+}
+
 BankRun run_bank(const MotorTrace& trace, const SignalFacts& facts, std::vector<double> bounds,
                  Discretisation discretisation) {
   BankRun run;
   run.bounds = std::move(bounds);
   const std::size_t m = run.bounds.size();
+  const auto y = surrogate(facts, trace.dt);
   const auto ramp =
-      run_errors(surrogate(facts, trace.dt), trace.dt, run.bounds, discretisation, 0.5 * facts.speed_rms);
-  run.errors = run_errors(trace.x1, trace.dt, run.bounds, discretisation, first_speed(trace, facts));
+      run_errors(y, trace.dt, started(y[0], 0.5 * facts.speed_rms, trace.dt, run.bounds, discretisation));
+  run.errors = run_errors(trace.x1, trace.dt, started_bank(trace, facts, run.bounds, discretisation));
   for (std::size_t j = 0; j < m; ++j) {
     const double chatter = quantile(column(ramp, m, j, kSettle), 0.999);
     run.floor.push_back(std::max({chatter, 1.5 * facts.noise, 1e-12 * facts.amplitude}));

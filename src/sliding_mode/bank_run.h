@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gapscope/recording/recording.h"
-#include "gapscope/sliding_mode/super_twisting.h"
+#include "gapscope/sliding_mode/bound_bank.h"
 #include "sliding_mode/signal_facts.h"
 
 namespace gapscope::internal {
@@ -21,6 +21,10 @@ struct BankRun {
 
 /// Logarithmic grid of bounds for a motion: from what cannot slide to where chatter buries everything.
 std::vector<double> bound_grid(const SignalFacts& facts, double dt);
+
+/// A bank as it stands just before the first sample of a recording.
+BoundBank started_bank(const MotorTrace& trace, const SignalFacts& facts, std::span<const double> bounds,
+                       Discretisation discretisation);
 
 BankRun run_bank(const MotorTrace& trace, const SignalFacts& facts, std::vector<double> bounds,
                  Discretisation discretisation);

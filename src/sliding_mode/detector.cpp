@@ -7,6 +7,7 @@
 
 #include "sliding_mode/bound_map.h"
 #include "sliding_mode/folding.h"
+#include "sliding_mode/frozen_search.h"
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
@@ -168,9 +169,27 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
   analyses = std::move(means);
 }
 
+/// As a stream would tell it.
+GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const DetectorOptions& options) {
+  GapEstimate estimate;
+  std::vector<ImpactAnalysis> analyses;
+  std::vector<double> intervals;
+  for (const MotorTrace& recording : recordings) {
+    analyses.push_back(internal::analyse_frozen(recording));
+    intervals.push_back(recording.dt);
+  }
+  internal::decide(analyses, intervals, estimate);
+  estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
+  estimate.bound_t1 = typical_bound(analyses, &ImpactAnalysis::sliding);
+  keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
+  keep_map(recordings, options, estimate);
+  return estimate;
+}
+
 }  // namespace
 
 GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOptions& options) {
+  if (options.frozen && !(options.bound > 0.0)) return detect_frozen(recordings, options);
   GapEstimate estimate;
   std::vector<ImpactAnalysis> analyses;
   std::vector<double> intervals;

@@ -13,7 +13,7 @@ namespace gapscope::internal {
 struct ImpactAnalysis {
   SignalFacts facts;
   BankRun run;
-  std::vector<Event> events;         ///< main events only, in time
+  std::size_t marks = 0;             ///< main events
   std::vector<Transition> passages;  ///< the first main event after each change of sign
   std::size_t sliding = 0;           ///< index of L_acc, the smallest bound that slides 80 % of the time
   std::size_t deciding = 0;          ///< index of the bound that decides t2
@@ -26,6 +26,9 @@ struct ImpactAnalysis {
 
 ImpactAnalysis analyse(const MotorTrace& trace);
 ImpactAnalysis analyse_mean(const FoldedMotion& mean, const MotorTrace& whole);
+
+/// A passage as it is told.
+GapEvent event_of(const Transition& passage);
 
 /// Verdict and estimate from all recordings together. Median per direction, mean of both.
 void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,

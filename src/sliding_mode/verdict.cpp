@@ -69,7 +69,7 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.dt = std::max(pool.dt, intervals[i]);
     pool.visible = std::max(pool.visible, a.smallest_visible_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
-    pool.events += a.events.size();
+    pool.events += a.marks;
     pool.repeats = pool.repeats || a.repeats;
     for (const Transition& t : a.passages) {
       ++pool.passages[t.event.direction];
@@ -229,23 +229,21 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   estimate.ci95 = {};
 }
 
-void list_events(std::span<const ImpactAnalysis> analyses, GapEstimate& estimate) {
-  for (const ImpactAnalysis& a : analyses)
-    for (const Transition& t : a.passages) {
-      estimate.events.push_back(t.event);
-      GapEvent& event = estimate.events.back();
-      event.std = t.half_width;
-      event.accepted = t.refusal == Refusal::kNone;
-      if (!event.accepted) event.remark = describe(t.refusal);
-    }
-}
-
 }  // namespace
+
+GapEvent event_of(const Transition& t) {
+  GapEvent event = t.event;
+  event.std = t.half_width;
+  event.accepted = t.refusal == Refusal::kNone;
+  if (!event.accepted) event.remark = describe(t.refusal);
+  return event;
+}
 
 void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
             GapEstimate& estimate) {
   estimate.method = GapMethod::kImpact;
-  list_events(analyses, estimate);
+  for (const ImpactAnalysis& a : analyses)
+    for (const Transition& t : a.passages) estimate.events.push_back(event_of(t));
   const Pool pool = collect(analyses, intervals);
   if (pool.half_periods == 0.0) {
     estimate.verdict = GapVerdict::kInconclusive;

@@ -1,5 +1,6 @@
 // Random drives of the independent plant for the detector: how often it answers, how well, and how honest its
 // intervals are.  study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]
+// [frozen]: as a stream, which learns from the first two periods
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +40,7 @@ double median_coasting(const blind::BlindTruth& truth) {
   return shares.empty() ? 0.0 : median(std::move(shares));
 }
 
-Outcome run(std::uint64_t seed, bool with_gap, blind::Waveform waveform) {
+Outcome run(std::uint64_t seed, bool with_gap, blind::Waveform waveform, const DetectorOptions& options) {
   blind::BlindCase c =
       with_gap ? blind::random_drive(seed, waveform)
                : blind::random_gap_free_drive(seed, static_cast<int>(seed % blind::kGapFreeKinds), waveform);
@@ -50,7 +51,7 @@ Outcome run(std::uint64_t seed, bool with_gap, blind::Waveform waveform) {
   Outcome o{seed, c.kind, with_gap ? c.drive.gap : 0.0, c.sensor.quantum, 0.0, 0.0, {}};
   o.mass_ratio = c.drive.load == blind::LoadKind::kNone ? 0.0 : c.drive.load_inertia / c.drive.motor_inertia;
   o.coasting = with_gap ? median_coasting(r.truth) : 0.0;
-  o.estimate = detect_gap({&trace, 1});
+  o.estimate = detect_gap({&trace, 1}, options);
   return o;
 }
 
@@ -112,17 +113,21 @@ void print_case(const Outcome& o) {
 int main_study(int argc, char** argv) {
   if (argc < 5) {
     fmt::print(stderr,
-               "study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]\n");
+               "study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each] "
+               "[frozen]\n");
     return 2;
   }
   const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
   const std::uint64_t count = std::strtoull(argv[2], nullptr, 10);
   const bool with_gap = std::string(argv[3]) == "gap";
   const blind::Waveform waveform = waveform_of(argv[4]);
+  const auto asked = [&](const char* word) {
+    return std::find(argv + 5, argv + argc, std::string(word)) != argv + argc;
+  };
   std::map<std::string, Tally> tallies;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    const Outcome o = run(seed, with_gap, waveform);
-    if (argc > 5) print_case(o);
+    const Outcome o = run(seed, with_gap, waveform, {.frozen = asked("frozen")});
+    if (asked("each")) print_case(o);
     for (const std::string& name : classes(o)) tallies[name].add(o);
   }
   for (const auto& [name, tally] : tallies) tally.print(name);

@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "blind/plant/random_drive.h"
+#include "gapscope/recording/csv.h"
+#include "gapscope/sliding_mode/detector.h"
+#include "gapscope/sliding_mode/stream_detector.h"
+#include "sliding_mode/frozen_search.h"
+#include "sliding_mode/test_drive.h"
+#include "support/data.h"
+
+namespace gapscope {
+namespace {
+
+struct Streamed {
+  std::vector<GapEvent> events;
+  LearntFacts learnt;
+  GapEstimate estimate;
+};
+
+/// The samples one by one; what is ready is asked for after every `pause` of them.
+Streamed stream(const MotorTrace& trace, std::size_t pause) {
+  StreamDetector detector(trace.start, trace.dt, trace.quantum);
+  Streamed s;
+  const auto take = [&] {
+    for (GapEvent& e : detector.take()) s.events.push_back(std::move(e));
+  };
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    detector.push(trace.u[i], trace.x1[i]);
+    if (i % pause == 0) take();
+  }
+  detector.finish();
+  take();
+  s.learnt = detector.learnt();
+  s.estimate = detector.estimate();
+  return s;
+}
+
+/// The same double, or both none.
+void expect_same(double a, double b) {
+  EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << a << ", " << b;
+}
+
+void expect_same(const GapEvent& a, const GapEvent& b) {
+  EXPECT_EQ(a.direction, b.direction);
+  EXPECT_EQ(a.accepted, b.accepted);
+  EXPECT_EQ(a.remark, b.remark);
+  for (double GapEvent::*number : {&GapEvent::t1, &GapEvent::t2, &GapEvent::x1_t1, &GapEvent::x1_t2,
+                                   &GapEvent::gap, &GapEvent::gap_uncorrected, &GapEvent::std})
+    expect_same(a.*number, b.*number);
+}
+
+void expect_same(const Streamed& s, const GapEstimate& batch) {
+  ASSERT_EQ(s.events.size(), batch.events.size());
+  for (std::size_t i = 0; i < s.events.size(); ++i) expect_same(s.events[i], batch.events[i]);
+  EXPECT_EQ(s.estimate.verdict, batch.verdict);
+  EXPECT_EQ(s.estimate.reason, batch.reason);
+  expect_same(s.estimate.gap, batch.gap);
+  expect_same(s.estimate.std, batch.std);
+  expect_same(s.estimate.smallest_visible_gap, batch.smallest_visible_gap);
+}
+
+GapEstimate frozen(const MotorTrace& trace) { return detect_gap({&trace, 1}, {.frozen = true}); }
+
+TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnDrivesOfTheIndependentPlant) {
+  std::size_t events = 0;
+  for (std::uint64_t seed = 910001; seed < 910009; ++seed) {
+    blind::BlindCase c = blind::random_drive(seed, blind::Waveform::kSine);
+    c.options.tolerance = blind::kFastTolerance;
+    const blind::BlindRun run = blind::simulate_blind(c);
+    MotorTrace trace = run.recording.motor_trace();
+    trace.quantum = c.sensor.quantum;
+    const GapEstimate batch = frozen(trace);
+    for (const std::size_t pause : {std::size_t{1}, std::size_t{997}, trace.size()})
+      expect_same(stream(trace, pause), batch);
+    events += batch.events.size();
+  }
+  EXPECT_GT(events, 20u);
+}
+
+TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnRealRecordings) {
+  GAPSCOPE_NEEDS_DATA();
+  for (const char* file : {"emps/emps_train.csv", "emps/emps_pulses.csv"}) {
+    const Recording recording = read_csv((testing::data_folder() / file).string());
+    const Streamed s = stream(recording.motor_trace(), 100);
+    expect_same(s, frozen(recording.motor_trace()));
+    EXPECT_NE(s.estimate.verdict, GapVerdict::kBacklash) << file;
+  }
+}
+
+TEST(StreamDetector, ReadsThePaperRigAsTheWholeRecordingDoes) {
+  const TestRecording recording = paper_experiment(1, 0.4);
+  const MotorTrace trace = recording.trace();
+  const GapEstimate whole = detect_gap({&trace, 1});
+  const Streamed s = stream(trace, 1);
+  ASSERT_EQ(s.estimate.verdict, GapVerdict::kBacklash) << s.estimate.brief_report();
+  EXPECT_NEAR(s.estimate.gap / 0.0188, 1.0, 0.02);
+  EXPECT_NEAR(s.estimate.gap, whole.gap, whole.std);
+  EXPECT_NEAR(static_cast<double>(s.events.size()), static_cast<double>(whole.events.size()), 1.0);
+  EXPECT_NEAR(s.learnt.half_period, 0.5, 0.01);
+  EXPECT_LT(s.learnt.until, 3.5) << "two periods, and at most a quarter more";
+}
+
+TEST(StreamDetector, WhatComesLaterChangesNothingThatWasTold) {
+  const TestRecording recording = paper_experiment(2, 0.4);
+  MotorTrace trace = recording.trace();
+  const Streamed whole = stream(trace, 1);
+  trace.x1 = trace.x1.first(trace.size() / 2), trace.u = trace.u.first(trace.size() / 2);
+  StreamDetector detector(trace.start, trace.dt, trace.quantum);
+  for (std::size_t i = 0; i < trace.size(); ++i) detector.push(trace.u[i], trace.x1[i]);
+  const std::vector<GapEvent> told = detector.take();  // before it knows that no more comes
+  ASSERT_GE(told.size(), 7u);
+  for (std::size_t i = 0; i < told.size(); ++i) expect_same(told[i], whole.events[i]);
+  EXPECT_LT(trace.time(trace.size() - 1) - told.back().t2, 0.5 + 0.375)
+      << "no later than three quarters of 0.5 s";
+  EXPECT_EQ(detector.learnt().floors, whole.learnt.floors);
+}
+
+TEST(StreamDetector, KeepsNoMoreThanItsWindow) {
+  const TestRecording recording = paper_experiment(3);
+  internal::FrozenSearch search("", 0.0, recording.dt, recording.quantum, 3);
+  std::size_t most = 0;
+  for (int lap = 0; lap < 4; ++lap)
+    for (std::size_t i = 0; i < recording.x1.size(); ++i) {
+      search.push(recording.u[i], recording.x1[i]);
+      if (search.has_learnt()) most = std::max(most, search.held());
+    }
+  EXPECT_EQ(search.samples(), 4 * recording.x1.size());
+  EXPECT_LE(most, static_cast<std::size_t>(2.76 * 0.51 / recording.dt));
+  EXPECT_GT(search.passages(), 60u);
+  EXPECT_EQ(search.summary().passages.size(), 3u);
+  EXPECT_NEAR(static_cast<double>(search.summary().facts.half_periods), 3.0, 1.0);
+}
+
+TEST(StreamDetector, OfRestOrNoiseSaysWhyNothingIsLearnt) {
+  StreamDetector detector(0.0, 1e-3, 1e-5);
+  for (int i = 0; i < 300000; ++i) detector.push(0.0, 1e-5 * (i % 2));
+  detector.finish();
+  EXPECT_FALSE(detector.has_learnt());
+  EXPECT_TRUE(detector.take().empty());
+  EXPECT_EQ(detector.estimate().verdict, GapVerdict::kInconclusive);
+  EXPECT_NE(detector.estimate().reason.find("no motion above the encoder's noise"), std::string::npos);
+}
+
+TEST(TurnCounter, CountsStrokesOfAMotionThatWanders) {
+  internal::TurnCounter turns(0.6);
+  for (int i = 0; i < 10000; ++i) turns.step(std::sin(2.0 * kPi * i / 1000.0) + 1e-3 * i);
+  EXPECT_NEAR(static_cast<double>(turns.count()), 20.0, 1.0);
+  internal::TurnCounter still(0.6);
+  for (int i = 0; i < 1000; ++i) still.step(0.25 * std::sin(0.1 * i));
+  EXPECT_EQ(still.count(), 0u);
+}
+
+}  // namespace
+}  // namespace gapscope
