@@ -42,6 +42,7 @@ double published_bound(const Configuration& c, const std::vector<MotorTrace>& tr
 DetectorOptions detector_options(const Configuration& c, const std::vector<MotorTrace>& traces,
                                  std::vector<std::string>& notes) {
   DetectorOptions options;
+  options.frozen = c.detector.frozen;
   if (c.detector.bound) options.bound = *c.detector.bound;
   if (!c.detector.bound && !c.detector.from_model) options.paper_bound = published_bound(c, traces);
   if (!c.detector.from_model) return options;

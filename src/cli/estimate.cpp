@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/detect_stream.h"
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
@@ -22,6 +23,9 @@ struct Arguments {
   std::string config;
   std::string folder;
   bool quiet = false;
+  bool stream = false;  ///< the rest is for `detect --stream` alone
+  CsvColumns columns;
+  double quantum = 0.0;  ///< [rad]; 0: as the samples show
 };
 
 /// A diagnosis in the folder has left its own, which holds what the model lacked.
@@ -57,8 +61,9 @@ void estimate(const Arguments& a, const Estimators& wanted) {
   print_headline(folder, outcome.result);
 }
 
-void add(CLI::App& app, const char* name, const char* what, const std::string& details, Estimators wanted) {
-  auto arguments = std::make_shared<Arguments>();
+CLI::App* add(CLI::App& app, const char* name, const char* what, const std::string& details,
+              Estimators wanted,
+              const std::shared_ptr<Arguments>& arguments = std::make_shared<Arguments>()) {
   CLI::App* command = app.add_subcommand(name, what);
   command->add_option("CONFIG", arguments->config, kConfigHelp)->required();
   command->add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
@@ -66,6 +71,29 @@ void add(CLI::App& app, const char* name, const char* what, const std::string& d
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->footer(details);
   command->callback([arguments, wanted] { estimate(*arguments, wanted); });
+  return command;
+}
+
+/// `--stream` takes the place of a configuration.
+void add_streaming(CLI::App& detect, const std::shared_ptr<Arguments>& a) {
+  CLI::Option* config = detect.get_option("CONFIG")->required(false);
+  CLI::Option* stream = detect.add_flag("--stream", a->stream, "a CSV from standard input, an event a line");
+  stream->excludes(config)->excludes(detect.get_option("--output"));
+  const auto column = [&](const char* name, std::string& place, const char* what) {
+    detect.add_option(name, place, what)->type_name("NAME")->needs(stream);
+  };
+  column("--time", a->columns.time, "of a stream: column of the time [s] (default: t)");
+  column("--input", a->columns.input, "of a stream: column of the input (default: u)");
+  column("--position", a->columns.position, "of a stream: column of the position (default: x1)");
+  detect.add_option("--quantum", a->quantum, "of a stream: step of the encoder [rad] (default: as it shows)")
+      ->type_name("RAD")
+      ->check(CLI::Range(1e-15, 1e3).description(""))
+      ->needs(stream);
+  detect.callback([a, config] {
+    if (a->stream) return detect_stream(a->columns, a->quantum);
+    if (config->count() == 0) throw CLI::RequiredError("CONFIG");
+    estimate(*a, {true, false});
+  });
 }
 
 std::string fit_details() {
@@ -104,12 +132,30 @@ void add_run(CLI::App& app) {
 }
 
 void add_detect(CLI::App& app) {
-  add(app, "detect", "The model-free detector alone: the gap from the motor encoder, without a model",
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add(
+      app, "detect", "The model-free detector alone: the gap from the motor encoder, without a model",
       "Writes the same files as run, with \"reference\": null. The bound L of the detector is detector: "
       "bound\n"
       "[rad/s^2]: auto, a number, or {from_model: {input_limit [unit of u], load_force_bound [N m]}}.\n\n"
-      "Example: gapscope detect configs/02_experiment.yaml -o reports/detected",
-      {true, false});
+      "--stream reads a CSV (t, u, x1) from standard input and writes lines of JSON (units in the keys):\n"
+      "  learnt   once: bounds, floors and thresholds, from the first two periods and frozen from then on\n"
+      "  event    each passage of the gap, at most 3/4 of a half period after its impact: t1, t2, "
+      "direction,\n"
+      "           gap, standard error; accepted, or the remark why not\n"
+      "  summary  last, also on Ctrl-C and before a broken line is refused: verdict and gap of all passages\n"
+      "           (of the last 8192), as in result.json\n"
+      "Memory does not grow. detector: {frozen: true} makes detect and run do the same on a whole "
+      "recording,\n"
+      "with the same events. Against a detector that sees all of it first, a stream cannot take back what "
+      "the\n"
+      "first two periods taught it (start it in steady motion; after another amplitude or frequency start "
+      "it\n"
+      "anew), and has no mean of the periods (coarse encoders) and no lost-motion loop (locked outputs).\n\n"
+      "Example: gapscope detect configs/02_experiment.yaml -o reports/detected\n"
+      "         tail -n +1 -f drive.csv | gapscope detect --stream --input i_q > events.jsonl",
+      {true, false}, arguments);
+  add_streaming(*command, arguments);
 }
 
 void add_fit(CLI::App& app) {

@@ -23,12 +23,15 @@ constexpr const char* kNameForm =
 
 /// `bound: auto`, a number, or {from_model: {input_limit, load_force_bound}}.
 DetectorConfig read_detector(const Value& value) {
-  const Section section(value, {"bound"});
+  const Section section(value, {"bound", "frozen"});
   DetectorConfig detector;
   detector.line = value.line();
+  if (const auto frozen = section.find("frozen")) detector.frozen = frozen->truth();
   const auto bound = section.find("bound");
   if (!bound) return detector;
   detector.line = bound->line();
+  if (detector.frozen && !(bound->is_text() && bound->text() == "auto"))
+    bound->fail_expecting("auto, as detector.frozen asks what the data alone tell");
   if (bound->is_map()) {
     const Section from(
         Section(*bound, {"from_model"}).require("from_model", "{input_limit, load_force_bound}"),

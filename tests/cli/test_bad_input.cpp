@@ -97,6 +97,8 @@ const std::vector<BadInput> kRecordings = {
 };
 
 const std::vector<BadInput> kConfigs = {
+    config("frozen_with_a_bound", kSimulated + "detector: {bound: 4, frozen: true}\n",
+           "c.yaml:14: detector.bound is '4', expected auto"),
     config("empty", "# nothing\n", "c.yaml: is empty"),
     config("syntax", "name: [a\nrecording: {\n", "c.yaml:"),
     config("two_documents", kRecorded + "---\nname: b\n", "c.yaml:12: a second document"),
@@ -158,6 +160,9 @@ const std::vector<BadInput> kCommandLines = {
     line("compare_one", "compare folder", "gapscope: DIR"),
     line("compare_nothing", "compare folder nowhere", "folder/result.json: there is no such file"),
     line("compare_into_a_file", "compare folder nowhere -o r.csv", "r.csv: is a file"),
+    line("stream_and_configuration", "detect --stream c.yaml", "gapscope: CONFIG excludes --stream"),
+    line("column_without_stream", "detect c.yaml --input i_q", "gapscope: --input requires --stream"),
+    line("detect_nothing", "detect", "gapscope: CONFIG is required"),
     line("report_of_nothing", "report nowhere", "nowhere: there is no such folder"),
     line("report_of_another_folder", "report folder", "folder"),
 };

@@ -1,0 +1,120 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/executable.h"
+#include "support/paper_model.h"
+
+namespace gapscope {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using testing::Workplace;
+
+std::vector<json> lines(const std::string& text) {
+  std::vector<json> all;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) all.push_back(json::parse(line));
+  return all;
+}
+
+/// Seven seconds of the paper's rig as r.csv, made by the plant that shares no code with the detector.
+class Stream : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    place_ = new Workplace;
+    place_->file(
+        "sim.yaml",
+        "name: sim\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 7, noise: 1.0e-5, plant: "
+        "independent, excitation: {sine: {amplitude: 0.58, frequency: 1}}}\nmodel: " +
+            testing::kPaperModel);
+    const auto made = place_->run("simulate sim.yaml -o r.csv");
+    ASSERT_EQ(made.status, 0) << made.err;
+  }
+  static void TearDownTestSuite() { delete place_; }
+
+  static std::string text(const char* file) { return testing::text_of(place_->folder() / file); }
+  static void shell(const std::string& command) {
+    std::system(("cd " + place_->folder().string() + "; " + command).c_str());
+  }
+  /// What a stream of this leaves.
+  static testing::Outcome stream(const std::string& producer, const std::string& options = "") {
+    shell(producer + " | (" GAPSCOPE_EXECUTABLE " detect --stream " + options +
+          " >told 2>err; echo $? >status)");
+    return {std::stoi(text("status")), text("told"), text("err")};
+  }
+
+  static Workplace* place_;
+};
+
+Workplace* Stream::place_ = nullptr;
+
+TEST_F(Stream, TellsTheEventsOfTheFrozenBatchAndTheSameSummary) {
+  place_->file("r.yaml",
+               "name: r\nrecording: {file: r.csv}\nencoder: {bits: 18}\ndetector: {frozen: true}\nmodel: " +
+                   testing::kPaperModel);
+  ASSERT_EQ(place_->run("detect r.yaml -o batch").status, 0);
+  const json batch = json::parse(text("batch/result.json"))["model_free"];
+  const auto told = stream("cat r.csv", "--quantum 2.3968449810713143e-05");
+  EXPECT_EQ(told.status, 0) << told.err;
+  const std::vector<json> all = lines(told.out);
+  ASSERT_EQ(all.size(), batch["events"].size() + 2);
+  EXPECT_GE(batch["events"].size(), 11u);
+  EXPECT_EQ(all.front()["kind"], "learnt");
+  EXPECT_EQ(all.front()["bounds_rad_s2"].size(), all.front()["floors_rad"].size());
+  for (std::size_t i = 0; i < batch["events"].size(); ++i) {
+    json event = batch["events"][i];
+    event.erase("file");
+    event["schema"] = "gapscope.stream/1", event["kind"] = "event";
+    EXPECT_EQ(all[i + 1], event);
+  }
+  const json& summary = all.back();
+  EXPECT_EQ(summary["kind"], "summary");
+  EXPECT_EQ(summary["samples"], 7000);
+  EXPECT_EQ(summary["passages"], batch["events"].size());
+  for (const char* key : {"verdict", "reason", "gap_rad", "std_rad", "ci95_rad", "bound_rad_s2"})
+    EXPECT_EQ(summary[key], batch[key]) << key;
+  EXPECT_EQ(summary["verdict"], "backlash");
+  EXPECT_NEAR(summary["gap_rad"].get<double>(), 0.019, 4e-4);
+}
+
+TEST_F(Stream, ABrokenLineIsRefusedAfterTheSummaryOfWhatStoodBeforeIt) {
+  const auto told = stream("(head -4001 r.csv; echo 4.0,what,0.1,0,gap)");
+  EXPECT_EQ(told.status, 2);
+  EXPECT_THAT(told.err, HasSubstr("standard input:4002: "));
+  EXPECT_THAT(told.err, HasSubstr(", expected "));
+  const std::vector<json> all = lines(told.out);
+  ASSERT_GE(all.size(), 5u);
+  EXPECT_EQ(all.back()["kind"], "summary");
+  EXPECT_EQ(all.back()["samples"], 4000);
+  const auto empty = stream("true");
+  EXPECT_EQ(empty.status, 2);
+  EXPECT_EQ(empty.out, "");
+  EXPECT_THAT(empty.err, StartsWith("standard input: is empty, expected a header"));
+}
+
+TEST_F(Stream, EventsAreThereAtOnceAndCtrlCEndsWithTheSummary) {
+  shell("rm -f told pipe; mkfifo pipe; (cat r.csv; exec sleep 60) >pipe & producer=$!; " GAPSCOPE_EXECUTABLE
+        " detect --stream <pipe >told 2>err & detector=$!; "
+        "for i in $(seq 300); do grep -q event told 2>/dev/null && break; sleep 0.1; done; cp told before; "
+        "kill -INT $detector; wait $detector; echo $? >status; kill $producer");
+  EXPECT_THAT(text("before"), HasSubstr("\"kind\":\"event\""));
+  EXPECT_EQ(lines(text("told")).back()["kind"], "summary");
+  EXPECT_EQ(text("err"), "gapscope: interrupted\n");
+  EXPECT_EQ(text("status"), "130\n");
+}
+
+TEST_F(Stream, AReaderThatLeavesIsNoFault) {
+  shell("(" GAPSCOPE_EXECUTABLE " detect --stream <r.csv 2>err; echo $? >status) | head -1 >first");
+  EXPECT_EQ(text("status"), "0\n");
+  EXPECT_EQ(text("err"), "");
+  EXPECT_EQ(lines(text("first")).at(0)["kind"], "learnt");
+}
+
+}  // namespace
+}  // namespace gapscope
