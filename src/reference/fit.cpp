@@ -75,6 +75,12 @@ void report_motion(const FitProblem& problem, const Outcome& outcome, FitSummary
     summary.initial_states.push_back({problem.recordings[r].file, start_state(problem, outcome.solution, r)});
   }
   summary.rmse = free_run_error(problem, summary.traces);
+  if (const double still = rms_of_motion(problem); summary.rmse > still)
+    summary.warnings.insert(
+        summary.warnings.begin(),
+        fmt::format("the free run misses x1 by {:.3g} times what a motor that stood still would: "
+                    "look at the sign and the unit of u first (gapscope check).",
+                    summary.rmse / still));
   summary.innovation_rmse = prediction_error(problem, summary.traces);
   summary.mode_errors = errors_by_mode(problem, summary.traces);
   test_residuals(problem, outcome.objective_hz == 0.0, summary);

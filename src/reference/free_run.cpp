@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "gapscope/base/statistics.h"
 #include "reference/rollout.h"
 
 namespace gapscope::internal {
@@ -59,6 +60,16 @@ double free_run_error(const FitProblem& problem, const std::vector<FitTrace>& tr
 }
 double prediction_error(const FitProblem& problem, const std::vector<FitTrace>& traces) {
   return error(problem, traces, &FitTrace::predicted_x1);
+}
+
+double rms_of_motion(const FitProblem& problem) {
+  double sum = 0.0, count = 0.0;
+  for (const MotorTrace& t : problem.recordings) {
+    const double center = mean(t.x1);
+    for (const double x : t.x1) sum += (x - center) * (x - center);
+    count += static_cast<double>(t.size());
+  }
+  return std::sqrt(sum / count);
 }
 
 std::vector<ModeError> errors_by_mode(const FitProblem& problem, const std::vector<FitTrace>& traces) {

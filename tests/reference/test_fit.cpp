@@ -225,6 +225,17 @@ TEST(Fit, AParameterThatRunsIntoItsBoundIsNamed) {
   EXPECT_NE(summary.full_report().find("gap ended at its bound"), std::string::npos);
 }
 
+TEST(Fit, AWrongSignOfTheInputIsSuspectedBeforeAnythingElse) {
+  Recording recording = BlindRig{}.recording();
+  ReferenceModel model = known_model({});
+  estimate(model, kGap, 0.02);
+  EXPECT_EQ(fit_one(recording, model).full_report().find("sign"), std::string::npos);
+  for (double& u : recording.u) u = -u;
+  const FitSummary turned = fit_one(recording, model);
+  ASSERT_FALSE(turned.warnings.empty());
+  EXPECT_NE(turned.warnings.front().find("the sign and the unit of u"), std::string::npos);
+}
+
 TEST(Fit, ATightPriorHoldsAParameterThatTheRecordingHardlySees) {
   BlindRig run;
   run.sensor = blind::BlindSensor::with_bits(12);
