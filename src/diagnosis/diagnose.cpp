@@ -20,100 +20,16 @@ namespace gapscope {
 namespace internal {
 namespace {
 
-constexpr double kBadRepetition = 10.0;    ///< floors of the encoder
-constexpr double kTrainShare = 2.0 / 3.0;  ///< of each file, where nothing else is held out
-constexpr double kCoarser = 1.5;           ///< times the sheet's quantum: another encoder than it says
-constexpr double kOnGrid = 0.1;            ///< [quanta] from a whole number of them
-constexpr double kShareOnGrid = 0.9;
+constexpr double kBadRepetition = 10.0;  ///< floors of the encoder
 constexpr double kNearFloor = 4.0;  ///< mean square [floor²] of a fit that may only have missed the best one
 constexpr double kAsGood = 0.05;    ///< S: as good a fit
 constexpr double kNearlyWhole = 0.97;  ///< shrink
 constexpr double kFarBetter = 0.5;     ///< of the mean square
-
-void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
-  for (const MotorTrace& file : files) {
-    const auto cut = static_cast<std::size_t>(kTrainShare * static_cast<double>(file.size()));
-    study.train.push_back(part(file, 0, cut));
-    study.held_out.traces.push_back(file);
-    study.held_out.scored_from.push_back(cut);
-  }
-}
-
-/// Whether nearly all positions are whole numbers of quanta apart: a steady speed repeats its step, too.
-bool counts_in(std::span<const double> x1, double quantum) {
-  const auto whole = [&](double x) {
-    const double counts = (x - x1.front()) / quantum;
-    return std::abs(counts - std::round(counts)) < kOnGrid;
-  };
-  return static_cast<double>(std::count_if(x1.begin(), x1.end(), whole)) >
-         kShareOnGrid * static_cast<double>(x1.size());
-}
-
-/// Least quantum that the samples of all recordings show; 0 unless each of them is coarser than its sheet.
-double coarser_quantum(const std::vector<MotorTrace>& traces) {
-  double least = kInfinity;
-  for (const MotorTrace& t : traces) {
-    const double seen = t.quantum > 0.0 ? seen_quantum(t.x1) : 0.0;
-    if (seen < kCoarser * t.quantum || seen == 0.0 || !counts_in(t.x1, seen)) return 0.0;
-    least = std::min(least, seen);
-  }
-  return least;
-}
-
-/// Of a recording whose counts are coarser than the sheet's the floor is the sheet's: they are what is
-/// missing.
-double floor_of(const MotorTrace& t, bool coarser) {
-  return coarser ? t.quantum / std::sqrt(12.0) : encoder_floor(t);
-}
-
-}  // namespace
-
-Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
-                 const ReferenceModel& model, const DiagnosisOptions& options) {
-  Study study{{}, {}, model, {}, kSlowHz, 0.0, options};
-  if (held_out.empty()) {
-    hold_out_the_last_third(train, study);
-  } else {
-    study.train.assign(train.begin(), train.end());
-    study.held_out.traces.assign(held_out.begin(), held_out.end());
-    study.held_out.scored_from.assign(held_out.size(), 0);
-  }
-  study.seen_quantum = coarser_quantum(study.held_out.traces);
-  for (const MotorTrace& t : study.held_out.traces)
-    study.held_out.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
-  for (const MotorTrace& t : study.held_out.traces) study.held_out.periods.push_back(input_period(t));
-  for (const std::string& name : options.excluded) GAPSCOPE_REQUIRE(find_effect(name) != nullptr);
-  for (const EffectEntry* entry : effect_table())
-    if (std::find(options.excluded.begin(), options.excluded.end(), entry->name) == options.excluded.end())
-      study.catalogue.push_back(entry);
-  return study;
-}
-
-std::vector<MotorTrace> everything(const Study& study) {
-  const std::vector<MotorTrace>& held = study.held_out.traces;
-  const bool parts_are_fitted = study.held_out.scored_from.front() > 0;  // these stand last
-  std::vector<MotorTrace> all(study.train.begin(),
-                              study.train.end() - (parts_are_fitted ? std::ssize(held) : 0));
-  all.insert(all.end(), held.begin(), held.end());
-  return all;
-}
-
-namespace {
+constexpr double kFarMore = 20.0;      ///< times the size that is left on what was fitted
 
 Judged judged_nominal(const Study& study) {
   return judge(nullptr, fit_nominal(study.train, study.sheet, study.options.fit, study.observer_hz),
                study.held_out, study.observer_hz);
-}
-
-HeldOut whole(const Study& study) {
-  HeldOut all;
-  all.traces = study.train;
-  all.scored_from.assign(all.traces.size(), 0);
-  for (const MotorTrace& t : all.traces) {
-    all.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
-    all.periods.push_back(input_period(t));
-  }
-  return all;
 }
 
 /// The nominal model where one set of numbers is at the floor on all recordings.
@@ -124,7 +40,7 @@ std::optional<Judged> explained_together(const Study& study, const Judged& nomin
   if (!(nominal.fitted.mean_square < kNearFloor)) return {};
   const double hz = study.observer_hz;
   const std::vector<MotorTrace> all = everything(study);
-  const HeldOut own = whole(study);
+  const HeldOut own = fitted_as_held_out(study);
   const double alone = judge(nullptr, nominal.fitted, own, hz).score;
   const auto explains = [&](const Judged& held_out) {
     if (!at_floor(held_out)) return false;
@@ -147,7 +63,7 @@ Repeatability repeatability(const Study& study, const FittedModel& model) {
   const Repeatability seen =
       repeatability_of(play(model, study.held_out, study.observer_hz, false), study.held_out);
   if (!std::isnan(seen.innovation)) return seen;
-  const HeldOut own = whole(study);
+  const HeldOut own = fitted_as_held_out(study);
   return repeatability_of(play(model, own, study.observer_hz, false), own);
 }
 
@@ -230,6 +146,15 @@ bool asked_too_little(const Study& study, const Findings& found) {
   return least < kExplained;
 }
 
+/// The same of a search that has found nothing, where the others show far more than the fitted ones do.
+bool asked_far_too_little(const Study& study, const Findings& found) {
+  if (found.candidates.empty() || study.repeats_badly() || study.held_out.scored_from.front() > 0)
+    return false;
+  double least = found.before.fitted.mean_square;
+  for (const Judged& c : found.candidates) least = std::min(least, c.fitted.mean_square);
+  return least < kNearFloor && found.candidates.front().median_free > kFarMore * std::sqrt(least);
+}
+
 /// Moves the first half of what is held out to what is fitted.
 void fit_half_of_the_held_out(Study& study) {
   HeldOut& held = study.held_out;
@@ -250,21 +175,39 @@ std::string undetermined(const Findings& found) {
   return left + "; their first half was fitted with the others, and the second half judges.";
 }
 
-}  // namespace
-
-Findings investigate(Study& study) {
-  const Findings found = first_look(study);
-  if (!asked_too_little(study, found)) return found;
+/// With half of what is held out among what is fitted; nothing where the other half is not worth a judgement,
+/// and the study stays as it was.
+std::optional<Findings> look_wider(Study& study, const Findings& found) {
   const std::vector<MotorTrace> train = study.train;
   const HeldOut held_out = study.held_out;
   fit_half_of_the_held_out(study);
   Findings wider = first_look(study);
-  if (wider.candidates.empty() || study.repeats_badly()) {  // the other half is not worth a judgement
+  if (wider.candidates.empty() || study.repeats_badly()) {
     study.train = train, study.held_out = held_out, study.observer_hz = kSlowHz;
-    return found;
+    return {};
   }
   wider.alone = std::max(found.before.median_free, found.before.median_innovation);
   return wider;
+}
+
+}  // namespace
+
+Findings investigate(Study& study) {
+  Findings found = first_look(study);
+  if (asked_too_little(study, found))
+    if (std::optional<Findings> wider = look_wider(study, found)) return std::move(*wider);
+  return found;
+}
+
+Search search(Study& study) {
+  Findings found = investigate(study);
+  Additions added = add_further(study, found);
+  if (added.accepted || !asked_far_too_little(study, found)) return {std::move(found), std::move(added)};
+  if (std::optional<Findings> wider = look_wider(study, found)) {
+    added = add_further(study, *wider);
+    found = std::move(*wider);
+  }
+  return {std::move(found), std::move(added)};
 }
 
 }  // namespace internal
@@ -282,8 +225,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   using namespace internal;
   GAPSCOPE_REQUIRE(!train.empty());
   Study study = make_study(train, held_out, model, options);
-  const Findings found = investigate(study);
-  const Additions added = add_further(study, found);
+  const auto [found, added] = search(study);
   Diagnosis diagnosis = report_back(study, found, added);
   diagnosis.evidence = evidence_of(study, found);
   if (held_out.empty())

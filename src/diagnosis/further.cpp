@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/mismatch_size.h"
 #include "diagnosis/probability.h"
 
 namespace gapscope::internal {
@@ -10,15 +11,19 @@ namespace {
 constexpr std::size_t kMostEffects = 4;
 constexpr double kWorthFollowing = 0.3;         ///< S that an unsure first step gains
 constexpr double kWorthFollowingWindows = 0.6;  ///< share of the windows that it improves
-constexpr std::size_t kBranches = 2;            ///< first steps that are followed where the best is unsure
+constexpr std::size_t kBranches = 2;            ///< first steps that are followed where the best is unsure,
+constexpr std::size_t kFittedBranches = 2;      ///< and those that explain most of what was fitted,
+constexpr double kMuchOfTheFit = 0.7;           ///< that is, which leave less than this of its mean square
 constexpr double kClearlyBetter = 0.1;          ///< S, of a look-alike
 constexpr double kStandIn = 0.15;               ///< S that an earlier effect must still be worth
 constexpr double kLaterGain = 0.5;     ///< S of a later step that stays far from the floor for an earlier law
 constexpr double kLaterWindows = 0.8;  ///< share of the windows that it improves
 constexpr double kLaterMargin = 0.5;   ///< S by which it beats all others
+constexpr double kFitCollapses = 0.1;  ///< of the mean square that was fitted: then fewer windows will do
 constexpr double kAskedFor = 0.85;     ///< of the mean square that was fitted
 constexpr double kMuchOfTheWay = 0.4;  ///< share of the log distance to the floor that makes up for an unsure
-constexpr double kSureMargin = 0.9;    ///< … first step, with a second one that beats all others by this S
+constexpr double kMostOfTheSize = 0.8;  ///< of the free runs' error: the same
+constexpr double kSureMargin = 0.9;     ///< … first step, with a second one that beats all others by this S
 
 /// The model so far as the one to add to. An effect that others contain comes last: they take its place.
 Judged base_of(const Judged& model) {
@@ -132,29 +137,53 @@ bool contains(const FittedModel& model, const EffectEntry* entry) {
 }
 
 bool clearly_better(const Judged& before, const Judged& best, const Decision& d) {
-  return d.gain >= kLaterGain && d.windows_better >= kLaterWindows && d.margin >= kLaterMargin &&
-         best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
+  const double left = best.fitted.mean_square / before.fitted.mean_square;
+  const double windows = left < kFitCollapses ? kWorthFollowingWindows : kLaterWindows;
+  return d.gain >= kLaterGain && d.windows_better >= windows && d.margin >= kLaterMargin && left < kAskedFor;
 }
 
 bool borne_out(const Judged& before, const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
   if (a.explained || at_floor(a.after)) return true;
-  return a.steps.front().decision.margin >= kSureMargin && relative_gain(before, a.after) >= kMuchOfTheWay;
+  return a.steps.front().decision.margin >= kSureMargin &&
+         (relative_gain(before, a.after) >= kMuchOfTheWay ||
+          shrink_of(before.median_free, a.after.median_free) >= kMostOfTheSize);
+}
+
+std::vector<const Judged*> branches(const Findings& found) {
+  std::vector<const Judged*> chosen;
+  for (const Judged& c : found.candidates)
+    if (chosen.size() < kBranches && worth_following(found.before, c)) chosen.push_back(&c);
+  std::vector<const Judged*> fitted;
+  for (const Judged& c : found.candidates)
+    if (c.fitted.mean_square < kMuchOfTheFit * found.before.fitted.mean_square) fitted.push_back(&c);
+  std::stable_sort(fitted.begin(), fitted.end(), [](const Judged* a, const Judged* b) {
+    return a->fitted.mean_square < b->fitted.mean_square;
+  });
+  for (std::size_t i = 0; i < std::min(fitted.size(), kFittedBranches); ++i)
+    if (std::find(chosen.begin(), chosen.end(), fitted[i]) == chosen.end()) chosen.push_back(fitted[i]);
+  return chosen;
 }
 
 Additions add_further(const Study& study, const Findings& found) {
   const Decision& sure = found.decision;
   const auto& ranked = found.candidates;
-  if (ranked.empty() || !(sure.accepted || worth_following(found.before, ranked.front()))) return {};
-  Additions a = follow(study, ranked.front(), sure.group);
-  a.accepted = sure.accepted || borne_out(found.before, a) || (sure.in_part && a.effects.size() > 1);
-  for (std::size_t i = 1; !a.accepted && i < std::min(kBranches, ranked.size()); ++i) {
-    if (!worth_following(found.before, ranked[i])) continue;
-    Additions other = follow(study, ranked[i], {ranked[i].entry});
-    other.accepted = borne_out(found.before, other);
-    if (other.accepted) a = std::move(other);
+  if (ranked.empty()) return {};
+  if (sure.accepted) {
+    Additions a = follow(study, ranked.front(), sure.group);
+    a.accepted = true;
+    return a;
   }
-  return a;
+  Additions best;
+  for (const Judged* first : branches(found)) {
+    const bool is_best = first == &ranked.front();
+    Additions a = follow(study, *first, is_best ? sure.group : std::vector{first->entry});
+    a.accepted = borne_out(found.before, a) || (is_best && sure.in_part && a.effects.size() > 1);
+    const bool better = a.accepted && (!best.accepted || a.after.score < best.after.score);
+    if (better || (is_best && !best.accepted)) best = std::move(a);
+    if (best.accepted && (best.explained || at_floor(best.after))) break;
+  }
+  return best;
 }
 
 }  // namespace gapscope::internal

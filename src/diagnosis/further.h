@@ -37,12 +37,27 @@ struct Additions {
 /// towards it.
 Additions add_further(const Study& study, const Findings& found);
 
+/// All steps.
+struct Search {
+  Findings found;
+  Additions added;
+};
+/// Where they lead nowhere and what is held out shows far more than what was fitted, the first half of it is
+/// fitted, too, as in investigate().
+Search search(Study& study);
+
+/// First steps to follow where the best is unsure in itself: those that gain on what is held out, then those
+/// that explain most of what was fitted. Where half of the cause is still missing, the numbers of the other
+/// half are often so wrong that no held-out recording shows its worth.
+std::vector<const Judged*> branches(const Findings& found);
+
 /// Whether a later step counts that does not come far towards the floor, since an earlier effect's law is
 /// another than the real one's and keeps it away.
 bool clearly_better(const Judged& before, const Judged& best, const Decision& decision);
 
 /// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
-/// themselves and come far towards it. A first step that is there alone has been decided upon.
+/// themselves and come far towards it, or leave little of the free runs' size. A first step that is there
+/// alone has been decided upon.
 bool borne_out(const Judged& before, const Additions& additions);
 
 /// Whether the effect is in the model.

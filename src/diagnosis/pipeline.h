@@ -23,6 +23,9 @@ struct Study {
 Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                  const ReferenceModel& model, const DiagnosisOptions& options);
 
+/// The recordings that are fitted, to be judged themselves.
+HeldOut fitted_as_held_out(const Study& study);
+
 /// What is fitted and what is held out.
 std::vector<MotorTrace> everything(const Study& study);
 

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <sstream>
+#include <string_view>
 
 #include "diagnosis/further.h"
 #include "diagnosis/look_alikes.h"
@@ -117,13 +119,15 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
   options.threads = 1;
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
   const double begin = thread_seconds();
+  double first = kNaN;
+  options.progress = [&](std::string_view what) {
+    if (std::isnan(first) && what.starts_with("looking for a further")) first = thread_seconds() - begin;
+  };
   Study study = make_study(train, held, pair.sheet, options);
-  const Findings f = investigate(study);
-  const double first = thread_seconds() - begin;
-  const Additions a = add_further(study, f);
+  const auto [f, a] = search(study);
   StudyRow row;
   row.seconds = thread_seconds() - begin;
-  row.probability = row.seconds / first;
+  row.probability = std::isnan(first) ? 1.0 : row.seconds / first;
   row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;
   row.severity = pair.severity;
   row.before = truth.size() > 1 ? left_by_one(f, truth) : left(f.before);

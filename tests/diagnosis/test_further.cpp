@@ -41,6 +41,27 @@ TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloorOrFarTowards
   EXPECT_FALSE(borne_out(before, two(false, model(0.3, 1.1, 1.0)))) << "no second step was taken";
 }
 
+TEST(FurtherSteps, BearOutAnUnsureFirstOneWhereTheyLeaveLittleOfTheSize) {
+  const Judged before = model(15.2, 3300.0, 1e4);
+  EXPECT_TRUE(borne_out(before, two(true, model(10.2, 280.0, 4.0))));
+  EXPECT_FALSE(borne_out(before, two(true, model(10.2, 900.0, 4.0))));
+  EXPECT_FALSE(borne_out(before, two(true, model(10.2, 280.0, 4.0), 0.4)))
+      << "a second step that is not clear";
+}
+
+TEST(FurtherSteps, BeginWhereTheHeldOutErrorShrinksOrWhereMuchOfTheFitIsExplained) {
+  Findings found;
+  found.before = model(12.0, 1600.0, 1e4);
+  found.candidates = {model(11.0, 1500.0, 9.5e3), model(11.95, 1550.0, 9e3), model(12.0, 1300.0, 6e3),
+                      model(12.1, 2400.0, 5e3), model(12.2, 2400.0, 4e3)};
+  for (Judged& c : found.candidates) c.windows_better = 1.0;
+  const auto chosen = branches(found);
+  ASSERT_EQ(chosen.size(), 3u);
+  EXPECT_EQ(chosen[0], &found.candidates[0]);
+  EXPECT_EQ(chosen[1], &found.candidates[4]);
+  EXPECT_EQ(chosen[2], &found.candidates[3]);
+}
+
 TEST(FurtherSteps, DoNotBearOutAFirstOneThatStandsAlone) {
   Additions a = two(true, model(0.3, 1.1, 1.0));
   a.steps.clear();
@@ -59,6 +80,7 @@ TEST(FurtherSteps, CountFarFromTheFloorOnlyWhereTheyAreClearInEveryRespect) {
   EXPECT_FALSE(clearly_better(before, best, step(0.25, 0.87, 0.9))) << "gain";
   EXPECT_FALSE(clearly_better(before, best, step(0.9, 0.2, 0.9))) << "margin";
   EXPECT_FALSE(clearly_better(before, best, step(0.9, 0.87, 0.6))) << "windows";
+  EXPECT_TRUE(clearly_better(before, model(6.1, 60.0, 300.0), step(0.9, 0.87, 0.7)));
   EXPECT_FALSE(clearly_better(before, model(6.1, 60.0, 4900.0), step(0.9, 0.87, 0.9)))
       << "what was fitted does not ask for it";
 }

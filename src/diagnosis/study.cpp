@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/pipeline.h"
+#include "diagnosis/repeatability.h"
+#include "gapscope/base/require.h"
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kTrainShare = 2.0 / 3.0;  ///< of each file, where nothing else is held out
+constexpr double kCoarser = 1.5;           ///< times the sheet's quantum: another encoder than it says
+constexpr double kOnGrid = 0.1;            ///< [quanta] from a whole number of them
+constexpr double kShareOnGrid = 0.9;
+
+void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
+  for (const MotorTrace& file : files) {
+    const auto cut = static_cast<std::size_t>(kTrainShare * static_cast<double>(file.size()));
+    study.train.push_back(part(file, 0, cut));
+    study.held_out.traces.push_back(file);
+    study.held_out.scored_from.push_back(cut);
+  }
+}
+
+/// Whether nearly all positions are whole numbers of quanta apart: a steady speed repeats its step, too.
+bool counts_in(std::span<const double> x1, double quantum) {
+  const auto whole = [&](double x) {
+    const double counts = (x - x1.front()) / quantum;
+    return std::abs(counts - std::round(counts)) < kOnGrid;
+  };
+  return static_cast<double>(std::count_if(x1.begin(), x1.end(), whole)) >
+         kShareOnGrid * static_cast<double>(x1.size());
+}
+
+/// Least quantum that the samples of all recordings show; 0 unless each of them is coarser than its sheet.
+double coarser_quantum(const std::vector<MotorTrace>& traces) {
+  double least = kInfinity;
+  for (const MotorTrace& t : traces) {
+    const double seen = t.quantum > 0.0 ? seen_quantum(t.x1) : 0.0;
+    if (seen < kCoarser * t.quantum || seen == 0.0 || !counts_in(t.x1, seen)) return 0.0;
+    least = std::min(least, seen);
+  }
+  return least;
+}
+
+/// Of a recording whose counts are coarser than the sheet's the floor is the sheet's: they are what is
+/// missing.
+double floor_of(const MotorTrace& t, bool coarser) {
+  return coarser ? t.quantum / std::sqrt(12.0) : encoder_floor(t);
+}
+
+}  // namespace
+
+Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
+                 const ReferenceModel& model, const DiagnosisOptions& options) {
+  Study study{{}, {}, model, {}, kSlowHz, 0.0, options};
+  if (held_out.empty()) {
+    hold_out_the_last_third(train, study);
+  } else {
+    study.train.assign(train.begin(), train.end());
+    study.held_out.traces.assign(held_out.begin(), held_out.end());
+    study.held_out.scored_from.assign(held_out.size(), 0);
+  }
+  study.seen_quantum = coarser_quantum(study.held_out.traces);
+  for (const MotorTrace& t : study.held_out.traces)
+    study.held_out.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
+  for (const MotorTrace& t : study.held_out.traces) study.held_out.periods.push_back(input_period(t));
+  for (const std::string& name : options.excluded) GAPSCOPE_REQUIRE(find_effect(name) != nullptr);
+  for (const EffectEntry* entry : effect_table())
+    if (std::find(options.excluded.begin(), options.excluded.end(), entry->name) == options.excluded.end())
+      study.catalogue.push_back(entry);
+  return study;
+}
+
+std::vector<MotorTrace> everything(const Study& study) {
+  const std::vector<MotorTrace>& held = study.held_out.traces;
+  const bool parts_are_fitted = study.held_out.scored_from.front() > 0;  // these stand last
+  std::vector<MotorTrace> all(study.train.begin(),
+                              study.train.end() - (parts_are_fitted ? std::ssize(held) : 0));
+  all.insert(all.end(), held.begin(), held.end());
+  return all;
+}
+
+HeldOut fitted_as_held_out(const Study& study) {
+  HeldOut all;
+  all.traces = study.train;
+  all.scored_from.assign(all.traces.size(), 0);
+  for (const MotorTrace& t : all.traces) {
+    all.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
+    all.periods.push_back(input_period(t));
+  }
+  return all;
+}
+
+}  // namespace gapscope::internal
