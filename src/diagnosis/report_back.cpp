@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kClearMargin = 0.6;  ///< S to the best other group: the evidence is not weak
 constexpr std::size_t kMostRivals = 2;
+constexpr double kRivalGain = 0.1;   ///< S that a rival gains at least,
+constexpr double kRivalShare = 0.5;  ///< and of what the best gains: else no experiment is worth its time
 
 std::vector<NamedValue> effect_values(const ModelEffect& effect) {
   std::vector<NamedValue> values;
@@ -143,12 +145,14 @@ void tell_steps(const Study& study, const Additions& added, Diagnosis& d) {
 }
 
 /// The best candidate of a step and the next one that the data hardly tells from it; none where it is clear.
-/// What contains the best is no rival: parsimony has decided.
-std::vector<Rival> rivals_of(const std::vector<Judged>& candidates, const Decision& decision) {
+/// What contains the best is no rival: parsimony has decided; nor is what explains far less.
+std::vector<Rival> rivals_of(const std::vector<Judged>& candidates, const Judged& before,
+                             const Decision& decision) {
   if (decision.accepted && decision.group.size() < 2 && decision.margin >= kClearMargin) return {};
   std::vector<Rival> rivals;
   for (const Judged& c : candidates) {
     if (rivals.size() == kMostRivals || !std::isfinite(c.score)) break;
+    if (before.score - c.score < std::max(kRivalGain, kRivalShare * decision.gain)) break;
     const bool contains_best = nested_parent(*c.entry) == candidates.front().entry;
     if (!reads_counts(*c.entry) && !contains_best) rivals.push_back({c.entry->name, c.fitted.model});
   }
@@ -160,9 +164,10 @@ std::vector<Rival> rivals_of(const std::vector<Judged>& candidates, const Decisi
 std::vector<Rival> open_question(const Findings& found, const Additions& added) {
   std::vector<Rival> rivals;
   if (!(added.accepted && !found.decision.accepted))  // else a later step has decided it
-    rivals = rivals_of(found.candidates, found.decision);
+    rivals = rivals_of(found.candidates, found.before, found.decision);
   for (const FurtherStep& step : added.steps)
-    if (rivals.empty() && step.decision.accepted) rivals = rivals_of(step.candidates, step.decision);
+    if (rivals.empty() && step.decision.accepted)
+      rivals = rivals_of(step.candidates, step.before, step.decision);
   return rivals;
 }
 

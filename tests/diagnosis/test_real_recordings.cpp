@@ -63,6 +63,7 @@ TEST(RealRecordings, ABallScrewAxisLacksCoulombFrictionAndNoBacklash) {
   const Diagnosis d = diagnose(train, held_out, plain_axis());
   expect_friction(d);
   expect_asymmetry_next(d);
+  EXPECT_TRUE(d.rivals.empty()) << d.rivals[1].effect << " explains next to nothing, and is no rival";
 }
 
 TEST(RealRecordings, WhereCoulombFrictionAloneDoesNotHelpItsAsymmetryIsNamed) {
