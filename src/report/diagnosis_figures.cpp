@@ -23,6 +23,8 @@ const MismatchTrace* shown_trace(const DiagnosisResult& r) {
 
 std::string length_unit(const DiagnosisResult& r) { return r.rotation ? "rad" : "m"; }
 std::string torque_unit_of(const DiagnosisResult& r) { return r.rotation ? "N·m" : "N"; }
+std::string torque_word(const DiagnosisResult& r) { return r.rotation ? "torque" : "force"; }
+std::string angle_word(const DiagnosisResult& r) { return r.rotation ? "motor angle" : "displacement"; }
 bool added(const DiagnosisResult& r) { return !r.diagnosis.effects.empty(); }
 
 std::string readable(std::string name) {
@@ -68,10 +70,10 @@ Panel pair_panel(const DiagnosisResult& r, const MismatchTrace& t, const std::st
 }
 
 /// Bars as a band from zero to the share, and the expected share as a mark.
-Panel map_panel(const std::string& title, const std::vector<MapShare>& map) {
+Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::vector<MapShare>& map) {
   Panel panel;
   panel.title = title;
-  panel.x = {"share of the squared residual torque", "", {0.0, 1.0}, {}, {}};
+  panel.x = {"share of the squared residual " + torque_word(r), "", {0.0, 1.0}, {}, {}};
   Series share{"share", {kVermillion, 4.0, {}}, {}, {}},
       expected{"of an error without a place", {kGrey, 4.0, {}}, {}, {}};
   share.joined = expected.joined = false;
@@ -105,8 +107,8 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
   figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs", "$x_1$ − free run",
                                      length_unit(r), t->error_before, t->error_after));
-  figure.panels.push_back(pair_panel(r, *t, "Residual torque", "residual torque", torque_unit_of(r),
-                                     t->torque_before, t->torque_after));
+  figure.panels.push_back(pair_panel(r, *t, "Residual " + torque_word(r), "residual " + torque_word(r),
+                                     torque_unit_of(r), t->torque_before, t->torque_after));
   Panel input = time_panel("Held-out recording", "displacement $x_1$", length_unit(r), *t);
   input.series.push_back(over_time("", measured_style(), *t, t->x1));
   figure.panels.push_back(input);
@@ -157,28 +159,28 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
   if (w.mode.empty()) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
   figure.width = 3200.0;
   figure.columns = 2;
-  figure.panels = {map_panel("Mode", w.mode),
-                   map_panel("Direction of motion", w.direction),
-                   map_panel("Speed", w.speed),
-                   map_panel("Motor angle", w.angle),
-                   map_panel("Torque of the input", w.input),
-                   map_panel("Frequency", w.frequency),
-                   map_panel("Time", w.time)};
-  figure.reading = "The residual torque is " + w.headline + ".";
+  figure.panels = {map_panel(r, "Mode", w.mode),
+                   map_panel(r, "Direction of motion", w.direction),
+                   map_panel(r, "Speed", w.speed),
+                   map_panel(r, r.rotation ? "Motor angle" : "Displacement", w.angle),
+                   map_panel(r, r.rotation ? "Torque of the input" : "Force of the input", w.input),
+                   map_panel(r, "Frequency", w.frequency),
+                   map_panel(r, "Time", w.time)};
+  figure.reading = "The residual " + torque_word(r) + " is " + w.headline + ".";
   return figure;
 }
 
 FigureData diagnosis_torque_map(const DiagnosisResult& r) {
   FigureData figure;
   figure.file = "diagnosis_torque_map.png";
-  figure.title = "Residual torque of the nominal model";
+  figure.title = "Residual " + torque_word(r) + " of the nominal model";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
   const auto scatter = [&](const std::string& title, const Axis& x, const auto& of) {
     Panel panel;
     panel.title = title;
     panel.x = x;
-    panel.y = {"residual torque", torque_unit_of(r), {}, {}, {}};
+    panel.y = {"residual " + torque_word(r), torque_unit_of(r), {}, {}, {}};
     panel.height = 520.0;
     Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}};
     plus.joined = minus.joined = false;
@@ -192,14 +194,16 @@ FigureData diagnosis_torque_map(const DiagnosisResult& r) {
       if (!s.x.empty()) panel.series.push_back(s);
     return panel;
   };
-  figure.panels.push_back(scatter("Over the motor angle", {"displacement $x_1$", length_unit(r), {}, {}, {}},
+  figure.panels.push_back(scatter("Over the " + angle_word(r),
+                                  {"displacement $x_1$", length_unit(r), {}, {}, {}},
                                   [&](std::size_t i) { return t->x1[i]; }));
   figure.panels.push_back(
       scatter("Over the input", {"input $u$", "", {}, {}, {}}, [&](std::size_t i) { return t->u[i]; }));
   const double periods = r.diagnosis.where.periods_per_turn;
-  figure.reading = std::isfinite(periods)
-                       ? fmt::format("It repeats with the motor angle, {:.3g} cycles per turn.", periods)
-                       : "No cycle over the motor angle stands out.";
+  const std::string every = r.rotation ? fmt::format("{:.3g} cycles per turn", periods)
+                                       : fmt::format("every {:.4g} mm", 2e3 * kPi / periods);
+  figure.reading = std::isfinite(periods) ? "It repeats with the " + angle_word(r) + ", " + every + "."
+                                          : "No cycle over the " + angle_word(r) + " stands out.";
   return figure;
 }
 
