@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal {
@@ -27,7 +28,7 @@ Database::~Database() { sqlite3_close(handle_); }
 
 void Database::fail() const {
   const int code = sqlite3_errcode(handle_);
-  const std::string what = sqlite3_errmsg(handle_);
+  const std::string what = printable(sqlite3_errmsg(handle_), 200);
   if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT ||
       code == SQLITE_ERROR)  // the last: a table is not there
     throw ConfigError(file_, "is damaged or no store (" + what + "), expected one that `campaign` wrote");

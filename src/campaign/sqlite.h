@@ -21,6 +21,7 @@ class Database {
   void execute(const std::string& sql);
   [[noreturn]] void fail() const;
   sqlite3* handle() const { return handle_; }
+  const std::string& file() const { return file_; }
 
  private:
   std::string file_;

@@ -1,18 +1,15 @@
 #include "gapscope/campaign/store.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <mutex>
 
 #include "campaign/sqlite.h"
 #include "campaign/store_header.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/process_lock.h"
 #include "gapscope/base/require.h"
 
 namespace gapscope {
@@ -24,26 +21,13 @@ using internal::Statement;
 
 std::string file_in(const std::string& folder) { return (fs::path(folder) / "results.sqlite").string(); }
 
-/// Keeps other processes from adding to the store in a folder, for as long as it lives. The system lets go of
-/// it when the process dies, however it dies.
-class FolderLock {
- public:
-  explicit FolderLock(const std::string& folder)
-      : handle_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (handle_ >= 0 && flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      close(handle_);
-      throw ConfigError(file_in(folder), "is being written by another process, expected one at a time");
-    }
-  }
-  ~FolderLock() {
-    if (handle_ >= 0) close(handle_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int handle_;
-};
+/// Keeps other processes from adding to the store in a folder.
+std::unique_ptr<ProcessLock> locked(const std::string& folder) {
+  auto lock = std::make_unique<ProcessLock>(folder);
+  if (lock->held_by_another())
+    throw ConfigError(file_in(folder), "is being written by another process, expected one at a time");
+  return lock;
+}
 
 std::string existing(const std::string& folder) {
   if (!fs::is_regular_file(file_in(folder)))
@@ -97,17 +81,17 @@ std::string selection(const CampaignHeader& header, bool configurations) {
 std::string to_string(const CampaignShard& shard) { return fmt::format("{}/{}", shard.number, shard.of); }
 
 struct CampaignStore::Connection {
-  std::unique_ptr<FolderLock> lock;
+  std::unique_ptr<ProcessLock> lock;
   Database database;
   std::mutex mutex;
   std::unique_ptr<Statement> insert_run, insert_timing;
 
-  Connection(const std::string& file, std::unique_ptr<FolderLock> held)
+  Connection(const std::string& file, std::unique_ptr<ProcessLock> held)
       : lock(std::move(held)), database(file, lock != nullptr) {}
 };
 
 CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& header) : header_(header) {
-  auto lock = std::make_unique<FolderLock>(made(folder));
+  auto lock = locked(made(folder));
   const std::string file = file_in(folder);
   connection_ = std::make_unique<Connection>(file, std::move(lock));
   Database& database = connection_->database;
@@ -131,6 +115,8 @@ CampaignStore::CampaignStore(const std::string& folder)
 
 CampaignStore::~CampaignStore() = default;
 
+const std::string& CampaignStore::file() const { return connection_->database.file(); }
+
 std::set<std::uint64_t> CampaignStore::done() const {
   std::set<std::uint64_t> runs;
   Statement select(connection_->database, "SELECT run FROM runs");
@@ -150,6 +136,8 @@ void CampaignStore::each(const std::function<void(CampaignRow&, const CampaignTi
     CampaignTiming timing;
     std::int64_t run = 0;
     select.read(run);
+    if (run < 0 || static_cast<std::uint64_t>(run) >= header_.runs)
+      throw ConfigError(file(), fmt::format("holds run {}, expected 0 to {}", run, header_.runs - 1));
     row.run = static_cast<std::uint64_t>(run);
     row.point.resize(header_.axes.size() + header_.drawn.size());
     for (std::string& value : row.point) select.read(value);

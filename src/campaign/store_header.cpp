@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include "campaign/recorded_data.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
 
 namespace gapscope {
@@ -31,6 +33,7 @@ CampaignHeader campaign_header(const CampaignConfig& c, const CampaignShard& sha
 namespace internal {
 namespace {
 
+constexpr double kMostShards = 9e15;  // a double still holds it exactly
 constexpr const char* kSchema = "gapscope.campaign/1";
 
 std::string joined(const std::vector<AxisValue>& values) {
@@ -63,13 +66,14 @@ std::string fact(Database& database, const std::string& file, const char* key) {
   return value;
 }
 
-std::uint64_t number_fact(Database& database, const std::string& file, const char* key) {
+std::uint64_t number_fact(Database& database, const std::string& file, const char* key, double most) {
   const std::string text = fact(database, file, key);
   std::uint64_t value = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size() || value == 0)
-    throw ConfigError(file,
-                      fmt::format("{} is '{}', expected a whole number from 1 on", key, text.substr(0, 40)));
+  const bool fits = value > 0 && static_cast<double>(value) <= most;
+  if (problem != std::errc() || end != text.data() + text.size() || !fits)
+    throw ConfigError(
+        file, fmt::format("{} is {}, expected a whole number from 1 to {:.0f}", key, shown(text), most));
   return value;
 }
 
@@ -89,7 +93,15 @@ void write_axes(Database& database, const CampaignHeader& h) {
   for (const std::string& path : h.drawn) write(path, "drawn", {});
 }
 
-void read_axes(Database& database, CampaignHeader& h) {
+void require_values(const CampaignAxis& axis, const std::string& file) {
+  const auto& [low, high] = axis.range;
+  const bool a_range = std::isfinite(low) && std::isfinite(high) && low < high;
+  if (axis.values.empty() && (!a_range || (axis.logarithmic && low <= 0.0)))
+    throw ConfigError(file, fmt::format("the axis {} has neither values nor a range, expected one of both",
+                                        shown(axis.path)));
+}
+
+void read_axes(Database& database, const std::string& file, CampaignHeader& h) {
   Statement select(database,
                    "SELECT path, kind, logarithmic, low, high, count, listed FROM axes ORDER BY rowid");
   while (select.step()) {
@@ -107,10 +119,12 @@ void read_axes(Database& database, CampaignHeader& h) {
     axis.repeat = kind == "repeat";
     if (count > 0)
       for (const std::string& text : lines_of(listed)) axis.values.push_back(axis_value(text));
-    if (kind == "drawn")
+    if (kind == "drawn") {
       h.drawn.push_back(axis.path);
-    else
-      h.axes.push_back(axis);
+      continue;
+    }
+    require_values(axis, file);
+    h.axes.push_back(axis);
   }
 }
 
@@ -171,7 +185,7 @@ CampaignHeader read_header(Database& database, const std::string& file) {
   if (!has_tables(database))
     throw ConfigError(file, "holds no campaign, expected a store that `campaign` wrote");
   if (const std::string schema = fact(database, file, "schema"); schema != kSchema)
-    throw ConfigError(file, fmt::format("has the schema {}, expected {}", schema, kSchema));
+    throw ConfigError(file, fmt::format("has the schema {}, expected '{}'", shown(schema), kSchema));
   CampaignHeader h;
   h.version = fact(database, file, "version");
   h.name = fact(database, file, "name");
@@ -180,27 +194,27 @@ CampaignHeader read_header(Database& database, const std::string& file) {
   const std::string estimators = fact(database, file, "estimators");
   h.model_free = estimators != "reference";
   h.reference = estimators != "model_free";
-  h.runs = number_fact(database, file, "runs");
-  h.shard = {number_fact(database, file, "shard"), number_fact(database, file, "shards")};
+  h.runs = number_fact(database, file, "runs", kMostCampaignRuns);
+  h.shard = {number_fact(database, file, "shard", kMostShards),
+             number_fact(database, file, "shards", kMostShards)};
   if (h.shard.number > h.shard.of)
     throw ConfigError(
         file, fmt::format("holds shard {}, expected a number up to {}", to_string(h.shard), h.shard.of));
-  read_axes(database, h);
+  read_axes(database, file, h);
   return h;
 }
 
 std::string difference(const CampaignHeader& stored, const CampaignHeader& wanted) {
   if (stored.version != wanted.version)
-    return fmt::format("is of gapscope {}, expected {}", stored.version, wanted.version);
+    return fmt::format("is of gapscope {}, expected {}", shown(stored.version), wanted.version);
   const auto a = lines_of(stored.identity), b = lines_of(wanted.identity);
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
-    const auto shown = [i](const std::vector<std::string>& lines) {
-      return i < lines.size()
-                 ? "'" + lines[i].substr(std::min(lines[i].find_first_not_of(' '), lines[i].size())) + "'"
-                 : std::string("nothing");
+    const auto line = [i](const std::vector<std::string>& lines) {
+      if (i >= lines.size()) return std::string("nothing");
+      return shown(lines[i].substr(std::min(lines[i].find_first_not_of(' '), lines[i].size())), 200);
     };
     if (i >= a.size() || i >= b.size() || a[i] != b[i])
-      return fmt::format("belongs to another campaign: it has {}, expected {}", shown(a), shown(b));
+      return fmt::format("belongs to another campaign: it has {}, expected {}", line(a), line(b));
   }
   return "";
 }

@@ -10,6 +10,8 @@
 #include "campaign/answers.h"
 #include "campaign/axis_names.h"
 #include "campaign/score.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/campaign/store.h"
 
 namespace gapscope {
@@ -31,12 +33,14 @@ struct Binning {
   Interval range;
   bool logarithmic = false;
 
+  /// -1: no value of this axis
   int bin_of(const std::string& value) const {
-    if (!listed.empty()) return listed.at(value);
+    if (const auto found = listed.find(value); found != listed.end()) return found->second;
     const double v = axis_value(value).number;
     const double share = logarithmic ? std::log(v / range.low) / std::log(range.high / range.low)
                                      : (v - range.low) / (range.high - range.low);
-    return std::clamp(static_cast<int>(share * kParts), 0, kParts - 1);
+    if (!listed.empty() || std::isnan(share)) return -1;
+    return static_cast<int>(std::clamp(share * kParts, 0.0, kParts - 1.0));
   }
 };
 
@@ -106,6 +110,19 @@ class TableScorer {
   std::map<std::pair<int, int>, Scorer> cells_;
 };
 
+/// The bin of each axis that a run falls into.
+std::vector<int> bins_of(const CampaignStore& store, const std::vector<Binning>& axes,
+                         const CampaignRow& row) {
+  std::vector<int> bins;
+  for (const Binning& b : axes) {
+    bins.push_back(b.bin_of(row.point[b.place]));
+    if (bins.back() < 0)
+      throw ConfigError(store.file(), fmt::format("run {} has the value {} of {}, expected one of its axis",
+                                                  row.run, shown(row.point[b.place]), shown(b.axis.path)));
+  }
+  return bins;
+}
+
 /// Numbers differ from run to run; what was said is the same.
 std::string without_numbers(const std::string& text) {
   static const std::regex number(R"(-?\d+(\.\d+)?(e[-+]?\d+)?)");
@@ -131,8 +148,7 @@ CampaignSummary summarise(const CampaignStore& store) {
   for (const auto& [a, b] : pairs_of(axes)) pairs.emplace_back(header, a, b);
   std::map<std::string, int> refusals, errors;
   store.each([&](CampaignRow& row, const CampaignTiming&) {
-    std::vector<int> bins;
-    for (const Binning& axis : axes) bins.push_back(axis.bin_of(row.point[axis.place]));
+    const std::vector<int> bins = bins_of(store, axes, row);
     total.add(row);
     for (auto* tables : {&lines, &pairs})
       for (TableScorer& table : *tables) table.add(row, bins);

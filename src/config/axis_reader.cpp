@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "config/yaml_writer.h"
+#include "gapscope/base/errors.h"
 
 namespace gapscope {
 
@@ -21,6 +22,15 @@ namespace internal {
 namespace {
 
 constexpr int kDigits = 9, kLogDigits = 6;
+
+/// A path is followed key by key, and told in full.
+void require_short(const std::string& path, const Value& value) {
+  constexpr std::size_t kMost = 200;
+  if (path.size() > kMost)
+    throw ConfigError(value.file(), value.line(),
+                      fmt::format("the path {}... has {} characters, expected at most {}", path.substr(0, 40),
+                                  path.size(), kMost));
+}
 
 /// Maps and lists in braces and brackets, on one line.
 void in_one_line(YAML::Node node) {
@@ -63,6 +73,7 @@ WrittenAxis read_repeat(const Section& section, WrittenAxis a) {
 }  // namespace
 
 WrittenAxis read_axis(const std::string& path, const Value& value, bool continuous) {
+  require_short(path, value);
   WrittenAxis a;
   a.axis.path = path;
   a.axis.line = value.line();
@@ -113,6 +124,7 @@ CampaignAxis filled(WrittenAxis written) {
 }
 
 CampaignDraw read_draw(const std::string& path, const Value& value) {
+  require_short(path, value);
   const Section section(value, {"uniform", "log_uniform"});
   const auto uniform = section.find("uniform"), log_uniform = section.find("log_uniform");
   if (uniform.has_value() == log_uniform.has_value())

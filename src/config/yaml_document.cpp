@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "gapscope/base/errors.h"
 
@@ -15,9 +18,9 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1u << 20;
 constexpr int kMostNodes = 20000;
-constexpr int kDeepest = 32;
+constexpr std::size_t kDeepest = 32;
 
-/// Walks the text as it is written, aliases not followed, and refuses what no configuration looks like.
+/// Walks the text and refuses what no configuration looks like. An alias counts as all that it stands for.
 class Guard : public YAML::EventHandler {
  public:
   explicit Guard(const std::string& file) : file_(file) {}
@@ -26,36 +29,55 @@ class Guard : public YAML::EventHandler {
     if (++documents_ > 1) fail(mark, "a second document begins, expected one document in a file");
   }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
-  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
-    count(mark);
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { leaf(mark, anchor); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                const std::string&) override {
+    leaf(mark, anchor);
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto size = sizes_.find(anchor);
+    if (size == sizes_.end()) fail(mark, "an alias stands within what it stands for, expected it after that");
+    count(mark, size->second);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
-    enter(mark);
+    enter(mark, anchor);
   }
-  void OnSequenceEnd() override { --depth_; }
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+  void OnSequenceEnd() override { leave(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value) override {
-    enter(mark);
+    enter(mark, anchor);
   }
-  void OnMapEnd() override { --depth_; }
+  void OnMapEnd() override { leave(); }
 
  private:
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
     throw ConfigError(file_, mark.line + 1, what);
   }
-  void count(const YAML::Mark& mark) {
-    if (++nodes_ > kMostNodes) fail(mark, fmt::format("too many values, expected at most {}", kMostNodes));
+  void count(const YAML::Mark& mark, int nodes) {
+    if ((nodes_ += nodes) > kMostNodes)
+      fail(mark, fmt::format("too many values, expected at most {}", kMostNodes));
   }
-  void enter(const YAML::Mark& mark) {
-    count(mark);
-    if (++depth_ > kDeepest) fail(mark, fmt::format("nested too deep, expected at most {} levels", kDeepest));
+  void leaf(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    count(mark, 1);
+    sizes_[anchor] = 1;
+  }
+  void enter(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    open_.emplace_back(anchor, nodes_);
+    count(mark, 1);
+    if (open_.size() > kDeepest)
+      fail(mark, fmt::format("nested too deep, expected at most {} levels", kDeepest));
+  }
+  void leave() {
+    const auto [anchor, before] = open_.back();
+    sizes_[anchor] = nodes_ - before;
+    open_.pop_back();
   }
 
   const std::string& file_;
-  int documents_ = 0, nodes_ = 0, depth_ = 0;
+  int documents_ = 0, nodes_ = 0;
+  std::map<YAML::anchor_t, int> sizes_;               ///< how many values an anchor stands for
+  std::vector<std::pair<YAML::anchor_t, int>> open_;  ///< what is not closed yet, and the values before it
 };
 
 }  // namespace

@@ -8,17 +8,10 @@
 #include <cmath>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 
 namespace gapscope::internal {
 namespace {
-
-std::string shown(const std::string& text) {
-  constexpr std::size_t kMost = 40;
-  std::string out = text.substr(0, kMost);
-  std::replace_if(
-      out.begin(), out.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
-  return "'" + out + (text.size() > kMost ? "...'" : "'");
-}
 
 /// The whole text as a number of type T; nothing if it is none or does not fit.
 template <class T>

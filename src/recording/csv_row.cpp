@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 
 namespace gapscope::internal {
 namespace {
@@ -106,14 +107,6 @@ double CsvRow::number(int place, const std::string& column) const {
   const bool vanishes = text.find("e-") != text.npos || text.find("E-") != text.npos;
   if (whole && problem == std::errc::result_out_of_range && vanishes) return 0.0;
   fail(fmt::format("{} is {}, expected a finite number", column, text.empty() ? "empty" : shown(text)));
-}
-
-std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string out(text.substr(0, kMost));
-  std::replace_if(
-      out.begin(), out.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + out + (text.size() > kMost ? "...'" : "'");
 }
 
 }  // namespace gapscope::internal

@@ -47,7 +47,4 @@ class CsvRow {
   bool has_header_ = false;
 };
 
-/// What a message shows of a text from a file: the first characters, in quotes, printable.
-std::string shown(std::string_view text);
-
 }  // namespace gapscope::internal

@@ -1,17 +1,14 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <stdexcept>
+#include <ostream>
 
 #include "gapscope/base/require.h"
+#include "gapscope/base/whole_file.h"
 #include "gapscope/recording/csv.h"
 
 namespace gapscope {
 namespace {
-
-namespace fs = std::filesystem;
 
 void check_lengths(const Recording& r) {
   GAPSCOPE_REQUIRE(r.u.size() == r.size());
@@ -35,28 +32,11 @@ void write_rows(std::ostream& out, const Recording& r) {
   }
 }
 
-void write_file(const fs::path& path, const Recording& recording) {
-  std::ofstream out(path, std::ios::binary);
-  if (out) write_rows(out, recording);
-  out.close();
-  if (!out) throw std::runtime_error(path.string() + ": cannot be written, expected a writable file");
-}
-
 }  // namespace
 
 void write_csv(const std::string& path, const Recording& recording) {
   check_lengths(recording);
-  const bool special = fs::exists(path) && !fs::is_regular_file(path);  // a pipe or a device has no "aside"
-  if (special) return write_file(path, recording);
-  const fs::path aside = path + ".part";
-  std::error_code ignored;
-  try {
-    write_file(aside, recording);
-    fs::rename(aside, path);
-  } catch (const std::exception&) {
-    fs::remove(aside, ignored);
-    throw;
-  }
+  write_whole_file(path, [&](std::ostream& out) { write_rows(out, recording); });
 }
 
 }  // namespace gapscope

@@ -1,4 +1,3 @@
-#include "gapscope/base/errors.h"
 #include "gapscope/results/blind_files.h"
 #include "results/blind_fields.h"
 
@@ -72,12 +71,11 @@ std::string line_of(const BlindAnswer& answer) {
   BlindAnswer copy = answer;
   internal::JsonWriter writer;
   internal::answer_fields(writer, copy);
-  return writer.json.dump();
+  return internal::text_of(writer.json, -1);
 }
 
 BlindAnswer blind_answer_of(const std::string& line, const std::string& file) {
-  const internal::Json json = internal::Json::parse(line, nullptr, false);
-  if (json.is_discarded()) throw ConfigError(file, "has a line that is no JSON, expected an answer");
+  const internal::Json json = internal::parsed_json(line, file);
   internal::JsonReader reader(json, file, "");
   BlindAnswer answer;
   internal::answer_fields(reader, answer);

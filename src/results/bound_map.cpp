@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 #include "results/traces.h"
 
 namespace gapscope::internal {
@@ -35,7 +36,7 @@ void read_bound_map(const std::string& path, BoundMap& map) {
       double value = 0.0;
       const auto end = std::from_chars(field.data(), field.data() + field.size(), value);
       if (end.ec != std::errc() || end.ptr != field.data() + field.size())
-        throw ConfigError(path, number, "'" + field.substr(0, 40) + "' is no number, expected one");
+        throw ConfigError(path, number, shown(field) + " is no number, expected one");
       map.levels.push_back(value);
     }
     if (fields != map.bounds.size())

@@ -1,5 +1,6 @@
 #include "gapscope/results/campaign_summary.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "gapscope/base/errors.h"
@@ -95,6 +96,30 @@ namespace {
 
 std::string file_in(const std::string& folder) { return folder + "/campaign.json"; }
 
+/// A place in a list of this size; where there is no list, -1.
+void require_place(const internal::JsonReader& reader, const std::string& key, int place, std::size_t size) {
+  const int last = static_cast<int>(size) - 1;
+  if (place < std::min(0, last) || place > last)
+    reader.fail_at(key, "is " + std::to_string(place) + ", expected " +
+                            (size == 0 ? "-1" : "0 to " + std::to_string(last)));
+}
+
+/// Every table names its axes by their places, and every cell its bins.
+void require_places(const internal::JsonReader& reader, const CampaignSummary& s, const std::string& key,
+                    const std::vector<SummaryTable>& tables, bool pairs) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const SummaryTable& t = tables[i];
+    const std::string table = key + "[" + std::to_string(i) + "]";
+    require_place(reader, table + ".axis_a", t.a, s.axes.size());
+    require_place(reader, table + ".axis_b", t.b, pairs ? s.axes.size() : 0);
+    for (std::size_t k = 0; k < t.cells.size(); ++k) {
+      const std::string cell = table + ".cells[" + std::to_string(k) + "]";
+      require_place(reader, cell + ".a", t.cells[k].a, s.axes[t.a].bins.size());
+      require_place(reader, cell + ".b", t.cells[k].b, pairs ? s.axes[t.b].bins.size() : 0);
+    }
+  }
+}
+
 }  // namespace
 
 void write_campaign_summary(const std::string& folder, const CampaignSummary& summary) {
@@ -113,6 +138,8 @@ CampaignSummary read_campaign_summary(const std::string& folder) {
   reader.schema(internal::kCampaignSchema);
   CampaignSummary summary;
   internal::fields(reader, summary);
+  require_places(reader, summary, "along_axes", summary.lines, false);
+  require_places(reader, summary, "over_pairs", summary.pairs, true);
   return summary;
 }
 

@@ -1,5 +1,7 @@
 #include "results/json_archive.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +10,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/whole_file.h"
 #include "results/json_place.h"
 
 namespace gapscope::internal {
@@ -20,28 +23,56 @@ std::string shown(const Json& json) {
 
 Json to_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-void save_json(const std::string& path, const Json& json) {
-  std::ofstream out(path, std::ios::binary);
-  out << json.dump(1) << '\n';
-  if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+void save_json(const std::string& path, const Json& json) {
+  write_whole_file(path, [&](std::ostream& out) { out << text_of(json, 1) << '\n'; });
+}
+
+namespace {
+
+constexpr std::size_t kDeepest = 32;               ///< levels; no stored result has as many
+constexpr std::uintmax_t kMostBytes = 256u << 20;  ///< of a stored result; its traces are in other files
+
 std::string text_of_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code problem;
+  const bool regular = fs::is_regular_file(path, problem);
   std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path))
-    throw ConfigError(path, "there is no such file, expected a stored result");
+  if (!in || !regular) throw ConfigError(path, "there is no such file, expected a stored result");
+  if (fs::file_size(path) > kMostBytes)
+    throw ConfigError(path, "is larger than 256 MiB, expected a stored result");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-Json load_json(const std::string& path) {
-  const std::string text = text_of_file(path);
+/// The number that is too large for a double, as what() quotes it.
+std::string quoted_number(const Json::out_of_range& error) {
+  const std::string what = error.what();
+  const std::size_t begin = what.find('\'') + 1;
+  return what.substr(begin, what.rfind('\'') - begin);
+}
+
+}  // namespace
+
+Json parsed_json(const std::string& text, const std::string& file) {
+  const auto refusal = [&](std::size_t byte, const std::string& what) {
+    return ConfigError(file, line_of_byte(text, byte), what + ", expected a stored result");
+  };
+  if (const std::size_t deep = byte_of_level(text, kDeepest + 1); deep != text.npos)
+    throw refusal(deep, fmt::format("is nested in more than {} levels", kDeepest));
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    throw ConfigError(path, line_of_byte(text, error.byte > 0 ? error.byte - 1 : 0),
-                      "is no valid JSON from here on, expected a stored result");
+    throw refusal(error.byte > 0 ? error.byte - 1 : 0, "is no valid JSON from here on");
+  } catch (const Json::out_of_range& error) {
+    const std::string number = quoted_number(error);
+    throw refusal(text.find(number), "has the number " + number.substr(0, 40) + ", which is too large");
   }
 }
+
+Json load_json(const std::string& path) { return parsed_json(text_of_file(path), path); }
 
 void JsonWriter::operator()(const char* key, std::optional<bool>& value) {
   json[key] = value ? Json(*value) : Json(nullptr);

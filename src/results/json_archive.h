@@ -27,10 +27,16 @@ inline Json to_json(const std::string& text) { return text; }
 /// What a message shows of a value: its first characters.
 std::string shown(const Json& json);
 
+/// The document as text: indented, or on one line (-1). What is no UTF-8, as a file may be named, is
+/// replaced.
+std::string text_of(const Json& json, int indent);
+
 /// Text of a JSON document with a final newline; doubles come out shortest and read back the same.
 void save_json(const std::string& path, const Json& json);
 /// @throws ConfigError where the file is missing or no JSON.
 Json load_json(const std::string& path);
+/// @param file for messages  @throws ConfigError where the text is no JSON
+Json parsed_json(const std::string& text, const std::string& file);
 
 class JsonWriter {
  public:
@@ -108,6 +114,9 @@ class JsonReader {
   /// Refuses the document of another schema.
   void schema(const std::string& expected);
 
+  /// Refuses the document for what stands at a place of it.
+  [[noreturn]] void fail_at(const std::string& place, const std::string& what) const;
+
   template <class Enum>
   void choice(const char* key, Enum& value, Words<Enum> words) {
     const Json& word = at(key);
@@ -166,7 +175,6 @@ class JsonReader {
   const Json& at(const char* key) const;
   std::string place_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
   [[noreturn]] void fail(const char* key, const std::string& what) const;
-  [[noreturn]] void fail_at(const std::string& place, const std::string& what) const;
   double number(const Json& json, const char* key) const;
 
   template <class Struct>

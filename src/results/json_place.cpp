@@ -67,6 +67,20 @@ int line_of_byte(std::string_view text, std::size_t byte) {
   return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
 }
 
+std::size_t byte_of_level(std::string_view text, std::size_t level) {
+  std::size_t open = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\') ++i;
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if ((c == '[' || c == '{') && ++open == level) return i;
+    if ((c == ']' || c == '}') && open > 0) --open;
+  }
+  return text.npos;
+}
+
 int line_of_place(std::string_view text, std::string place) {
   for (;;) {
     const std::size_t at = Walk(text, place).find();

@@ -12,4 +12,7 @@ int line_of_place(std::string_view text, std::string place);
 /// The line of a byte of a text.
 int line_of_byte(std::string_view text, std::size_t byte);
 
+/// The bracket or brace of a JSON text that opens the given level, the outermost being 1; npos if none does.
+std::size_t byte_of_level(std::string_view text, std::size_t level);
+
 }  // namespace gapscope::internal

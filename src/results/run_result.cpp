@@ -1,5 +1,6 @@
 #include "gapscope/results/run_result.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -84,6 +85,17 @@ void load_recording(const std::string& folder, const StoredRecording& stored, Ru
   run.recordings.push_back(std::move(set.recording));
 }
 
+/// A map spans its bounds on a logarithmic axis.
+void require_bounds(const JsonReader& reader, const RunResult& run) {
+  if (!run.model_free || !run.model_free->map) return;
+  const std::vector<double>& bounds = run.model_free->map->bounds;
+  const auto no_rise = [](double a, double b) { return !(a < b); };
+  const bool rises = std::adjacent_find(bounds.begin(), bounds.end(), no_rise) == bounds.end();
+  if (bounds.size() < 2 || !rises || !(bounds.front() > 0.0))
+    reader.fail_at("model_free.bound_map.bounds_rad_s2",
+                   "does not rise, expected two bounds above 0 or more");
+}
+
 }  // namespace
 
 void write_run_result(const std::string& folder, const RunResult& result) {
@@ -110,6 +122,7 @@ RunResult read_run_result(const std::string& folder) {
   reader.schema(kSchema);
   fields(reader, document);
   RunResult& run = document.run;
+  require_bounds(reader, run);
   for (const StoredRecording& stored : document.recordings) load_recording(folder, stored, run);
   if (run.model_free && run.model_free->map && !run.recordings.empty())
     internal::read_bound_map(folder + "/traces/" + internal::kBoundMapName, *run.model_free->map);

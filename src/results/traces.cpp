@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 
 namespace gapscope {
 
@@ -104,25 +105,19 @@ std::string_view next_field(std::string_view& line) {
   return field;
 }
 
-std::string shown_field(std::string_view field) {
-  constexpr std::size_t kMost = 40;
-  return "'" + std::string(field.substr(0, kMost)) + (field.size() > kMost ? "...'" : "'");
-}
-
 double number_of(std::string_view field) {
   double value = kNaN;
   if (field.empty()) return value;
   const auto end = std::from_chars(field.data(), field.data() + field.size(), value);
   if (end.ec != std::errc() || end.ptr != field.data() + field.size())
-    throw std::invalid_argument(shown_field(field) + " is no number, expected one or nothing");
+    throw std::invalid_argument(shown(field) + " is no number, expected one or nothing");
   return value;
 }
 
 Mode mode_of(std::string_view field) {
   for (const Mode mode : kModes)
     if (field == to_string(mode)) return mode;
-  throw std::invalid_argument(shown_field(field) +
-                              " is no mode, expected gap, engagement+, engagement- or impact");
+  throw std::invalid_argument(shown(field) + " is no mode, expected gap, engagement+, engagement- or impact");
 }
 
 template <class Column>
@@ -142,7 +137,7 @@ Columns columns_of_header(std::string_view header) {
     for (const ModeColumn& column : kModeColumns)
       if (name == column.name && !holds(columns.modes, name)) columns.modes.push_back(column);
     if (columns.numbers.size() + columns.modes.size() == before)
-      throw std::invalid_argument("there is a column " + shown_field(name) +
+      throw std::invalid_argument("there is a column " + shown(name) +
                                   ", expected only those of a stored trace, each once");
   }
   for (const char* needed : {"u", "x1_rad"})
@@ -180,8 +175,8 @@ void write_trace(const std::string& path, const Recording& recording, const Erro
 std::string trace_path(const std::string& folder, const std::string& name) {
   const std::filesystem::path path(name);
   if (path.parent_path() != "traces" || path.filename() == ".." || path.filename() == ".")
-    throw ConfigError(
-        folder, "its stored result names the trace " + shown_field(name) + ", expected a file in traces/");
+    throw ConfigError(folder,
+                      "its stored result names the trace " + shown(name) + ", expected a file in traces/");
   return folder + "/" + name;
 }
 

@@ -7,6 +7,7 @@
 
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/campaign/summary.h"
 #include "support/reading.h"
 
 namespace gapscope {
@@ -42,8 +43,11 @@ TEST_P(DamagedStoreTest, IsRefusedByName) {
   else
     std::ofstream(file, std::ios::binary) << GetParam().bytes;
   const std::string before = testing::text_of(file);
-  const std::string read =
-      testing::refusal([&] { SmallCampaign::exported(CampaignStore(small.place("store"))); });
+  const std::string read = testing::refusal([&] {
+    const CampaignStore store(small.place("store"));
+    SmallCampaign::exported(store);
+    summarise(store);
+  });
   EXPECT_THAT(read, HasSubstr("store/results.sqlite: " + std::string(GetParam().message)));
   EXPECT_THAT(read, HasSubstr(", expected "));
   EXPECT_EQ(testing::text_of(file), before);
@@ -55,12 +59,12 @@ const std::vector<Damage> kDamages = {
     {"empty", "", "", "holds no campaign"},
     {"another_database", "DROP TABLE campaign", "", "holds no campaign"},
     {"other_schema", "UPDATE campaign SET value = 'gapscope.campaign/9' WHERE key = 'schema'", "",
-     "has the schema gapscope.campaign/9, expected gapscope.campaign/1"},
+     "has the schema 'gapscope.campaign/9', expected 'gapscope.campaign/1'"},
     {"no_schema", "DELETE FROM campaign WHERE key = 'schema'", "", "has no schema"},
     {"no_version", "DELETE FROM campaign WHERE key = 'version'", "", "has no version"},
     {"no_identity", "DELETE FROM campaign WHERE key = 'identity'", "", "has no identity"},
     {"runs_word", "UPDATE campaign SET value = 'many' WHERE key = 'runs'", "",
-     "runs is 'many', expected a whole number from 1 on"},
+     "runs is 'many', expected a whole number from 1 to 10000000"},
     {"runs_negative", "UPDATE campaign SET value = '-3' WHERE key = 'runs'", "", "runs is '-3'"},
     {"runs_null", "UPDATE campaign SET value = NULL WHERE key = 'runs'", "", "runs is ''"},
     {"runs_beyond", "UPDATE campaign SET value = '99999999999999999999999' WHERE key = 'runs'", "",
@@ -70,6 +74,17 @@ const std::vector<Damage> kDamages = {
     {"no_axes", "DROP TABLE axes", "", "is damaged or no store (no such table: axes)"},
     {"no_runs", "DROP TABLE runs", "", "is damaged or no store (no such table: runs)"},
     {"other_axis", "UPDATE axes SET path = 'encoder.bats'", "", "is damaged or no store (no such column"},
+    {"runs_too_many", "UPDATE campaign SET value = '20000000' WHERE key = 'runs'", "",
+     "runs is '20000000', expected a whole number from 1 to 10000000"},
+    {"control_characters", "UPDATE campaign SET value = 'a' || char(27) || 'b' WHERE key = 'schema'", "",
+     "has the schema 'a?b'"},
+    {"axis_without_values", "UPDATE axes SET count = 0", "",
+     "the axis 'encoder.bits' has neither values nor a range"},
+    {"run_beyond", "INSERT INTO runs (run, \"encoder.bits\") VALUES (7, '16')", "",
+     "holds run 7, expected 0 to 1"},
+    {"run_negative", "INSERT INTO runs (run, \"encoder.bits\") VALUES (-1, '16')", "", "holds run -1"},
+    {"value_of_no_axis", "INSERT INTO runs (run, \"encoder.bits\") VALUES (0, '17')", "",
+     "run 0 has the value '17' of 'encoder.bits'"},
     {"no_timing", "DROP TABLE timing", "", "is damaged or no store (no such table: timing)"},
 };
 

@@ -172,8 +172,8 @@ TEST(CampaignConfig, WhatDecidesTheResultsIsItsIdentity) {
 
 struct BadCampaign {
   const char* name;
-  const char* text;
-  const char* message;
+  std::string text;
+  std::string message;
 };
 void PrintTo(const BadCampaign& bad, std::ostream* out) { *out << bad.name; }
 
@@ -205,6 +205,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCampaign{"value_of_another_kind", "axes:\n  simulation.rate: [fast]\n",
                     "simulation.rate is 'fast'"},
         BadCampaign{"through_a_number", "axes:\n  simulation.rate.hz: [1000]\n", "no map that holds 'hz'"},
+        BadCampaign{"alias_of_itself", "axes:\n  simulation.rate: &a [*a]\n",
+                    "c.yaml:3: an alias stands within what it stands for"},
+        BadCampaign{"long_path", "axes:\n  encoder" + std::string(300, '.') + ": [1]\n",
+                    "c.yaml:3: the path encoder" + std::string(36, '.') + " has 307 characters"},
         BadCampaign{"same_place", "axes:\n  simulation: [1]\n  simulation.rate: [1000]\n", "c.yaml:4"},
         BadCampaign{"unknown_estimator", "axes:\n  simulation.rate: [1000]\nestimators: [kalman]\n",
                     "'kalman'"},

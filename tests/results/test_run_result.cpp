@@ -61,7 +61,7 @@ GapEstimate estimate(const RunResult& run) {
   g.warnings = {"one", "two"};
   g.paper_bound = 98.0 * kThird;
   g.map =
-      BoundMap{"a.csv", 0.5 * kThird, 1e-3 * kThird, {1.0, kThird}, {0.12, 3.45, 6.78, 1e-3, 0.0, 9999.0}};
+      BoundMap{"a.csv", 0.5 * kThird, 1e-3 * kThird, {kThird, 1.0}, {0.12, 3.45, 6.78, 1e-3, 0.0, 9999.0}};
   return g;
 }
 

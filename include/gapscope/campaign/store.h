@@ -52,6 +52,7 @@ class CampaignStore {
   ~CampaignStore();
 
   const CampaignHeader& header() const { return header_; }
+  const std::string& file() const;
   std::set<std::uint64_t> done() const;  ///< runs that are there
   /// Every run that is there, in order. Configurations are left out unless asked for.
   void each(const std::function<void(CampaignRow&, const CampaignTiming&)>& visit,

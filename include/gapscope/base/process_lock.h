@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+namespace gapscope {
+
+/// Tells processes apart that would work on the same file or folder: it is held for as long as this lives.
+/// The system lets go of it when the process dies, however it dies. Nothing is locked where nothing is there.
+class ProcessLock {
+ public:
+  explicit ProcessLock(const std::string& path);
+  ~ProcessLock();
+  ProcessLock(const ProcessLock&) = delete;
+  ProcessLock& operator=(const ProcessLock&) = delete;
+
+  bool held_by_another() const { return held_by_another_; }
+
+ private:
+  int handle_;
+  bool held_by_another_ = false;
+};
+
+}  // namespace gapscope

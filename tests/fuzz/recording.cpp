@@ -1,0 +1,51 @@
+#include <cmath>
+
+#include "fuzz/attempt.h"
+#include "fuzz/readers.h"
+#include "gapscope/base/statistics.h"
+#include "gapscope/recording/csv_stream.h"
+#include "recording/csv_table.h"
+
+namespace gapscope::testing {
+namespace {
+
+void require_sound(const Recording& r) {
+  require(r.size() >= kFewestSamples && r.u.size() == r.size() && (r.x2.empty() || r.x2.size() == r.size()),
+          "columns of other lengths");
+  require(r.dt > 0.0 && std::isfinite(r.dt) && std::isfinite(r.start), "no clock");
+}
+
+/// In pieces that end anywhere, as a pipe gives them.
+void read_stream(std::string_view bytes) {
+  CsvStream stream("standard input");
+  double last = -kInfinity;
+  const auto take = [&] {
+    for (const CsvStream::Sample& s : stream.take()) {
+      require(s.t > last && std::isfinite(s.u) && std::isfinite(s.x1), "a sample that is none");
+      last = s.t;
+    }
+  };
+  for (std::size_t size = 1; !bytes.empty(); size = 1 + (7 * size) % 97) {
+    stream.feed(bytes.substr(0, size));
+    take();
+    bytes.remove_prefix(std::min(size, bytes.size()));
+  }
+  stream.finish();
+  take();
+}
+
+}  // namespace
+
+int read_recording(std::string_view bytes) {
+  static const GivenFile file("r.csv");
+  file.fill(bytes);
+  CsvOptions options;
+  int taken = attempt([&] { require_sound(read_csv(file.path(), options)); });
+  options.window = {0.01, 0.5};
+  options.resample_rate = 700.0;
+  taken += attempt([&] { require_sound(read_csv(file.path(), options)); });
+  taken += attempt([&] { internal::read_window(file.path(), {}, internal::EarlierRow::kSkipped); });
+  return taken + attempt([&] { read_stream(bytes); });
+}
+
+}  // namespace gapscope::testing
