@@ -55,11 +55,6 @@ std::string sealed_after(const std::string& previous, const BlindAnswer& answer)
   return blind::sha256(previous + "\n" + line_of(answer) + "\n");
 }
 
-void store(const std::string& path, const BlindAnswers& answers) {
-  write_blind_answers(path + ".whole", answers);
-  std::filesystem::rename(path + ".whole", path);
-}
-
 }  // namespace
 
 BlindAnswers answer_blind_check(const std::string& folder, const std::string& path, int threads,
@@ -85,7 +80,7 @@ BlindAnswers answer_blind_check(const std::string& folder, const std::string& pa
     answer.seal = sealed_after(answers.seal(), answer);
     answers.cases.push_back(std::move(answer));
   }
-  store(path, answers);
+  write_blind_answers(path, answers);
   journal.remove();
   return answers;
 }

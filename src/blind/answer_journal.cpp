@@ -9,13 +9,20 @@
 namespace gapscope::blind {
 
 AnswerJournal::AnswerJournal(std::string path, const std::string& check) : path_(std::move(path)) {
+  require_alone();
   read(check);
   const std::string whole = path_ + ".whole";
   out_.open(whole, std::ios::binary);
+  lock_.emplace(whole);
   out_ << check << '\n';
   for (const auto& [name, answer] : answers_) out_ << line_of(answer) << '\n';
   if (!out_.flush()) throw std::runtime_error(whole + ": cannot be written");
   std::filesystem::rename(whole, path_);
+}
+
+void AnswerJournal::require_alone() const {
+  if (ProcessLock(path_).held_by_another())
+    throw ConfigError(path_, "is being written by another process, expected one at a time");
 }
 
 void AnswerJournal::read(const std::string& check) {
@@ -24,8 +31,8 @@ void AnswerJournal::read(const std::string& check) {
   if (!std::getline(in, line) || in.eof()) return;
   if (line != check)
     throw ConfigError(path_, 1, "answers '" + line + "', expected '" + check + "'; remove it to begin anew");
-  while (std::getline(in, line) && !in.eof()) {
-    BlindAnswer answer = blind_answer_of(line, path_);
+  for (int number = 2; std::getline(in, line) && !in.eof(); ++number) {
+    BlindAnswer answer = blind_answer_of(line, path_ + ":" + std::to_string(number));
     answers_.insert_or_assign(answer.name, answer);
   }
 }

@@ -1,13 +1,13 @@
 #include <atomic>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
+#include <ostream>
 
 #include "blind/blind_pair.h"
 #include "blind/case_plan.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
+#include "gapscope/base/whole_file.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/recording/csv.h"
@@ -45,10 +45,8 @@ void write_case(const fs::path& folder, double duration, blind::PlannedCase& pla
   if (label.effects.size() == 1) label.cycles_per_turn = pair.cycles_per_turn;
   write_motor_side(folder / (label.name + "_train.csv"), pair.train);
   write_motor_side(folder / (label.name + "_held_out.csv"), pair.held_out);
-  const fs::path sheet = folder / (label.name + ".yaml");
-  std::ofstream out(sheet, std::ios::binary);
-  out << sheet_of(label.name, pair);
-  if (!out.flush()) throw std::runtime_error(sheet.string() + ": cannot be written");
+  write_whole_file((folder / (label.name + ".yaml")).string(),
+                   [&](std::ostream& out) { out << sheet_of(label.name, pair); });
 }
 
 void require_apart(const fs::path& folder, const fs::path& labels) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "campaign/store_header.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
@@ -70,6 +71,13 @@ std::vector<std::uint64_t> pending(const CampaignConfig& c, const CampaignStore&
   return runs;
 }
 
+/// A run may have failed because a recording went away since the campaign began: that is no result of it.
+void require_same_recordings(const CampaignConfig& c, const CampaignStore& store) {
+  const CampaignHeader now = campaign_header(c, store.header().shard);
+  if (const std::string what = internal::difference(store.header(), now); !what.empty())
+    throw std::runtime_error("a recording changed while the campaign ran: its store " + what);
+}
+
 }  // namespace
 
 CampaignRow run_of_campaign(const CampaignConfig& c, std::uint64_t run, CampaignTiming& timing) {
@@ -109,6 +117,7 @@ CampaignProgress run_campaign(const CampaignConfig& c, CampaignStore& store, int
     CampaignTiming timing;
     CampaignRow row = run_of_campaign(c, runs[i], timing);
     const bool failed = !row.error.empty();
+    if (failed) require_same_recordings(c, store);
     store.add(std::move(row), timing);
     const std::lock_guard lock(mutex);
     ++progress.done;

@@ -1,10 +1,10 @@
 // `run`, `detect` and `fit`: the same pipeline with both estimators, or one of them.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
+#include <ostream>
 
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -12,6 +12,7 @@
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/whole_file.h"
 #include "gapscope/campaign/pipeline.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/report_folder.h"
@@ -111,16 +112,17 @@ std::string fit_details() {
 }  // namespace
 
 void write_text(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written, expected a writable folder");
+  write_whole_file(path, [&](std::ostream& out) { out << text; });
 }
 
 void require_folder_name(const std::string& folder) {
   namespace fs = std::filesystem;
   if (fs::exists(folder) && !fs::is_directory(folder))
     throw ConfigError(folder, "is a file, expected the folder of a report");
+  fs::path there = fs::absolute(folder).lexically_normal();
+  while (!fs::exists(there) && there.has_relative_path()) there = there.parent_path();
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw ConfigError(there.string(), "cannot be written in, expected a writable folder for the report");
 }
 
 void add_run(CLI::App& app) {

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "cli/command_tree.h"
@@ -115,6 +116,9 @@ int guarded(int argc, char** argv) {
   } catch (const Interrupted&) {
     fmt::print(stderr, "gapscope: interrupted\n");
     return kInterrupted;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "gapscope: there is not enough memory, expected fewer samples or threads\n");
+    return kFailed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "gapscope: {}\n", error.what());
     return kFailed;
@@ -127,5 +131,7 @@ int guarded(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, gapscope::cli::on_interrupt);
   std::signal(SIGTERM, gapscope::cli::on_interrupt);
+  if (std::signal(SIGHUP, gapscope::cli::on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is a write that fails, and says so
   return gapscope::cli::guarded(argc, argv);
 }

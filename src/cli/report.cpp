@@ -47,16 +47,11 @@ constexpr Kind kKinds[] = {
 
 /// Draws aside, so that the old report stands until the new one is complete.
 void redraw(const std::string& folder) {
-  namespace fs = std::filesystem;
   const Kind& kind =
       *std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.is_in(folder); });
   kind.read(folder);  // so that what is wrong is told with its place in the folder that the user knows
   ReportFolder fresh(folder);
-  for (const char* stored :
-       {"campaign.json", "blind.json", "compare.json", "result.json", "diagnosis.json", "fitted.yaml",
-        "resolved.yaml", "timing.json", "next_experiment.yaml", "next_experiment.csv", "traces"})
-    if (fs::exists(fs::path(folder) / stored))
-      fs::copy(fs::path(folder) / stored, fs::path(fresh.path()) / stored, fs::copy_options::recursive);
+  fresh.keep_stored();
   kind.draw(fresh.path());
   fresh.commit();
 }

@@ -1,10 +1,11 @@
 #include "report/report_files.h"
 
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
+#include <ostream>
+#include <string_view>
 
+#include "gapscope/base/whole_file.h"
 #include "report/draw_figure.h"
 
 namespace gapscope::internal {
@@ -12,23 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes beside the target and renames, so that no half file is ever seen.
-void write_file(const fs::path& path, const char* data, std::size_t size) {
-  const fs::path partial = path.string() + ".partial";
-  {
-    std::ofstream out(partial, std::ios::binary);
-    out.write(data, static_cast<std::streamsize>(size));
-    if (!out.flush()) throw std::runtime_error(path.string() + ": cannot be written");
-  }
-  std::error_code error;
-  fs::rename(partial, path, error);
-  if (error) throw std::runtime_error(path.string() + ": cannot be written: " + error.message());
-}
-
 void write_png(const fs::path& path, const cv::Mat& image) {
   std::vector<unsigned char> png;
   cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 6});
-  write_file(path, reinterpret_cast<const char*>(png.data()), png.size());
+  const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
+  write_whole_file(path.string(), [&](std::ostream& out) { out << bytes; });
 }
 
 }  // namespace
@@ -42,7 +31,7 @@ void write_report_files(const std::string& folder, const std::vector<FigureData>
     else
       fs::remove(path);  // of an earlier result
   }
-  write_file(fs::path(folder) / "report.md", text.data(), text.size());
+  write_whole_file(folder + "/report.md", [&](std::ostream& out) { out << text; });
 }
 
 }  // namespace gapscope::internal

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +15,8 @@
 namespace gapscope {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr std::chrono::seconds kStillBeingMade{60};  ///< a folder that is younger may not be locked yet
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
@@ -66,6 +69,17 @@ fs::path without_trailing_slash(const std::string& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+/// What a process left that was killed while it made the same report.
+void remove_left_behind(const fs::path& target, const std::string& prefix) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(target.parent_path(), ignored)) {
+    if (!entry.path().filename().string().starts_with(prefix)) continue;
+    const bool fresh = fs::file_time_type::clock::now() - entry.last_write_time(ignored) < kStillBeingMade;
+    if (!fresh && !ProcessLock(entry.path().string()).held_by_another())
+      fs::remove_all(entry.path(), ignored);
+  }
+}
+
 }  // namespace
 
 ReportFolder::ReportFolder(const std::string& folder) {
@@ -74,10 +88,14 @@ ReportFolder::ReportFolder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
   if (error) fail(target.parent_path(), "cannot be created: " + error.message());
-  std::string name = target.parent_path().string() + "/." + target.filename().string() + ".partial-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) fail(name, std::string("cannot be created: ") + std::strerror(errno));
+  const std::string prefix = "." + target.filename().string() + ".partial-";
+  remove_left_behind(target, prefix);
+  std::string name = target.parent_path().string() + "/" + prefix + "XXXXXX";
+  if (mkdtemp(name.data()) == nullptr)
+    fail(target.parent_path(), std::string("cannot be written in: ") + std::strerror(errno));
   fs::permissions(name, fs::perms(0755),
                   error);  // mkdtemp gives 0700, which would survive as the report's own
+  lock_ = std::make_unique<ProcessLock>(name);
   final_ = target.string();
   partial_ = name;
 }
@@ -87,17 +105,27 @@ ReportFolder::~ReportFolder() {
   if (!partial_.empty()) fs::remove_all(partial_, ignored);
 }
 
-void ReportFolder::keep(const char* result, const std::vector<const char*>& others, bool held_out_traces) {
-  const fs::path from = final_, to = partial_;
-  if (!fs::exists(from / result)) return;
-  fs::create_directories(to / "traces");
+void ReportFolder::take_over(const std::string& file) {
+  const fs::path from = fs::path(final_) / file, to = fs::path(partial_) / file;
   std::error_code error;
-  fs::copy_file(from / result, to / result, error);
+  fs::create_directories(to.parent_path(), error);
+  if (!error) fs::copy_file(from, to, error);
+  if (error) fail(fs::path(final_).parent_path(), "cannot be written in: " + error.message());
+}
+
+void ReportFolder::keep(const char* result, const std::vector<const char*>& others, bool held_out_traces) {
+  const fs::path from = final_;
+  if (!fs::exists(from / result)) return;
+  take_over(result);
   for (const char* other : others)
-    if (fs::exists(from / other)) fs::copy_file(from / other, to / other, error);
+    if (fs::exists(from / other)) take_over(other);
   for (const fs::path& file : files_below(from / "traces"))
-    if (file.string().starts_with("held_out_") == held_out_traces)
-      fs::copy_file(from / "traces" / file, to / "traces" / file, error);
+    if (file.string().starts_with("held_out_") == held_out_traces) take_over("traces/" + file.string());
+}
+
+void ReportFolder::keep_stored() {
+  for (const fs::path& file : files_below(final_))
+    if (is_ours(file, {}) && file != "report.md") take_over(file.string());
 }
 
 void ReportFolder::keep_estimate() { keep("result.json", {"timing.json"}, false); }
