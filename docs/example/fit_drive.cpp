@@ -2,7 +2,7 @@
 // The sheet is that of configs/03_recording.csv; for a drive of your own change the numbers.
 #include <gapscope/base/errors.h>
 #include <gapscope/base/statistics.h>
-#include <gapscope/recording/csv.h>
+#include <gapscope/recording/recording_file.h>
 #include <gapscope/reference/fit.h>
 
 #include <cstdio>
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const gapscope::Recording recording = gapscope::read_csv(argv[1]);
+    const gapscope::Recording recording = gapscope::read_recording(argv[1]);
     const gapscope::MotorTrace traces[] = {recording.motor_trace()};
     const gapscope::FitSummary fit = gapscope::fit(traces, model_of_the_drive());
     std::printf("%s", fit.full_report().c_str());

@@ -1,7 +1,7 @@
 // measure_gap FILE: the backlash gap in a recording, from the motor encoder alone. No model, no report, no
 // files.
 #include <gapscope/base/errors.h>
-#include <gapscope/recording/csv.h>
+#include <gapscope/recording/recording_file.h>
 #include <gapscope/sliding_mode/detector.h>
 
 #include <cstdio>
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const gapscope::Recording recording = gapscope::read_csv(argv[1]);
+    const gapscope::Recording recording = gapscope::read_recording(argv[1]);
     const gapscope::MotorTrace traces[] = {recording.motor_trace()};  // a view: the recording must outlive it
     print(gapscope::detect_gap(traces));
   } catch (const gapscope::ConfigError& error) {  // "file:line: what is wrong, what was expected"

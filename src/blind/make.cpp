@@ -10,7 +10,7 @@
 #include "gapscope/base/whole_file.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/config/configuration.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "gapscope/results/blind_files.h"
 
 namespace gapscope {
@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 std::string sheet_of(const std::string& name, const blind::BlindPair& pair) {
   Configuration c;
   c.name = name;
-  c.recording = RecordingConfig{{{name + "_train.csv", "", 0}}, {{name + "_held_out.csv", "", 0}}, {}};
+  c.recording =
+      RecordingConfig{{{name + "_train.csv", "", 0}}, {{name + "_held_out.csv", "", 0}}, {}, {}, {}};
   c.encoder.quantum = pair.train.quantum;
   c.model.given = true;
   c.model.structure = pair.sheet.structure;

@@ -12,7 +12,7 @@
 #include "blind/plant/random_drive.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace gapscope {
 namespace {

@@ -7,7 +7,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/campaign/pipeline.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "gapscope/simulation/simulate.h"
 
 namespace gapscope {
@@ -25,7 +25,7 @@ std::string name_of(const RecordedFile& file, const std::vector<RecordedFile>& a
 
 /// The sheet knows better than the samples, but a large difference is worth a word.
 void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>& warnings) {
-  const double sheet = c.encoder.quantum, seen = r.quantum;
+  const double sheet = c.position_quantum(), seen = r.quantum;
   if (sheet == 0.0) return;
   r.quantum = sheet;
   if (seen == 0.0 || (seen < 1.5 * sheet && seen > sheet / 1.5)) return;
@@ -36,10 +36,10 @@ void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>&
 Recording read_one(const RecordedFile& file, const Configuration& c) {
   if (!std::filesystem::exists(file.path))
     throw ConfigError(c.file, file.line,
-                      fmt::format("there is no recording {}, expected a CSV file (relative to this "
+                      fmt::format("there is no recording {}, expected a CSV or .mat file (relative to this "
                                   "configuration)",
                                   file.given));
-  return read_csv(file.path, c.recording->csv);
+  return read_recording(file.path, c.recording->reading);
 }
 
 /// The plant of a configuration in the terms of the independent code.
@@ -74,7 +74,7 @@ Recording independent_recording(const Configuration& c, const std::vector<double
   options.duration = s.duration;
   options.seed = s.seed;
   options.tolerance = blind::kFastTolerance;
-  return blind::simulate_blind_command(independent_drive(s), u, {c.encoder.quantum, s.noise}, options)
+  return blind::simulate_blind_command(independent_drive(s), u, {c.position_quantum(), s.noise}, options)
       .recording;
 }
 
@@ -101,7 +101,7 @@ Recording simulated_recording(const Configuration& c) {
   options.rate = s.rate;
   options.seed = s.seed;
   options.initial = {s.initial.x1, s.initial.w1, s.initial.x2, s.initial.w2};
-  options.encoder = {c.encoder.quantum, s.noise};
+  options.encoder = {c.position_quantum(), s.noise};
   const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
   stop_point();
   Recording r = s.independent ? independent_recording(c, u) : simulate(s.plant.plant_model(), u, options);

@@ -21,7 +21,7 @@ struct Arguments {
 void check_recording(const Arguments& a) {
   const RecordingArguments& r = a.recording;
   if (!a.output.empty()) require_file_name(a.output, r.file);
-  const Inspection inspection = inspect(r.file, r.options(), !r.translation);
+  const Inspection inspection = inspect(r.file, r.configuration().reading, !r.translation);
   if (!a.output.empty()) write_text(a.output, inspection_json(inspection));
   fmt::print("{}", a.json ? inspection_json(inspection) : inspection.report());
   if (inspection.spoilt()) throw CLI::RuntimeError(kSpoiltRecording);
@@ -40,7 +40,7 @@ void add_check(CLI::App& app) {
       "One line for each question: fine, note (worth knowing) or spoils (the estimates will be wrong or\n"
       "refused), with the figures and, after ->, what to do. Nothing but t, u and x1 is looked at.\n"
       "  time           rows in order, none missing, uniform, t in seconds\n"
-      "  unit of x1     rad (m), not counts, degrees or turns\n"
+      "  unit of x1     as declared: rad (m), not counts, degrees or turns\n"
       "  encoder        its step, its noise, the smallest gap that can be read\n"
       "  jumps          wrapped or lost counts, spikes\n"
       "  fresh samples  x1 read anew for every row\n"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/recording/csv.h"
+#include "gapscope/config/data_config.h"
 
 namespace gapscope::cli {
 
@@ -44,7 +44,12 @@ struct RecordingArguments {
   std::vector<double> window;  ///< empty or two [s]
   double resample = 0.0;       ///< 0: as it stands [Hz]
   bool translation = false;
-  CsvOptions options() const;
+  DeclaredUnits units;
+  GearRatios gear;
+  int bits = 0;  ///< of the encoder; 0: not given
+
+  EncoderConfig encoder() const;
+  RecordingConfig configuration() const;  ///< @throws ConfigError naming the option
 };
 void add_recording_arguments(CLI::App& command, RecordingArguments& arguments);
 

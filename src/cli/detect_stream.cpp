@@ -55,7 +55,8 @@ std::string_view read_piece(std::array<char, 1 << 16>& buffer) {
 
 class Session {
  public:
-  Session(const CsvColumns& columns, double quantum) : csv_("standard input", columns), quantum_(quantum) {}
+  Session(const RecordingColumns& columns, double quantum)
+      : csv_("standard input", columns), quantum_(quantum) {}
 
   /// To the end of the input, or to whatever stops it; the summary comes last in any case.
   void run() {
@@ -127,7 +128,7 @@ class Session {
 
 }  // namespace
 
-void detect_stream(const CsvColumns& columns, double quantum) {
+void detect_stream(const RecordingColumns& columns, double quantum) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
     Session(columns, quantum).run();

@@ -9,6 +9,6 @@ namespace gapscope::cli {
 /// without a word where nobody reads its output any more.
 /// @param quantum  of the encoder [rad]; 0: as the samples show
 /// @throws ConfigError for a broken line, after the summary; Interrupted
-void detect_stream(const CsvColumns& columns, double quantum);
+void detect_stream(const RecordingColumns& columns, double quantum);
 
 }  // namespace gapscope::cli

@@ -25,7 +25,7 @@ struct Arguments {
   std::string folder;
   bool quiet = false;
   bool stream = false;  ///< the rest is for `detect --stream` alone
-  CsvColumns columns;
+  RecordingColumns columns;
   double quantum = 0.0;  ///< [rad]; 0: as the samples show
 };
 

@@ -28,7 +28,7 @@ void write_starter(const Arguments& a) {
   if (fs::exists(output))
     throw ConfigError(output, "is there already, expected another name (-o FILE) or that it is moved away");
   const fs::path parent = fs::path(output).parent_path();
-  const Starter starter = starter_configuration(r.file, r.options(), !r.translation,
+  const Starter starter = starter_configuration(r.configuration(), r.encoder(), !r.translation,
                                                 parent.empty() ? "." : parent.string(), a.model);
   write_text(output, starter.yaml);
   print_warnings(starter.spoiling);

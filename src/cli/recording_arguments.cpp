@@ -1,4 +1,8 @@
 // The options of the commands that are given a recording itself, before there is a configuration.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "cli/commands.h"
@@ -6,21 +10,66 @@
 
 namespace gapscope::cli {
 
-CsvOptions RecordingArguments::options() const {
-  CsvOptions o;
+EncoderConfig RecordingArguments::encoder() const {
+  if (bits == 0) return {};
+  return {bits, EncoderConfig::quantum_of(bits)};
+}
+
+RecordingConfig RecordingArguments::configuration() const {
+  if (units.position == "counts" && (bits == 0 || translation))
+    throw ConfigError(
+        "gapscope: --position-unit is counts, expected --bits of a rotary encoder beside it, or the size of "
+        "one "
+        "count as a number");
+  RecordingConfig c;
+  c.files = {{file, file, 0}};
+  c.units = units;
+  c.gear = gear;
+  ReadOptions& o = c.reading;
   o.columns.time = time;
   o.columns.input = input;
   o.columns.position = position;
+  o.columns.scales =
+      declared_scales(units, gear, encoder(), !translation, [](const char* key, auto& expected) {
+        throw ConfigError(fmt::format("gapscope: --{}-unit is not known, expected {}", key, expected));
+      });
   if (!window.empty()) o.window = {window[0], window[1]};
   if (o.window && !(o.window->first < o.window->second))
     throw ConfigError("gapscope: --window goes backwards, expected FROM before TO [s]");
   if (resample > 0.0) o.resample_rate = resample;
-  return o;
+  return c;
 }
 
+namespace {
+
+void add_unit_options(CLI::App& command, RecordingArguments& a) {
+  const auto unit = [&](const char* name, std::string& declared, const char* what) {
+    command.add_option(name, declared, what)->type_name("UNIT");
+  };
+  unit("--time-unit", a.units.time, "of the time: s, ms, us, ns (default: s)");
+  unit("--input-unit", a.units.input, "of the input: N m, mN m, A, mA, ... (default: as it is)");
+  unit("--position-unit", a.units.position,
+       "of the position: rad, mrad, deg, arcmin, arcsec, rev, counts; m, mm, um, nm (default: rad, m)");
+  command.add_option("--bits", a.bits, "of the encoder, for --position-unit counts")
+      ->type_name("N")
+      ->check(CLI::Range(1, 40).description(""));
+  command
+      .add_option("--gear-ratio", a.gear.position,
+                  "turns of the encoder per turn of the axis to be looked at")
+      ->type_name("RATIO")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const double ratio = std::abs(std::strtod(text.c_str(), nullptr));
+            return ratio >= 1e-6 && ratio <= 1e6 ? "" : "expected 1e-6 to 1e6, or as much below 0";
+          },
+          ""));
+}
+
+}  // namespace
+
 void add_recording_arguments(CLI::App& command, RecordingArguments& a) {
-  command.add_option("FILE", a.file, "recording (CSV)")->required();
-  command.add_option("--time", a.time, "column of the time [s] (default: t)")->type_name("NAME");
+  command.add_option("FILE", a.file, "recording (CSV or .mat)")->required();
+  command.add_option("--time", a.time, "column (or variable) of the time (default: t)")->type_name("NAME");
   command.add_option("--input", a.input, "column of the input (default: u)")->type_name("NAME");
   command.add_option("--position", a.position, "column of the position (default: x1)")->type_name("NAME");
   command.add_option("--window", a.window, "part of the file that is used [s]")
@@ -29,6 +78,7 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& a) {
   command.add_option("--resample", a.resample, "rate that it is brought to [Hz]")
       ->type_name("RATE")
       ->check(CLI::Range(1e-3, 1e7));
+  add_unit_options(command, a);
   command.add_flag("--translation", a.translation, "positions in m and forces in N instead of rad and N m");
 }
 

@@ -10,7 +10,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/campaign/pipeline.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace gapscope::cli {
 namespace {

@@ -79,7 +79,8 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
         fmt::format("stands beside recording (line {}), expected only one of both", recording->line()));
   if (!recording && !simulation) root.require("recording", "either recording or simulation");
   if (recording) {
-    c.recording = read_recording(*recording, std::filesystem::path(c.file).parent_path().string());
+    c.recording = read_recording(*recording, std::filesystem::path(c.file).parent_path().string(), c.encoder,
+                                 c.rotation);
     return;
   }
   c.simulation = read_simulation(*simulation, std::filesystem::path(c.file).parent_path().string());
@@ -144,6 +145,10 @@ Configuration read_configuration(const Value& document) {
 }
 
 }  // namespace internal
+
+double Configuration::position_quantum() const {
+  return encoder.quantum / (recording ? std::abs(recording->gear.position) : 1.0);
+}
 
 Configuration parse_configuration(const std::string& text, const std::string& file) {
   return internal::read_configuration(internal::parse_document(text, file));

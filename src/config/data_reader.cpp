@@ -8,6 +8,7 @@
 #include <set>
 
 #include "config/field_reader.h"
+#include "config/units_reader.h"
 #include "gapscope/base/errors.h"
 
 namespace gapscope {
@@ -53,9 +54,9 @@ void read_column(const Section& section, const char* key, std::string& name, std
         .fail(fmt::format("uses the column {} twice, expected four columns", name));
 }
 
-CsvColumns read_columns(const Value& value) {
+RecordingColumns read_columns(const Value& value) {
   const Section section(value, {"time", "input", "position", "load_position"});
-  CsvColumns columns;
+  RecordingColumns columns;
   std::set<std::string> taken;
   read_column(section, "time", columns.time, taken);
   read_column(section, "input", columns.input, taken);
@@ -95,18 +96,20 @@ void require_sensible_size(const SimulationConfig& s, const Section& section) {
 
 }  // namespace
 
-RecordingConfig read_recording(const Value& value, const std::string& folder) {
-  const Section section(value, {"file", "held_out", "columns", "window", "resample"});
+RecordingConfig read_recording(const Value& value, const std::string& folder, const EncoderConfig& encoder,
+                               bool rotation) {
+  const Section section(value, {"file", "held_out", "columns", "units", "gear_ratio", "window", "resample"});
   RecordingConfig recording;
   std::set<std::string> seen;
   recording.files = read_files(section.require("file", "a file or a list of files"), folder, seen);
   if (const auto held_out = section.find("held_out"))
     recording.held_out = read_files(*held_out, folder, seen);
-  if (const auto columns = section.find("columns")) recording.csv.columns = read_columns(*columns);
+  if (const auto columns = section.find("columns")) recording.reading.columns = read_columns(*columns);
+  read_units(section, encoder, rotation, recording);
   if (const auto window = section.find("window"))
-    recording.csv.window = window->rising_pair({-kInfinity, kInfinity, "s"});
+    recording.reading.window = window->rising_pair({-kInfinity, kInfinity, "s"});
   if (const auto resample = section.find("resample"))
-    recording.csv.resample_rate =
+    recording.reading.resample_rate =
         Section(*resample, {"rate"}).require("rate", "a number [Hz]").number({1e-3, 1e7, "Hz"});
   return recording;
 }

@@ -6,7 +6,8 @@
 namespace gapscope::internal {
 
 /// @param folder  of the configuration, to which paths are relative
-RecordingConfig read_recording(const Value& value, const std::string& folder);
+RecordingConfig read_recording(const Value& value, const std::string& folder, const EncoderConfig& encoder,
+                               bool rotation);
 
 EncoderConfig read_encoder(const Value& value, bool rotation);
 

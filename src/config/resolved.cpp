@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/config/configuration.h"
 
@@ -31,7 +32,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   write_files(out, "file", recording.files);
   write_files(out, "held_out", recording.held_out);
   out.open("columns");
-  const CsvColumns& columns = recording.csv.columns;
+  const RecordingColumns& columns = recording.reading.columns;
   out.entry("time", yaml_text(columns.time));
   out.entry("input", yaml_text(columns.input));
   out.entry("position", yaml_text(columns.position));
@@ -41,9 +42,10 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
     out.comment("load_position: " + yaml_text(columns.load_position) + " where there is one");
   }
   out.close();
-  if (const auto& window = recording.csv.window)
+  internal::write_units(out, recording);
+  if (const auto& window = recording.reading.window)
     out.entry("window", fmt::format("[{}, {}]", window->first, window->second), "s");
-  if (const auto& rate = recording.csv.resample_rate)
+  if (const auto& rate = recording.reading.resample_rate)
     out.entry("resample", fmt::format("{{rate: {}}}", *rate), "Hz");
   out.close();
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "config/configuration_reader.h"
+#include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/sliding_mode/detector.h"
@@ -72,14 +73,17 @@ std::string named_from(const std::string& folder, const std::string& recording) 
   return stays ? recording : std::filesystem::proximate(recording, folder).generic_string();
 }
 
-void write_recording(YamlWriter& out, const std::string& file, const CsvOptions& options, bool resampled) {
+void write_recording(YamlWriter& out, const std::string& file, const RecordingConfig& recording,
+                     bool resampled) {
+  const ReadOptions& options = recording.reading;
   out.open("recording");
   out.entry("file", yaml_text(file));
   out.comment(
       "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
-  const CsvColumns& c = options.columns;
+  const RecordingColumns& c = options.columns;
   out.entry("columns", fmt::format("{{time: {}, input: {}, position: {}}}", yaml_text(c.time),
                                    yaml_text(c.input), yaml_text(c.position)));
+  internal::write_units(out, recording);
   if (options.window)
     out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second), "s");
   if (options.resample_rate)
@@ -88,8 +92,12 @@ void write_recording(YamlWriter& out, const std::string& file, const CsvOptions&
   out.close();
 }
 
-void write_encoder(YamlWriter& out, const RecordingFacts& f, bool rotation) {
+/// @param gear  between the encoder and x1
+void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f, double gear,
+                   bool rotation) {
   const char* unit = rotation ? "rad" : "m";
+  if (known.bits) return out.entry("encoder", fmt::format("{{bits: {}}}", *known.bits), "as told");
+  f.quantum *= std::abs(gear);
   if (std::isnan(f.quantum))
     return out.comment(rotation ? "encoder: {bits: 20}   # GUESS: no step is seen in x1; what the sheet says"
                                 : "encoder: {quantum: 1e-6}   # GUESS: no step is seen in x1; m");
@@ -97,7 +105,7 @@ void write_encoder(YamlWriter& out, const RecordingFacts& f, bool rotation) {
   const bool binary = rotation && std::abs(bits - std::round(bits)) < 1e-3;
   out.entry("encoder",
             binary ? fmt::format("{{bits: {:.0f}}}", bits) : fmt::format("{{quantum: {:.5g}}}", f.quantum),
-            fmt::format("read: x1 steps by {:.5g} {}", f.quantum, unit));
+            fmt::format("read: {} steps by {:.5g} {}", gear == 1.0 ? "x1" : "the encoder", f.quantum, unit));
 }
 
 /// {value: …, estimate: true} with a number that was read, else without.
@@ -140,12 +148,14 @@ void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f,
 
 }  // namespace
 
-Starter starter_configuration(const std::string& recording, CsvOptions options, bool rotation,
+Starter starter_configuration(RecordingConfig config, const EncoderConfig& encoder, bool rotation,
                               const std::string& folder, StarterModel model) {
+  const std::string& recording = config.files.front().path;
+  ReadOptions& options = config.reading;
   const Inspection seen = inspect(recording, options, rotation);
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
-  const Recording r = read_csv(recording, options);
+  const Recording r = read_recording(recording, options);
   const Choice choice = choose(model, r.motor_trace(), rotation);
   Starter starter;
   starter.model = choice.why;
@@ -162,8 +172,8 @@ Starter starter_configuration(const std::string& recording, CsvOptions options, 
     out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back() + " -> " + f.advice);
   }
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
-  write_recording(out, named_from(folder, recording), options, irregular);
-  write_encoder(out, seen.facts, rotation);
+  write_recording(out, named_from(folder, recording), config, irregular);
+  write_encoder(out, encoder, seen.facts, config.gear.position, rotation);
   out.entry("coordinates", rotation ? "rotation" : "translation");
   write_model(out, choice, seen.facts, rotation);
   out.entry("detector", "{bound: auto}");

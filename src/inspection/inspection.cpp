@@ -12,8 +12,8 @@
 namespace gapscope {
 namespace {
 
-using internal::CsvTable;
 using internal::Material;
+using internal::RecordedRows;
 
 using Rule = Finding (*)(const Material&, RecordingFacts&);
 
@@ -26,7 +26,7 @@ constexpr Rule kRules[] = {
 
 /// A grid at the median step, but never many times finer than the rows: one row far off must not fill the
 /// memory.
-double grid_rate(const CsvTable& rows) {
+double grid_rate(const RecordedRows& rows) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(rows.t[i] - rows.t[i - 1]);
   return std::min(1.0 / median(std::move(steps)), 4.0 / internal::mean_step(rows));
@@ -43,7 +43,7 @@ double quantum_of(const std::vector<double>& x1) {
   return steps.empty() || still < kMostlyStill ? 0.0 : *std::min_element(steps.begin(), steps.end());
 }
 
-Recording on_grid(CsvTable rows, const CsvOptions& options) {
+Recording on_grid(RecordedRows rows, const ReadOptions& options) {
   const double quantum = quantum_of(rows.x1);
   Recording r = options.resample_rate        ? internal::resample(rows, *options.resample_rate)
                 : internal::is_uniform(rows) ? internal::uniform_recording(std::move(rows))
@@ -104,7 +104,7 @@ std::string Inspection::report() const {
   return text + fmt::format("{:<12}{}\n", "answer", sum_of(*this));
 }
 
-Inspection inspect(const std::string& path, const CsvOptions& options, bool rotation) {
+Inspection inspect(const std::string& path, const ReadOptions& options, bool rotation) {
   Material m;
   m.rows = internal::read_window(path, options, internal::EarlierRow::kSkipped);
   m.recording = on_grid(m.rows, options);

@@ -97,12 +97,14 @@ Finding check_position_unit(const Material& m, RecordingFacts&) {
   const double speed = fastest(m), limit = m.rotation ? kFastestRotation : kFastestSlide;
   if (m.moves() && whole_numbers(m.rows.x1))
     return wrong_unit("all positions are whole numbers: counts?",
-                      fmt::format("give x1 in {}", m.rotation ? "rad: counts x 2 pi/counts per turn" : "m"));
+                      m.rotation ? "declare it, units: {position: counts} beside encoder: {bits: ...}"
+                                 : "declare it, units: {position: counts} beside encoder: {quantum: ...}");
   if (m.rotation && q > 0.0 && !is_usual(turn / q) && is_usual(360.0 / q))
     return wrong_unit(fmt::format("x1 steps by 360/{:.0f}: degrees?", 360.0 / q),
-                      "give x1 in rad: degrees x pi/180");
+                      "declare it, recording: units: {position: deg}");
   if (m.rotation && q > 0.0 && !is_usual(turn / q) && is_power_of_two(1.0 / q))
-    return wrong_unit(fmt::format("x1 steps by 1/{:.0f}: turns?", 1.0 / q), "give x1 in rad: turns x 2 pi");
+    return wrong_unit(fmt::format("x1 steps by 1/{:.0f}: turns?", 1.0 / q),
+                      "declare it, recording: units: {position: rev}");
   const std::string speeds = fmt::format("up to {:.4g} {}/s", speed, m.unit());
   if (speed > limit)
     return wrong_unit(speeds + fmt::format(", more than {:.0f}", limit),
@@ -138,8 +140,8 @@ Finding check_jumps(const Material& m, RecordingFacts&) {
   const double size = std::abs(m.rows.x1[i] - m.rows.x1[i - 1]), turns = size / (2.0 * std::numbers::pi);
   const bool wraps = m.rotation && turns > 0.9 && std::abs(turns - std::round(turns)) < 0.05 * turns;
   return {"jumps", Severity::kSpoils,
-          fmt::format("x1 jumps {} times, first by {:.4g} {} in line {}", found.size(), size, m.unit(),
-                      m.rows.line[i]),
+          fmt::format("x1 jumps {} times, first by {:.4g} {} in {}", found.size(), size, m.unit(),
+                      m.rows.place(m.rows.line[i])),
           wraps ? "a whole turn: count x1 on over the turns (unwrap it)"
                 : "lost counts, a wrapped counter or a spike: mend the cause, or leave that part out with "
                   "recording: window"};

@@ -7,14 +7,14 @@
 
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/recording/recording.h"
-#include "recording/csv_table.h"
+#include "recording/recorded_rows.h"
 #include "sliding_mode/signal_facts.h"
 
 namespace gapscope::internal {
 
 /// A recording as it is looked at.
 struct Material {
-  CsvTable rows;           ///< as they stand in the file
+  RecordedRows rows;       ///< as they stand in the file
   Recording recording;     ///< the same on a uniform grid
   SignalFacts signal;      ///< of its x1
   bool resampled = false;  ///< on request: irregular time is taken care of

@@ -19,7 +19,7 @@ struct Steps {
   double missing = 0.0;
 };
 
-Steps steps_of(const CsvTable& rows) {
+Steps steps_of(const RecordedRows& rows) {
   std::vector<double> all;
   for (std::size_t i = 1; i < rows.size(); ++i) all.push_back(rows.t[i] - rows.t[i - 1]);
   Steps s;
@@ -44,8 +44,8 @@ std::string resample_advice(const RecordingFacts& facts) {
 
 Finding skipped_rows(const Material& m) {
   return {"time", Severity::kSpoils,
-          fmt::format("{} rows are not later than the row before, the first in line {}",
-                      m.rows.skipped.size(), m.rows.skipped.front()),
+          fmt::format("{} rows are not later than the row before, the first in {}", m.rows.skipped.size(),
+                      m.rows.place(m.rows.skipped.front())),
           "export each sample once and in order; the rest is judged without these rows"};
 }
 

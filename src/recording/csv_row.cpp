@@ -97,12 +97,13 @@ void CsvRow::check_width() const {
     fail(fmt::format("{} fields, expected {} as in the header", filled, width_));
 }
 
-double CsvRow::number(int place, const std::string& column) const {
+double CsvRow::number(int place, const std::string& column, const UnitScale& scale) const {
   std::string_view text = fields_[static_cast<std::size_t>(place)];
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = end == text.data() + text.size() && !text.empty();
+  value = scale(value);
   if (whole && problem == std::errc() && std::isfinite(value)) return value;
   const bool vanishes = text.find("e-") != text.npos || text.find("E-") != text.npos;
   if (whole && problem == std::errc::result_out_of_range && vanishes) return 0.0;

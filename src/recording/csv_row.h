@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace gapscope::internal {
 
@@ -12,21 +12,21 @@ namespace gapscope::internal {
 class CsvRow {
  public:
   /// @param name  of the file, for messages
-  CsvRow(std::string name, CsvColumns columns) : name_(std::move(name)), columns_(std::move(columns)) {}
+  CsvRow(std::string name, RecordingColumns columns) : name_(std::move(name)), columns_(std::move(columns)) {}
 
   /// Takes the next line, without its end.  @returns whether it is a row: no header, comment or blank line
   /// @throws ConfigError for a header without the columns, and a row of another width
   bool next(std::string_view line);
 
-  // Of the row that was taken last.  @throws ConfigError where it is no finite number
-  double time() const { return number(t_, columns_.time); }
-  double input() const { return number(u_, columns_.input); }
-  double position() const { return number(x1_, columns_.position); }
-  double load_position() const { return number(x2_, columns_.load_position); }
+  // Of the row that was taken last, in SI.  @throws ConfigError where it is no finite number
+  double time() const { return number(t_, columns_.time, columns_.scales.time); }
+  double input() const { return number(u_, columns_.input, columns_.scales.input); }
+  double position() const { return number(x1_, columns_.position, columns_.scales.position); }
+  double load_position() const { return number(x2_, columns_.load_position, columns_.scales.load_position); }
 
   bool has_load_position() const { return x2_ >= 0; }
   int line() const { return line_; }  ///< of the file, from 1
-  const CsvColumns& columns() const { return columns_; }
+  const RecordingColumns& columns() const { return columns_; }
 
   void require_header() const;  ///< @throws ConfigError unless there was one
   [[noreturn]] void fail(const std::string& what) const;
@@ -37,10 +37,10 @@ class CsvRow {
   int place(const std::string& name, bool required) const;
   std::string wanted() const;
   std::string wanted_with(const std::string& name) const;
-  double number(int place, const std::string& column) const;
+  double number(int place, const std::string& column, const UnitScale& scale) const;
 
   std::string name_;
-  CsvColumns columns_;
+  RecordingColumns columns_;
   std::vector<std::string_view> fields_;  // of the line that was taken last
   std::size_t width_ = 0;
   int line_ = 0, t_ = -1, u_ = -1, x1_ = -1, x2_ = -1;

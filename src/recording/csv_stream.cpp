@@ -7,15 +7,15 @@
 
 #include "gapscope/base/errors.h"
 #include "recording/csv_row.h"
-#include "recording/csv_table.h"
 #include "recording/limits.h"
+#include "recording/recorded_rows.h"
 
 namespace gapscope {
 
 struct CsvStream::State {
   std::string name, line;  // the line that has not ended yet
   internal::CsvRow row;
-  internal::CsvTable first;  // rows until the clock is known
+  internal::RecordedRows first;  // rows until the clock is known
   double start = 0.0, dt = 0.0, last = 0.0;
   std::vector<Sample> samples;
 
@@ -56,7 +56,7 @@ struct CsvStream::State {
   }
 };
 
-CsvStream::CsvStream(std::string name, const CsvColumns& columns)
+CsvStream::CsvStream(std::string name, const RecordingColumns& columns)
     : state_(new State{name, "", {name, columns}, {}, 0.0, 0.0, 0.0, {}}) {
   state_->first.path = name;
 }

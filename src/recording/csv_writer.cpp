@@ -5,7 +5,7 @@
 
 #include "gapscope/base/require.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace gapscope {
 namespace {

@@ -13,7 +13,7 @@ namespace gapscope::internal {
 namespace {
 
 /// Number of grid points that fit between the first and the last row.
-std::size_t grid_size(const CsvTable& table, double rate) {
+std::size_t grid_size(const RecordedRows& table, double rate) {
   const double intervals = (table.t.back() - table.t.front()) * rate;
   if (intervals > static_cast<double>(kMostSamples))
     throw ConfigError(table.path, fmt::format("resampling to {} Hz gives {:.3g} samples, expected at most {}",
@@ -22,8 +22,8 @@ std::size_t grid_size(const CsvTable& table, double rate) {
 }
 
 /// The grid never leaves the rows, but for the rounding of its last point.
-std::vector<double> linearly(const CsvTable& table, const std::vector<double>& values, const Recording& grid,
-                             std::size_t count) {
+std::vector<double> linearly(const RecordedRows& table, const std::vector<double>& values,
+                             const Recording& grid, std::size_t count) {
   std::vector<double> out;
   if (values.empty()) return out;
   out.reserve(count);
@@ -38,7 +38,7 @@ std::vector<double> linearly(const CsvTable& table, const std::vector<double>& v
 }
 
 /// ū_i = 1/dt ∫ u dt from t_i to t_{i+1}, u held from its own row to the next, the last one for ever.
-std::vector<double> interval_means(const CsvTable& table, const Recording& grid, std::size_t count) {
+std::vector<double> interval_means(const RecordedRows& table, const Recording& grid, std::size_t count) {
   std::vector<double> out;
   out.reserve(count);
   std::size_t row = 0;
@@ -56,7 +56,7 @@ std::vector<double> interval_means(const CsvTable& table, const Recording& grid,
   return out;
 }
 
-std::string note(const CsvTable& table, double rate) {
+std::string note(const RecordedRows& table, double rate) {
   double shortest = table.t[1] - table.t[0], longest = shortest;
   for (std::size_t i = 1; i < table.size(); ++i) {
     shortest = std::min(shortest, table.t[i] - table.t[i - 1]);
@@ -71,7 +71,7 @@ std::string note(const CsvTable& table, double rate) {
 
 }  // namespace
 
-Recording resample(const CsvTable& table, double rate) {
+Recording resample(const RecordedRows& table, double rate) {
   GAPSCOPE_REQUIRE(rate > 0.0 && table.size() >= 2);
   const std::size_t count = grid_size(table, rate);
   Recording r;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "gapscope/recording/recording.h"
-#include "recording/csv_table.h"
+#include "recording/recorded_rows.h"
 
 namespace gapscope::internal {
 
@@ -9,6 +9,6 @@ namespace gapscope::internal {
 /// held input over each new interval, so that its impulse is kept. The last interval may reach beyond the
 /// last row, whose input is held. Fills the series, start, dt and the note `resampling`.
 /// @param rate [Hz], > 0
-Recording resample(const CsvTable& table, double rate);
+Recording resample(const RecordedRows& table, double rate);
 
 }  // namespace gapscope::internal

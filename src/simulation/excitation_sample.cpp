@@ -8,7 +8,7 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/random.h"
 #include "gapscope/base/require.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "gapscope/simulation/excitation.h"
 
 namespace gapscope {
@@ -92,9 +92,9 @@ std::vector<double> recorded(const Excitation& e, double rate, std::size_t count
   const std::string path = (std::filesystem::path(e.folder) / e.file).lexically_normal().string();
   if (!std::filesystem::exists(path))
     throw ConfigError(path, "is not there, expected the recording whose input is played");
-  CsvOptions options;
-  options.columns = {e.time_column, e.input_column, e.input_column, "", false};
-  const Recording recording = read_csv(path, options);
+  ReadOptions options;
+  options.columns = {e.time_column, e.input_column, e.input_column, "", false, {}};
+  const Recording recording = read_recording(path, options);
   if (std::abs(recording.dt * rate - 1.0) > 1e-3)
     throw ConfigError(path,
                       fmt::format("is sampled at {:.6g} Hz, expected the rate of the simulation, {:.6g} Hz",

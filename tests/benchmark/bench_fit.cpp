@@ -13,7 +13,7 @@
 #include <functional>
 #include <memory>
 
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "reference/recording_cost.h"
 #include "reference/rigs.h"
 #include "reference/starts.h"

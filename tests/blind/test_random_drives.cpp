@@ -7,7 +7,7 @@
 
 #include "gapscope/blind/random_drives.h"
 #include "gapscope/config/configuration.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -12,7 +12,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/config/configuration.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "gapscope/results/blind_files.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"
@@ -106,7 +106,7 @@ TEST(BlindMake, WritesSheetsThatTheDiagnosisTakesAsTheyAre) {
   const Configuration c = load_configuration(check.folder() + "/case_001.yaml");
   EXPECT_NO_THROW(require_reference_model(c));
   ASSERT_EQ(c.recording->held_out.size(), 1u);
-  EXPECT_GT(read_csv(c.recording->held_out[0].path).size(), 5000u);
+  EXPECT_GT(read_recording(c.recording->held_out[0].path).size(), 5000u);
   EXPECT_TRUE(c.model.effects.empty());
 }
 

@@ -7,7 +7,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/campaign/pipeline.h"
 #include "gapscope/campaign/store.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace gapscope {
 namespace {

@@ -30,9 +30,9 @@ TEST(Configuration, EveryKeyOfTheSchemaArrives) {
   EXPECT_EQ(c.recording->files.at(0).given, "train.csv");
   EXPECT_EQ(c.recording->files.at(0).line, 3);
   EXPECT_EQ(c.recording->held_out.size(), 2u);
-  EXPECT_TRUE(c.recording->csv.columns.load_position_required);
-  EXPECT_EQ(c.recording->csv.window->second, 20.31);
-  EXPECT_EQ(c.recording->csv.resample_rate, 400.0);
+  EXPECT_TRUE(c.recording->reading.columns.load_position_required);
+  EXPECT_EQ(c.recording->reading.window->second, 20.31);
+  EXPECT_EQ(c.recording->reading.resample_rate, 400.0);
   EXPECT_DOUBLE_EQ(c.encoder.quantum, 2.0 * kPi / 1048576.0);
   EXPECT_TRUE(c.rotation);
   EXPECT_EQ(c.model.structure.contact, ContactLaw::kCompliant);
@@ -45,6 +45,30 @@ TEST(Configuration, EveryKeyOfTheSchemaArrives) {
   EXPECT_FALSE(c.detector.bound.has_value());
   EXPECT_FALSE(c.detector.from_model.has_value());
   EXPECT_NO_THROW(require_reference_model(c));
+}
+
+TEST(Configuration, UnitsAndGearsMakeSiOfTheColumnsAndOfTheEncodersStep) {
+  const std::string units =
+      "  units: {time: ms, input: mN m, position: counts, load_position: 1.5e-3}\n"
+      "  gear_ratio: {position: -50}\n  resample";
+  const Configuration c = parse_configuration(with(kRecorded, "  resample", units), "rig.yaml");
+  const ColumnScales& s = c.recording->reading.columns.scales;
+  EXPECT_EQ(s.time(7.0), 0.007);
+  EXPECT_EQ(s.input(5.0), 0.005);
+  EXPECT_DOUBLE_EQ(s.position(1048576.0), -2.0 * kPi / 50.0);  // a turn of the encoder
+  EXPECT_EQ(s.load_position(2.0), 0.003);
+  EXPECT_DOUBLE_EQ(c.encoder.quantum, 2.0 * kPi / 1048576.0);  // as on its sheet
+  EXPECT_DOUBLE_EQ(c.position_quantum(), 2.0 * kPi / 1048576.0 / 50.0);
+  const std::string resolved = resolved_yaml(c);
+  EXPECT_THAT(resolved, ::testing::HasSubstr("gear_ratio: {position: -50, load_position: 1}"));
+  EXPECT_EQ(resolved_yaml(parse_configuration(resolved, "rig.yaml")), resolved);
+}
+
+TEST(Configuration, WithoutUnitsColumnsStayAsTheyAre) {
+  const Configuration c = parse_configuration(kRecorded, "rig.yaml");
+  const ColumnScales& s = c.recording->reading.columns.scales;
+  for (const UnitScale& scale : {s.time, s.input, s.position, s.load_position}) EXPECT_EQ(scale(0.1), 0.1);
+  EXPECT_EQ(resolved_yaml(c).find("units:"), std::string::npos);
 }
 
 TEST(Configuration, GapMotorDampingAndMassRatioAreEstimatedWhenTheirKeysAreAbsent) {

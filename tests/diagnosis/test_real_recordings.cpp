@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "support/data.h"
 
 namespace gapscope {
 namespace {
 
 Recording ball_screw(const char* name) {
-  Recording r = read_csv((testing::data_folder() / "emps" / name).string());
+  Recording r = read_recording((testing::data_folder() / "emps" / name).string());
   r.quantum = 5e-8;
   return r;
 }

@@ -4,7 +4,7 @@
 #include "fuzz/readers.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/csv_stream.h"
-#include "recording/csv_table.h"
+#include "recording/recorded_rows.h"
 
 namespace gapscope::testing {
 namespace {
@@ -39,11 +39,11 @@ void read_stream(std::string_view bytes) {
 int read_recording(std::string_view bytes) {
   static const GivenFile file("r.csv");
   file.fill(bytes);
-  CsvOptions options;
-  int taken = attempt([&] { require_sound(read_csv(file.path(), options)); });
+  ReadOptions options;
+  int taken = attempt([&] { require_sound(gapscope::read_recording(file.path(), options)); });
   options.window = {0.01, 0.5};
   options.resample_rate = 700.0;
-  taken += attempt([&] { require_sound(read_csv(file.path(), options)); });
+  taken += attempt([&] { require_sound(gapscope::read_recording(file.path(), options)); });
   taken += attempt([&] { internal::read_window(file.path(), {}, internal::EarlierRow::kSkipped); });
   return taken + attempt([&] { read_stream(bytes); });
 }

@@ -23,7 +23,7 @@ using testing::rig;
 using testing::Rows;
 using testing::TemporaryFile;
 
-Inspection inspected(const Rows& rows, const CsvOptions& options = {}, bool rotation = true) {
+Inspection inspected(const Rows& rows, const ReadOptions& options = {}, bool rotation = true) {
   const TemporaryFile file(rows.csv());
   return inspect(file.path(), options, rotation);
 }
@@ -298,7 +298,7 @@ TEST(Inspection, AnInputThatDoesNotRepeatLeavesTheDiagnosisTheEncoderAlone) {
 TEST(Inspection, IrregularTimeIsANoteOnceItIsResampled) {
   Rows rows = good();
   for (std::size_t i = 0; i < rows.t.size(); ++i) rows.t[i] += 2e-4 * noise_of(i);
-  CsvOptions options;
+  ReadOptions options;
   options.resample_rate = 900.0;
   const Inspection i = inspected(rows, options);
   EXPECT_EQ(finding(i, "time").severity, Severity::kNote) << i.report();
@@ -330,7 +330,7 @@ TEST(Inspection, TheRealRecordings) {
   for (const char* reducer : {"baseline_pos1", "splitpreload3_pos1"}) {
     const std::string path = data + "/cycloidal/" + reducer + ".csv";
     EXPECT_THAT(rules_with(inspect(path), Severity::kSpoils), ElementsAre("time"));
-    CsvOptions options;
+    ReadOptions options;
     options.resample_rate = 400.0;
     const Inspection uniform = inspect(path, options);
     EXPECT_FALSE(uniform.spoilt()) << uniform.report();

@@ -6,7 +6,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/random.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {
@@ -23,10 +23,10 @@ std::string rows(int count, const std::string& end = "\n") {
   return text;
 }
 
-std::string refusal(const std::string& text, const CsvOptions& options = {}) {
+std::string refusal(const std::string& text, const ReadOptions& options = {}) {
   const TemporaryFile file(text);
   try {
-    read_csv(file.path(), options);
+    read_recording(file.path(), options);
   } catch (const ConfigError& error) {
     return std::string(error.what()).substr(file.folder().string().size() + 1);
   }
@@ -37,7 +37,7 @@ TEST(Csv, ReadsColumnsByNameWhateverTheirOrder) {
   std::string text = "x1,note,t,u\n";
   for (int i = 0; i < 60; ++i) text += std::to_string(i) + ",word," + std::to_string(0.5 * i) + ",3\n";
   const TemporaryFile file(text);
-  const Recording r = read_csv(file.path());
+  const Recording r = read_recording(file.path());
   EXPECT_EQ(r.file, "r.csv");
   EXPECT_EQ(r.size(), 60u);
   EXPECT_EQ(r.start, 0.0);
@@ -54,7 +54,7 @@ TEST(Csv, ToleratesByteOrderMarkCrlfCommentsBlanksAndQuotes) {
   std::string rest = rows(60, " , # later\r\n");
   rest = rest.substr(rows(30, " , # later\r\n").size());
   const TemporaryFile odd(text + "  # half\r\n" + rest + "\r\n\r\n");
-  const Recording a = read_csv(plain.path()), b = read_csv(odd.path());
+  const Recording a = read_recording(plain.path()), b = read_recording(odd.path());
   EXPECT_EQ(a.x1, b.x1);
   EXPECT_EQ(a.u, b.u);
   EXPECT_EQ(a.dt, b.dt);
@@ -64,7 +64,7 @@ TEST(Csv, ALastLineWithoutNewlineCounts) {
   std::string text = "t,u,x1\n" + rows(55);
   text.pop_back();
   const TemporaryFile file(text);
-  EXPECT_EQ(read_csv(file.path()).size(), 55u);
+  EXPECT_EQ(read_recording(file.path()).size(), 55u);
 }
 
 TEST(Csv, WhatWasWrittenReadsBackTheSame) {
@@ -83,7 +83,7 @@ TEST(Csv, WhatWasWrittenReadsBackTheSame) {
     const TemporaryFile folder("");
     const std::string path = (folder.folder() / "out.csv").string();
     write_csv(path, r);
-    const Recording back = read_csv(path);
+    const Recording back = read_recording(path);
     EXPECT_EQ(back.start, r.start);
     for (std::size_t i = 0; i < r.size(); ++i) ASSERT_EQ(back.time(i), r.time(i)) << rate;
     EXPECT_EQ(back.u, r.u);
@@ -95,19 +95,24 @@ TEST(Csv, WhatWasWrittenReadsBackTheSame) {
 
 TEST(Csv, AWindowKeepsBothEnds) {
   const TemporaryFile file("t,u,x1\n" + rows(200));
-  CsvOptions options;
+  ReadOptions options;
   options.window = {0.05, 0.12};
-  const Recording r = read_csv(file.path(), options);
+  const Recording r = read_recording(file.path(), options);
   EXPECT_EQ(r.size(), 71u);
   EXPECT_EQ(r.start, 0.05);
   EXPECT_EQ(r.x1.back(), 1.2);
 }
 
 TEST(Csv, ColumnsCanBeRenamedAndASecondPositionIsOptionalUnlessNamed) {
-  CsvOptions options;
-  options.columns = {.time = "time", .input = "i_q", .position = "theta", .load_position = "phi"};
+  ReadOptions options;
+  options.columns = {.time = "time",
+                     .input = "i_q",
+                     .position = "theta",
+                     .load_position = "phi",
+                     .load_position_required = false,
+                     .scales = {}};
   const TemporaryFile file("time,i_q,theta\n" + rows(60));
-  EXPECT_TRUE(read_csv(file.path(), options).x2.empty());
+  EXPECT_TRUE(read_recording(file.path(), options).x2.empty());
   options.columns.load_position_required = true;
   EXPECT_THAT(refusal("time,i_q,theta\n" + rows(60), options),
               HasSubstr("r.csv:1: there is no column 'phi'"));
@@ -164,9 +169,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Csv, AMissingFileAFolderAndAnEmptyWindowAreRefused) {
   const TemporaryFile file(kHead + rows(60));
-  const auto fails_with = [](const std::string& path, const CsvOptions& options, const char* message) {
+  const auto fails_with = [](const std::string& path, const ReadOptions& options, const char* message) {
     try {
-      read_csv(path, options);
+      read_recording(path, options);
       FAIL() << "accepted " << path;
     } catch (const ConfigError& error) {
       EXPECT_THAT(error.what(), HasSubstr(message));
@@ -174,7 +179,7 @@ TEST(Csv, AMissingFileAFolderAndAnEmptyWindowAreRefused) {
   };
   fails_with(file.path() + "x", {}, "there is no such file");
   fails_with(file.folder().string(), {}, "is no regular file");
-  CsvOptions options;
+  ReadOptions options;
   options.window = {3.0, 4.0};
   fails_with(file.path(), options, "0 samples in the window 3 to 4 s (the file has 0 to 0.059 s)");
 }
@@ -183,7 +188,7 @@ TEST(Csv, AFileLargerThanAnyRecordingIsRefusedUnread) {
   const TemporaryFile file(kHead + rows(60));
   std::filesystem::resize_file(file.path(), 5'000'000'000);  // a hole: no disk is used
   try {
-    read_csv(file.path());
+    read_recording(file.path());
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("r.csv: has 5e+09 bytes, expected at most 4e+09"));

@@ -46,7 +46,7 @@ std::string refusal(const std::string& text, std::size_t piece = 7) {
 TEST(CsvStream, GivesWhatTheFileGivesHoweverItIsCut) {
   const std::string text = rows(1500);
   const testing::TemporaryFile file(text);
-  const Recording whole = read_csv(file.path());
+  const Recording whole = read_recording(file.path());
   for (const std::size_t piece : {std::size_t{1}, std::size_t{13}, text.size()}) {
     CsvStream csv("standard input");
     const auto samples = read(csv, text.substr(0, text.size() - 1), piece);  // the last line need not end

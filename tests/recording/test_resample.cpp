@@ -5,16 +5,16 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/random.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "recording/resample.h"
 
 namespace gapscope {
 namespace {
 
 /// Rows at irregular times (steps of 2 to 4 ms) of a straight line and a random input.
-internal::CsvTable irregular(int count) {
+internal::RecordedRows irregular(int count) {
   auto draw = random_stream(3, "resample");
-  internal::CsvTable table;
+  internal::RecordedRows table;
   double t = 0.25;
   for (int i = 0; i < count; ++i) {
     table.t.push_back(t);
@@ -53,7 +53,7 @@ TEST(Resample, TheImpulseOfTheInputIsKept) {
 }
 
 TEST(Resample, AUniformTableAtItsOwnRateIsUnchanged) {
-  internal::CsvTable table;
+  internal::RecordedRows table;
   for (int i = 0; i < 100; ++i) {
     table.t.push_back(i / 1000.0);
     table.u.push_back(std::sin(i));

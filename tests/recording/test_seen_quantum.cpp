@@ -6,7 +6,7 @@
 
 #include "gapscope/base/random.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace gapscope {
 namespace {
@@ -64,10 +64,10 @@ std::filesystem::path data_folder() {
 TEST(SeenQuantum, ARealEncoderIsSeenInTheRawSamplesAndKeptWhenResampled) {
   const auto path = data_folder() / "cycloidal" / "baseline_pos1.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the recorded data is not here: " << path;
-  CsvOptions options;
+  ReadOptions options;
   options.window = {0.0, 20.31};
   options.resample_rate = 400.0;
-  const Recording r = read_csv(path.string(), options);
+  const Recording r = read_recording(path.string(), options);
   EXPECT_NEAR(r.quantum, 2.0 * kPi / 65536.0, 1e-8);  // 16 bit; positions are printed to 1e-9 … 1e-11 rad
   EXPECT_EQ(r.size(), 8124u);
 }

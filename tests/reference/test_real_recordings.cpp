@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "reference/rigs.h"
 #include "support/data.h"
 
@@ -21,9 +21,9 @@ ModelEffect estimated(const char* name, double start) {
 
 /// A ball-screw axis without a load of its own, from values of twice what was published.
 FitSummary fit_axis(std::pair<double, double> window) {
-  CsvOptions options;
+  ReadOptions options;
   options.window = window;
-  Recording recording = read_csv((testing::data_folder() / "emps/emps_train.csv").string(), options);
+  Recording recording = read_recording((testing::data_folder() / "emps/emps_train.csv").string(), options);
   recording.quantum = 5e-8;
   ReferenceModel model;
   model.structure.has_load = false;
@@ -66,10 +66,11 @@ TEST(RealRecordings, TheHalvesOfARecordingAgree) {
 
 /// A cycloidal reducer behind a locked output; its reflected inertia is not known within a factor of ten.
 FitSummary fit_reducer(const std::string& name, std::pair<double, double> window) {
-  CsvOptions options;
+  ReadOptions options;
   options.resample_rate = 200.0;
   options.window = window;
-  Recording recording = read_csv((testing::data_folder() / ("cycloidal/" + name + ".csv")).string(), options);
+  Recording recording =
+      read_recording((testing::data_folder() / ("cycloidal/" + name + ".csv")).string(), options);
   recording.quantum = 2.0 * kPi / 65536.0;
   ReferenceModel model;
   model.structure.load = LoadKind::kLocked;

@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "support/data.h"
 
 namespace gapscope {
 namespace {
 
-GapEstimate detect_in(const std::string& file, const CsvOptions& options = {}) {
-  const Recording recording = read_csv((testing::data_folder() / file).string(), options);
+GapEstimate detect_in(const std::string& file, const ReadOptions& options = {}) {
+  const Recording recording = read_recording((testing::data_folder() / file).string(), options);
   const MotorTrace trace = recording.motor_trace();
   return detect_gap({&trace, 1});
 }
@@ -27,7 +27,7 @@ TEST(RealRecordings, APreloadedScrewHasNoBacklash) {
 constexpr std::pair kSmallRamps{0.0, 20.31}, kLargeRamps{20.32, 1e3}, kAllRamps{0.0, 1e3};
 
 GapEstimate reducer(const std::string& name, std::pair<double, double> window) {
-  CsvOptions options;
+  ReadOptions options;
   options.resample_rate = 400.0;
   options.window = window;
   return detect_in("cycloidal/" + name + ".csv", options);

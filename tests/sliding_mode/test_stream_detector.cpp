@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "blind/plant/random_drive.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "gapscope/sliding_mode/stream_detector.h"
 #include "sliding_mode/frozen_search.h"
@@ -83,7 +83,7 @@ TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnDrivesOfTheIndependentPlant
 TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnRealRecordings) {
   GAPSCOPE_NEEDS_DATA();
   for (const char* file : {"emps/emps_train.csv", "emps/emps_pulses.csv"}) {
-    const Recording recording = read_csv((testing::data_folder() / file).string());
+    const Recording recording = read_recording((testing::data_folder() / file).string());
     const Streamed s = stream(recording.motor_trace(), 100);
     expect_same(s, frozen(recording.motor_trace()));
     EXPECT_NE(s.estimate.verdict, GapVerdict::kBacklash) << file;

@@ -34,6 +34,8 @@ struct Configuration {
       next_experiment;  ///< `next_experiment:` – what the diagnosis may propose; optional like it
   int next_experiment_line = 0;
   DiagnosisKnowledge diagnosis;  ///< `diagnosis:` – what it is told beforehand; optional
+
+  double position_quantum() const;  ///< of the encoder, seen on the axis of x1 [rad]; 0: not given
 };
 
 /// Reads a configuration strictly: unknown and repeated keys, wrong types, numbers out of range and

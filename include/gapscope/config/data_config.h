@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "gapscope/base/fields.h"
+#include "gapscope/config/declared_units.h"
 #include "gapscope/config/model_config.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 #include "gapscope/simulation/excitation.h"
 #include "gapscope/simulation/simulate.h"
 
@@ -26,15 +27,9 @@ struct RecordedFile {
 struct RecordingConfig {
   std::vector<RecordedFile> files;
   std::vector<RecordedFile> held_out;  ///< only read by the diagnosis
-  CsvOptions csv;                      ///< columns, window, resampling
-};
-
-/// `encoder:` – what its sheet says.
-struct EncoderConfig {
-  std::optional<int> bits;  ///< counts per revolution = 2^bits
-  double quantum = 0.0;     ///< [rad], from either key; 0: not given
-
-  static double quantum_of(int bits) { return 2.0 * std::numbers::pi / static_cast<double>(1ull << bits); }
+  ReadOptions reading;                 ///< columns with what units and gears make of them, window, resampling
+  DeclaredUnits units;
+  GearRatios gear;
 };
 
 /// `simulation.initial:` – the state at the first sample.

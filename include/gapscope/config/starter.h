@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/recording/csv.h"
+#include "gapscope/config/data_config.h"
 
 namespace gapscope {
 
@@ -20,10 +20,12 @@ struct Starter {
 /// Reads off a recording what it tells (columns, uniform rate, encoder, whether there is a gap, a locked
 /// output or one body, and of one body the first numbers) and marks the rest as GUESS or leaves it to the
 /// fit. Torques are in units of u until torque_constant is given; gaps do not depend on it.
+/// @param recording  one file
+/// @param encoder what is known of it; else the step that is seen
 /// @param model   kAsSeen: the detector decides
 /// @param folder  where the configuration will be: the recording is named relative to it
 /// @throws ConfigError where the recording cannot be read
-Starter starter_configuration(const std::string& recording, CsvOptions options, bool rotation,
+Starter starter_configuration(RecordingConfig recording, const EncoderConfig& encoder, bool rotation,
                               const std::string& folder, StarterModel model = StarterModel::kAsSeen);
 
 }  // namespace gapscope

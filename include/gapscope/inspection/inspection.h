@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace gapscope {
 
@@ -65,7 +65,7 @@ struct Inspection {
 /// and time that is not uniform are findings here; the other questions are then put to what is left, on a
 /// uniform grid.
 /// @param rotation  false: the position is in m
-/// @throws ConfigError where read_csv() would for another reason than time.
-Inspection inspect(const std::string& path, const CsvOptions& options = {}, bool rotation = true);
+/// @throws ConfigError where read_recording() would for another reason than time.
+Inspection inspect(const std::string& path, const ReadOptions& options = {}, bool rotation = true);
 
 }  // namespace gapscope

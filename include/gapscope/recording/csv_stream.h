@@ -5,12 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace gapscope {
 
-/// A CSV (see read_csv()) that arrives piece by piece and need not end. The sampling interval is that of the
-/// first kClockRows rows; every later step must be within 0.1 % of it. Keeps no row that was taken.
+/// A CSV (see read_recording()) that arrives piece by piece and need not end. The sampling interval is that
+/// of the first kClockRows rows; every later step must be within 0.1 % of it. Keeps no row that was taken.
 class CsvStream {
  public:
   static constexpr std::size_t kClockRows = 1000;
@@ -23,11 +23,11 @@ class CsvStream {
   };
 
   /// @param name  for messages: "standard input"
-  explicit CsvStream(std::string name, const CsvColumns& columns = {});
+  explicit CsvStream(std::string name, const RecordingColumns& columns = {});
   ~CsvStream();
 
   /// Takes a piece of the text, cut anywhere. Rows before a broken one can still be taken.
-  /// @throws ConfigError with the line, as read_csv() does, and for a line that does not end
+  /// @throws ConfigError with the line, as read_recording() does, and for a line that does not end
   void feed(std::string_view text);
 
   /// The text ends here.  @throws ConfigError as feed(), and for fewer than kFewestSamples rows

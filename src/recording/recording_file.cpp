@@ -1,4 +1,4 @@
-#include "gapscope/recording/csv.h"
+#include "gapscope/recording/recording_file.h"
 
 #include <fmt/format.h>
 
@@ -8,22 +8,22 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
-#include "recording/csv_table.h"
 #include "recording/limits.h"
+#include "recording/recorded_rows.h"
 #include "recording/resample.h"
 
 namespace gapscope {
 namespace {
 
-using internal::CsvTable;
+using internal::RecordedRows;
 
-void require_samples(const CsvTable& table, std::size_t count, const std::string& where) {
+void require_samples(const RecordedRows& table, std::size_t count, const std::string& where) {
   if (count < kFewestSamples)
     throw ConfigError(table.path,
                       fmt::format("{} samples{}, expected at least {}", count, where, kFewestSamples));
 }
 
-void cut_to_window(CsvTable& table, const std::pair<double, double>& window) {
+void cut_to_window(RecordedRows& table, const std::pair<double, double>& window) {
   const auto first = std::lower_bound(table.t.begin(), table.t.end(), window.first);
   const auto last = std::upper_bound(first, table.t.end(), window.second);
   const std::string where = fmt::format(" in the window {} to {} s (the file has {} to {} s)", window.first,
@@ -32,19 +32,19 @@ void cut_to_window(CsvTable& table, const std::pair<double, double>& window) {
   table.keep(static_cast<std::size_t>(first - table.t.begin()), static_cast<std::size_t>(last - first));
 }
 
-void require_uniform(const CsvTable& table) {
+void require_uniform(const RecordedRows& table) {
   if (internal::is_uniform(table)) return;
   const std::size_t worst = internal::worst_step(table);
   const double mean = internal::mean_step(table), step = table.t[worst] - table.t[worst - 1];
-  throw ConfigError(
-      table.path, table.line[worst],
+  table.fail(
+      table.line[worst],
       fmt::format(
           "time is not uniform: a step of {:.6g} ms, {:.3g} % off the mean of {:.6g} ms, expected every "
           "step within 0.1 % of the mean, or resample: {{rate: ...}} (here about {:.4g} Hz)",
           1e3 * step, 100.0 * std::abs(step - mean) / mean, 1e3 * mean, 1.0 / mean));
 }
 
-bool reproduces_times(const CsvTable& table, double dt) {
+bool reproduces_times(const RecordedRows& table, double dt) {
   for (std::size_t i = 0; i < table.size(); ++i)
     if (table.t.front() + dt * static_cast<double>(i) != table.t[i]) return false;
   return true;
@@ -53,7 +53,7 @@ bool reproduces_times(const CsvTable& table, double dt) {
 /// The sampling interval. Of all numbers within rounding of the mean step the one that gives back the times
 /// of the file exactly, one over a whole rate first, so that a recording that was written reads back the
 /// same.
-double sampling_interval(const CsvTable& table) {
+double sampling_interval(const RecordedRows& table) {
   const double mean = internal::mean_step(table);
   double below = mean, above = mean;
   std::vector<double> candidates = {1.0 / std::round(1.0 / mean), mean};
@@ -70,18 +70,18 @@ double sampling_interval(const CsvTable& table) {
 
 namespace internal {
 
-CsvTable read_window(const std::string& path, const CsvOptions& options, EarlierRow earlier) {
-  CsvTable table = read_table(path, options.columns, earlier);
+RecordedRows read_window(const std::string& path, const ReadOptions& options, EarlierRow earlier) {
+  RecordedRows table = read_rows(path, options.columns, earlier);
   require_samples(table, table.size(), "");
   if (options.window) cut_to_window(table, *options.window);
   return table;
 }
 
-double mean_step(const CsvTable& table) {
+double mean_step(const RecordedRows& table) {
   return (table.t.back() - table.t.front()) / static_cast<double>(table.size() - 1);
 }
 
-std::size_t worst_step(const CsvTable& table) {
+std::size_t worst_step(const RecordedRows& table) {
   const double mean = mean_step(table);
   std::size_t worst = 1;
   const auto deviation = [&](std::size_t i) { return std::abs(table.t[i] - table.t[i - 1] - mean); };
@@ -90,13 +90,13 @@ std::size_t worst_step(const CsvTable& table) {
   return worst;
 }
 
-bool is_uniform(const CsvTable& table) {
+bool is_uniform(const RecordedRows& table) {
   const double mean = mean_step(table);
   const std::size_t worst = worst_step(table);
   return std::abs(table.t[worst] - table.t[worst - 1] - mean) <= kUniformTolerance * mean;
 }
 
-Recording uniform_recording(CsvTable&& table) {
+Recording uniform_recording(RecordedRows&& table) {
   require_uniform(table);
   Recording r;
   r.start = table.t.front();
@@ -109,8 +109,8 @@ Recording uniform_recording(CsvTable&& table) {
 
 }  // namespace internal
 
-Recording read_csv(const std::string& path, const CsvOptions& options) {
-  CsvTable table = internal::read_window(path, options);
+Recording read_recording(const std::string& path, const ReadOptions& options) {
+  RecordedRows table = internal::read_window(path, options);
   const double quantum = seen_quantum(table.x1);  // of the raw samples: resampling hides it
   Recording r = options.resample_rate ? internal::resample(table, *options.resample_rate)
                                       : internal::uniform_recording(std::move(table));

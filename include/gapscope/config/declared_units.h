@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "gapscope/base/fields.h"
+#include "gapscope/recording/recording_file.h"
+
+namespace gapscope {
+
+/// `encoder:` – what its sheet says, on its own side of a gear.
+struct EncoderConfig {
+  std::optional<int> bits;  ///< counts per revolution = 2^bits
+  double quantum = 0.0;     ///< [rad], from either key; 0: not given
+
+  static double quantum_of(int bits) { return 2.0 * std::numbers::pi / static_cast<double>(1ull << bits); }
+};
+
+/// `recording: units:` as it is written there; empty: s, rad (m), and u as it was recorded. Each is a name
+/// (see known_units()) or a number; the position may be in counts, of which encoder: says how large one is.
+struct DeclaredUnits {
+  std::string time, input, position, load_position;
+  void fields(FieldVisitor& v);
+};
+
+/// `recording: gear_ratio:` – turns of the axis whose position was recorded for one turn of the axis that the
+/// model, the gap and all estimates are of; negative where the two turn against each other.
+struct GearRatios {
+  double position = 1.0;
+  double load_position = 1.0;
+  void fields(FieldVisitor& v);
+};
+
+/// What units and gears make of the columns.
+/// @param refuse  is told the key ("position") whose unit is not known, and what was expected; does not
+/// return
+ColumnScales declared_scales(const DeclaredUnits& units, const GearRatios& gear, const EncoderConfig& encoder,
+                             bool rotation,
+                             const std::function<void(const char* key, const std::string& expected)>& refuse);
+
+}  // namespace gapscope

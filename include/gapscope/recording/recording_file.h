@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "gapscope/recording/recording.h"
+#include "gapscope/recording/units.h"
+
+namespace gapscope {
+
+/// What the units of the columns are in SI; an input without a unit of its own stays as it was recorded.
+struct ColumnScales {
+  UnitScale time, input, position, load_position;
+};
+
+/// Names of the columns (of a .mat file: its variables); load_position is optional in the file.
+struct RecordingColumns {
+  std::string time = "t";
+  std::string input = "u";
+  std::string position = "x1";
+  std::string load_position = "x2";
+  bool load_position_required = false;  ///< true when the user named the column
+  ColumnScales scales;
+};
+
+struct ReadOptions {
+  RecordingColumns columns;
+  std::optional<std::pair<double, double>> window;  ///< part of the file that is used [s]
+  std::optional<double> resample_rate;              ///< [Hz]; the only way to use non-uniform sampling
+};
+
+/// Fewer samples than this are no recording.
+constexpr std::size_t kFewestSamples = 50;
+
+/// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), of which each column is a vector
+/// of real numbers, all equally long; any other one is a CSV with a header, in which `#` comments and extra
+/// columns are ignored. Sampling is uniform when every step is within 0.1 % of the mean step; anything else
+/// is refused with the figure, or resampled on request: x1 and x2 linearly, u as the mean of the held input
+/// over each new interval, so that its impulse is kept.
+/// @throws ConfigError with file and line (sample of a .mat file): missing or empty file, missing column, a
+///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
+///   does not increase, non-uniform time, too few samples, an empty window.
+Recording read_recording(const std::string& path, const ReadOptions& options = {});
+
+/// Writes t, u, x1 and, where known, x2 and mode, so that read_recording() returns the same numbers.
+/// @throws std::runtime_error if the file cannot be written.
+void write_csv(const std::string& path, const Recording& recording);
+
+}  // namespace gapscope

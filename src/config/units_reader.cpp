@@ -1,0 +1,96 @@
+#include "config/units_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/field_reader.h"
+
+namespace gapscope {
+namespace {
+
+constexpr double kLargestGear = 1e6;
+constexpr const char* kCounts = "counts";
+
+}  // namespace
+
+void DeclaredUnits::fields(FieldVisitor& v) {
+  v.field({"time", "", "unit of the time"}, time);
+  v.field({"input", "", "unit of the input"}, input);
+  v.field({"position", "", "unit of the position, or counts"}, position);
+  v.field({"load_position", "", "unit of the load position"}, load_position);
+}
+
+void GearRatios::fields(FieldVisitor& v) {
+  v.field({"position", "", "turns of the encoder per turn of the axis of x1", -kLargestGear, kLargestGear},
+          position);
+  v.field(
+      {"load_position", "", "turns of the load encoder per turn of that axis", -kLargestGear, kLargestGear},
+      load_position);
+}
+
+ColumnScales declared_scales(
+    const DeclaredUnits& units, const GearRatios& gear, const EncoderConfig& encoder, bool rotation,
+    const std::function<void(const char* key, const std::string& expected)>& refuse) {
+  const auto scale = [&](const char* key, const std::string& declared, Quantity quantity) {
+    if (declared.empty()) return UnitScale{};
+    const auto known = unit_scale(quantity, declared);
+    if (!known) refuse(key, known_units(quantity));
+    return known.value_or(UnitScale{});
+  };
+  const auto geared = [](UnitScale s, double ratio) { return UnitScale{s.factor, s.divisor * ratio}; };
+  const Quantity travel = rotation ? Quantity::kAngle : Quantity::kLength;
+  const bool counts = units.position == kCounts;
+  if (counts && !(encoder.quantum > 0.0))
+    refuse("position", "encoder: {bits: ...} or {quantum: ...} beside it, which says what one count is");
+  ColumnScales scales;
+  scales.time = scale("time", units.time, Quantity::kTime);
+  scales.input = scale("input", units.input, rotation ? Quantity::kTorque : Quantity::kForce);
+  scales.position = geared(
+      counts ? UnitScale{encoder.quantum, 1.0} : scale("position", units.position, travel), gear.position);
+  scales.load_position = geared(scale("load_position", units.load_position, travel), gear.load_position);
+  return scales;
+}
+
+namespace internal {
+
+void read_units(const Section& section, const EncoderConfig& encoder, bool rotation,
+                RecordingConfig& recording) {
+  if (const auto gear = section.find("gear_ratio")) {
+    read_fields(*gear, recording.gear);
+    if (std::min(std::abs(recording.gear.position), std::abs(recording.gear.load_position)) <
+        1.0 / kLargestGear)
+      gear->fail_expecting(
+          "turns of the recorded axis for one turn of the model's: 1e-6 to 1e6, or as much below 0");
+  }
+  const auto units = section.find("units");
+  if (units) read_fields(*units, recording.units);
+  FieldKeys keys;
+  recording.units.fields(keys);
+  const auto refuse = [&](const char* key, const std::string& expected) {
+    Section(*units, keys.keys).find(key)->fail_expecting(expected);
+  };
+  recording.reading.columns.scales =
+      declared_scales(recording.units, recording.gear, encoder, rotation, refuse);
+}
+
+void write_units(YamlWriter& out, const RecordingConfig& recording) {
+  const DeclaredUnits& u = recording.units;
+  std::vector<std::string> units;
+  for (const auto& [key, unit] : {std::pair{"time", u.time},
+                                  {"input", u.input},
+                                  {"position", u.position},
+                                  {"load_position", u.load_position}})
+    if (!unit.empty()) units.push_back(fmt::format("{}: {}", key, yaml_text(unit)));
+  if (!units.empty()) out.entry("units", fmt::format("{{{}}}", fmt::join(units, ", ")));
+  const GearRatios& gear = recording.gear;
+  if (gear.position != 1.0 || gear.load_position != 1.0)
+    out.entry("gear_ratio",
+              fmt::format("{{position: {}, load_position: {}}}", gear.position, gear.load_position),
+              "turns of the recorded axis per turn of the model's");
+}
+
+}  // namespace internal
+}  // namespace gapscope

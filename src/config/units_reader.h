@@ -1,0 +1,16 @@
+#pragma once
+
+#include "config/yaml_value.h"
+#include "config/yaml_writer.h"
+#include "gapscope/config/data_config.h"
+
+namespace gapscope::internal {
+
+/// `units` and `gear_ratio` of a recording, and the scales that follow.
+void read_units(const Section& section, const EncoderConfig& encoder, bool rotation,
+                RecordingConfig& recording);
+
+/// The same keys, as far as something was declared.
+void write_units(YamlWriter& out, const RecordingConfig& recording);
+
+}  // namespace gapscope::internal

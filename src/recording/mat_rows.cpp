@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gapscope/base/errors.h"
+#include "recording/mat_file.h"
+#include "recording/recorded_rows.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct Column {
+  std::string name;
+  std::vector<double> values;  ///< SI
+};
+
+Column read_column(MatContent& file, const std::string& path, const std::string& name,
+                   const UnitScale& scale) {
+  Column column{name, vector_of(file, path, name)};
+  for (double& value : column.values) value = scale(value);
+  return column;
+}
+
+void require_length(const std::string& path, const Column& column, const Column& time) {
+  if (column.values.size() == time.values.size()) return;
+  throw ConfigError(path, fmt::format("the variable '{}' has {} values, expected {} as in '{}'", column.name,
+                                      column.values.size(), time.values.size(), time.name));
+}
+
+void append(std::vector<double>& to, const Column& column, std::size_t i, const RecordedRows& rows) {
+  const double value = column.values[i];
+  if (!std::isfinite(value))
+    rows.fail(static_cast<int>(i) + 1, fmt::format("{} is {}, expected a finite number", column.name, value));
+  to.push_back(value);
+}
+
+}  // namespace
+
+RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, EarlierRow earlier) {
+  const auto content = open_mat(path);
+  const auto column = [&](const std::string& name, const UnitScale& scale) {
+    return read_column(*content, path, name, scale);
+  };
+  const ColumnScales& scales = columns.scales;
+  const Column t = column(columns.time, scales.time);
+  const Column u = column(columns.input, scales.input);
+  const Column x1 = column(columns.position, scales.position);
+  const std::string& load = columns.load_position;
+  const bool has_load = !load.empty() && (columns.load_position_required || content->find(load));
+  const Column x2 = has_load ? column(load, scales.load_position) : Column{};
+  require_length(path, u, t);
+  require_length(path, x1, t);
+  if (has_load) require_length(path, x2, t);
+  RecordedRows rows;
+  rows.path = path;
+  rows.is_text = false;
+  for (std::size_t i = 0; i < t.values.size(); ++i) {
+    const int sample = static_cast<int>(i) + 1;
+    if (!std::isnan(t.values[i]) && !rows.admits(t.values[i], sample, earlier, t.name)) continue;
+    append(rows.t, t, i, rows);
+    append(rows.u, u, i, rows);
+    append(rows.x1, x1, i, rows);
+    if (has_load) append(rows.x2, x2, i, rows);
+    rows.line.push_back(sample);
+  }
+  return rows;
+}
+
+}  // namespace gapscope::internal

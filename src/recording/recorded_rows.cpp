@@ -1,0 +1,77 @@
+#include "recording/recorded_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "gapscope/base/errors.h"
+#include "recording/limits.h"
+
+namespace gapscope::internal {
+namespace {
+
+template <class T>
+void keep_part(std::vector<T>& values, std::size_t first, std::size_t count) {
+  if (values.empty()) return;
+  const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+  values = std::vector<T>(begin, begin + static_cast<std::ptrdiff_t>(count));
+}
+
+bool is_mat(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".mat";
+}
+
+}  // namespace
+
+void RecordedRows::keep(std::size_t first, std::size_t count) {
+  for (auto* column : {&t, &u, &x1, &x2}) keep_part(*column, first, count);
+  keep_part(line, first, count);
+}
+
+bool RecordedRows::admits(double time, int of_line, EarlierRow earlier, const std::string& column) {
+  const bool goes_on = t.empty() || time > t.back();
+  if (!goes_on && earlier == EarlierRow::kSkipped) {
+    skipped.push_back(of_line);
+    return false;
+  }
+  if (!goes_on)
+    fail(of_line, fmt::format("{} goes from {} to {} s, expected time that increases from row to row", column,
+                              t.back(), time));
+  if (size() == kMostSamples)
+    fail(of_line, fmt::format("more than {} rows, expected at most that many", kMostSamples));
+  return true;
+}
+
+void RecordedRows::fail(int of_line, const std::string& what) const {
+  if (is_text) throw ConfigError(path, of_line, what);
+  throw ConfigError(path, place(of_line) + ": " + what);
+}
+
+std::string RecordedRows::place(int of_line) const {
+  return fmt::format("{} {}", is_text ? "line" : "sample", of_line);
+}
+
+RecordedRows read_rows(const std::string& path, const RecordingColumns& columns, EarlierRow earlier) {
+  require_recording_file(path);
+  return is_mat(path) ? read_mat(path, columns, earlier) : read_csv(path, columns, earlier);
+}
+
+void require_recording_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code problem;
+  const fs::file_status status = fs::status(path, problem);
+  const std::string expected = fmt::format("expected a recording as {}", is_mat(path) ? ".mat" : "CSV");
+  if (!fs::exists(status)) throw ConfigError(path, "there is no such file, " + expected);
+  if (!fs::is_regular_file(status)) throw ConfigError(path, "is no regular file, " + expected);
+  const std::uintmax_t bytes = fs::file_size(path);
+  if (bytes > kMostBytes)
+    throw ConfigError(path, fmt::format("has {:.3g} bytes, expected at most {:.3g}",
+                                        static_cast<double>(bytes), static_cast<double>(kMostBytes)));
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/recording/recording_file.h"
+
+namespace gapscope::internal {
+
+/// What becomes of a row whose time is not later than that of the row before.
+enum class EarlierRow { kRefused, kSkipped };
+
+/// The rows of a recording as they stand in its file, in SI, with the place of each.
+struct RecordedRows {
+  std::string path;
+  bool is_text = true;       ///< whether `line` counts the lines of a text, else the samples of variables
+  std::vector<double> t;     ///< [s], strictly increasing
+  std::vector<double> u;     ///< [unit of u]
+  std::vector<double> x1;    ///< [rad]
+  std::vector<double> x2;    ///< [rad]; empty if the file has none
+  std::vector<int> line;     ///< of each row, from 1
+  std::vector<int> skipped;  ///< lines of rows that were left out: not later than the row before
+
+  std::size_t size() const { return t.size(); }
+  void keep(std::size_t first, std::size_t count);  ///< drops all other rows
+
+  /// Whether a row of this time goes on where the rows before it end; one that is skipped is noted.
+  /// @throws ConfigError for one that is refused, and for one too many
+  bool admits(double time, int of_line, EarlierRow earlier, const std::string& column);
+
+  /// @throws ConfigError "file:line: what" or "file: sample N: what"
+  [[noreturn]] void fail(int of_line, const std::string& what) const;
+
+  std::string place(int of_line) const;  ///< "line 12" or "sample 12"
+};
+
+/// By the name of the file: read_mat() or read_csv().  @throws ConfigError, see read_recording().
+RecordedRows read_rows(const std::string& path, const RecordingColumns& columns,
+                       EarlierRow earlier = EarlierRow::kRefused);
+RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, EarlierRow earlier);
+RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, EarlierRow earlier);
+
+/// @throws ConfigError unless it is a file of a size that is read
+void require_recording_file(const std::string& path);
+
+/// The rows of the window, kFewestSamples or more.  @throws ConfigError
+RecordedRows read_window(const std::string& path, const ReadOptions& options,
+                         EarlierRow earlier = EarlierRow::kRefused);
+
+/// Mean time from row to row [s].
+double mean_step(const RecordedRows& table);
+
+/// The row whose step from the row before is farthest off the mean step.
+std::size_t worst_step(const RecordedRows& table);
+
+bool is_uniform(const RecordedRows& table);
+
+/// The columns as they stand.  @throws ConfigError unless they are uniform
+Recording uniform_recording(RecordedRows&& table);
+
+}  // namespace gapscope::internal

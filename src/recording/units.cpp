@@ -1,0 +1,69 @@
+#include "gapscope/recording/units.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <numbers>
+#include <vector>
+
+namespace gapscope {
+namespace {
+
+struct Unit {
+  const char* name;
+  UnitScale scale;
+};
+
+constexpr double kPi = std::numbers::pi;
+constexpr UnitScale kOne, kMilli{1.0, 1e3}, kMicro{1.0, 1e6}, kNano{1.0, 1e9}, kKilo{1e3, 1.0};
+
+/// The first one is that of SI. Current and voltage serve both kinds of axes: torque_constant makes them one.
+const std::vector<Unit>& units(Quantity quantity) {
+  static const std::vector<Unit> time = {{"s", kOne}, {"ms", kMilli}, {"us", kMicro}, {"ns", kNano}};
+  static const std::vector<Unit> angle = {{"rad", kOne},           {"mrad", kMilli},
+                                          {"deg", {kPi, 180.0}},   {"arcmin", {kPi, 180.0 * 60.0}},
+                                          {"rev", {2 * kPi, 1.0}}, {"arcsec", {kPi, 180.0 * 3600.0}}};
+  static const std::vector<Unit> length = {{"m", kOne}, {"mm", kMilli}, {"um", kMicro}, {"nm", kNano}};
+  static const std::vector<Unit> torque = {{"N m", kOne},  {"mN m", kMilli}, {"kN m", kKilo}, {"A", kOne},
+                                           {"mA", kMilli}, {"V", kOne},      {"mV", kMilli}};
+  static const std::vector<Unit> force = {{"N", kOne},    {"mN", kMilli}, {"kN", kKilo}, {"A", kOne},
+                                          {"mA", kMilli}, {"V", kOne},    {"mV", kMilli}};
+  switch (quantity) {
+    case Quantity::kTime:
+      return time;
+    case Quantity::kAngle:
+      return angle;
+    case Quantity::kLength:
+      return length;
+    case Quantity::kTorque:
+      return torque;
+    case Quantity::kForce:
+      return force;
+  }
+  return time;
+}
+
+std::optional<UnitScale> from_number(std::string_view text) {
+  constexpr double kSmallest = 1e-15, kLargest = 1e15;
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size()) return {};
+  if (!(value >= kSmallest && value <= kLargest)) return {};
+  return UnitScale{value, 1.0};
+}
+
+}  // namespace
+
+std::optional<UnitScale> unit_scale(Quantity quantity, std::string_view declared) {
+  for (const Unit& unit : units(quantity))
+    if (declared == unit.name) return unit.scale;
+  return from_number(declared);
+}
+
+std::string known_units(Quantity quantity) {
+  std::string names;
+  for (const Unit& unit : units(quantity)) names += std::string(unit.name) + ", ";
+  return fmt::format("{}or a number ({} per recorded unit)", names, units(quantity).front().name);
+}
+
+}  // namespace gapscope

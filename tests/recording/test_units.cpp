@@ -1,0 +1,71 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+#include "gapscope/recording/recording_file.h"
+#include "support/reading.h"
+#include "support/temporary_file.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::TemporaryFile;
+
+TEST(Units, EachIsWhatItsNameSays) {
+  const double turn = 2.0 * std::numbers::pi;
+  const auto si = [](Quantity quantity, const char* unit, double value) {
+    const auto scale = unit_scale(quantity, unit);
+    return scale ? (*scale)(value) : -1.0;
+  };
+  EXPECT_EQ(si(Quantity::kTime, "ms", 7.0), 0.007);  // to the last bit
+  EXPECT_EQ(si(Quantity::kTime, "us", 3.0), 3e-6);
+  EXPECT_DOUBLE_EQ(si(Quantity::kAngle, "deg", 360.0), turn);
+  EXPECT_DOUBLE_EQ(si(Quantity::kAngle, "arcmin", 360.0 * 60.0), turn);
+  EXPECT_DOUBLE_EQ(si(Quantity::kAngle, "arcsec", 360.0 * 3600.0), turn);
+  EXPECT_DOUBLE_EQ(si(Quantity::kAngle, "rev", 1.0), turn);
+  EXPECT_EQ(si(Quantity::kAngle, "mrad", 5.0), 0.005);
+  EXPECT_EQ(si(Quantity::kLength, "um", 5.0), 5e-6);
+  EXPECT_EQ(si(Quantity::kTorque, "mN m", 5.0), 0.005);
+  EXPECT_EQ(si(Quantity::kForce, "kN", 2.0), 2000.0);
+  EXPECT_EQ(si(Quantity::kAngle, "1.5e-3", 2.0), 0.003);
+  for (const char* none : {"mm", "degree", "", "0", "-1", "inf", "nan", "1 rad", "Deg", "1e99"})
+    EXPECT_FALSE(unit_scale(Quantity::kAngle, none)) << none;
+  EXPECT_THAT(known_units(Quantity::kTime), HasSubstr("ms, us, ns, or a number (s per recorded unit)"));
+}
+
+/// 120 rows of whole numbers.
+std::string rows() {
+  std::string text = "t,u,x1,x2\n";
+  for (int i = 0; i < 120; ++i)
+    text += std::to_string(i) + "," + std::to_string(i % 7) + "," + std::to_string(3 * i) + "," +
+            std::to_string(-i) + "\n";
+  return text;
+}
+
+TEST(Units, EveryColumnOfACsvIsBroughtToSi) {
+  const TemporaryFile file(rows());
+  ReadOptions options;
+  options.columns.scales = {{1.0, 1000.0}, {2.0, 1.0}, {std::numbers::pi, 180.0}, {1.0, -50.0}};
+  options.window = {0.02, 1.0};  // of the time in s
+  const Recording r = read_recording(file.path(), options);
+  EXPECT_EQ(r.start, 0.02);
+  EXPECT_DOUBLE_EQ(r.dt, 0.001);
+  EXPECT_EQ(r.u[1], 0.0);
+  EXPECT_EQ(r.u[3], 4.0);
+  EXPECT_DOUBLE_EQ(r.x1[0], std::numbers::pi / 3.0);
+  EXPECT_EQ(r.x2[30], 1.0);
+}
+
+TEST(Units, ANumberThatTheUnitMakesInfiniteIsNone) {
+  const TemporaryFile file(rows() + "120,1,1e308,0\n");
+  ReadOptions options;
+  options.columns.scales.position = {10.0, 1.0};
+  EXPECT_THAT(testing::refusal([&] { read_recording(file.path(), options); }),
+              HasSubstr("r.csv:122: x1 is '1e308', expected a finite number"));
+}
+
+}  // namespace
+}  // namespace gapscope
