@@ -14,6 +14,7 @@ void add_detect(CLI::App& app);
 void add_fit(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_report(CLI::App& app);
+void add_schema(CLI::App& app);
 void add_effects(CLI::App& app);
 void add_blind(CLI::App& app);
 void add_blind_drives(CLI::App& blind);

@@ -48,6 +48,7 @@ void add_commands(CLI::App& app) {
   add_simulate(app);
   add_report(app);
   add_effects(app);
+  add_schema(app);
   add_campaign(app);
   add_blind(app);
   add_completion(app);

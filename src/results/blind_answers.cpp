@@ -1,5 +1,6 @@
 #include "gapscope/results/blind_files.h"
 #include "results/blind_fields.h"
+#include "results/json_schema.h"
 
 namespace gapscope {
 namespace internal {
@@ -56,6 +57,8 @@ void fields(Archive& archive, BlindAnswers& a) {
 namespace {
 constexpr const char* kAnswers = "gapscope.blind_answers/1";
 }  // namespace
+
+Json blind_answers_schema() { return document_schema(kAnswers, BlindAnswers()); }
 
 }  // namespace internal
 

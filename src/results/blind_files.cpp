@@ -1,6 +1,7 @@
 #include "gapscope/results/blind_files.h"
 
 #include "results/blind_fields.h"
+#include "results/json_schema.h"
 
 namespace gapscope {
 namespace internal {
@@ -44,6 +45,10 @@ constexpr const char* kLabels = "gapscope.blind_labels/1";
 constexpr const char* kManifest = "gapscope.blind_manifest/1";
 
 }  // namespace
+
+Json blind_labels_schema() { return document_schema(kLabels, BlindLabels()); }
+Json blind_manifest_schema() { return document_schema(kManifest, BlindManifest()); }
+
 }  // namespace internal
 
 void write_blind_labels(const std::string& path, const BlindLabels& labels) {

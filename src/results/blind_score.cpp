@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "results/blind_fields.h"
+#include "results/json_schema.h"
 
 namespace gapscope {
 namespace internal {
@@ -104,6 +105,8 @@ void fields(Archive& archive, BlindScore& s) {
 namespace {
 constexpr const char* kScore = "gapscope.blind/1";
 }
+
+Json blind_schema() { return document_schema(kScore, BlindScore()); }
 
 }  // namespace internal
 

@@ -5,6 +5,7 @@
 
 #include "gapscope/base/errors.h"
 #include "results/json_archive.h"
+#include "results/json_schema.h"
 
 namespace gapscope {
 namespace internal {
@@ -89,6 +90,8 @@ void fields(Archive& archive, CampaignSummary& s) {
   archive.list("refusals", s.refusals);
   archive.list("errors", s.errors);
 }
+
+Json campaign_schema() { return document_schema(kCampaignSchema, CampaignSummary()); }
 
 }  // namespace internal
 

@@ -9,6 +9,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/require.h"
 #include "results/diagnosis_result_fields.h"
+#include "results/json_schema.h"
 #include "results/traces.h"
 
 namespace gapscope {
@@ -59,6 +60,12 @@ MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
 }
 
 }  // namespace
+
+namespace internal {
+
+Json diagnosis_schema() { return document_schema(kDiagnosisSchema, DiagnosisDocument()); }
+
+}  // namespace internal
 
 void write_diagnosis_result(const std::string& folder, const DiagnosisResult& result) {
   require_consistent(result.diagnosis);

@@ -5,6 +5,7 @@
 #include "gapscope/base/units.h"
 #include "gapscope/results/drive_changes.h"
 #include "results/json_archive.h"
+#include "results/json_schema.h"
 
 namespace gapscope {
 namespace internal {
@@ -93,6 +94,15 @@ void require_whole(const DriveChanges& d, const std::string& path) {
 }
 
 }  // namespace
+
+Json compare_schema() {
+  SchemaWriter writer;
+  DriveChanges changes;
+  document(writer, changes);
+  writer.constant("schema", kCompareSchema);
+  return writer.schema();
+}
+
 }  // namespace internal
 
 void write_drive_changes(const std::string& folder, const DriveChanges& changes) {

@@ -1,6 +1,7 @@
 #include "gapscope/results/inspection_result.h"
 
 #include "results/json_archive.h"
+#include "results/json_schema.h"
 
 namespace gapscope {
 namespace internal {
@@ -47,19 +48,28 @@ void fields(Archive& archive, RecordingFacts& f) {
   archive("rest_share", f.rest_share);
 }
 
+template <class Archive>
+void fields(Archive& archive, Inspection& i) {
+  bool spoilt = i.spoilt();
+  archive("file", i.file);
+  archive.choice("coordinates", i.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
+  archive("spoilt", spoilt);
+  archive.list("findings", i.findings);
+  archive.single("facts", i.facts);
+}
+
+constexpr const char* kCheckSchema = "gapscope.check/1";
+
+Json check_schema() { return document_schema(kCheckSchema, Inspection()); }
+
 }  // namespace internal
 
 std::string inspection_json(const Inspection& inspection) {
   Inspection i = inspection;
-  std::string schema = "gapscope.check/1", coordinates = i.rotation ? "rotation" : "translation";
-  bool spoilt = i.spoilt();
+  std::string schema = internal::kCheckSchema;
   internal::JsonWriter writer;
   writer("schema", schema);
-  writer("file", i.file);
-  writer("coordinates", coordinates);
-  writer("spoilt", spoilt);
-  writer.list("findings", i.findings);
-  writer.single("facts", i.facts);
+  fields(writer, i);
   return writer.json.dump(1) + "\n";
 }
 

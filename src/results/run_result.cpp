@@ -8,6 +8,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/require.h"
 #include "results/json_archive.h"
+#include "results/json_schema.h"
 #include "results/run_result_fields.h"
 #include "results/traces.h"
 
@@ -128,6 +129,17 @@ RunResult read_run_result(const std::string& folder) {
     internal::read_bound_map(folder + "/traces/" + internal::kBoundMapName, *run.model_free->map);
   return std::move(run);
 }
+
+namespace internal {
+
+Json result_schema() { return document_schema(kSchema, Document()); }
+
+Json timing_schema() {
+  Timing timing;
+  return SchemaWriter::schema_of(timing);
+}
+
+}  // namespace internal
 
 void write_timing(const std::string& folder, const Timing& timing) {
   Timing copy = timing;

@@ -2,16 +2,70 @@
 
 #include <algorithm>
 
+#include "results/json_schema.h"
 #include "results/run_result_fields.h"
 
 namespace gapscope {
+namespace internal {
+
+template <class Archive>
+void fields(Archive& archive, LearntFacts& l) {
+  archive("until_s", l.until);
+  archive("half_period_s", l.half_period);
+  archive("quantum_rad", l.quantum);
+  archive("noise_rad", l.noise);
+  archive("travel_rad", l.travel);
+  archive("sliding_bound_rad_s2", l.sliding_bound);
+  archive("least_bound_rad_s2", l.least_bound);
+  archive("bounds_rad_s2", l.bounds);
+  archive("floors_rad", l.floors);
+}
+
+namespace {
+
+constexpr const char* kStreamSchema = "gapscope.stream/1";
+constexpr const char* kNotInEvents = "file";
+constexpr const char* kNotInSummaries[] = {"bound_t1_rad_s2", "paper_bound_rad_s2", "scale", "events",
+                                           "bound_map"};
+
+SchemaWriter schema_of_line(const char* kind) {
+  SchemaWriter writer;
+  writer.constant("schema", kStreamSchema);
+  writer.constant("kind", kind);
+  return writer;
+}
+
+Json summary_schema() {
+  SchemaWriter writer = schema_of_line("summary");
+  GapEstimate estimate;
+  writer("until_s", estimate.gap);
+  for (const char* key : {"samples", "passages", "passages_judged"}) writer.count(key);
+  fields(writer, estimate);
+  for (const char* of_a_report : kNotInSummaries) writer.erase(of_a_report);
+  return writer.schema();
+}
+
+}  // namespace
+
+Json stream_schema() {
+  LearntFacts facts;
+  GapEvent passage;
+  SchemaWriter learnt = schema_of_line("learnt"), event = schema_of_line("event");
+  fields(learnt, facts);
+  fields(event, passage);
+  event.erase(kNotInEvents);
+  return {{"oneOf", {learnt.schema(), event.schema(), summary_schema()}}};
+}
+
+}  // namespace internal
+
 namespace {
 
 using internal::JsonWriter;
 
 JsonWriter line_of(std::string kind) {
   JsonWriter writer;
-  std::string schema = "gapscope.stream/1";
+  std::string schema = internal::kStreamSchema;
   writer("schema", schema);
   writer("kind", kind);
   return writer;
@@ -22,15 +76,7 @@ JsonWriter line_of(std::string kind) {
 std::string learnt_line(const LearntFacts& learnt) {
   LearntFacts l = learnt;
   JsonWriter writer = line_of("learnt");
-  writer("until_s", l.until);
-  writer("half_period_s", l.half_period);
-  writer("quantum_rad", l.quantum);
-  writer("noise_rad", l.noise);
-  writer("travel_rad", l.travel);
-  writer("sliding_bound_rad_s2", l.sliding_bound);
-  writer("least_bound_rad_s2", l.least_bound);
-  writer("bounds_rad_s2", l.bounds);
-  writer("floors_rad", l.floors);
+  internal::fields(writer, l);
   return writer.json.dump() + "\n";
 }
 
@@ -38,7 +84,7 @@ std::string event_line(const GapEvent& event) {
   GapEvent e = event;
   JsonWriter writer = line_of("event");
   fields(writer, e);
-  writer.json.erase("file");
+  writer.json.erase(internal::kNotInEvents);
   return writer.json.dump() + "\n";
 }
 
@@ -51,8 +97,7 @@ std::string summary_line(const GapEstimate& estimate, const StreamProgress& prog
   writer.json["passages"] = progress.passages;
   writer.json["passages_judged"] = std::min(progress.passages, StreamDetector::kMostJudged);
   fields(writer, g);
-  for (const char* of_a_report : {"bound_t1_rad_s2", "paper_bound_rad_s2", "scale", "events", "bound_map"})
-    writer.json.erase(of_a_report);
+  for (const char* of_a_report : internal::kNotInSummaries) writer.json.erase(of_a_report);
   return writer.json.dump() + "\n";
 }
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/executable.h"
+#include "cli/validated.h"
 
 namespace gapscope {
 namespace {
@@ -30,6 +30,10 @@ TEST(Blind, ThreeCommandsDoWhatOneDoes) {
     EXPECT_EQ(text_of(place.folder() / "apart" / file), text_of(place.folder() / "reports/check" / file))
         << file;
   EXPECT_EQ(place.run("report apart").status, 0);
+  const std::string said =
+      testing::judged(place, "labels.json cases/manifest.json answers.json apart/blind.json");
+  GAPSCOPE_NEEDS_VALIDATOR(said);
+  EXPECT_EQ(said, "4 files are valid\n");
 }
 
 TEST(Blind, RefusesWhatWasChangedWithTheReasonAndWritesNothing) {

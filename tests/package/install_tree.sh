@@ -5,6 +5,7 @@ source "$(dirname "$0")/expect.sh"
 
 cmake --install "$build" --prefix "$work/tree" >/dev/null
 says '^gapscope [0-9]' "$work/tree/bin/gapscope" --version
+cmp "$work/tree/share/gapscope/schemas/result.schema.json" <("$work/tree/bin/gapscope" schema result) || fail "other schemas"
 
 # The example asks for the detector and the fit, which need no library for figures, files or stores.
 build_project "$source/docs/example" example "$work/tree" -DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON \
