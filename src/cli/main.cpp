@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
 
 namespace gapscope::cli {
@@ -106,13 +107,16 @@ int parse_and_run(int argc, char** argv) {
   return kDone;
 }
 
+/// On one line, whatever a file or a name brought into it.
+void tell(const std::string& message) { fmt::print(stderr, "{}\n", printable(message, 4000)); }
+
 int guarded(int argc, char** argv) {
   try {
     const int status = parse_and_run(argc, argv);
     if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
     return status;
   } catch (const ConfigError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    tell(error.what());
     return kWrongInput;
   } catch (const Interrupted&) {
     fmt::print(stderr, "gapscope: interrupted\n");
@@ -121,7 +125,7 @@ int guarded(int argc, char** argv) {
     fmt::print(stderr, "gapscope: there is not enough memory, expected fewer samples or threads\n");
     return kFailed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "gapscope: {}\n", error.what());
+    tell(fmt::format("gapscope: {}", error.what()));
     return kFailed;
   }
 }

@@ -5,7 +5,7 @@
 namespace gapscope::testing {
 
 /// Each gives the bytes to the readers of one kind of file, as the files that they open. They are taken, or
-/// refused by a ConfigError that says on one line what was expected; anything else is another exception or
+/// refused by a ConfigError that says what was expected; anything else is another exception or
 /// the end of the program.  @returns how many of the readers took them
 int read_recording(std::string_view bytes);      ///< CSV: whole, resampled, as a stream
 int read_configuration(std::string_view bytes);  ///< YAML: a configuration, a campaign, a blind check
