@@ -56,6 +56,8 @@ std::string reference_line(const FitSummary& f, bool rotation) {
 
 /// Every number that the fit found, but for the gap.
 void print_parameters(const FitSummary& f, bool rotation) {
+  std::size_t width = 23;
+  for (const FittedParameter& p : f.parameters) width = std::max(width, p.key.size());
   for (const FittedParameter& p : f.parameters) {
     if (!p.estimated || p.key == "gap") continue;
     const std::string unit = p.unit == "-" ? "" : " " + axis_unit(p.unit, rotation);
@@ -63,7 +65,7 @@ void print_parameters(const FitSummary& f, bool rotation) {
                                  : std::isnan(p.ci95.low)
                                      ? "no interval"
                                      : fmt::format("[{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high);
-    fmt::print("  {:<24}{:<18}{}{}\n", p.key, fmt::format("{:.4g}{}", p.value, unit), interval,
+    fmt::print("  {:<{}} {:<17} {}{}\n", p.key, width, fmt::format("{:.4g}{}", p.value, unit), interval,
                p.at_bound ? ", at its bound" : "");
   }
 }

@@ -37,7 +37,7 @@ void add_commands(CLI::App& app) {
       "Angles are in rad, torques in N m, times in s, unless a key or a message says otherwise.\n"
       "gapscope COMMAND --help tells more.\n"
       "Exit status: 0 done, whatever the answer; 1 the work failed; 2 the input or the command line is\n"
-      "wrong; 130 interrupted, what was complete is kept.\n\n"
+      "wrong; 3 check found what would spoil the estimates; 130 interrupted, what was complete is kept.\n\n"
       "Example: gapscope run configs/02_experiment.yaml");
   add_check(app);
   add_init(app);

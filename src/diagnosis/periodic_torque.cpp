@@ -16,6 +16,7 @@ constexpr double kWorthTelling = 0.01;  ///< share of the squared residual torqu
 constexpr std::size_t kMostLines = 3;
 constexpr double kNeighbours = 1.5;    ///< ratio of periods within which lines are neighbours
 constexpr double kFewestCycles = 6.0;  ///< and at least so many cycles over the travel apart
+constexpr double kListedCycles = 1.0;  ///< over the travel: less is a slow change, no repetition
 constexpr double kOwn = 1.5;           ///< cycles over the travel that a line itself is wide
 constexpr double kFine = 0.02;         ///< step of the refined period, in cycles over the travel
 constexpr int kFineSteps = 20;
@@ -191,7 +192,7 @@ std::vector<PeriodicTorque> periodic_torques(const Study& study, const FittedMod
   std::vector<PeriodicTorque> found;
   const auto tell = [&](const TorqueLine& line, bool given) {
     const LineCheck check = check_line(line.line.periods, held, study.held_out);
-    if (!given && !check.holds()) return;
+    if (!given && (!check.holds() || line.line.periods < kListedCycles * one_cycle(study.train))) return;
     found.push_back({line.line.periods, 2.0 * kPi / line.line.periods,
                      std::hypot(line.line.sine, line.line.cosine),
                      std::atan2(-line.line.cosine, -line.line.sine), line.over, check.windows, check.better,
