@@ -131,7 +131,7 @@ const std::vector<Fault> kFaults = {
        });
      },
      {"unit of x1"},
-     "counts per turn"},
+     "position: counts"},
     {"degrees", [] { return changed([](Rows& r) { scale(r.x1, 180.0 / kPi); }); }, {"unit of x1"}, "degrees"},
     {"turns", [] { return changed([](Rows& r) { scale(r.x1, 0.5 / kPi); }); }, {"unit of x1"}, "turns"},
     {"far_too_fast",
