@@ -6,8 +6,8 @@ for tool in dpkg-deb dpkg-shlibdeps file; do
 done
 
 cpack --config "$build/CPackConfig.cmake" -B "$work" >"$work/cpack.log" 2>&1 || fail "cpack: $(cat "$work/cpack.log")"
-for package in "$work"/*.deb; do dpkg-deb -x "$package" "$work/root"; done
-usr=$work/root/usr
+for package in "$work"/*.deb; do dpkg-deb -x "$package" "$work/unpacked"; done
+usr=$work/unpacked/usr
 
 # Whatever it was linked against here is here: every dependency that was found has to be installed.
 depends=$(dpkg-deb -f "$work"/gapscope_*.deb Depends)
