@@ -132,26 +132,33 @@ Findings first_look(Study& study) {
   return found;
 }
 
+/// Whether half of what is held out could be fitted, too.
+bool may_look_wider(const Study& study, const Findings& found) {
+  return !found.candidates.empty() && !study.repeats_badly() && !(study.held_out.scored_from.front() > 0);
+}
+
+/// Mean square that the best fit leaves of what was fitted [floor²].
+double least_left(const Findings& found) {
+  double least = found.before.fitted.mean_square;
+  for (const Judged& c : found.candidates) least = std::min(least, c.fitted.mean_square);
+  return least;
+}
+
 /// Whether the recordings that were fitted are explained while those held out are not: they do not ask for
 /// what the others need, neither of the drive nor of the effect.
 bool asked_too_little(const Study& study, const Findings& found) {
-  if (found.candidates.empty() || study.repeats_badly() || study.held_out.scored_from.front() > 0)
-    return false;
+  if (!may_look_wider(study, found)) return false;
   const Judged& best = found.candidates.front();
   if (at_floor(best)) return false;
   if (found.decision.accepted && !(shrink_of(found.before.median_free, best.median_free) < kNearlyWhole))
     return false;
-  double least = found.before.fitted.mean_square;
-  for (const Judged& c : found.candidates) least = std::min(least, c.fitted.mean_square);
-  return least < kExplained;
+  return least_left(found) < kExplained;
 }
 
 /// The same of a search that has found nothing, where the others show far more than the fitted ones do.
 bool asked_far_too_little(const Study& study, const Findings& found) {
-  if (found.candidates.empty() || study.repeats_badly() || study.held_out.scored_from.front() > 0)
-    return false;
-  double least = found.before.fitted.mean_square;
-  for (const Judged& c : found.candidates) least = std::min(least, c.fitted.mean_square);
+  if (!may_look_wider(study, found)) return false;
+  const double least = least_left(found);
   return least < kNearFloor && found.candidates.front().median_free > kFarMore * std::sqrt(least);
 }
 
