@@ -34,7 +34,7 @@ void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>&
 }
 
 Recording read_one(const RecordedFile& file, const Configuration& c) {
-  if (!std::filesystem::exists(file.path))
+  if (std::error_code unreachable; !std::filesystem::exists(file.path, unreachable))
     throw ConfigError(c.file, file.line,
                       fmt::format("there is no recording {}, expected a CSV or .mat file (relative to this "
                                   "configuration)",

@@ -28,7 +28,7 @@ void read_base(const Section& root, const std::string& text, CampaignConfig& c) 
     return;
   }
   c.base_file = (std::filesystem::path(c.file).parent_path() / base.text()).lexically_normal().string();
-  if (!std::filesystem::is_regular_file(c.base_file))
+  if (std::error_code unreachable; !std::filesystem::is_regular_file(c.base_file, unreachable))
     base.fail(fmt::format("names {}, which is not there, expected the file of a configuration", base.text()));
   c.base_text = read_text(c.base_file);
 }

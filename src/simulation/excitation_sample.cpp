@@ -90,7 +90,7 @@ std::vector<double> steps(const Excitation& e, double rate, std::size_t count, s
 
 std::vector<double> recorded(const Excitation& e, double rate, std::size_t count) {
   const std::string path = (std::filesystem::path(e.folder) / e.file).lexically_normal().string();
-  if (!std::filesystem::exists(path))
+  if (std::error_code unreachable; !std::filesystem::exists(path, unreachable))
     throw ConfigError(path, "is not there, expected the recording whose input is played");
   ReadOptions options;
   options.columns = {e.time_column, e.input_column, e.input_column, "", false, {}};
