@@ -26,7 +26,7 @@ class MatContent {
   virtual std::vector<double> numbers(const std::string& name, std::size_t count) = 0;
 };
 
-/// Versions 4 and 7.3, by matio. One such file is open at a time: the libraries are not made for threads.
+/// Versions 4 and 7.3, by matio, in processes of their own.
 /// @returns nothing where it is no such file
 std::unique_ptr<MatContent> open_by_matio(const std::string& path);
 

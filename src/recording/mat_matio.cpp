@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <mutex>
+#include <functional>
+#include <sstream>
+#include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/run_apart.h"
 #include "recording/mat_element.h"
 #include "recording/mat_file.h"
 
@@ -17,14 +21,6 @@ namespace gapscope::internal {
 namespace {
 
 using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
-
-/// What goes wrong is told by the errors thrown here, not printed by the libraries below.
-std::mutex& silent_library() {
-  static std::mutex mutex;
-  static const bool silenced [[maybe_unused]] =
-      Mat_LogInitFunc("gapscope", [](int, char*) {}) == 0 && H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
-  return mutex;
-}
 
 std::string flaw_of(const matvar_t& v) {
   switch (v.class_type) {
@@ -79,43 +75,89 @@ std::vector<double> numbers_of(const matvar_t& v, std::size_t count) {
   }
 }
 
+/// An open file; its variables come as matio gives them.
+class MatioFile {
+ public:
+  /// What goes wrong is told by those who call, not printed by the libraries below.
+  explicit MatioFile(const std::string& path) {
+    Mat_LogInitFunc("gapscope", [](int, char*) {});
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    file_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+    if (!file_) throw std::runtime_error("no .mat file");
+  }
+
+  Variable info(const std::string& name) const {
+    return {Mat_VarReadInfo(file_.get(), name.c_str()), &Mat_VarFree};
+  }
+  mat_t* get() const { return file_.get(); }
+
+ private:
+  std::unique_ptr<mat_t, decltype(&Mat_Close)> file_{nullptr, &Mat_Close};
+};
+
+template <class T>
+std::string bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+template <class T>
+std::vector<T> values_of(std::string_view bytes) {
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  return values;
+}
+
+/// Every question is answered by a process of its own: a damaged file can end the libraries, and they are not
+/// made for threads. Answers are texts, which end with a zero where another one follows.
 class ByMatio : public MatContent {
  public:
-  explicit ByMatio(const std::string& path)
-      : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close) {}
-
-  bool is_open() const { return file_ != nullptr; }
+  explicit ByMatio(std::string path) : path_(std::move(path)) {}
 
   std::optional<MatVariable> find(const std::string& name) override {
-    const Variable v = info(name);
-    if (!v) return {};
-    MatVariable found{name, flaw_of(*v), {}};
-    if (v->dims != nullptr && v->rank > 0) found.size.assign(v->dims, v->dims + v->rank);
-    return found;
+    const std::string answer = asked([&](const MatioFile& file) -> std::string {
+      const Variable v = file.info(name);
+      if (!v) return {};
+      std::vector<std::size_t> size;
+      if (v->dims != nullptr && v->rank > 0) size.assign(v->dims, v->dims + v->rank);
+      return flaw_of(*v) + '\0' + bytes_of(size);
+    });
+    if (answer.empty()) return {};
+    const std::size_t end = answer.find('\0');
+    return MatVariable{name, answer.substr(0, end), values_of<std::size_t>(answer.substr(end + 1))};
   }
 
   std::vector<std::string> names() override {
-    std::size_t count = 0;
-    char* const* const first = Mat_GetDir(file_.get(), &count);
-    return first == nullptr ? std::vector<std::string>{} : std::vector<std::string>{first, first + count};
+    std::istringstream answer(asked([](const MatioFile& file) {
+      std::size_t count = 0;
+      char* const* const first = Mat_GetDir(file.get(), &count);
+      std::string all;
+      for (std::size_t i = 0; first != nullptr && i < count; ++i) all += first[i] + std::string(1, '\0');
+      return all;
+    }));
+    std::vector<std::string> names;
+    for (std::string name; std::getline(answer, name, '\0');) names.push_back(name);
+    return names;
   }
 
   std::vector<double> numbers(const std::string& name, std::size_t count) override {
-    const Variable v = info(name);
-    if (v && Mat_VarReadDataAll(file_.get(), v.get()) == 0 && v->data != nullptr &&
-        v->nbytes == count * Mat_SizeOfClass(v->class_type))
-      return numbers_of(*v, count);
+    const std::string answer = asked([&](const MatioFile& file) -> std::string {
+      const Variable v = file.info(name);
+      if (v && Mat_VarReadDataAll(file.get(), v.get()) == 0 && v->data != nullptr &&
+          v->nbytes == count * Mat_SizeOfClass(v->class_type))
+        return bytes_of(numbers_of(*v, count));
+      return {};
+    });
+    if (answer.size() == count * sizeof(double)) return values_of<double>(answer);
     throw ConfigError(path_, "the variable '" + name + "' is damaged, expected a vector of real numbers");
   }
 
  private:
-  Variable info(const std::string& name) {
-    return {Mat_VarReadInfo(file_.get(), name.c_str()), &Mat_VarFree};
+  std::string asked(const std::function<std::string(const MatioFile&)>& question) const {
+    if (auto answer = run_apart([&] { return question(MatioFile(path_)); })) return *std::move(answer);
+    throw ConfigError(path_, "is damaged, expected a whole .mat file");
   }
 
   std::string path_;
-  std::lock_guard<std::mutex> alone_{silent_library()};
-  std::unique_ptr<mat_t, decltype(&Mat_Close)> file_;
 };
 
 /// Whether the file is of variables of version 4, one after the other to its end: matio would not mind
@@ -142,24 +184,28 @@ bool is_whole_version_4(const std::string& path) {
   return size > 0 && place == size;
 }
 
-/// matio would take a file that is cut off for an empty one.
-bool is_whole_version_7_3(const std::string& path) {
+bool is_version_7_3(const std::string& path) {
   constexpr std::streamoff kUserBlock = 512;
   std::array<char, 8> signature{};
   std::ifstream in(path, std::ios::binary);
   in.seekg(kUserBlock).read(signature.data(), signature.size());
-  if (!in || std::string(signature.begin(), signature.end()) != "\x89HDF\r\n\x1a\n") return false;
-  const std::lock_guard alone(silent_library());
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  return file >= 0 && H5Fclose(file) >= 0;
+  return in && std::string(signature.begin(), signature.end()) == "\x89HDF\r\n\x1a\n";
+}
+
+/// matio would take a file that is cut off for an empty one.
+bool is_whole_version_7_3(const std::string& path) {
+  return is_version_7_3(path) && run_apart([&] {
+                                   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+                                   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+                                   return std::string(file >= 0 && H5Fclose(file) >= 0 ? "whole" : "");
+                                 }) == "whole";
 }
 
 }  // namespace
 
 std::unique_ptr<MatContent> open_by_matio(const std::string& path) {
   if (!is_whole_version_7_3(path) && !is_whole_version_4(path)) return nullptr;
-  auto content = std::make_unique<ByMatio>(path);
-  return content->is_open() ? std::move(content) : nullptr;
+  return std::make_unique<ByMatio>(path);
 }
 
 }  // namespace gapscope::internal

@@ -2,18 +2,13 @@
 
 #include "fuzz/attempt.h"
 #include "fuzz/readers.h"
+#include "fuzz/sound_recording.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/csv_stream.h"
 #include "recording/recorded_rows.h"
 
 namespace gapscope::testing {
 namespace {
-
-void require_sound(const Recording& r) {
-  require(r.size() >= kFewestSamples && r.u.size() == r.size() && (r.x2.empty() || r.x2.size() == r.size()),
-          "columns of other lengths");
-  require(r.dt > 0.0 && std::isfinite(r.dt) && std::isfinite(r.start), "no clock");
-}
 
 /// In pieces that end anywhere, as a pipe gives them.
 void read_stream(std::string_view bytes) {

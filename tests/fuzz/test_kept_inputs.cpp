@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 using Reader = int (*)(std::string_view);
 const std::map<std::string, Reader> kReaders = {{"recording", testing::read_recording},
+                                                {"mat", testing::read_mat},
                                                 {"configuration", testing::read_configuration},
                                                 {"result", testing::read_result},
                                                 {"store", testing::read_store}};
@@ -35,7 +36,8 @@ TEST_P(KeptInputs, AreReadOrRefused) {
   EXPECT_GE(inputs, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, KeptInputs, ::testing::Values("recording", "configuration", "result", "store"),
+INSTANTIATE_TEST_SUITE_P(Of, KeptInputs,
+                         ::testing::Values("recording", "mat", "configuration", "result", "store"),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace

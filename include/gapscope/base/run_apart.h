@@ -1,0 +1,14 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace gapscope {
+
+/// Does work in a process of its own (a copy of this one), for libraries that a damaged file can end.
+/// @returns what it returned; nothing if it threw or the process was ended, or did not end within a minute
+/// @throws std::runtime_error if there can be no further process.
+std::optional<std::string> run_apart(const std::function<std::string()>& work);
+
+}  // namespace gapscope

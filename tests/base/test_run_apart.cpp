@@ -1,0 +1,32 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "gapscope/base/run_apart.h"
+
+namespace gapscope {
+namespace {
+
+TEST(RunApart, ReturnsWhatTheWorkReturns) {
+  const std::string large(1 << 20, 'x');  // more than a pipe holds
+  EXPECT_EQ(run_apart([&] { return large; }), large);
+  EXPECT_EQ(run_apart([] { return std::string("a\0b", 3); }), std::string("a\0b", 3));
+  EXPECT_EQ(run_apart([] { return std::string(); }), "");
+}
+
+TEST(RunApart, OutlivesTheEndOfTheWork) {
+  EXPECT_EQ(run_apart([]() -> std::string { throw std::logic_error("no answer"); }), std::nullopt);
+  EXPECT_EQ(run_apart([]() -> std::string { std::abort(); }), std::nullopt);
+  EXPECT_EQ(run_apart([] { return std::raise(SIGKILL), std::string("not reached"); }), std::nullopt);
+}
+
+TEST(RunApart, ChangesNothingHere) {
+  int value = 1;
+  EXPECT_EQ(run_apart([&] { return value = 2, std::to_string(value); }), "2");
+  EXPECT_EQ(value, 1);
+}
+
+}  // namespace
+}  // namespace gapscope
