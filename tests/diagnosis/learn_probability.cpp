@@ -1,4 +1,4 @@
-// Not a test: learns what probability a step has of naming what is missing, and judges it.
+// Learns what probability a step has of naming what is missing, and judges it.
 //   learn_probability LEARN JUDGE [later]
 // Both are files of study_diagnosis from different seeds: for a first step with rows of the kinds known and
 // outside, for later ones of the kinds pair, one and beyond. A step that could find what is missing counts

@@ -1,4 +1,4 @@
-// Not a test: the diagnosis on drives of the independent plant with an effect that it is not told.
+// The diagnosis on drives of the independent plant with an effect that it is not told.
 //   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask FILE [THREADS [RIG]]
 // Appends one line a case to FILE and prints the counts of all of it with Wilson limits; seeds that FILE
 // holds already are not run again. Effect and rig follow from the seed. "Removed" takes the true effect and
