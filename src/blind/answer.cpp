@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "blind/answer_journal.h"
-#include "blind/sha256.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
@@ -13,6 +12,7 @@
 #include "gapscope/campaign/pipeline.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/results/blind_files.h"
+#include "gapscope/results/sha256.h"
 
 namespace gapscope {
 namespace {
@@ -52,7 +52,7 @@ BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
 }
 
 std::string sealed_after(const std::string& previous, const BlindAnswer& answer) {
-  return blind::sha256(previous + "\n" + line_of(answer) + "\n");
+  return sha256(previous + "\n" + line_of(answer) + "\n");
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ BlindAnswers answer_blind_check(const std::string& folder, const std::string& pa
                                 const BlindProgress& progress) {
   const BlindManifest manifest = read_blind_manifest(folder + "/manifest.json");
   verify_recordings(manifest, folder);
-  BlindAnswers answers{manifest.name, version(), blind::sha256_of_file(folder + "/manifest.json"), {}};
+  BlindAnswers answers{manifest.name, version(), sha256_of_file(folder + "/manifest.json"), {}};
   if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty())
     std::filesystem::create_directories(parent);
   blind::AnswerJournal journal(path + ".partial",

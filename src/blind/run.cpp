@@ -2,11 +2,11 @@
 #include <filesystem>
 
 #include "blind/case_plan.h"
-#include "blind/sha256.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/results/blind_files.h"
+#include "gapscope/results/sha256.h"
 
 namespace gapscope {
 namespace {
@@ -37,8 +37,7 @@ bool is_made(const BlindConfig& config, const std::string& cases, const std::str
 bool is_answered(const std::string& cases, const std::string& answers) {
   if (!fs::exists(answers)) return false;
   const BlindAnswers stored = read_blind_answers(answers);
-  return stored.version == version() &&
-         stored.manifest_sha256 == blind::sha256_of_file(cases + "/manifest.json");
+  return stored.version == version() && stored.manifest_sha256 == sha256_of_file(cases + "/manifest.json");
 }
 
 }  // namespace
@@ -51,7 +50,7 @@ BlindScore score_blind_check(const std::string& folder, const std::string& label
   const BlindLabels opened = read_blind_labels(labels);
   verify_labels(manifest, opened, labels);
   const BlindAnswers given = read_blind_answers(answers);
-  if (given.manifest_sha256 != blind::sha256_of_file(public_file))
+  if (given.manifest_sha256 != sha256_of_file(public_file))
     throw ConfigError(answers, "answers another manifest, expected that of " + public_file);
   verify_answers(manifest, given, answers);
   if (!seal.empty() && given.seal() != seal)

@@ -5,12 +5,12 @@
 #include <map>
 #include <set>
 
-#include "blind/sha256.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/results/blind_files.h"
+#include "gapscope/results/sha256.h"
 
 namespace gapscope {
 namespace {
@@ -43,10 +43,9 @@ std::vector<SealedFile> files_of(const std::string& folder, const std::string& n
   const std::string sheet = name + ".yaml", path = folder + "/" + sheet;
   const Configuration c = load_configuration(path);
   if (!c.recording) throw ConfigError(path, "simulates, expected recording: {file, held_out}");
-  std::vector<SealedFile> files = {{sheet, blind::sha256_of_file(path)}};
+  std::vector<SealedFile> files = {{sheet, sha256_of_file(path)}};
   for (const auto* list : {&c.recording->files, &c.recording->held_out})
-    for (const RecordedFile& r : *list)
-      files.push_back({r.given, blind::sha256_of_file(folder + "/" + r.given)});
+    for (const RecordedFile& r : *list) files.push_back({r.given, sha256_of_file(folder + "/" + r.given)});
   return files;
 }
 
@@ -54,9 +53,9 @@ std::vector<SealedFile> files_of(const std::string& folder, const std::string& n
 
 std::string label_hash(const BlindLabel& l) {
   const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; };
-  return blind::sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n", l.salt, l.name, l.part,
-                                   fmt::join(l.effects, "+"), l.rig, number(l.severity),
-                                   number(l.cycles_per_turn), l.seed));
+  return sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n", l.salt, l.name, l.part,
+                            fmt::join(l.effects, "+"), l.rig, number(l.severity), number(l.cycles_per_turn),
+                            l.seed));
 }
 
 BlindManifest seal_blind_check(const std::string& folder, const std::string& labels) {
@@ -72,7 +71,7 @@ BlindManifest seal_blind_check(const std::string& folder, const std::string& lab
 void verify_recordings(const BlindManifest& manifest, const std::string& folder) {
   for (const SealedCase& c : manifest.cases)
     for (const SealedFile& f : c.files)
-      if (blind::sha256_of_file(folder + "/" + f.file) != f.sha256)
+      if (sha256_of_file(folder + "/" + f.file) != f.sha256)
         throw ConfigError(folder + "/" + f.file,
                           "is not the file of " + c.name + " that was sealed, expected SHA-256 " + f.sha256);
 }

@@ -2,22 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/results/sha256.h"
 
 namespace gapscope::internal {
 namespace {
 
-std::string line_for(const RecordedFile& file) {
-  std::ifstream in(file.path, std::ios::binary);
-  if (!in) return fmt::format("recording {}: not there\n", file.given);
-  std::uint64_t hash = 14695981039346656037ull, size = 0;  // FNV-1a
-  for (std::istreambuf_iterator<char> byte(in), end; byte != end; ++byte, ++size)
-    hash = (hash ^ static_cast<unsigned char>(*byte)) * 1099511628211ull;
-  return fmt::format("recording {}: {} bytes, hash {:016x}\n", file.given, size, hash);
+std::string line_for(const RecordedFile& file) try {
+  return fmt::format("recording {}: SHA-256 {}\n", file.given, sha256_of_file(file.path));
+} catch (const ConfigError&) {
+  return fmt::format("recording {}: not there\n", file.given);
 }
 
 /// The first run, and for every value of an axis over recordings a run that has it.

@@ -6,8 +6,8 @@
 
 namespace gapscope::internal {
 
-/// A line for every recording that the campaign reads, with its size and a hash of its bytes: another
-/// recording under the same name is another campaign. Empty for simulated data.
+/// A line for every recording that the campaign reads, with the SHA-256 of its bytes: another recording
+/// under the same name is another campaign. Empty for simulated data.
 std::string recorded_data(const CampaignConfig& campaign);
 
 }  // namespace gapscope::internal

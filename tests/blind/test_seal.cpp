@@ -8,12 +8,12 @@
 #include <sstream>
 
 #include "blind/case_plan.h"
-#include "blind/sha256.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/results/blind_files.h"
+#include "gapscope/results/sha256.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"
 
@@ -59,8 +59,8 @@ class Check {
 };
 
 TEST(Sha256, IsThatOfItsStandard) {  // FIPS 180-2, appendix B.1, and the empty text
-  EXPECT_EQ(blind::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(blind::sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
 TEST(CasePlan, GivesEveryKindItsCasesAndEachASeedAndASaltOfItsOwn) {

@@ -58,7 +58,7 @@ const std::vector<std::pair<std::string, Names>> kConfined = {
     {"hdf5", {"recording"}},
     {"zlib", {"recording"}},
     {"sqlite3", {"campaign"}},
-    {"openssl/", {"blind"}},
+    {"openssl/", {"results"}},
     {"tbb/", {"base"}},
     {"oneapi/", {"base"}},
 };

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace gapscope::blind {
+namespace gapscope {
 
 /// SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);
@@ -11,4 +11,4 @@ std::string sha256(std::string_view bytes);
 /// Of a file's bytes.  @throws ConfigError where it cannot be read.
 std::string sha256_of_file(const std::string& path);
 
-}  // namespace gapscope::blind
+}  // namespace gapscope

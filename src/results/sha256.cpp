@@ -1,4 +1,4 @@
-#include "blind/sha256.h"
+#include "gapscope/results/sha256.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -10,7 +10,7 @@
 
 #include "gapscope/base/errors.h"
 
-namespace gapscope::blind {
+namespace gapscope {
 
 std::string sha256(std::string_view bytes) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
@@ -25,8 +25,9 @@ std::string sha256(std::string_view bytes) {
 std::string sha256_of_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream bytes;
-  if (!in || !(bytes << in.rdbuf())) throw ConfigError(path, "cannot be read, expected a file of the check");
+  if (in.peek() != std::ifstream::traits_type::eof()) bytes << in.rdbuf();
+  if (!in.is_open() || in.bad()) throw ConfigError(path, "cannot be read, expected a file");
   return sha256(bytes.str());
 }
 
-}  // namespace gapscope::blind
+}  // namespace gapscope
