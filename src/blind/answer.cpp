@@ -32,9 +32,7 @@ std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
 Diagnosis diagnosis_of(const std::string& sheet) {
   const Configuration c = load_configuration(sheet);
   require_reference_model(c);
-  DiagnosisOptions options;
-  options.fit = c.fit;
-  options.rotation = c.rotation;
+  DiagnosisOptions options = diagnosis_options(c);
   options.threads = 1;
   Outcome ignored;
   const auto silent = [](const std::string&) {};

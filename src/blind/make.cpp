@@ -69,7 +69,7 @@ void make_blind_check(const BlindConfig& config, const std::string& folder, cons
     write_case(folder, config.duration, cases[i]);
     if (const std::size_t count = ++done; progress) progress(count, cases.size());
   });
-  BlindLabels stored{config.name, {}};
+  BlindLabels stored{config.name, resolved_yaml(config), {}};
   for (const blind::PlannedCase& c : cases) stored.cases.push_back(c.label);
   if (const fs::path parent = fs::path(labels).parent_path(); !parent.empty()) fs::create_directories(parent);
   write_blind_labels(labels, stored);

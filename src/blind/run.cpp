@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <filesystem>
 
-#include "blind/case_plan.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 #include "gapscope/blind/blind_check.h"
@@ -21,14 +19,7 @@ bool is_made(const BlindConfig& config, const std::string& cases, const std::str
     const BlindLabels stored = read_blind_labels(labels);
     verify_recordings(manifest, cases);
     verify_labels(manifest, stored, labels);
-    const std::vector<blind::PlannedCase> plan = blind::plan_cases(config);
-    return manifest.name == config.name && manifest.version == version() &&
-           std::equal(plan.begin(), plan.end(), stored.cases.begin(), stored.cases.end(),
-                      [](const blind::PlannedCase& p, const BlindLabel& l) {
-                        return p.label.name == l.name && p.label.part == l.part &&
-                               p.label.effects == l.effects && p.label.rig == l.rig &&
-                               p.label.severity == l.severity && p.label.seed == l.seed;
-                      });
+    return manifest.version == version() && stored.configuration == resolved_yaml(config);
   } catch (const ConfigError&) {
     return false;
   }

@@ -131,6 +131,7 @@ BlindScore score_blind_answers(const BlindLabels& labels, const BlindAnswers& an
   BlindScore score;
   score.name = answers.name, score.version = answers.version;
   score.manifest_sha256 = answers.manifest_sha256, score.answers_seal = answers.seal();
+  score.configuration = labels.configuration;
   for (const Scored& s : cases) ++(s.reported() ? score.report_cases : score.calibration_cases);
   score.counts = count_answers(cases);
   fill_shrinks(cases, score);

@@ -77,6 +77,7 @@ Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Pro
   RunResult& r = out.result;
   r.name = c.name;
   r.version = version();
+  r.configuration = resolved_yaml(c);
   r.rotation = c.rotation;
   r.recordings = load_recordings(c, progress, out);
   if (c.simulation && c.simulation->plant.structure.has_load) r.simulated_gap = c.simulation->plant.drive.gap;

@@ -160,6 +160,7 @@ CampaignSummary summarise(const CampaignStore& store) {
   CampaignSummary s;
   s.name = header.name;
   s.version = header.version;
+  s.configuration = header.identity;
   s.runs = static_cast<int>(header.runs);
   s.model_free = header.model_free;
   s.reference = header.reference;

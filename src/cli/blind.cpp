@@ -20,14 +20,6 @@ struct Arguments {
   bool quiet = false;
 };
 
-void add_work_options(CLI::App* command, Arguments& a) {
-  command
-      ->add_option("-j,--threads", a.threads, "threads (default: all cores); the results do not depend on it")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  command->add_flag("--quiet", a.quiet, "no progress");
-}
-
 void say(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
 
 /// "case 3 of 40"
@@ -53,7 +45,7 @@ void add_make(CLI::App& blind) {
       ->required()
       ->type_name("DIR");
   command->add_option("--labels", a->labels, "file of the labels, to be kept")->required()->type_name("FILE");
-  add_work_options(command, *a);
+  add_work_options(*command, a->threads, a->quiet);
   command->footer(
       "Keys of a check:\n"
       "  name         of the check (default: of the file)\n"
@@ -108,7 +100,7 @@ void add_answer(CLI::App& blind) {
   CLI::App* command = blind.add_subcommand("answer", "Diagnoses sealed recordings and seals the answers");
   command->add_option("CASES", a->cases, "folder with a manifest.json")->required();
   command->add_option("-o,--output", a->answers, "file of the answers (JSON)")->required()->type_name("FILE");
-  add_work_options(command, *a);
+  add_work_options(*command, a->threads, a->quiet);
   command->footer(
       "Sees the sheets and recordings of CASES and nothing else. Stopped or killed, the same command goes "
       "on.\n"
@@ -120,6 +112,7 @@ void add_answer(CLI::App& blind) {
 void report(const std::string& folder, const BlindScore& score) {
   ReportFolder report(folder);
   write_blind_score(report.path(), score);
+  if (!score.configuration.empty()) write_text(report.path() + "/resolved.yaml", score.configuration);
   write_blind_report(report.path());
   stop_point();
   report.commit();
@@ -157,7 +150,7 @@ void add_whole(CLI::App& blind) {
   command->add_option("CONFIG", a->config, "of the check (YAML), see `gapscope blind make --help`")
       ->required();
   command->add_option("-o,--output", a->folder, "folder (default: reports/<name>)")->type_name("DIR");
-  add_work_options(command, *a);
+  add_work_options(*command, a->threads, a->quiet);
   command->footer(
       "Writes DIR/cases, labels.json, answers.json, blind.json, report.md and figures (PNG). Stopped or "
       "killed, "

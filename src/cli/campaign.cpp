@@ -172,14 +172,9 @@ void add_campaign(CLI::App& app) {
   command->add_option("CONFIG", a->config, "campaign (YAML)");
   command->add_option("-o,--output", a->folder, "folder of the campaign (default: reports/<name>)")
       ->type_name("DIR");
-  command
-      ->add_option("-j,--threads", a->threads,
-                   "threads (default: all cores); the results do not depend on it")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
   command->add_option("--shard", a->shard, "only part K of N, into a folder of its own")->type_name("K/N");
   command->add_flag("--dry-run", a->dry_run, "number of runs, time, and the first three configurations");
-  command->add_flag("--quiet", a->quiet, "no progress");
+  add_work_options(*command, a->threads, a->quiet);
   command->require_subcommand(0, 1);
   command->footer(
       "Keys of a campaign:\n"

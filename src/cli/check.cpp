@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/config/configuration.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/results/inspection_result.h"
 
@@ -18,12 +19,24 @@ struct Arguments {
   bool json = false;
 };
 
+/// As a configuration beside the recording would have it: the same in every folder.
+Configuration reading_of(const RecordingArguments& r) {
+  Configuration c;
+  c.recording = r.configuration();
+  c.recording->files.front().given = std::filesystem::path(r.file).filename().string();
+  c.encoder = r.encoder();
+  c.rotation = !r.translation;
+  return c;
+}
+
 void check_recording(const Arguments& a) {
   const RecordingArguments& r = a.recording;
   if (!a.output.empty()) require_file_name(a.output, r.file);
-  const Inspection inspection = inspect(r.file, r.configuration().reading, !r.translation);
-  if (!a.output.empty()) write_text(a.output, inspection_json(inspection));
-  fmt::print("{}", a.json ? inspection_json(inspection) : inspection.report());
+  const Configuration c = reading_of(r);
+  const Inspection inspection = inspect(r.file, c.recording->reading, c.rotation);
+  const std::string json = inspection_json(inspection, resolved_reading(c));
+  if (!a.output.empty()) write_text(a.output, json);
+  fmt::print("{}", a.json ? json : inspection.report());
   if (inspection.spoilt()) throw CLI::RuntimeError(kSpoiltRecording);
 }
 

@@ -54,6 +54,9 @@ struct RecordingArguments {
 };
 void add_recording_arguments(CLI::App& command, RecordingArguments& arguments);
 
+/// -j and --quiet.
+void add_work_options(CLI::App& command, int& threads, bool& quiet);
+
 /// @throws ConfigError if something other than a folder has this name already, or it is no name
 void require_folder_name(const std::string& folder);
 

@@ -15,6 +15,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/config/configuration.h"
 #include "gapscope/recording/csv_stream.h"
 #include "gapscope/results/stream_lines.h"
 
@@ -53,10 +54,20 @@ std::string_view read_piece(std::array<char, 1 << 16>& buffer) {
   }
 }
 
+std::string resolved_settings(const RecordingColumns& columns, double quantum) {
+  Configuration c;
+  c.recording.emplace();
+  c.recording->reading.columns = columns;
+  c.encoder.quantum = quantum;
+  return resolved_reading(c);
+}
+
 class Session {
  public:
   Session(const RecordingColumns& columns, double quantum)
-      : csv_("standard input", columns), quantum_(quantum) {}
+      : csv_("standard input", columns),
+        settings_(settings_line(resolved_settings(columns, quantum))),
+        quantum_(quantum) {}
 
   /// To the end of the input, or to whatever stops it; the summary comes last in any case.
   void run() {
@@ -88,13 +99,18 @@ class Session {
 
   void detect() {
     if (!csv_.has_clock()) return;
-    if (!detector_) detector_.emplace(csv_.start(), csv_.dt(), quantum_);
+    if (!detector_) begin();
     for (const CsvStream::Sample& s : csv_.take()) {
       detector_->push(s.u, s.x1);
       late_ = s.t - csv_.start() - csv_.dt() * static_cast<double>(progress_.samples++);
       progress_.until = s.t;
       tell();
     }
+  }
+
+  void begin() {
+    detector_.emplace(csv_.start(), csv_.dt(), quantum_);
+    write_line(settings_);
   }
 
   void tell() {
@@ -120,6 +136,7 @@ class Session {
   }
 
   CsvStream csv_;
+  std::string settings_;
   double quantum_, late_ = 0.0;
   std::optional<StreamDetector> detector_;
   StreamProgress progress_;

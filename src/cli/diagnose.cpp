@@ -22,6 +22,7 @@ struct Arguments {
   std::string config;
   std::string folder;
   std::vector<std::string> excluded;
+  int threads = 0;
   bool quiet = false;
 };
 
@@ -43,7 +44,7 @@ void write_outcome(const std::string& folder, const Configuration& c, const Diag
   ReportFolder report(folder);
   report.keep_estimate();
   write_diagnosis_result(report.path(), result);
-  write_text(report.path() + "/resolved.yaml", resolved_yaml(c));
+  write_text(report.path() + "/resolved.yaml", result.configuration);
   write_text(report.path() + "/fitted.yaml", fitted_yaml(c, result.diagnosis.fitted, recording));
   if (const NextExperiment& next = result.diagnosis.next_experiment; next.proposes()) {
     write_text(report.path() + "/next_experiment.yaml",
@@ -65,22 +66,20 @@ void ask_further(const Configuration& c, const MotorTrace& like, const Diagnosis
 
 void diagnose_configuration(const Arguments& a) {
   require_known(a.excluded);
-  const Configuration c = load_configuration(a.config);
+  Configuration c = load_configuration(a.config);
+  c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
   require_reference_model(c);
   const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
   require_folder_name(folder);
-  DiagnosisOptions options;
-  options.fit = c.fit;
-  options.known = c.diagnosis;
-  options.excluded = a.excluded;
-  options.rotation = c.rotation;
+  DiagnosisOptions options = diagnosis_options(c);
+  options.threads = a.threads;
   options.progress = progress_on_terminal(a.quiet);
   Outcome loaded;
   const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
   require_possible_experiment(c, train.front().dt);
   const std::vector<Recording> held_out = load_held_out(c, options.progress, loaded);
   const std::vector<MotorTrace> train_traces = traces_of(train), held_out_traces = traces_of(held_out);
-  DiagnosisResult result{c.name, version(), c.rotation,
+  DiagnosisResult result{c.name, version(), resolved_yaml(c), c.rotation,
                          diagnose(train_traces, held_out_traces, c.model.reference_model(), options)};
   auto& warnings = result.diagnosis.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
@@ -103,7 +102,7 @@ void add_diagnose(CLI::App& app) {
   command->add_option("--exclude", arguments->excluded, "an effect that is no candidate; may be repeated")
       ->type_name("EFFECT")
       ->allow_extra_args(false);
-  command->add_flag("--quiet", arguments->quiet, "no progress");
+  add_work_options(*command, arguments->threads, arguments->quiet);
   command->footer(
       "Fits the model to recording: file, adds every effect of `gapscope effects` in turn, and judges on\n"
       "recording: held_out (a file or a list; without it on the last third of each file).\n"
@@ -115,7 +114,7 @@ void add_diagnose(CLI::App& app) {
       "or\n"
       "teeth, of a screw's pitch [rad; m with coordinates: translation], and how likely the catalogue lacks "
       "what\n"
-      "is missing.\n"
+      "is missing; exclude: [load_unbalance] is what --exclude says.\n"
       "The verdict is effect, none (the model is at the floor) or unknown (nothing in the catalogue explains "
       "it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance");

@@ -43,7 +43,7 @@ void write_outcome(const std::string& folder, const Configuration& c, const Outc
   report.keep_diagnosis();
   write_run_result(report.path(), outcome.result);
   write_timing(report.path(), outcome.timing);
-  write_text(report.path() + "/resolved.yaml", resolved_yaml(c));
+  write_text(report.path() + "/resolved.yaml", outcome.result.configuration);
   write_fitted_model(report.path(), c, outcome.result);
   write_report(report.path());
   stop_point();
@@ -125,6 +125,14 @@ void require_folder_name(const std::string& folder) {
     throw ConfigError(there.string(), "cannot be written in, expected a writable folder for the report");
 }
 
+void add_work_options(CLI::App& command, int& threads, bool& quiet) {
+  command
+      .add_option("-j,--threads", threads, "threads (default: all cores); the results do not depend on it")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  command.add_flag("--quiet", quiet, "no progress");
+}
+
 void add_run(CLI::App& app) {
   add(app, "run", "Both estimators, their comparison, and a report with figures",
       "Writes DIR/result.json, report.md, figures (PNG), traces/, resolved.yaml and timing.json.\n"
@@ -141,6 +149,7 @@ void add_detect(CLI::App& app) {
       "bound\n"
       "[rad/s^2]: auto, a number, or {from_model: {input_limit [unit of u], load_force_bound [N m]}}.\n\n"
       "--stream reads a CSV (t, u, x1) from standard input and writes lines of JSON (units in the keys):\n"
+      "  settings first: the version, the columns as they are read and the SHA-256 of that text\n"
       "  learnt   once: bounds, floors and thresholds, from the first two periods and frozen from then on\n"
       "  event    each passage of the gap, at most 3/4 of a half period after its impact: t1, t2, "
       "direction,\n"

@@ -1,12 +1,14 @@
 #include "gapscope/config/blind_config.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "config/configuration_reader.h"
 #include "config/field_reader.h"
 #include "config/yaml_document.h"
+#include "config/yaml_writer.h"
 
 namespace gapscope {
 
@@ -59,6 +61,23 @@ BlindConfig load_blind_config(const std::string& path) {
   c.rigs = rigs ? read_rigs(*rigs) : kRigNames;
   if (const auto duration = root.find("duration")) c.duration = duration->number(kDurations);
   return c;
+}
+
+std::string resolved_yaml(const BlindConfig& check) {
+  internal::YamlWriter out(true);
+  internal::FieldWriter fields(out);
+  const auto write_part = [&](const char* key, BlindPartConfig part) {
+    out.open(key);
+    part.fields(fields);
+    out.close();
+  };
+  out.comment("The blind check of this report, every default filled in.");
+  out.entry("name", internal::yaml_text(check.name));
+  write_part("calibration", check.calibration);
+  write_part("report", check.report);
+  out.entry("rigs", fmt::format("[{}]", fmt::join(check.rigs, ", ")));
+  out.entry("duration", internal::yaml_number(check.duration), "s");
+  return out.text();
 }
 
 }  // namespace gapscope

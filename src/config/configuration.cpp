@@ -72,6 +72,18 @@ void require_possible_start(const Configuration& c) {
                     apart, half));
 }
 
+void read_diagnosis(const Value& value, Configuration& c) {
+  FieldKeys known;
+  c.diagnosis.fields(known);
+  known.keys.emplace_back("exclude");
+  const Section section(value, known.keys);
+  FieldReader reader(section);
+  c.diagnosis.fields(reader);
+  if (const auto excluded = section.find("exclude"))
+    for (const Value& effect : excluded->items())
+      c.excluded.emplace_back(effect_named(effect.text(), effect).name);
+}
+
 void read_data(const Section& root, const WrittenModel& model, Configuration& c) {
   const auto recording = root.find("recording"), simulation = root.find("simulation");
   if (recording && simulation)
@@ -134,7 +146,7 @@ Configuration read_configuration(const Value& document) {
   read_data(root, model, c);
   if (c.simulation) c.fit.seed = c.simulation->seed;
   if (const auto fit = root.find("fit")) read_fields(*fit, c.fit);
-  if (const auto diagnosis = root.find("diagnosis")) read_fields(*diagnosis, c.diagnosis);
+  if (const auto diagnosis = root.find("diagnosis")) read_diagnosis(*diagnosis, c);
   if (const auto next = root.find("next_experiment")) {
     read_fields(*next, c.next_experiment);
     c.next_experiment_line = next->line();
@@ -169,6 +181,15 @@ void require_reference_model(const Configuration& c) {
         fmt::format("model.parameters has no {0}, expected a number [{1}] or {0}: {{estimate: true}}",
                     kDriveParameters[i].key, kDriveParameters[i].unit));
   }
+}
+
+DiagnosisOptions diagnosis_options(const Configuration& c) {
+  DiagnosisOptions options;
+  options.fit = c.fit;
+  options.known = c.diagnosis;
+  options.excluded = c.excluded;
+  options.rotation = c.rotation;
+  return options;
 }
 
 void require_possible_experiment(const Configuration& c, double dt) {

@@ -55,7 +55,9 @@ ParameterSetting read_setting(const Value& value, const Range& range) {
   return p;
 }
 
-const EffectEntry& entry_of(const std::string& name, const Value& value) {
+}  // namespace
+
+const EffectEntry& effect_named(const std::string& name, const Value& value) {
   if (const EffectEntry* entry = find_effect(name)) return *entry;
   const EffectEntry* nearest = effect_table().front();
   for (const EffectEntry* entry : effect_table())
@@ -63,8 +65,6 @@ const EffectEntry& entry_of(const std::string& name, const Value& value) {
   value.fail(fmt::format(
       "is no effect of the catalogue, expected one of `gapscope effects`; the nearest is {}", nearest->name));
 }
-
-}  // namespace
 
 EffectConfig read_effect(const Value& value) {
   const char* const form = "one effect, {name: {key: number}}";
@@ -74,7 +74,7 @@ EffectConfig read_effect(const Value& value) {
   const Value& written = entries[0].second;
   EffectConfig effect;
   effect.line = written.line();
-  effect.effect.entry = &entry_of(entries[0].first, written);
+  effect.effect.entry = &effect_named(entries[0].first, written);
   std::vector<std::string> keys;
   for (const EffectParameterSpec& spec : effect.effect.entry->parameters) keys.emplace_back(spec.key);
   const Section section(written, keys);

@@ -41,6 +41,9 @@ ModelConfig resolved_model(const WrittenModel& written);
 /// @param simulation  the block that needs them, for messages
 SimulatedPlant simulated_plant(const WrittenModel& written, const Value& simulation);
 
+/// An effect of the catalogue.  @throws ConfigError at the value, with the nearest name
+const EffectEntry& effect_named(const std::string& name, const Value& value);
+
 /// `{name: {key: number, key: {value, estimate, bounds}}}` of a known effect.
 EffectConfig read_effect(const Value& value);
 

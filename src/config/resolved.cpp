@@ -150,15 +150,7 @@ void write_detector(YamlWriter& out, const DetectorConfig& detector) {
   out.close();
 }
 
-}  // namespace
-
-std::string resolved_yaml(const Configuration& c) {
-  FitOptions fit = c.fit;
-  ExperimentLimits limits = c.next_experiment;
-  DiagnosisKnowledge known = c.diagnosis;
-  YamlWriter out(c.rotation);
-  out.comment("The configuration of this report, every default filled in; paths are those of the original.");
-  out.entry("name", yaml_text(c.name));
+void write_reading(YamlWriter& out, const Configuration& c) {
   if (c.recording) write_recording(out, *c.recording);
   if (c.simulation) write_simulation(out, *c.simulation);
   if (c.encoder.bits) {
@@ -167,6 +159,24 @@ std::string resolved_yaml(const Configuration& c) {
     out.quantity("encoder", fmt::format("{{quantum: {}}}", c.encoder.quantum), "rad");
   }
   out.entry("coordinates", c.rotation ? "rotation" : "translation");
+}
+
+}  // namespace
+
+std::string resolved_reading(const Configuration& c) {
+  YamlWriter out(c.rotation);
+  write_reading(out, c);
+  return out.text();
+}
+
+std::string resolved_yaml(const Configuration& c) {
+  FitOptions fit = c.fit;
+  ExperimentLimits limits = c.next_experiment;
+  DiagnosisKnowledge known = c.diagnosis;
+  YamlWriter out(c.rotation);
+  out.comment("The configuration of this report, every default filled in; paths are those of the original.");
+  out.entry("name", yaml_text(c.name));
+  write_reading(out, c);
   write_model(out, c.model);
   write_detector(out, c.detector);
   FieldWriter fields(out);
@@ -178,6 +188,7 @@ std::string resolved_yaml(const Configuration& c) {
   out.close();
   out.open("diagnosis");
   known.fields(fields);
+  if (!c.excluded.empty()) out.entry("exclude", "[" + joined(c.excluded) + "]");
   out.close();
   return out.text();
 }

@@ -21,6 +21,7 @@ void fields(Archive& archive, BlindLabel& l) {
 template <class Archive>
 void fields(Archive& archive, BlindLabels& l) {
   archive("name", l.name);
+  archive.configuration(l.configuration);
   archive.list("cases", l.cases);
 }
 

@@ -78,6 +78,7 @@ template <class Archive>
 void fields(Archive& archive, CampaignSummary& s) {
   archive("name", s.name);
   archive("version", s.version);
+  archive.configuration(s.configuration);
   archive("runs", s.runs);
   archive("done", s.done);
   archive("model_free", s.model_free);

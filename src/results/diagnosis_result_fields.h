@@ -192,6 +192,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("name", d.result.name);
   archive("version", d.result.version);
   archive.choice("coordinates", d.result.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
+  archive.configuration(d.result.configuration);
   archive.list("held_out", d.held_out);
 }
 

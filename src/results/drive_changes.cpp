@@ -8,6 +8,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/require.h"
 #include "gapscope/base/version.h"
+#include "gapscope/results/sha256.h"
 #include "results/drive_differences.h"
 
 namespace gapscope {
@@ -128,6 +129,16 @@ void require_one_axis(std::span<const DriveReport> reports) {
                                     axis(r), axis(reports.front()), reports.front().folder));
 }
 
+/// What the comparison is of, wherever the folders lie.
+std::string made_from(std::span<const DriveReport> reports) {
+  std::string text =
+      "# The reports that are compared, in order; the hash is that of the configuration of each.\n";
+  for (const DriveReport& r : reports)
+    text += fmt::format("- {{name: {}, version: {}, configuration_sha256: {}}}\n", r.name, r.version,
+                        r.configuration.empty() ? "null" : sha256(r.configuration));
+  return text;
+}
+
 }  // namespace
 
 const char* to_string(ChangeVerdict verdict) {
@@ -155,6 +166,7 @@ DriveChanges changes(std::span<const DriveReport> reports) {
   require_one_axis(reports);
   DriveChanges all;
   all.version = version();
+  all.configuration = made_from(reports);
   all.rotation = reports.front().rotation;
   for (const DriveReport& r : reports) all.reports.push_back(r.folder);
   for (const GapQuantity which : {GapQuantity::kGap, GapQuantity::kPlayAtZeroTorque}) {

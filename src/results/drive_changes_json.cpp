@@ -79,6 +79,7 @@ void document(Archive& archive, DriveChanges& d) {
   archive.named("quantities", quantities, &StoredQuantity::name);
   archive("compared", d.compared);
   archive("warnings", d.warnings);
+  archive.configuration(d.configuration);
   d.quantities.clear();
   for (StoredQuantity& s : quantities) d.quantities.push_back(std::move(s.quantity));
 }

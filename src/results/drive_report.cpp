@@ -45,6 +45,8 @@ DriveReport read_drive_report(const std::string& folder) {
   DriveReport report;
   report.folder = folder;
   report.name = run.name;
+  report.version = run.version;
+  report.configuration = std::move(run.configuration);
   report.rotation = run.rotation;
   report.model_free = std::move(run.model_free);
   if (report.model_free) report.model_free->traces.clear();

@@ -1,5 +1,6 @@
 #include "gapscope/results/inspection_result.h"
 
+#include "gapscope/base/version.h"
 #include "results/json_archive.h"
 #include "results/json_schema.h"
 
@@ -48,29 +49,38 @@ void fields(Archive& archive, RecordingFacts& f) {
   archive("rest_share", f.rest_share);
 }
 
+/// What was found, by which version, read in which way.
+struct InspectionDocument {
+  Inspection inspection;
+  std::string version, configuration;
+};
+
 template <class Archive>
-void fields(Archive& archive, Inspection& i) {
+void fields(Archive& archive, InspectionDocument& d) {
+  Inspection& i = d.inspection;
   bool spoilt = i.spoilt();
   archive("file", i.file);
+  archive("version", d.version);
   archive.choice("coordinates", i.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
   archive("spoilt", spoilt);
   archive.list("findings", i.findings);
   archive.single("facts", i.facts);
+  archive.configuration(d.configuration);
 }
 
 constexpr const char* kCheckSchema = "gapscope.check/1";
 
-Json check_schema() { return document_schema(kCheckSchema, Inspection()); }
+Json check_schema() { return document_schema(kCheckSchema, InspectionDocument()); }
 
 }  // namespace internal
 
-std::string inspection_json(const Inspection& inspection) {
-  Inspection i = inspection;
+std::string inspection_json(const Inspection& inspection, const std::string& configuration) {
+  internal::InspectionDocument document{inspection, version(), configuration};
   std::string schema = internal::kCheckSchema;
   internal::JsonWriter writer;
   writer("schema", schema);
-  fields(writer, i);
-  return writer.json.dump(1) + "\n";
+  fields(writer, document);
+  return internal::text_of(writer.json, 1) + "\n";
 }
 
 }  // namespace gapscope

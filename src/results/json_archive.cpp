@@ -11,6 +11,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/whole_file.h"
+#include "gapscope/results/sha256.h"
 #include "results/json_place.h"
 
 namespace gapscope::internal {
@@ -90,6 +91,11 @@ void JsonWriter::operator()(const char* key, std::vector<double>& values) {
 
 void JsonWriter::bound(const char* key, double& value) {
   json[key] = std::isinf(value) ? Json(value > 0.0 ? "inf" : "-inf") : to_json(value);
+}
+
+void JsonWriter::configuration(std::string& resolved) {
+  json[kConfiguration] =
+      resolved.empty() ? Json(nullptr) : Json{{"sha256", sha256(resolved)}, {"resolved", resolved}};
 }
 
 JsonReader::JsonReader(const Json& json, std::string file, std::string place)
@@ -176,6 +182,12 @@ void JsonReader::operator()(const char* key, std::vector<double>& values) {
 void JsonReader::bound(const char* key, double& value) {
   const Json& json = at(key);
   value = json == "inf" ? kInfinity : json == "-inf" ? -kInfinity : number(json, key);
+}
+
+void JsonReader::configuration(std::string& resolved) {
+  resolved.clear();
+  if (const Json made = json_.value(kConfiguration, Json()); !made.is_null())
+    JsonReader(made, file_, place_of(kConfiguration))("resolved", resolved);
 }
 
 }  // namespace gapscope::internal

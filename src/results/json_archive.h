@@ -20,6 +20,8 @@ using Json = nlohmann::ordered_json;
 template <class Enum>
 using Words = std::initializer_list<std::pair<Enum, const char*>>;
 
+inline constexpr const char* kConfiguration = "configuration";  ///< the key of every result
+
 /// NaN and infinities become null: a number that could not be had.
 Json to_json(double value);
 inline Json to_json(const std::string& text) { return text; }
@@ -53,6 +55,10 @@ class JsonWriter {
 
   /// A bound may be infinite, which is no missing number: "inf" or "-inf".
   void bound(const char* key, double& value);
+
+  /// The configuration that a result was made from, as resolved text with its SHA-256; null where there is
+  /// none.
+  void configuration(std::string& resolved);
 
   template <class Enum>
   void choice(const char* key, Enum& value, Words<Enum> words) {
@@ -110,6 +116,7 @@ class JsonReader {
   void operator()(const char* key, std::vector<std::string>& values);
   void operator()(const char* key, std::vector<double>& values);
   void bound(const char* key, double& value);
+  void configuration(std::string& resolved);  ///< empty in files that were written before it was stored
 
   /// Refuses the document of another schema.
   void schema(const std::string& expected);

@@ -13,9 +13,18 @@ void SchemaWriter::bound(const char* key, double&) {
   add(key, {{"anyOf", {type_of(0.0), {{"enum", {"inf", "-inf"}}}}}});
 }
 
+void SchemaWriter::configuration(std::string& resolved) {
+  SchemaWriter made;
+  made("resolved", resolved);
+  made.add("sha256", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}});
+  add(kConfiguration, {{"description", "absent in files that were written before it was stored"},
+                       {"anyOf", {made.schema(), {{"type", "null"}}}}});
+}
+
 Json SchemaWriter::schema() const {
   Json required = Json::array();
-  for (const auto& [key, any] : properties_.items()) required.push_back(key);
+  for (const auto& [key, any] : properties_.items())
+    if (key != kConfiguration) required.push_back(key);
   return {{"type", "object"}, {"properties", properties_}, {"required", required}};
 }
 

@@ -4,8 +4,8 @@
 
 namespace gapscope::internal {
 
-/// The third archive: of a list of fields it makes the JSON schema of what JsonWriter writes. Every key is
-/// required; further ones are allowed, as later versions may add some.
+/// The third archive: of a list of fields it makes the JSON schema of what JsonWriter writes. Every key but
+/// the configuration is required; further ones are allowed, as later versions may add some.
 class SchemaWriter {
  public:
   void operator()(const char* key, double&) { add(key, type_of(0.0)); }
@@ -17,6 +17,7 @@ class SchemaWriter {
   void operator()(const char* key, std::vector<std::string>&) { add(key, list_of(type_of(std::string()))); }
   void operator()(const char* key, std::vector<double>&) { add(key, list_of(type_of(0.0))); }
   void bound(const char* key, double&);
+  void configuration(std::string&);
 
   template <class Enum>
   void choice(const char* key, Enum&, Words<Enum> words) {

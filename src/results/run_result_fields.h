@@ -180,6 +180,7 @@ void fields(Archive& archive, Document& d) {
   archive.part("comparison", d.run.comparison);
   archive("simulated_gap_rad", d.run.simulated_gap);
   archive("notes", d.run.notes);
+  archive.configuration(d.run.configuration);
   archive.list("recordings", d.recordings);
 }
 

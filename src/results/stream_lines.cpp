@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gapscope/base/version.h"
 #include "results/json_schema.h"
 #include "results/run_result_fields.h"
 
@@ -35,6 +36,14 @@ SchemaWriter schema_of_line(const char* kind) {
   return writer;
 }
 
+Json settings_schema() {
+  SchemaWriter writer = schema_of_line("settings");
+  std::string text;
+  writer("version", text);
+  writer.configuration(text);
+  return writer.schema();
+}
+
 Json summary_schema() {
   SchemaWriter writer = schema_of_line("summary");
   GapEstimate estimate;
@@ -54,7 +63,7 @@ Json stream_schema() {
   fields(learnt, facts);
   fields(event, passage);
   event.erase(kNotInEvents);
-  return {{"oneOf", {learnt.schema(), event.schema(), summary_schema()}}};
+  return {{"oneOf", {settings_schema(), learnt.schema(), event.schema(), summary_schema()}}};
 }
 
 }  // namespace internal
@@ -72,6 +81,14 @@ JsonWriter line_of(std::string kind) {
 }
 
 }  // namespace
+
+std::string settings_line(const std::string& configuration) {
+  std::string program = version(), resolved = configuration;
+  JsonWriter writer = line_of("settings");
+  writer("version", program);
+  writer.configuration(resolved);
+  return internal::text_of(writer.json, -1) + "\n";
+}
 
 std::string learnt_line(const LearntFacts& learnt) {
   LearntFacts l = learnt;

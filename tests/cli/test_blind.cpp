@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/validated.h"
+#include "cli/executable.h"
 
 namespace gapscope {
 namespace {
@@ -30,10 +30,6 @@ TEST(Blind, ThreeCommandsDoWhatOneDoes) {
     EXPECT_EQ(text_of(place.folder() / "apart" / file), text_of(place.folder() / "reports/check" / file))
         << file;
   EXPECT_EQ(place.run("report apart").status, 0);
-  const std::string said =
-      testing::judged(place, "labels.json cases/manifest.json answers.json apart/blind.json");
-  GAPSCOPE_NEEDS_VALIDATOR(said);
-  EXPECT_EQ(said, "4 files are valid\n");
 }
 
 TEST(Blind, RefusesWhatWasChangedWithTheReasonAndWritesNothing) {
@@ -41,7 +37,7 @@ TEST(Blind, RefusesWhatWasChangedWithTheReasonAndWritesNothing) {
   place.file("check.yaml", kCheck);
   ASSERT_EQ(place.run("blind run check.yaml -o all").status, 0);
   std::string labels = text_of(place.folder() / "all/labels.json");
-  place.file("all/labels.json", labels.replace(labels.find("geared"), 6, "heavy"));
+  place.file("all/labels.json", labels.replace(labels.find("\"rig\": \"geared\""), 15, "\"rig\": \"heavy\""));
   const auto scored = place.run("blind score all/cases all/labels.json all/answers.json -o new");
   EXPECT_EQ(scored.status, 2);
   EXPECT_THAT(scored.err, HasSubstr("all/labels.json: has another label of case_001"));

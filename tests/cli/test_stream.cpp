@@ -45,8 +45,8 @@ class Stream : public ::testing::Test {
   /// What a stream of this leaves.
   static testing::Outcome stream(const std::string& producer, const std::string& options = "") {
     shell(producer + " | (" GAPSCOPE_EXECUTABLE " detect --stream " + options +
-          " >told 2>err; echo $? >status)");
-    return {std::stoi(text("status")), text("told"), text("err")};
+          " >told.jsonl 2>err; echo $? >status)");
+    return {std::stoi(text("status")), text("told.jsonl"), text("err")};
   }
 
   static Workplace* place_;
@@ -63,15 +63,20 @@ TEST_F(Stream, TellsTheEventsOfTheFrozenBatchAndTheSameSummary) {
   const auto told = stream("cat r.csv", "--quantum 2.3968449810713143e-05");
   EXPECT_EQ(told.status, 0) << told.err;
   const std::vector<json> all = lines(told.out);
-  ASSERT_EQ(all.size(), batch["events"].size() + 2);
+  ASSERT_EQ(all.size(), batch["events"].size() + 3);
   EXPECT_GE(batch["events"].size(), 11u);
-  EXPECT_EQ(all.front()["kind"], "learnt");
-  EXPECT_EQ(all.front()["bounds_rad_s2"].size(), all.front()["floors_rad"].size());
+  EXPECT_EQ(all[0]["kind"], "settings");
+  EXPECT_EQ(all[0]["configuration"]["resolved"],
+            "recording:\n  columns:\n    time: \"t\"\n    input: \"u\"\n    position: \"x1\"\n"
+            "    # load_position: \"x2\" where there is one\n"
+            "encoder: {quantum: 2.3968449810713143e-05}  # rad\ncoordinates: rotation\n");
+  EXPECT_EQ(all[1]["kind"], "learnt");
+  EXPECT_EQ(all[1]["bounds_rad_s2"].size(), all[1]["floors_rad"].size());
   for (std::size_t i = 0; i < batch["events"].size(); ++i) {
     json event = batch["events"][i];
     event.erase("file");
     event["schema"] = "gapscope.stream/1", event["kind"] = "event";
-    EXPECT_EQ(all[i + 1], event);
+    EXPECT_EQ(all[i + 2], event);
   }
   const json& summary = all.back();
   EXPECT_EQ(summary["kind"], "summary");
@@ -89,7 +94,7 @@ TEST_F(Stream, ABrokenLineIsRefusedAfterTheSummaryOfWhatStoodBeforeIt) {
   EXPECT_THAT(told.err, HasSubstr("standard input:4002: "));
   EXPECT_THAT(told.err, HasSubstr(", expected "));
   const std::vector<json> all = lines(told.out);
-  ASSERT_GE(all.size(), 5u);
+  ASSERT_GE(all.size(), 6u);
   EXPECT_EQ(all.back()["kind"], "summary");
   EXPECT_EQ(all.back()["samples"], 4000);
   const auto empty = stream("true");
@@ -99,12 +104,15 @@ TEST_F(Stream, ABrokenLineIsRefusedAfterTheSummaryOfWhatStoodBeforeIt) {
 }
 
 TEST_F(Stream, EventsAreThereAtOnceAndCtrlCEndsWithTheSummary) {
-  shell("rm -f told pipe; mkfifo pipe; (cat r.csv; exec sleep 60) >pipe & producer=$!; " GAPSCOPE_EXECUTABLE
-        " detect --stream <pipe >told 2>err & detector=$!; "
-        "for i in $(seq 300); do grep -q event told 2>/dev/null && break; sleep 0.1; done; cp told before; "
-        "kill -INT $detector; wait $detector; echo $? >status; kill $producer");
+  shell(
+      "rm -f told.jsonl pipe; mkfifo pipe; (cat r.csv; exec sleep 60) >pipe & "
+      "producer=$!; " GAPSCOPE_EXECUTABLE
+      " detect --stream <pipe >told.jsonl 2>err & detector=$!; "
+      "for i in $(seq 300); do grep -q event told.jsonl 2>/dev/null && break; sleep 0.1; done; cp told.jsonl "
+      "before; "
+      "kill -INT $detector; wait $detector; echo $? >status; kill $producer");
   EXPECT_THAT(text("before"), HasSubstr("\"kind\":\"event\""));
-  EXPECT_EQ(lines(text("told")).back()["kind"], "summary");
+  EXPECT_EQ(lines(text("told.jsonl")).back()["kind"], "summary");
   EXPECT_EQ(text("err"), "gapscope: interrupted\n");
   EXPECT_EQ(text("status"), "130\n");
 }
@@ -113,7 +121,7 @@ TEST_F(Stream, AReaderThatLeavesIsNoFault) {
   shell("(" GAPSCOPE_EXECUTABLE " detect --stream <r.csv 2>err; echo $? >status) | head -1 >first");
   EXPECT_EQ(text("status"), "0\n");
   EXPECT_EQ(text("err"), "");
-  EXPECT_EQ(lines(text("first")).at(0)["kind"], "learnt");
+  EXPECT_EQ(lines(text("first")).at(0)["kind"], "settings");
 }
 
 }  // namespace

@@ -203,6 +203,9 @@ const std::vector<BadConfig> kBadModels = {
      "c.yaml:23: model.effects[0].motor_coulomb_friction.level_nm is -1"},
     {"effect_form", recorded("effects: []", "effects: [stribeck_friction]"),
      "c.yaml:23: model.effects[0] is 'stribeck_friction'"},
+    {"excluded", kRecorded + "diagnosis: {exclude: [load_unbalance, coging_torque]}\n",
+     "c.yaml:25: diagnosis.exclude[1] is no effect of the catalogue, expected one of `gapscope effects`; the "
+     "nearest is cogging_torque"},
     {"bound_word", recorded("auto", "automatic"),
      "c.yaml:24: detector.bound is 'automatic', expected a number"},
     {"bound_negative", recorded("auto", "-3"), "c.yaml:24: detector.bound is -3 rad/s^2"},

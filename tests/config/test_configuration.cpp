@@ -218,7 +218,10 @@ TEST(Configuration, EveryConfigurationOfTheRepositoryLoads) {
     if (entry.path().extension() != ".yaml" || name.find("campaign") != std::string::npos) continue;
     ++count;
     if (name.find("blind") != std::string::npos) {
-      EXPECT_EQ(load_blind_config(entry.path().string()).name, "blind") << entry.path();
+      const std::string resolved = resolved_yaml(load_blind_config(entry.path().string()));
+      EXPECT_THAT(resolved, ::testing::HasSubstr("name: \"blind\"\n"));
+      const testing::TemporaryFile again(resolved, "blind.yaml");
+      EXPECT_EQ(resolved_yaml(load_blind_config(again.path())), resolved) << entry.path();
       continue;
     }
     Configuration c;

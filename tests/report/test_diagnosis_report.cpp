@@ -24,7 +24,7 @@ std::vector<MapShare> map_of(std::initializer_list<std::string> bins) {
 }
 
 DiagnosisResult sample(DiagnosisVerdict verdict) {
-  DiagnosisResult r{"rig_p", "0.1", true, {}};
+  DiagnosisResult r{"rig_p", "0.1", "", true, {}};
   Diagnosis& d = r.diagnosis;
   d.verdict = verdict;
   d.sentence = "The model lacks cogging torque.";

@@ -15,6 +15,7 @@ CampaignSummary sample() {
   CampaignSummary s;
   s.name = "sample";
   s.version = "1.2.3";
+  s.configuration = "axis encoder.bits: 12, auto\n";
   s.runs = s.done = 4;
   s.axes = {{"encoder.bits", "resolution", {{"12 bit", 12.0}, {"auto", kNaN}}}};
   SummaryCell cell;
@@ -34,6 +35,7 @@ TEST(CampaignSummary, IsReadBackAsItWasWritten) {
   write_campaign_summary(folder.path.string(), sample());
   const CampaignSummary s = read_campaign_summary(folder.path.string());
   EXPECT_EQ(s.name, "sample");
+  EXPECT_EQ(s.configuration, "axis encoder.bits: 12, auto\n");
   EXPECT_EQ(s.axes[0].bins[0].value, 12.0);
   EXPECT_TRUE(std::isnan(s.axes[0].bins[1].value));
   EXPECT_EQ(s.lines[0].b, -1);

@@ -24,7 +24,7 @@ std::vector<MapShare> halves(const std::string& low, const std::string& high) {
 }
 
 DiagnosisResult sample() {
-  DiagnosisResult r{"rig", "0.1", true, {}};
+  DiagnosisResult r{"rig", "0.1", "name: rig\n", true, {}};
   Diagnosis& d = r.diagnosis;
   d.verdict = DiagnosisVerdict::kEffect;
   d.sentence = "The model lacks cogging torque.";
@@ -77,6 +77,7 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   write_diagnosis_result(scratch.path.string(), written);
   const DiagnosisResult read = read_diagnosis_result(scratch.path.string());
   const Diagnosis &a = written.diagnosis, &b = read.diagnosis;
+  EXPECT_EQ(read.configuration, "name: rig\n");
   EXPECT_EQ(b.verdict, a.verdict);
   EXPECT_EQ(b.effects, a.effects);
   EXPECT_EQ(b.group, a.group);

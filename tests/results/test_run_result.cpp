@@ -94,6 +94,7 @@ RunResult full_result() {
   RunResult run;
   run.name = "rig_p";
   run.version = "0.1.0";
+  run.configuration = "name: \"rig_p\"  # 2β\n";
   run.rotation = false;
   run.recordings = {recording("a.csv", 0.0, true), recording("b.csv", 2.0, false)};
   run.model_free = estimate(run);
@@ -115,6 +116,7 @@ TEST(RunResult, ComesBackExactly) {
   const RunResult b = round_trip(a);
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.version, b.version);
+  EXPECT_EQ(a.configuration, b.configuration);
   EXPECT_EQ(a.rotation, b.rotation);
   EXPECT_EQ(a.notes, b.notes);
   EXPECT_SAME(simulated_gap);

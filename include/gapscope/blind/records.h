@@ -23,6 +23,7 @@ struct BlindLabel {
 
 struct BlindLabels {
   std::string name;
+  std::string configuration;  ///< resolved_yaml() of the check; empty for own recordings
   std::vector<BlindLabel> cases;
 };
 

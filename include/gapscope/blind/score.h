@@ -71,6 +71,7 @@ struct ScoredCase {
 
 struct BlindScore {
   std::string name, version, manifest_sha256, answers_seal;
+  std::string configuration;  ///< of the labels
   int calibration_cases = 0, report_cases = 0;
   std::vector<BlindCount> counts;
   double group_median = kNaN, group_mean = kNaN;

@@ -72,8 +72,9 @@ struct SummaryAnswer {
 /// What a campaign says. Wall times are no part of it.
 struct CampaignSummary {
   std::string name;
-  std::string version;  ///< of gapscope
-  int runs = 0;         ///< of the campaign
+  std::string version;        ///< of gapscope
+  std::string configuration;  ///< CampaignHeader::identity
+  int runs = 0;               ///< of the campaign
   int done = 0;
   bool model_free = true, reference = true;
   std::vector<SummaryAxis> axes;

@@ -35,4 +35,7 @@ struct BlindConfig {
 /// @throws ConfigError "file:line: what is wrong, what was expected"
 BlindConfig load_blind_config(const std::string& path);
 
+/// The check as YAML with every default filled in; it reads back as the same check.
+std::string resolved_yaml(const BlindConfig& check);
+
 }  // namespace gapscope

@@ -33,7 +33,8 @@ struct Configuration {
   ExperimentLimits
       next_experiment;  ///< `next_experiment:` – what the diagnosis may propose; optional like it
   int next_experiment_line = 0;
-  DiagnosisKnowledge diagnosis;  ///< `diagnosis:` – what it is told beforehand; optional
+  DiagnosisKnowledge diagnosis;       ///< `diagnosis:` – what it is told beforehand; optional
+  std::vector<std::string> excluded;  ///< `diagnosis: exclude:` – effects that are no candidates
 
   double position_quantum() const;  ///< of the encoder, seen on the axis of x1 [rad]; 0: not given
 };
@@ -54,6 +55,9 @@ void require_reference_model(const Configuration& configuration);
 /// more than kMostSimulatedSamples samples.
 void require_possible_experiment(const Configuration& configuration, double dt);
 
+/// What the configuration asks of a diagnosis.
+DiagnosisOptions diagnosis_options(const Configuration& configuration);
+
 /// The bounds that eq. (13) gives for the model's own numbers.  @throws std::logic_error without
 /// `from_model`.
 Interval bound_from_model(const Configuration& configuration);
@@ -72,6 +76,10 @@ std::string experiment_yaml(const Configuration& configuration, const ReferenceM
 /// The configuration as YAML with every default filled in. It reads back as the same configuration (from the
 /// same folder: paths stay as they were given) and gives the same text again.
 std::string resolved_yaml(const Configuration& configuration);
+
+/// What it says of how a recording is read and in which coordinates: the part of resolved_yaml() that `check`
+/// and a stream have.
+std::string resolved_reading(const Configuration& configuration);
 
 /// A fitted model as a configuration that `simulate` runs: every number known, its effects included. The
 /// excitation is that of the configuration where it simulates, else a sine of the given recording's peak and

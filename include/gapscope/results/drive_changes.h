@@ -26,8 +26,10 @@ struct Excited {
 /// What one folder of `run`, `detect` or `fit` says of a drive; a part that was not asked for is absent.
 struct DriveReport {
   std::string folder;
-  std::string name;      ///< of the configuration
-  bool rotation = true;  ///< false: rad and N·m mean m and N
+  std::string name;           ///< of the configuration
+  std::string version;        ///< of gapscope
+  std::string configuration;  ///< resolved; empty in files that were written before it was stored
+  bool rotation = true;       ///< false: rad and N·m mean m and N
   std::optional<GapEstimate> model_free;
   std::optional<FitSummary> reference;  ///< without its traces
   std::vector<Excited> recordings;
@@ -65,7 +67,8 @@ struct DriveQuantity {
 
 /// The same drive over months, before and after a repair.
 struct DriveChanges {
-  std::string version;  ///< of gapscope
+  std::string version;        ///< of gapscope
+  std::string configuration;  ///< of each report the name, the version and the hash of its configuration
   bool rotation = true;
   std::vector<std::string> reports;       ///< their folders
   std::vector<DriveQuantity> quantities;  ///< what at least one report tells; what was given is no finding

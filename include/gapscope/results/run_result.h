@@ -15,6 +15,7 @@ namespace gapscope {
 struct RunResult {
   std::string name;                       ///< of the configuration
   std::string version;                    ///< of gapscope
+  std::string configuration;              ///< resolved_yaml(), which is stored with its SHA-256
   bool rotation = true;                   ///< false: rad and N·m mean m and N
   std::optional<GapEstimate> model_free;  ///< absent: not asked for (`fit`)
   std::optional<FitSummary> reference;    ///< absent: not asked for (`detect`)

@@ -9,6 +9,10 @@
 /// (on a translational axis rad reads m). A number that could not be had is null.
 namespace gapscope {
 
+/// {"kind": "settings", ...}, the first line: the version, and how the columns are read.
+/// @param configuration  resolved_reading() of the stream, which is told with its SHA-256
+std::string settings_line(const std::string& configuration);
+
 /// {"kind": "learnt", ...}: what the first two periods taught, and is frozen from then on.
 std::string learnt_line(const LearntFacts& learnt);
 
