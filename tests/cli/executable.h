@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "cli/written_json.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"
 
@@ -20,12 +21,29 @@ struct Outcome {
   std::string err;
 };
 
-/// A folder with files, in which the real executable is run.
+/// All stored files but those with wall times.
+inline std::string stored(const std::filesystem::path& folder) {
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    if (entry.is_regular_file() && name != "timing.json" && name != "results.sqlite")
+      files.insert(entry.path());
+  }
+  std::string all;
+  for (const auto& file : files) all += file.lexically_relative(folder).string() + "\n" + text_of(file);
+  return all;
+}
+
+/// A folder with files, in which the real executable is run. What that leaves of JSON is judged in the end.
 class Workplace {
  public:
   Workplace() : place_("", "mark") { std::filesystem::remove(place_.path()); }
+  ~Workplace() { keep_written_json(folder(), own_); }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
 
   void file(const std::string& name, const std::string& text) {
+    own_.insert(name);
     std::filesystem::create_directories((folder() / name).parent_path());
     std::ofstream(folder() / name, std::ios::binary) << text;
   }
@@ -37,6 +55,7 @@ class Workplace {
     const std::string command = "cd " + folder().string() + " && " + before + " " + GAPSCOPE_EXECUTABLE +
                                 " " + arguments + " >" + out.string() + " 2>" + err.string() + " </dev/null";
     const int status = std::system(command.c_str());
+    keep_printed_json(text_of(out));
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
   }
 
@@ -52,6 +71,7 @@ class Workplace {
 
  private:
   TemporaryFile place_;
+  std::set<std::string> own_;  ///< files of the test itself
 };
 
 }  // namespace gapscope::testing

@@ -14,6 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::kPaperModel;
 using ::testing::Not;
+using testing::stored;
 using testing::text_of;
 using testing::Workplace;
 
@@ -26,16 +27,6 @@ simulation:
   seed: 3
   excitation: {sine: {amplitude: 0.58, frequency: 1}}
 model: )" + kPaperModel;
-
-/// All stored files but the one with wall times.
-std::string stored(const std::filesystem::path& folder) {
-  std::set<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().filename() != "timing.json") files.insert(entry.path());
-  std::string all;
-  for (const auto& file : files) all += file.lexically_relative(folder).string() + "\n" + text_of(file);
-  return all;
-}
 
 TEST(Commands, HelpAndVersionAreAnswersOnStandardOutput) {
   const Workplace place;
