@@ -58,7 +58,9 @@ void add_init(CLI::App& app) {
       "the\n"
       "encoder [rad], and whether the model needs a gap, a locked output or one body (the detector "
       "decides).\n"
-      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit.\n"
+      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit. A "
+      "gap that the detector\n"
+      "does not see (inconclusive) is a GUESS too.\n"
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
   command->callback([arguments] { write_starter(*arguments); });

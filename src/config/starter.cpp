@@ -23,6 +23,7 @@ using internal::YamlWriter;
 struct Choice {
   StarterModel structure = StarterModel::kGap;
   std::string why;
+  bool seen = true;  ///< or asked for: no guess
 };
 
 /// What the detector saw decides: a locked output is one whose position is a loop over the input.
@@ -36,7 +37,8 @@ Choice as_seen(const MotorTrace& trace, const char* unit) {
   if (g.verdict == GapVerdict::kBacklash)
     return {StarterModel::kGap,
             fmt::format("gap and free load: the detector reads a gap of {:.3g} {}", g.gap, unit)};
-  return {StarterModel::kGap, "gap and free load, unproven: the detector says nothing (" + g.reason + ")"};
+  return {StarterModel::kGap, "GUESS: gap and free load; the detector is inconclusive (" + g.reason + ")",
+          false};
 }
 
 Choice choose(StarterModel model, const MotorTrace& trace, bool rotation) {
@@ -126,8 +128,12 @@ void write_motor(YamlWriter& out, const RecordingFacts& f, bool rotation, bool o
 
 void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f, bool rotation) {
   const bool load = choice.structure != StarterModel::kOneBody, free = choice.structure == StarterModel::kGap;
+  const std::string length = rotation ? "rad" : "m";
   out.open("model");
   out.comment(choice.why);
+  if (!choice.seen)
+    out.comment(
+        "no gap in this drive: gapscope init --model one_body; an output that stands still: --model locked");
   if (load) out.entry("contact", "compliant");
   if (load) out.entry("load", free ? "free" : "locked");
   out.open("parameters");
@@ -136,7 +142,7 @@ void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f,
     out.entry("mass_ratio", "0",
               "one body; for a drive with a gap: {estimate: true}, and gap, contact_stiffness alike");
   if (free) write_estimated(out, "mass_ratio", kNaN, "load over motor");
-  if (load) write_estimated(out, "gap", kNaN, rotation ? "rad" : "m");
+  if (load) write_estimated(out, "gap", kNaN, (choice.seen ? "" : "GUESS that there is one; ") + length);
   if (free) write_estimated(out, "load_damping", kNaN, rotation ? "N m s/rad" : "N s/m");
   if (free) write_estimated(out, "load_coulomb_friction", kNaN, rotation ? "N m" : "N");
   if (load) write_estimated(out, "contact_stiffness", kNaN, rotation ? "N m/rad" : "N/m");

@@ -60,6 +60,23 @@ TEST(Init, AGapIsSeenAndLeftToTheFit) {
   EXPECT_THAT(again.err, HasSubstr("drive.yaml: is there already, expected another name"));
 }
 
+TEST(Init, AGapThatTheDetectorDoesNotSeeIsMarkedAsAGuess) {
+  Workplace place;
+  TestEncoder encoder;
+  encoder.rate = 500.0, encoder.duration = 3.0, encoder.bits = 14, encoder.step = 1e-4;
+  place.file("r.csv", testing::rows_of(record({}, sine(0.5814, 0.4), encoder)).csv());
+  const auto init = place.run("init r.csv -o drive.yaml");
+  EXPECT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(init.out,
+              HasSubstr("GUESS: gap and free load; the detector is inconclusive (no periodic motion"));
+  const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
+  EXPECT_THAT(yaml, HasSubstr("  # GUESS: gap and free load"));
+  EXPECT_THAT(yaml, HasSubstr("gap: {estimate: true}  # GUESS that there is one"));
+  EXPECT_THAT(yaml, HasSubstr("gapscope init --model one_body"));
+  EXPECT_EQ(place.run("init r.csv --model gap -o asked.yaml").status, 0);
+  EXPECT_THAT(testing::text_of(place.folder() / "asked.yaml"), Not(HasSubstr("GUESS that there is one")));
+}
+
 TEST(Init, IrregularTimeIsResampledAndWhatSpoilsIsWrittenDown) {
   Workplace place;
   testing::Rows rows = testing::rig();
