@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/units.h"
 #include "gapscope/base/version.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/reference/fit.h"
@@ -65,6 +66,17 @@ void note_defaults(const ModelConfig& model, std::vector<std::string>& notes) {
   if (!keys.empty()) notes.push_back(fmt::format("not given and taken as 0: {}", fmt::join(keys, ", ")));
 }
 
+/// What the estimators said of a rotation, in the units of the axis.
+void speak_of_the_axis(RunResult& r) {
+  const auto say = [&](std::string& text) { text = axis_sentence(text, r.rotation); };
+  const auto say_all = [&](std::vector<std::string>& texts) {
+    std::for_each(texts.begin(), texts.end(), say);
+  };
+  if (r.model_free) say(r.model_free->reason), say_all(r.model_free->warnings);
+  if (r.reference) say(r.reference->message), say_all(r.reference->warnings), say_all(r.reference->advice);
+  say_all(r.notes);
+}
+
 void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
@@ -88,7 +100,6 @@ Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Pro
     progress("model-free detector");
     const DetectorOptions options = detector_options(c, traces, r.notes);
     r.model_free = timed(out.timing.model_free_s, [&] { return detect_gap(traces, options); });
-    append(out.warnings, r.model_free->warnings);
   }
   if (wanted.reference) {
     stop_point();
@@ -96,8 +107,10 @@ Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Pro
     note_defaults(c.model, r.notes);
     r.reference =
         timed(out.timing.reference_s, [&] { return fit(traces, c.model.reference_model(), c.fit); });
-    append(out.warnings, r.reference->warnings);
   }
+  speak_of_the_axis(r);
+  if (r.model_free) append(out.warnings, r.model_free->warnings);
+  if (r.reference) append(out.warnings, r.reference->warnings);
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);
   stop_point();

@@ -86,7 +86,9 @@ void add_streaming(CLI::App& detect, const std::shared_ptr<Arguments>& a) {
   column("--time", a->columns.time, "of a stream: column of the time [s] (default: t)");
   column("--input", a->columns.input, "of a stream: column of the input (default: u)");
   column("--position", a->columns.position, "of a stream: column of the position (default: x1)");
-  detect.add_option("--quantum", a->quantum, "of a stream: step of the encoder [rad] (default: as it shows)")
+  detect
+      .add_option("--quantum", a->quantum,
+                  "of a stream: step of the encoder [rad; m where x1 is] (default: as it shows)")
       ->type_name("RAD")
       ->check(CLI::Range(1e-15, 1e3).description(""))
       ->needs(stream);
@@ -156,6 +158,11 @@ void add_detect(CLI::App& app) {
       "           gap, standard error; accepted, or the remark why not\n"
       "  summary  last, also on Ctrl-C and before a broken line is refused: verdict and gap of all passages\n"
       "           (of the last 8192), as in result.json\n"
+      "A stream is told no axis: rad, in its keys and reasons, is the unit of x1, m where x1 is in m. It "
+      "counts\n"
+      "half periods from turn to turn of the motion; detect on a whole recording counts from one passing of "
+      "its\n"
+      "middle to the next, which is one more where the recording begins at an end of the travel.\n"
       "Memory does not grow. detector: {frozen: true} makes detect and run do the same on a whole "
       "recording,\n"
       "with the same events. Against a detector that sees all of it first, a stream cannot take back what "

@@ -10,6 +10,7 @@
 #include "config/configuration_reader.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
+#include "gapscope/base/units.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/sliding_mode/detector.h"
 
@@ -27,7 +28,8 @@ struct Choice {
 };
 
 /// What the detector saw decides: a locked output is one whose position is a loop over the input.
-Choice as_seen(const MotorTrace& trace, const char* unit) {
+Choice as_seen(const MotorTrace& trace, bool rotation) {
+  const char* const unit = rotation ? "rad" : "m";
   const GapEstimate g = detect_gap(std::span(&trace, 1));
   if (g.method == GapMethod::kLostMotion)
     return {StarterModel::kLocked, "locked output: x1 follows u in a loop"};
@@ -37,14 +39,16 @@ Choice as_seen(const MotorTrace& trace, const char* unit) {
   if (g.verdict == GapVerdict::kBacklash)
     return {StarterModel::kGap,
             fmt::format("gap and free load: the detector reads a gap of {:.3g} {}", g.gap, unit)};
-  return {StarterModel::kGap, "GUESS: gap and free load; the detector is inconclusive (" + g.reason + ")",
-          false};
+  return {
+      StarterModel::kGap,
+      "GUESS: gap and free load; the detector is inconclusive (" + axis_sentence(g.reason, rotation) + ")",
+      false};
 }
 
 Choice choose(StarterModel model, const MotorTrace& trace, bool rotation) {
   switch (model) {
     case StarterModel::kAsSeen:
-      return as_seen(trace, rotation ? "rad" : "m");
+      return as_seen(trace, rotation);
     case StarterModel::kGap:
       return {model, "gap and free load, as asked for"};
     case StarterModel::kLocked:

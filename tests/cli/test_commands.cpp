@@ -148,6 +148,30 @@ TEST(Commands, TheFittedModelBesideAFitIsSimulatedAsItIs) {
   }
 }
 
+TEST(Commands, ALinearAxisIsWarnedOfInItsUnits) {
+  Workplace place;
+  place.file("c.yaml", R"(name: axis
+encoder: {quantum: 1.0e-7}
+coordinates: translation
+simulation: {rate: 500, duration: 3, excitation: {sine: {amplitude: 20, frequency: 1}}}
+model:
+  parameters: {motor_inertia: 10, torque_constant: 1, mass_ratio: 0, motor_damping: 30}
+)");
+  ASSERT_EQ(place.run("simulate c.yaml -o axis.csv").status, 0);
+  place.file("r.yaml", R"(name: axis
+recording: {file: axis.csv}
+encoder: {quantum: 1.0e-7}
+coordinates: translation
+model:
+  parameters: {motor_inertia: 10, torque_constant: 1, mass_ratio: 0,
+               motor_damping: {value: 10, estimate: true, bounds: [0, 20]}}
+)");
+  const auto fit = place.run("fit r.yaml -o report");
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  EXPECT_THAT(fit.err, HasSubstr("motor_damping ended at its bound 20 N s/m."));
+  EXPECT_THAT(text_of(place.folder() / "report/report.md"), Not(HasSubstr("N m")));
+}
+
 TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {
   Workplace place;
   place.file("c.yaml", kConfig);
