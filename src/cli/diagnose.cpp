@@ -115,8 +115,9 @@ void add_diagnose(CLI::App& app) {
       "teeth, of a screw's pitch [rad; m with coordinates: translation], and how likely the catalogue lacks "
       "what\n"
       "is missing; exclude: [load_unbalance] is what --exclude says.\n"
-      "The verdict is effect, none (the model is at the floor) or unknown (nothing in the catalogue explains "
-      "it).\n\n"
+      "The verdict is effect, none (the model is at the floor: that of the encoder or, where the drive "
+      "repeats its\n"
+      "motion far worse, that of its repeatability) or unknown (nothing in the catalogue explains it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance");
   command->callback([arguments] { diagnose_configuration(*arguments); });
 }

@@ -77,6 +77,7 @@ bool take_repeatability(Study& study, const Judged& nominal) {
   const Repeatability fast =
       repeatability(study, fit_nominal(study.train, study.sheet, study.options.fit, kFastHz).model);
   held.innovation_repeats = fast.innovation, held.free_repeats = fast.free;
+  held.repeats_in = fast.read_from;
   return true;
 }
 
@@ -175,7 +176,7 @@ void fit_half_of_the_held_out(Study& study) {
 /// What the fitted recordings leave open, for the reader.
 std::string undetermined(const Findings& found) {
   const std::string left = fmt::format(
-      "the recordings that were fitted do not determine the model: it leaves {:.3g} floors on those "
+      "the recordings that were fitted do not determine the model: it leaves {:.3g} encoder floors on those "
       "that were held out",
       found.alone);
   if (found.candidates.empty()) return left + ", and none of it once these are fitted with them.";

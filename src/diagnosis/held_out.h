@@ -26,6 +26,7 @@ struct HeldOut {
   std::vector<std::size_t> periods;  ///< of the input in samples, 0: it does not repeat
   /// Where the drive repeats its motion worse than its encoder reads: how far, for each measure [rad].
   double innovation_repeats = 0.0, free_repeats = 0.0;
+  std::string repeats_in;  ///< what that was read from, in words
 
   std::size_t restart(std::size_t r) const;  ///< samples from one restart to the next, even
   double innovation_floor(std::size_t r) const { return std::max(floors[r], innovation_repeats); }

@@ -43,6 +43,14 @@ Interval shrink_interval(double before, double after, double shrink) {
   return {std::min(low, shrink), std::max({high, shrink, below_floor})};
 }
 
+/// What a floor was read from.
+std::string floor_words(const HeldOut& held, FloorSource from) {
+  if (from == FloorSource::kRepeatability) return held.repeats_in;
+  std::string files;
+  for (const MotorTrace& t : held.traces) files += (files.empty() ? "" : ", ") + t.file;
+  return (from == FloorSource::kNoise ? "the noise of x1 in " : "the quantum of the encoder in ") + files;
+}
+
 }  // namespace
 
 double pooled_floor(const HeldOut& held_out) {
@@ -84,6 +92,7 @@ MismatchSize mismatch_size(const Study& study, const Judged& before, const Judge
   size.floor_from = predicted ? FloorSource::kRepeatability
                     : noisy   ? FloorSource::kNoise
                               : FloorSource::kEncoder;
+  size.floor_of = floor_words(held, size.floor_from);
   size.shrink = shrink_of(b, a);
   if (&after != &before) size.shrink_ci95 = shrink_interval(b, a, size.shrink);
   size.remains = a;
@@ -108,8 +117,8 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
               free, free, &Windows::free),
           row(fmt::format("prediction at {:g} Hz", kSlowHz), encoder, slow_floor, &Windows::slow),
           row(fmt::format("prediction at {:g} Hz", kFastHz), encoder, fast_floor, &Windows::fast),
-          {"residual torque", study.options.rotation ? "N m" : "N", median_size(b.torque),
-           median_size(a.torque), kNaN}};
+          {study.options.rotation ? "residual torque" : "residual force",
+           study.options.rotation ? "N m" : "N", median_size(b.torque), median_size(a.torque), kNaN}};
 }
 
 double weight_of(const Judged& candidate, const Judged& best) {

@@ -1,7 +1,10 @@
 #include "diagnosis/repeatability.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gapscope::internal {
 namespace {
@@ -65,18 +68,22 @@ std::size_t input_period(const MotorTrace& trace) {
 
 Repeatability repeatability_of(const std::vector<Playback>& playbacks, const HeldOut& held_out) {
   Pooled innovation, free, twice, once;
+  std::string read_from;
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
     const std::size_t period = held_out.periods[r], size = held_out.traces[r].size();
     const std::size_t from = std::max(held_out.scored_from[r], held_out.restart(r));
     if (period == 0 || from + period + period / 2 > size) continue;
-    const double samples = static_cast<double>(size - from - period);
+    const double samples = static_cast<double>(size - from - period), length = static_cast<double>(period);
+    read_from += fmt::format("{}{:.1f} periods of {:.3g} s in {}", read_from.empty() ? "" : ", ",
+                             static_cast<double>(size - from) / length, length * held_out.traces[r].dt,
+                             held_out.traces[r].file);
     innovation.add(difference(playbacks[r].innovation, from, period), samples);
     free.add(difference(playbacks[r].free, from, period), samples);
     if (from + 2 * period + period / 2 > size) continue;
     once.add(difference(playbacks[r].innovation, from, period), samples);
     twice.add(difference(playbacks[r].innovation, from, 2 * period), samples);
   }
-  Repeatability found{innovation.value(), free.value(), true};
+  Repeatability found{innovation.value(), free.value(), true, std::move(read_from)};
   if (twice.count > 0.0) found.stationary = twice.value() < kDrift * once.value();
   return found;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "diagnosis/held_out.h"
@@ -14,6 +15,7 @@ std::size_t input_period(const MotorTrace& trace);
 struct Repeatability {
   double innovation = kNaN, free = kNaN;  ///< [rad]; NaN: no recording repeats its input
   bool stationary = true;                 ///< periods two apart differ no more than neighbours do
+  std::string read_from;                  ///< "3.9 periods of 6.24 s in run.csv"
 };
 
 /// @param playbacks of one model; restarts are those of held_out

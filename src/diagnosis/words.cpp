@@ -36,8 +36,9 @@ std::string listed(const Diagnosis& d) {
   return text;
 }
 
-std::string ratio(double value) {
-  return std::isfinite(value) ? fmt::format("{:.3g} times the floor", value) : "unknown";
+std::string ratio(double value, const Diagnosis& d) {
+  return std::isfinite(value) ? fmt::format("{:.3g} times the {}", value, floor_name(d.gap.floor_from))
+                              : "unknown";
 }
 
 std::string effect_sentence(const Diagnosis& d) {
@@ -45,16 +46,16 @@ std::string effect_sentence(const Diagnosis& d) {
   if (std::isfinite(d.gap.shrink))
     text += fmt::format(": with {} the held-out error shrinks by {:.0f} %",
                         d.effects.size() > 1 ? "them" : "it", 100.0 * d.gap.shrink);
-  return text + fmt::format(", to {}.", ratio(d.gap.remains));
+  return text + fmt::format(", to {}.", ratio(d.gap.remains, d));
 }
 
 std::string unknown_sentence(const Diagnosis& d) {
   std::string text =
       fmt::format("Something is missing that the catalogue does not explain: the held-out error is {}, {}",
-                  ratio(d.gap.before / d.gap.floor), d.where.headline);
+                  ratio(d.gap.before / d.gap.floor, d), d.where.headline);
   if (!d.ranking.empty() && d.ranking.front().rel > 0.0)
     text += fmt::format(
-        "; {} comes nearest and closes {:.0f} % of the distance to the floor, which is not enough to blame "
+        "; {} comes nearest and closes {:.0f} % of the distance to it, which is not enough to blame "
         "it",
         readable(d.ranking.front().effect), 100.0 * std::clamp(d.ranking.front().rel, 0.0, 1.0));
   return text + ".";
@@ -68,7 +69,7 @@ std::string sentence_of(const Diagnosis& d, bool) {
       return effect_sentence(d);
     case DiagnosisVerdict::kNone:
       return fmt::format("Nothing is missing that this recording could show: the held-out error is {}.",
-                         ratio(d.gap.before / d.gap.floor));
+                         ratio(d.gap.before / d.gap.floor, d));
     case DiagnosisVerdict::kUnknown:
       return unknown_sentence(d);
     case DiagnosisVerdict::kNotRun:

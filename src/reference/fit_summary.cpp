@@ -49,7 +49,7 @@ std::string FitSummary::brief_report() const {
     text += gap->identifiable ? fmt::format(" [{}, {}]", number(gap->ci95.low), number(gap->ci95.high))
                               : " (not identifiable)";
   }
-  text += fmt::format(", free-run error {} (floor {})", number(rmse), number(floor));
+  text += fmt::format(", free-run error {} (encoder floor {})", number(rmse), number(floor));
   if (!warnings.empty())
     text += fmt::format(", {} warning{}", warnings.size(), warnings.size() > 1 ? "s" : "");
   return text;

@@ -11,8 +11,6 @@
 namespace gapscope::internal {
 namespace {
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
-
 std::string measures_table(const DiagnosisResult& r) {
   std::string text =
       "\n## How large, on held-out data\n\n| measure (median over windows) | nominal model | with all that "
@@ -21,16 +19,15 @@ std::string measures_table(const DiagnosisResult& r) {
     text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, m.unit),
                         quantity(m.after, m.unit), std::isfinite(m.floor) ? quantity(m.floor, m.unit) : "–");
   const MismatchSize& g = r.diagnosis.gap;
-  static const char* const kFrom[] = {"the encoder's quantum", "the encoder's noise",
-                                      "the drive's repeatability"};
-  text += fmt::format("\nThe floor is that of {}.", kFrom[static_cast<int>(g.floor_from)]);
+  text += fmt::format("\nThe answer is of the {}. Its floor, {}, is the {}: {}.", g.measure,
+                      quantity(g.floor, r.rotation ? "rad" : "m"), floor_name(g.floor_from), g.floor_of);
   if (std::isfinite(g.shrink)) {
-    text += fmt::format(" The error shrinks by {:.3g}", g.shrink);
+    text += fmt::format(" The error shrinks by {}", rounded(g.shrink));
     if (std::isfinite(g.shrink_ci95.low))
-      text += fmt::format(" (95 %: {:.3g} to {:.3g}, for this kind of excitation)", g.shrink_ci95.low,
-                          g.shrink_ci95.high);
-    text += fmt::format("; what remains is {:.3g} times the floor, {}.", g.remains,
-                        r.diagnosis.remaining.headline);
+      text += fmt::format(" (95 %: {} to {}, for this kind of excitation)", rounded(g.shrink_ci95.low),
+                          rounded(g.shrink_ci95.high));
+    text += fmt::format("; what remains is {} times the {}, {}.", rounded(g.remains),
+                        floor_name(g.floor_from), r.diagnosis.remaining.headline);
   }
   return text + "\n";
 }
@@ -38,33 +35,37 @@ std::string measures_table(const DiagnosisResult& r) {
 std::string parameters_of(const RankedEffect& e, bool rotation) {
   std::vector<std::string> parts;
   for (const NamedValue& p : e.parameters)
-    parts.push_back(
-        fmt::format("{} {:.4g}{}", p.key, p.value, p.unit == "-" ? "" : " " + shown_unit(p.unit, rotation)));
+    parts.push_back(fmt::format("{} {}{}", p.key, rounded(p.value, 4),
+                                p.unit == "-" ? "" : " " + shown_unit(p.unit, rotation)));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string outside_words(const Diagnosis& d) {
+/// What the probabilities are worth here.
+std::string probability_words(const Diagnosis& d) {
   if (!std::isfinite(d.outside_probability)) return "";
-  const bool repeatability = d.gap.floor_from == FloorSource::kRepeatability;
-  return fmt::format("; with {:.2f} the catalogue lacks what is missing{}", d.outside_probability,
-                     repeatability ? ". None was learned on drives that are judged by their repeatability, "
-                                     "as this one is: take them for an order"
-                                   : "");
+  if (d.gap.floor_from == FloorSource::kRepeatability)
+    return " Probabilities were learned on simulated drives that are judged by the encoder floor. This one "
+           "is "
+           "judged by its repeatability floor, where only their order counts: the verdict rests on the "
+           "held-out errors alone.";
+  return fmt::format(
+      " Probabilities are those of simulated drives with one missing effect; with {:.2f} the catalogue lacks "
+      "what is missing first.",
+      d.outside_probability);
 }
 
 std::string ranking_table(const DiagnosisResult& r) {
   if (r.diagnosis.ranking.empty()) return "";
   std::string text =
-      "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive. Probabilities are "
-      "those of simulated drives with one missing effect" +
-      outside_words(r.diagnosis) +
-      ".\n\n| effect | probability | closed share (log) | shrink | windows better | parameters | remark "
+      "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive." +
+      probability_words(r.diagnosis) +
+      "\n\n| effect | probability | closed share (log) | shrink | windows better | parameters | remark "
       "|\n|---|---|---|---|---|---|---|\n";
   for (const RankedEffect& e : r.diagnosis.ranking)
     text +=
         fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", e.effect,
-                    std::isfinite(e.probability) ? fmt::format("{:.2f}", e.probability) : "–", number(e.rel),
-                    number(e.shrink), number(e.windows_better), parameters_of(e, r.rotation), e.remark);
+                    std::isfinite(e.probability) ? fmt::format("{:.2f}", e.probability) : "–", rounded(e.rel),
+                    rounded(e.shrink), rounded(e.windows_better), parameters_of(e, r.rotation), e.remark);
   return text;
 }
 
@@ -79,11 +80,10 @@ std::string steps_table(const DiagnosisResult& r) {
     if (s.ranking.empty()) continue;
     std::vector<std::string> others = s.group;
     std::erase(others, s.effect);
-    text +=
-        fmt::format("| {} | `{}` | {} | {} | {} | {} | {:.3g} | {} | {} | {} |\n", names_list(s.on_top_of),
-                    s.effect, s.accepted ? "added" : "not added", names_list(others),
-                    quantity(s.gap.before, unit), quantity(s.gap.after, unit), s.gap.shrink,
-                    parameters_of(s.ranking.front(), r.rotation), names_list(s.dropped), s.remaining);
+    text += fmt::format("| {} | `{}` | {} | {} | {} | {} | {} | {} | {} | {} |\n", names_list(s.on_top_of),
+                        s.effect, s.accepted ? "added" : "not added", names_list(others),
+                        quantity(s.gap.before, unit), quantity(s.gap.after, unit), rounded(s.gap.shrink),
+                        parameters_of(s.ranking.front(), r.rotation), names_list(s.dropped), s.remaining);
   }
   if (text.empty()) return "";
   return "\n## Further steps\n\nEvery candidate was refitted on top of what was found before it.\n\n| on top "
@@ -96,14 +96,15 @@ std::string periodic_table(const DiagnosisResult& r) {
   if (r.diagnosis.periodic.empty()) return "";
   const std::string angle = r.rotation ? "rad" : "m", torque = r.rotation ? "N·m" : "N";
   std::string text =
-      "\n## Torque that repeats with the position\n\nIn what the model leaves with all that was added. "
+      "\n## " + std::string(r.rotation ? "Torque" : "Force") +
+      " that repeats with the position\n\nIn what the model leaves with all that was added. "
       "Listed, not added: `cogging_torque` and `torque_ripple` are candidates like any other.\n\n| period | "
       "cycles per turn | amplitude | over neighbouring periods | held-out windows better | holds there "
       "|\n|---|---|---|---|---|---|\n";
   for (const PeriodicTorque& p : r.diagnosis.periodic)
     text += fmt::format("| {} | {} | {} | {} | {} of {} | {} |\n", quantity(p.period, angle),
-                        r.rotation ? number(p.periods_per_turn) : "–", quantity(p.amplitude, torque),
-                        p.given ? "given" : fmt::format("{:.3g} times", p.stands_out), p.better, p.windows,
+                        r.rotation ? rounded(p.periods_per_turn) : "–", quantity(p.amplitude, torque),
+                        p.given ? "given" : rounded(p.stands_out) + " times", p.better, p.windows,
                         p.holds ? "yes" : "no");
   return text;
 }
@@ -115,11 +116,12 @@ std::string blame_table(const DiagnosisResult& r) {
       "first reads |\n|---|---|---|---|\n";
   for (const BlameShift& b : r.diagnosis.blame) {
     const double percent = 100.0 * (b.without - b.with) / std::abs(b.with);
-    text += fmt::format(
-        "| `{}` | {} | {} | {} |\n", b.key, quantity(b.without, shown_unit(b.unit, r.rotation)),
-        quantity(b.with, shown_unit(b.unit, r.rotation)),
-        std::isfinite(percent) ? fmt::format("{:.3g} % {}", std::abs(percent), percent > 0 ? "high" : "low")
-                               : "–");
+    text +=
+        fmt::format("| `{}` | {} | {} | {} |\n", b.key, quantity(b.without, shown_unit(b.unit, r.rotation)),
+                    quantity(b.with, shown_unit(b.unit, r.rotation)),
+                    std::isfinite(percent)
+                        ? fmt::format("{} % {}", rounded(std::abs(percent)), percent > 0 ? "high" : "low")
+                        : "–");
   }
   return text;
 }
@@ -141,7 +143,7 @@ std::string experiment_table(const DiagnosisResult& r) {
   for (const TriedInput& t : next.tried) {
     text += fmt::format("| {} | {} |", t.input, quantity(t.travel, r.rotation ? "rad" : "m"));
     for (const Separation& s : t.separations)
-      text += s.contained ? " contained, nothing can tell |" : fmt::format(" {:.3g} σ |", s.excess);
+      text += s.contained ? " contained, nothing can tell |" : " " + rounded(s.excess) + " σ |";
     text += "\n";
   }
   return text;

@@ -69,11 +69,11 @@ std::string bounds_line(const RunResult& run) {
   if (!run.model_free || !std::isfinite(run.model_free->bound)) return "";
   const GapEstimate& g = *run.model_free;
   const char* unit = run.rotation ? "rad/s²" : "m/s²";
-  std::string text = fmt::format("\nBounds: L = {:.3g} {} {}", g.bound, unit,
+  std::string text = fmt::format("\nBounds: L = {} {} {}", rounded(g.bound), unit,
                                  g.method == GapMethod::kPaper ? "was given" : "decides t2");
-  if (std::isfinite(g.bound_t1)) text += fmt::format(", L = {:.3g} {} shows t1", g.bound_t1, unit);
+  if (std::isfinite(g.bound_t1)) text += fmt::format(", L = {} {} shows t1", rounded(g.bound_t1), unit);
   if (std::isfinite(g.paper_bound))
-    text += fmt::format("; the published bound (13) is {:.3g} {}", g.paper_bound, unit);
+    text += fmt::format("; the published bound (13) is {} {}", rounded(g.paper_bound), unit);
   return text + ".\n";
 }
 
@@ -85,8 +85,7 @@ std::string parameter_table(const RunResult& run) {
   for (const FittedParameter& p : run.reference->parameters) text += parameter_row(p, run.rotation);
   const FitSummary& fit = *run.reference;
   text += "\n" + sentence(fit.message) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";
-  if (std::isfinite(fit.floor))
-    text += ", the encoder alone leaves " + quantity(fit.floor, position_unit(run));
+  if (std::isfinite(fit.floor)) text += ", the encoder floor is " + quantity(fit.floor, position_unit(run));
   return text + ".\n";
 }
 

@@ -18,10 +18,4 @@ std::string bullet_section(const char* title, const std::vector<std::string>& li
 /// warnings.
 std::string report_text(const RunResult& run, const Timing& timing, const std::vector<FigureData>& figures);
 
-/// "## Figures": each with its title, image and reading; what is missing with its reason.
-std::string figure_section(const std::vector<FigureData>& figures);
-
-/// A heading and one line each; nothing for no lines.
-std::string bullet_section(const char* title, const std::vector<std::string>& lines);
-
 }  // namespace gapscope::internal

@@ -6,6 +6,7 @@
 #include "gapscope/results/run_result.h"
 #include "report/diagnosis_figures.h"
 #include "report/figures.h"
+#include "report/glossary.h"
 #include "report/markdown.h"
 #include "report/report_files.h"
 
@@ -41,7 +42,7 @@ void write_report(const std::string& folder) {
   std::string text;
   if (stored("result.json") || !stored("diagnosis.json")) text = report_run(folder, figures);
   if (stored("diagnosis.json")) text += (text.empty() ? "" : "\n") + report_diagnosis(folder, figures);
-  internal::write_report_files(folder, figures, text);
+  internal::write_report_files(folder, figures, text + internal::glossary_section(text));
 }
 
 }  // namespace gapscope

@@ -85,7 +85,7 @@ std::string reading(const ReportView& view, const std::vector<double>& residual,
   std::string text =
       "The free run of the fitted model misses x1 by " + quantity(size, view.length_unit) + " rms";
   if (std::isfinite(fit.floor) && fit.floor > 0.0)
-    text += fmt::format(", {} times what the encoder leaves", plain_number(size / fit.floor));
+    text += fmt::format(", {} times the encoder floor", plain_number(size / fit.floor));
   if (std::isfinite(fit.innovation_rmse))
     text += fmt::format("; run as an observer it predicts the next sample to {}",
                         quantity(fit.innovation_rmse, view.length_unit));

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 
 #include "report/ticks.h"
 
@@ -22,9 +24,7 @@ std::string unit_after(const std::string& unit) { return unit.empty() || unit ==
 
 /// Small and large numbers of units that take no prefix.
 std::string scientific(double value, int digits) {
-  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
-  const std::size_t e = text.find('e');
-  return text.substr(0, e) + "e" + std::to_string(std::stoi(text.substr(e + 1)));
+  return typeset(fmt::format("{:.{}e}", value, digits - 1));
 }
 
 std::string what_was_read(const GapEstimate& g) {
@@ -79,6 +79,37 @@ std::string comparison_sentence(const RunResult& run) {
 }
 
 }  // namespace
+
+std::string typeset(const std::string& text) {
+  static constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const auto digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool follows_word = i > 0 && (std::isalnum(static_cast<unsigned char>(text[i - 1])) != 0);
+    const bool sign = i + 1 < text.size() && (text[i + 1] == '-' || text[i + 1] == '+') && digit(i + 2);
+    if (text[i] == 'e' && i > 0 && digit(i - 1) && sign) {
+      out += "·10";
+      if (text[++i] == '-') out += "⁻";
+      while (text[i + 1] == '0' && digit(i + 2)) ++i;
+      while (digit(i + 1)) out += kRaised[text[++i] - '0'];
+    } else {
+      const bool zero = std::strtod(text.c_str() + i + 1, nullptr) == 0.0;
+      if (text[i] != '-' || !digit(i + 1) || follows_word)
+        out += text[i];
+      else if (!zero)
+        out += "−";
+    }
+  }
+  return out;
+}
+
+std::string rounded(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
+  const bool plain = std::abs(value) >= 1.0 && std::abs(value) < 1e5;
+  const double whole = std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
+  if (plain && whole > 1.0) return tick_label(std::round(value / whole) * whole, 0);
+  return typeset(fmt::format("{:.{}g}", value, digits));
+}
 
 std::string quantity(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "unknown";
@@ -149,7 +180,7 @@ std::string fit_quality(const RunResult& run) {
   const FitSummary& fit = *run.reference;
   std::string text = "Free run of the fitted model: " + quantity(fit.rmse, position_unit(run)) + " rms";
   if (std::isfinite(fit.floor) && fit.floor > 0.0)
-    text += ", " + plain_number(fit.rmse / fit.floor) + " times what the encoder leaves";
+    text += ", " + plain_number(fit.rmse / fit.floor) + " times the encoder floor";
   return text + ".";
 }
 

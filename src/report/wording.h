@@ -7,6 +7,12 @@
 /// How numbers and findings are put into words. Plain Unicode text, fit for Markdown and figures alike.
 namespace gapscope::internal {
 
+/// A number, or a text with numbers, as it is printed: "-1.2e-05" reads "−1.2·10⁻⁵".
+std::string typeset(const std::string& text);
+
+/// So many significant digits, without a unit: "0.132", "−0.02", "8810"; a dash for NaN.
+std::string rounded(double value, int digits = 3);
+
 /// "18.7 mrad": three significant digits; "unknown" for NaN.
 std::string quantity(double value, const std::string& unit);
 

@@ -103,7 +103,7 @@ void add_misfit(const DriveReport& r, Lines& lines) {
   const double floors = r.reference->innovation_rmse / r.reference->floor;
   if (floors > kUnexplained)
     lines.push_back(
-        fmt::format("{}: the model does not explain the recording (prediction error {:.2g} floors): a change "
+        fmt::format("{}: the model does not explain the recording (prediction error {:.2g} encoder floors): a change "
                     "of what it lacks "
                     "moves every number of the reference, and their intervals do not hold that",
                     r.folder, floors));

@@ -29,7 +29,8 @@ DiagnosisResult sample(DiagnosisVerdict verdict) {
   d.verdict = verdict;
   d.sentence = "The model lacks cogging torque.";
   if (verdict == DiagnosisVerdict::kEffect) d.effects = d.group = {"cogging_torque"};
-  d.gap = {"free run restarted every 0.5 s", 2e-3, 3e-5, 2e-5, FloorSource::kEncoder, 0.99, {0.9, 1.0}, 1.5};
+  d.gap = {"free run restarted every 0.5 s",         2e-3, 3e-5,       2e-5, FloorSource::kEncoder,
+           "the quantum of the encoder in held.csv", 0.99, {0.9, 1.0}, 1.5};
   d.measures = {{"free run restarted every 0.5 s", "rad", 2e-3, 3e-5, 2e-5},
                 {"residual torque", "N m", 0.1, 0.01, kNaN}};
   for (const char* name : {"cogging_torque", "torque_ripple", "input_delay"}) {

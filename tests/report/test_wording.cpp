@@ -17,8 +17,20 @@ TEST(Wording, ShowsTheDigitsThatTheIntervalWarrants) {
 TEST(Wording, NamesTheUnknownAndTheVerySmall) {
   EXPECT_EQ(quantity(kNaN, "rad"), "unknown");
   EXPECT_EQ(quantity(0.0, "rad"), "0 rad");
-  EXPECT_EQ(quantity(8.78e-4, "kg m²"), "8.78e-4 kg m²");
+  EXPECT_EQ(quantity(8.78e-4, "kg m²"), "8.78·10⁻⁴ kg m²");
   EXPECT_EQ(quantity(1.2, "-"), "1.20");
+}
+
+TEST(Wording, TypesetsNumbers) {
+  EXPECT_EQ(typeset("-0.5..-0.1 rad, 3e-05 N, run-2.csv, 1.2e+06"),
+            "−0.5..−0.1 rad, 3·10⁻⁵ N, run-2.csv, 1.2·10⁶");
+  EXPECT_EQ(typeset("-0.000..0.031 m"), "0.000..0.031 m") << "no minus before a zero";
+  EXPECT_EQ(rounded(-0.02), "−0.02");
+  EXPECT_EQ(rounded(8813.7), "8810");
+  EXPECT_EQ(rounded(210.0, 2), "210");
+  EXPECT_EQ(rounded(0.0), "0");
+  EXPECT_EQ(rounded(-5.86e-5), "−5.86·10⁻⁵");
+  EXPECT_EQ(rounded(kNaN), "–");
 }
 
 TEST(Headline, TellsEveryVerdict) {

@@ -30,7 +30,8 @@ DiagnosisResult sample() {
   d.sentence = "The model lacks cogging torque.";
   d.effects = {"cogging_torque"};
   d.group = {"cogging_torque", "torque_ripple"};
-  d.gap = {"free run", 3e-3 * kThird, 1e-5, kThird * 1e-6, FloorSource::kNoise, 0.9, {0.8, 1.1}, 1.5};
+  d.gap = {"free run", 3e-3 * kThird, 1e-5, kThird * 1e-6, FloorSource::kNoise, "the noise of x1",
+           0.9,        {0.8, 1.1},    1.5};
   d.measures = {{"free run", "rad", 1.0, kThird, kNaN}};
   RankedEffect first;
   first.effect = "cogging_torque";

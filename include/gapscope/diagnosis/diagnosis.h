@@ -21,6 +21,11 @@ enum class DiagnosisVerdict { kNotRun, kEffect, kNone, kUnknown };
 /// repeats its input repeats its motion.
 enum class FloorSource { kEncoder, kNoise, kRepeatability };
 
+/// The floor as readers are told of it; that of the encoder is its quantum or its noise.
+inline const char* floor_name(FloorSource from) {
+  return from == FloorSource::kRepeatability ? "repeatability floor" : "encoder floor";
+}
+
 /// A number with its name: a parameter of an effect or of the drive.
 struct NamedValue {
   std::string key;
@@ -42,6 +47,7 @@ struct MismatchSize {
   std::string measure;
   double before = kNaN, after = kNaN, floor = kNaN;  ///< [rad]
   FloorSource floor_from = FloorSource::kEncoder;
+  std::string floor_of;   ///< what it was read from, in words: recordings, periods
   double shrink = kNaN;   ///< (before − after)/(before − floor); NaN while before < 1.3 floors
   Interval shrink_ci95;   ///< for the next recording of the same drive
   double remains = kNaN;  ///< after/floor

@@ -1,0 +1,81 @@
+#include "report/glossary.h"
+
+#include <vector>
+
+#include "report/markdown.h"
+
+namespace gapscope::internal {
+namespace {
+
+struct Word {
+  const char* occurs;  ///< what is looked for in the text
+  const char* word;
+  const char* meaning;
+};
+
+/// In the order in which a reader meets them.
+constexpr Word kWords[] = {
+    {"passage", "passage", "the motor crosses the gap, from contact lost (t1) to contact regained (t2)"},
+    {"e_x", "e_x, L",
+     "position error of the super-twisting differentiator, and the bound on the acceleration that it is "
+     "given: "
+     "e_x rests near zero while the motion stays below L"},
+    {"encoder floor", "encoder floor",
+     "what the encoder leaves of the error of a perfect model: its quantum over √12, or its noise where that "
+     "is "
+     "more"},
+    {"repeatability floor", "repeatability floor",
+     "how far the drive repeats its own motion from one period of the input to the next (rms difference over "
+     "√2): no model can do better, whatever the encoder reads"},
+    {"| identifiable |", "identifiable",
+     "the recordings determine this number; if not, its value is one of many"},
+    {"Free run", "free run",
+     "the fitted model under the recorded input from its initial state on, never corrected by the recording"},
+    {"prediction error", "prediction error",
+     "what an observer, the model corrected by the encoder at every sample, still misses at the next one"},
+    {"nominal model", "nominal model", "the model of the configuration, its estimated parameters fitted"},
+    {"held-out", "held-out", "recorded, but seen by no fit (but for where a warning says so)"},
+    {"free run restarted", "free run restarted",
+     "the model runs alone for that long, then starts anew from the state of an observer"},
+    {"prediction at", "prediction at ... Hz",
+     "what an observer with its poles there still misses at the next sample: slow drifts show at the lower, "
+     "ripple at the higher one"},
+    {"residual torque", "residual torque", "the torque that would correct the observer at 30 Hz"},
+    {"residual force", "residual force", "the force that would correct the observer at 30 Hz"},
+    {"shrink", "shrink",
+     "(error before − after) / (before − floor), as median over windows: 1 reaches the floor, below 0 it is "
+     "worse"},
+    {"closed share", "closed share",
+     "share of the way to the floor in the mean logarithm of prediction and free-run error, which a few "
+     "large "
+     "errors cannot decide: 1 at the floor, below 0 worse than without; candidates are ranked by it, but a "
+     "simple effect goes before one that contains it"},
+    {"windows better", "windows better",
+     "share of the held-out windows (half a second each, or less) above the floor in which its free run errs "
+     "less"},
+    {"the catalogue lacks", "the catalogue lacks it",
+     "none of the effects that `gapscope effects` lists is what is missing"},
+    {"not told from", "not told from",
+     "other effects that explain these recordings nearly as well: one of them may be the cause instead"},
+    {"made superfluous", "made superfluous",
+     "an earlier effect that was taken out again, because without it the model is hardly worse now"},
+    {"over neighbouring periods", "over neighbouring periods",
+     "its share of the squared torque or force, times what periods beside it have"},
+    {"holds there", "holds there", "improves more held-out windows than chance would let, at 1 %"},
+    {"took the blame", "took the blame",
+     "what the nominal model reads too high or too low to make up for what it lacks"},
+    {" σ |", "σ", "rms of the encoder's noise"},
+    {"of an error without a place", "an error without a place",
+     "one that is alike all the time: its share is the share of the time spent there"}};
+
+}  // namespace
+
+std::string glossary_section(const std::string& text) {
+  std::vector<std::string> lines;
+  for (const Word& w : kWords)
+    if (text.find(w.occurs) != std::string::npos)
+      lines.push_back("*" + std::string(w.word) + "*: " + w.meaning + ".");
+  return bullet_section("Words", lines);
+}
+
+}  // namespace gapscope::internal
