@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/figures.h"
+#include "report/ticks.h"
 #include "report/wording.h"
 
 namespace gapscope::internal {
@@ -53,18 +54,6 @@ void add_row(Panel& panel, const BoundMap& map, std::size_t j, double half_step)
   }
 }
 
-/// 1, 2 and 5 times the powers of ten within a range of logarithms.
-std::vector<Place> round_places(const Interval& range) {
-  std::vector<Place> places;
-  for (int decade = static_cast<int>(std::floor(range.low)); decade <= range.high; ++decade)
-    for (const double m : {1.0, 2.0, 5.0}) {
-      const double at = decade + std::log10(m);
-      if (at >= range.low && at <= range.high)
-        places.push_back({at, fmt::format("{:g}", m * std::pow(10.0, decade))});
-    }
-  return places;
-}
-
 void mark_bound(Panel& panel, double bound, const LineStyle& style, const std::string& label) {
   if (bound > 0.0 && std::log10(bound) >= panel.y.range.low && std::log10(bound) <= panel.y.range.high)
     panel.y_marks.push_back({std::log10(bound), style, label});
@@ -74,11 +63,11 @@ Panel map_panel(const ReportView& view, const BoundMap& map) {
   Panel panel;
   const double low = std::log10(map.bounds.front()), high = std::log10(map.bounds.back());
   const double half_step = 0.5 * (high - low) / static_cast<double>(map.bounds.size() - 1);
-  panel.title = "|$e_x$| over its floor";
+  panel.title = "|$e_x$| over its chatter floor";
   panel.x = view.time_axis(time_range(map));
   panel.y = {"bound $L$", view.run.rotation ? "rad/s²" : "m/s²", {low - half_step, high + half_step}, {}, {},
              {}};
-  panel.y.places = round_places(panel.y.range);
+  panel.y.places = log_places(panel.y.range, {1.0, 2.0, 5.0});
   panel.height = 760.0;
   for (std::size_t j = 0; j < map.bounds.size(); ++j) add_row(panel, map, j, half_step);
   const GapEstimate& g = *view.run.model_free;
@@ -106,7 +95,7 @@ Panel scale_panel() {
   for (double d = 0.0; d < kTopDecade - 0.5 * kStep; d += kStep)
     panel.tiles.push_back({{d, d + kStep}, {0.0, 1.0}, shade(d + 0.5 * kStep), "", kInk});
   panel.title = "Scale";
-  panel.x = {"|$e_x$| / floor", "", {0.0, kTopDecade}, {}, {}, {}};
+  panel.x = {"|$e_x$| / chatter floor", "", {0.0, kTopDecade}, {}, {}, {}};
   for (const double level : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0})
     panel.x.places.push_back({std::log10(level), fmt::format("{:g}", level)});
   panel.y.range = {0.0, 1.0};
@@ -146,7 +135,7 @@ double smallest_at_rest(const BoundMap& map) {
 std::string reading(const ReportView& view, const BoundMap& map) {
   const std::string unit = view.run.rotation ? " rad/s²" : " m/s²";
   std::string text =
-      fmt::format("e_x rests half of the time from L = {:.2g}{} on", smallest_at_rest(map), unit);
+      fmt::format("e_x rests half of the time from L = {}{} on", rounded(smallest_at_rest(map), 2), unit);
   std::vector<double> passage, impact;
   for (const GapEvent& e : view.accepted())
     if (e.t1 >= map.start && e.t2 < time_range(map).high) {
@@ -154,11 +143,10 @@ std::string reading(const ReportView& view, const BoundMap& map) {
       impact.push_back(highest_that_shows(map, e.t2 + map.dt));
     }
   if (!passage.empty() && std::isfinite(median(passage)) && std::isfinite(median(impact)))
-    text += fmt::format(
-        "; the passage before an impact shows up to L = {:.2g}{}, the impact itself up to {:.2g}{}",
-        median(passage), unit, median(impact), unit);
+    text += fmt::format("; the passage before an impact shows up to L = {}{}, the impact itself up to {}{}",
+                        rounded(median(passage), 2), unit, rounded(median(impact), 2), unit);
   const double paper = view.run.model_free->paper_bound;
-  if (std::isfinite(paper)) text += fmt::format("; bound (13) is {:.3g}{}", paper, unit);
+  if (std::isfinite(paper)) text += fmt::format("; bound (13) is {}{}", rounded(paper), unit);
   return text + ".";
 }
 

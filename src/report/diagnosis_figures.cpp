@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "report/rich_text.h"
+#include "report/ticks.h"
 #include "report/wording.h"
 
 namespace gapscope::internal {
@@ -79,7 +81,7 @@ Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::v
   share.joined = expected.joined = false;
   share.marker = Marker::kDisc, expected.marker = Marker::kCircle;
   for (std::size_t i = 0; i < map.size(); ++i) {
-    panel.y.categories.push_back(map[i].bin);
+    panel.y.categories.push_back(typeset(map[i].bin));
     panel.y.remarks.push_back(fmt::format("{:.0f} %", 100.0 * map[i].share));
     const double row = static_cast<double>(i);
     share.x.push_back(map[i].share), share.y.push_back(row);
@@ -91,10 +93,33 @@ Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::v
   return panel;
 }
 
+/// Whether the drive was in one place all the time: then the map says nothing.
+bool says_nothing(const std::vector<MapShare>& map) {
+  return std::any_of(map.begin(), map.end(), [](const MapShare& m) { return m.expected > 0.999; });
+}
+
 /// "0.99"; no minus before a zero.
 std::string share_text(double share) {
   if (!std::isfinite(share)) return "diverges";
-  return fmt::format("{:.2f}", std::abs(share) < 0.005 ? 0.0 : share);
+  return tick_label(share, 2);
+}
+
+/// A cycle over the motor angle in words.
+std::string every(const DiagnosisResult& r, double periods_per_turn) {
+  return r.rotation ? rounded(periods_per_turn) + " cycles per turn"
+                    : "every " + quantity(2.0 * kPi / periods_per_turn, "m");
+}
+
+/// What repeats with the motor angle: in what the nominal model leaves, and in what is left in the end.
+std::string cycles_reading(const DiagnosisResult& r) {
+  const double periods = r.diagnosis.where.periods_per_turn;
+  std::string text = std::isfinite(periods)
+                         ? "It repeats with the " + angle_word(r) + ", " + every(r, periods) + "."
+                         : "No cycle over the " + angle_word(r) + " stands out of it.";
+  std::string lines;
+  for (const PeriodicTorque& p : r.diagnosis.periodic)
+    if (!p.given || p.holds) lines += (lines.empty() ? "" : ", ") + every(r, p.periods_per_turn);
+  return lines.empty() ? text : text + " In what all that was added leaves, one does: " + lines + ".";
 }
 
 }  // namespace
@@ -128,11 +153,13 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   if (ranking.empty())
     return missing_figure(figure.file, figure.title, "the model is at the floor, nothing was looked for");
   Panel panel;
-  panel.title = "Log distance to the floor that each closes";
+  const std::size_t shown = std::min(kShownCandidates, ranking.size());
+  panel.title = "Share of the way to the floor";
+  if (shown < ranking.size()) panel.title += fmt::format(": first {} of {}", shown, ranking.size());
   panel.x = {"closed share", "", {-0.25, 1.1}, {}, {}};
   Series s{"", {kBlue, 4.0, {}}, {}, {}};
   s.joined = false, s.marker = Marker::kDisc;
-  for (std::size_t i = 0; i < std::min(kShownCandidates, ranking.size()); ++i) {
+  for (std::size_t i = 0; i < shown; ++i) {
     panel.y.categories.push_back(readable(ranking[i].effect));
     panel.y.remarks.push_back(share_text(ranking[i].rel));
     const double rel = std::isfinite(ranking[i].rel) ? std::clamp(ranking[i].rel, -0.25, 1.1) : -0.25;
@@ -141,7 +168,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   }
   panel.series.push_back(s);
   panel.x_marks.push_back({0.0, guide_style(), ""});
-  panel.x_marks.push_back({1.0, guide_style(), "floor"});
+  panel.x_marks.push_back({1.0, guide_style(), floor_name(r.diagnosis.gap.floor_from)});
   panel.height = 80.0 + 70.0 * static_cast<double>(s.x.size());
   figure.panels.push_back(panel);
   figure.reading =
@@ -159,13 +186,16 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
   if (w.mode.empty()) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
   figure.width = 3200.0;
   figure.columns = 2;
-  figure.panels = {map_panel(r, "Mode", w.mode),
-                   map_panel(r, "Direction of motion", w.direction),
-                   map_panel(r, "Speed", w.speed),
-                   map_panel(r, r.rotation ? "Motor angle" : "Displacement", w.angle),
-                   map_panel(r, r.rotation ? "Torque of the input" : "Force of the input", w.input),
-                   map_panel(r, "Frequency", w.frequency),
-                   map_panel(r, "Time", w.time)};
+  const std::pair<const char*, const std::vector<MapShare>&> maps[] = {
+      {"Mode", w.mode},
+      {"Direction of motion", w.direction},
+      {"Speed", w.speed},
+      {r.rotation ? "Motor angle" : "Displacement", w.angle},
+      {r.rotation ? "Torque of the input" : "Force of the input", w.input},
+      {"Frequency", w.frequency},
+      {"Time", w.time}};
+  for (const auto& [title, map] : maps)
+    if (!says_nothing(map)) figure.panels.push_back(map_panel(r, title, map));
   figure.reading = "The residual " + torque_word(r) + " is " + w.headline + ".";
   return figure;
 }
@@ -195,19 +225,24 @@ FigureData diagnosis_torque_map(const DiagnosisResult& r) {
     return panel;
   };
   figure.panels.push_back(scatter("Over the " + angle_word(r),
-                                  {"displacement $x_1$", length_unit(r), {}, {}, {}},
+                                  {angle_word(r) + " $x_1$", length_unit(r), {}, {}, {}},
                                   [&](std::size_t i) { return t->x1[i]; }));
-  figure.panels.push_back(
-      scatter("Over the input", {"input $u$", "", {}, {}, {}}, [&](std::size_t i) { return t->u[i]; }));
-  const double periods = r.diagnosis.where.periods_per_turn;
-  const std::string every = r.rotation ? fmt::format("{:.3g} cycles per turn", periods)
-                                       : fmt::format("every {:.4g} mm", 2e3 * kPi / periods);
-  figure.reading = std::isfinite(periods) ? "It repeats with the " + angle_word(r) + ", " + every + "."
-                                          : "No cycle over the " + angle_word(r) + " stands out.";
+  figure.panels.push_back(scatter("Over the input", {"input $u$", "units of $u$", {}, {}, {}},
+                                  [&](std::size_t i) { return t->u[i]; }));
+  figure.reading = cycles_reading(r);
   return figure;
 }
 
 namespace {
+
+/// The first panels of a figure, as many as it has.
+void borrow(FigureData& sheet, const std::vector<FigureData>& figures, const std::string& file,
+            std::size_t count) {
+  for (const FigureData& figure : figures)
+    if (figure.file == file && figure.missing.empty())
+      for (std::size_t i = 0; i < std::min(count, figure.panels.size()); ++i)
+        sheet.panels.push_back(figure.panels[i]);
+}
 
 FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
   FigureData sheet;
@@ -216,16 +251,10 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
   sheet.lines.push_back(literal(r.diagnosis.sentence));
   sheet.width = 3200.0;
   sheet.columns = 2;
-  for (const auto& [file, index] :
-       std::vector<std::pair<std::string, std::size_t>>{{"diagnosis_traces.png", 0},
-                                                        {"diagnosis_traces.png", 1},
-                                                        {"diagnosis_ranking.png", 0},
-                                                        {"diagnosis_torque_map.png", 0},
-                                                        {"diagnosis_where.png", 0},
-                                                        {"diagnosis_where.png", 1}})
-    for (const FigureData& figure : figures)
-      if (figure.file == file && figure.missing.empty() && index < figure.panels.size())
-        sheet.panels.push_back(figure.panels[index]);
+  borrow(sheet, figures, "diagnosis_traces.png", 2);
+  borrow(sheet, figures, "diagnosis_ranking.png", 1);
+  borrow(sheet, figures, "diagnosis_torque_map.png", 1);
+  borrow(sheet, figures, "diagnosis_where.png", 2);
   for (std::size_t i = 0; i + 1 < sheet.panels.size(); i += 2)  // neighbours are equally high
     sheet.panels[i].height = sheet.panels[i + 1].height =
         std::max(sheet.panels[i].height, sheet.panels[i + 1].height);

@@ -75,6 +75,7 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
   for (const std::string& line : figure.lines)
     for (std::string& part : wrapped(line, figure.width - 2 * kRim, typesetter)) plan.lines.push_back(part);
   double y = kRim + 1.65 * kTitleSize + 1.35 * kTextSize * static_cast<double>(plan.lines.size());
+  if (!plan.lines.empty()) y += kBetween;
   for (std::size_t first = 0; first < figure.panels.size(); first += columns) {
     double above = 0.0, below = 0.0;
     const std::size_t end = std::min(first + columns, figure.panels.size());

@@ -57,7 +57,7 @@ class PanelPainter {
       const double x = x_of(plan_.x.ticks.values[i] * plan_.x.factor);
       if (!has_fields()) canvas_.line({{x, frame_.bottom()}, {x, frame_.bottom() - 10.0}}, tick);
       if (panel_.x_labels)
-        canvas_.text({x, frame_.bottom() + kSpace + 0.8 * kTickSize}, plan_.x.tick_text(i),
+        canvas_.text({x, frame_.bottom() + kToTicks + 0.8 * kTickSize}, plan_.x.tick_text(i),
                      {kTickSize, Align::kCentre});
     }
     for (std::size_t i = 0; i < plan_.y.ticks.values.size(); ++i) {
@@ -79,7 +79,7 @@ class PanelPainter {
                  {kTextSize, Align::kCentre, kInk, false, true});
   }
 
-  /// The strip above the frame: title, legend where it has no place inside, names of the vertical marks.
+  /// The strip above the frame: title, legend, names of the vertical marks.
   void above(const std::string& title) {
     double y = frame_.y - plan_.above;
     if (!title.empty()) {
@@ -87,10 +87,7 @@ class PanelPainter {
       canvas_.text({frame_.x, y + metrics.ascent}, title, {kTextSize, Align::kLeft, kInk, true});
       y += metrics.height() + kTitleGap;
     }
-    if (!plan_.entries.empty()) {
-      const Box& box = plan_.legend.box;
-      legend(plan_.legend_inside ? Point{frame_.x + box.x, frame_.y + box.y} : Point{frame_.x, y});
-    }
+    legend({frame_.x, y});
     mark_names();
   }
 
@@ -170,8 +167,6 @@ class PanelPainter {
   }
 
   void legend(Point corner) {
-    if (plan_.legend_inside)
-      canvas_.fill({corner.x, corner.y, plan_.legend.box.width, plan_.legend.box.height}, {255, 255, 255});
     for (std::size_t i = 0; i < plan_.entries.size(); ++i) {
       const LegendEntry& entry = plan_.entries[i];
       const Point at{corner.x + plan_.legend.places[i].x, corner.y + plan_.legend.places[i].y};

@@ -73,18 +73,25 @@ Panel side_by_side(const ReportView& view) {
   return panel;
 }
 
-/// Room for what was accepted and what it means; a passage that was set aside may lie beyond.
+Interval interval_of(const GapEvent& e) {
+  const double half = std::isfinite(e.std) ? 1.96 * e.std : 0.0;
+  return {e.gap - half, e.gap + half};
+}
+
+/// Room for what was accepted and what it means, intervals included; a passage that was set aside may lie
+/// beyond.
 Interval event_range(const ReportView& view) {
+  std::vector<GapEvent> shown = view.accepted();
+  if (shown.empty()) shown = view.events;
   std::vector<double> values;
-  for (const GapEvent& e : view.accepted()) values.push_back(e.gap);
-  if (values.empty())
-    for (const GapEvent& e : view.events)
-      if (std::isfinite(e.gap)) values.push_back(e.gap);
+  for (const GapEvent& e : shown)
+    for (const double v : {interval_of(e).low, interval_of(e).high})
+      if (std::isfinite(v)) values.push_back(v);
   const Interval& ci = view.run.model_free->ci95;
   for (const double v : {ci.low, ci.high, view.true_gap()})
     if (std::isfinite(v)) values.push_back(v);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  const double room = std::max(0.35 * (*high - *low), 0.01 * std::abs(*high));
+  const double room = std::max(0.1 * (*high - *low), 0.01 * std::abs(*high));
   return {*low - room, *high + room};
 }
 
@@ -101,8 +108,8 @@ Series passages(const ReportView& view, const std::string& label, int direction,
     if (!same || !(e.gap >= range.low && e.gap <= range.high)) continue;
     s.x.push_back(e.t2);
     s.y.push_back(e.gap);
-    const double half = std::isfinite(e.std) ? 1.96 * e.std : 0.0;
-    s.y_intervals.push_back({std::max(e.gap - half, range.low), std::min(e.gap + half, range.high)});
+    const Interval ci95 = interval_of(e);
+    s.y_intervals.push_back({std::max(ci95.low, range.low), std::min(ci95.high, range.high)});
   }
   return s;
 }

@@ -65,7 +65,7 @@ FigureData fig2_input_and_displacement(const ReportView& view) {
   figure.title = "Input, displacement and backlash state";
   if (!view.recording) return missing_figure(figure.file, figure.title, "no recording is stored");
   figure.panels.push_back(
-      over_time(view, "Input", {"input $u$", "", {}, {}, {}}, input_style(), view.recording->u));
+      over_time(view, "Input", {"input $u$", "units of $u$", {}, {}, {}}, input_style(), view.recording->u));
   figure.panels.push_back(over_time(view, "Motor displacement", {"$x_1$", view.length_unit, {}, {}, {}},
                                     measured_style(), view.recording->x1));
   if (!view.state.empty() || view.error) figure.panels.push_back(state_and_error(view));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "report/figures.h"
+#include "report/ticks.h"
 #include "report/wording.h"
 
 namespace gapscope::internal {
@@ -29,19 +30,20 @@ FigureData fit_starts(const ReportView& view) {
     s.x.push_back(std::log10(ratio));
     s.y.push_back(static_cast<double>(i));
     panel.y.categories.push_back(fmt::format("search {}", i + 1));
-    panel.y.remarks.push_back(plain_number(ratio) + " floors");
+    panel.y.remarks.push_back(plain_number(ratio));
     same += ratio < 1.005 * std::sqrt(reference->start_costs.front());
   }
   const double lowest = std::min(0.0, s.x.front()), highest = std::max(0.0, s.x.back());
   const double margin = 0.1 * (highest - lowest) + 0.05;
-  panel.x = {
-      "log$_{10}$ (prediction error / encoder floor)", "", {lowest - margin, highest + margin}, {}, {}};
+  panel.x = {"prediction error / encoder floor", "", {lowest - margin, highest + margin}, {}, {}};
+  panel.x.places =
+      highest - lowest > 2.0 ? log_places(panel.x.range, {1.0}) : log_places(panel.x.range, {1.0, 2.0, 5.0});
   panel.height = 120.0 + 50.0 * static_cast<double>(s.x.size());
   panel.x_marks.push_back({0.0, truth_style(), "encoder floor"});
   panel.series.push_back(s);
   figure.panels.push_back(panel);
   figure.reading = fmt::format(
-      "{} of {} searches ended in the best minimum, {} times what the encoder leaves; the worst at {} "
+      "{} of {} searches ended in the best minimum, {} times the encoder floor; the worst at {} "
       "times.",
       same, s.x.size(), plain_number(std::sqrt(reference->start_costs.front())),
       plain_number(std::sqrt(reference->start_costs.back())));

@@ -27,9 +27,6 @@ inline bool overlap(const Box& a, const Box& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
-/// Does the segment from a to b touch the box?
-bool crosses(const Box& box, Point a, Point b);
-
 using Polyline = std::vector<Point>;
 
 }  // namespace gapscope::internal

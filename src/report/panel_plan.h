@@ -15,7 +15,9 @@ namespace gapscope::internal {
 inline constexpr double kTitleSize = 46.0;
 inline constexpr double kTextSize = 40.0;
 inline constexpr double kTickSize = 38.0;
-inline constexpr double kSpace = 14.0;    ///< between neighbouring pieces
+inline constexpr double kSpace = 14.0;  ///< between neighbouring pieces
+inline constexpr double kToTicks =
+    24.0;  ///< from the frame to the numbers below it: clear of those beside it
 inline constexpr double kTitleGap = 4.0;  ///< below a panel's title
 inline constexpr double kRim = 26.0;      ///< around everything
 inline constexpr double kSample = 70.0;   ///< line sample in a legend
@@ -51,12 +53,11 @@ struct LegendEntry {
 };
 std::vector<LegendEntry> legend_entries(const Panel& panel);
 
-/// A legend laid out: offsets of its entries within its box.
+/// A legend laid out in rows: above the frame, where it hides neither data nor grid.
 struct Legend {
-  Box box;
-  std::vector<Point> places;  ///< left end of each entry's baseline, relative to the box
+  double height = 0.0;
+  std::vector<Point> places;  ///< left end of each entry's baseline, relative to the legend's upper left
 };
-Legend stacked_legend(const std::vector<LegendEntry>& entries, const Typesetter& typesetter);
 Legend flowing_legend(const std::vector<LegendEntry>& entries, double width, const Typesetter& typesetter);
 
 /// Room that a panel needs at the left and right of its frame.
@@ -72,8 +73,6 @@ struct PanelPlan {
   double above = 0.0, below = 0.0;   ///< room for what stands outside of it
   std::vector<LegendEntry> entries;
   Legend legend;
-  bool legend_inside = false;
-  std::vector<Polyline> lines;  ///< all data, for the placement of the legend
 
   Point place(double px, double py) const {
     return {x.fraction(px) * width, (1.0 - y.fraction(py)) * height};

@@ -31,6 +31,17 @@ Ticks round_ticks(double low, double high, int most) {
   }
 }
 
+std::vector<Place> log_places(const Interval& range, std::initializer_list<double> multiples) {
+  std::vector<Place> places;
+  for (int decade = static_cast<int>(std::floor(range.low)); decade <= range.high; ++decade)
+    for (const double m : multiples) {
+      const double at = decade + std::log10(m);
+      if (at >= range.low && at <= range.high)
+        places.push_back({at, fmt::format("{:g}", m * std::pow(10.0, decade))});
+    }
+  return places;
+}
+
 std::string tick_label(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
   const bool is_zero = text.find_first_not_of("0.") == std::string::npos;

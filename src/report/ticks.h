@@ -1,7 +1,10 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
+
+#include "report/figure_data.h"
 
 namespace gapscope::internal {
 
@@ -14,6 +17,10 @@ struct Ticks {
 
 /// The finest round step that puts at most `most` (≥ 2) ticks on [low, high].
 Ticks round_ticks(double low, double high, int most);
+
+/// Round places on a logarithmic axis: these multiples of the powers of ten.
+/// @param range of the decimal logarithms, in which the places are given
+std::vector<Place> log_places(const Interval& range, std::initializer_list<double> multiples);
 
 /// "−0.25" with the decimals of the step and a true minus sign.
 std::string tick_label(double value, int decimals);

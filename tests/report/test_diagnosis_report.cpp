@@ -80,6 +80,49 @@ TEST(DiagnosisReport, EveryFigureIsThereAndNotBlankAndTheTextShowsTheBlame) {
       << text;
 }
 
+TEST(DiagnosisReport, NamesTheFloorAndWhereItComesFrom) {
+  ScratchFolder scratch;
+  DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
+  r.diagnosis.outside_probability = 0.57;
+  const auto written = [&] {
+    write_diagnosis_result(scratch.path.string(), r);
+    write_report(scratch.path.string());
+    return text_of(scratch.path / "report.md");
+  };
+  std::string text = written();
+  EXPECT_NE(text.find("is the encoder floor: the quantum of the encoder in held.csv."), std::string::npos);
+  EXPECT_NE(text.find("with 0.57 the catalogue lacks"), std::string::npos);
+  EXPECT_NE(text.find("- *closed share*: "), std::string::npos);
+  EXPECT_EQ(text.find("- *repeatability floor*: "), std::string::npos) << "a word that does not occur";
+  r.diagnosis.gap.floor_from = FloorSource::kRepeatability;
+  r.diagnosis.gap.floor_of = "3.9 periods of 6.24 s in held.csv";
+  text = written();
+  EXPECT_NE(text.find("is the repeatability floor: 3.9 periods of 6.24 s in held.csv."), std::string::npos);
+  EXPECT_EQ(text.find("0.57"), std::string::npos) << "learned on other drives";
+}
+
+TEST(DiagnosisReport, TheCaptionKnowsOfTheLineThatTheTableLists) {
+  DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
+  r.diagnosis.where.periods_per_turn = kNaN;
+  r.rotation = false;
+  r.diagnosis.periodic.front().periods_per_turn = 2.0 * kPi / 2.5e-3;
+  const std::string reading = internal::diagnosis_torque_map(r).reading;
+  EXPECT_NE(reading.find("No cycle over the displacement stands out of it. In what all that was added "
+                         "leaves, one does: every 2.50 mm."),
+            std::string::npos)
+      << reading;
+}
+
+TEST(DiagnosisReport, AMapOfOnePlaceIsLeftOutAndSoAreNoCandidatesInSilence) {
+  DiagnosisResult r = sample(DiagnosisVerdict::kUnknown);
+  r.diagnosis.where.mode = {{"gap", 0.0, 0.0}, {"engagement", 1.0, 1.0}, {"impact", 0.0, 0.0}};
+  const auto where = internal::diagnosis_where(r);
+  ASSERT_EQ(where.panels.size(), 6u);
+  EXPECT_EQ(where.panels.front().title, "Direction of motion");
+  while (r.diagnosis.ranking.size() < 18) r.diagnosis.ranking.push_back(r.diagnosis.ranking.back());
+  EXPECT_NE(internal::diagnosis_ranking(r).panels[0].title.find("first 12 of 18"), std::string::npos);
+}
+
 TEST(DiagnosisReport, WithoutCandidatesTheRankingIsLeftOutWithItsReason) {
   DiagnosisResult none = sample(DiagnosisVerdict::kNone);
   none.diagnosis.ranking.clear();
