@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -11,6 +12,7 @@
 #include "gapscope/base/version.h"
 #include "gapscope/campaign/pipeline.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/inspection/inspection.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/report_folder.h"
@@ -37,6 +39,24 @@ std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
   std::vector<MotorTrace> traces;
   for (const Recording& r : recordings) traces.push_back(r.motor_trace());
   return traces;
+}
+
+/// What `check` says will spoil the estimates, of what is fitted and what is held out alike. Reversals are
+/// the detector's concern.
+std::vector<std::string> spoiling(const Configuration& c, const std::vector<RecordedFile>& files) {
+  std::vector<std::string> warnings;
+  for (const RecordedFile& file : files)
+    for (const Finding& f : inspect(file.path, c.recording->reading, c.rotation).findings)
+      if (f.severity == Severity::kSpoils && f.rule != "reversals")
+        warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
+  return warnings;
+}
+
+void check_recordings(const Configuration& c, const Progress& progress, std::vector<std::string>& warnings) {
+  if (!c.recording) return;
+  progress("checking the recordings");
+  for (const auto* files : {&c.recording->files, &c.recording->held_out})
+    for (std::string& warning : spoiling(c, *files)) warnings.push_back(std::move(warning));
 }
 
 void write_outcome(const std::string& folder, const Configuration& c, const DiagnosisResult& result,
@@ -78,6 +98,7 @@ void diagnose_configuration(const Arguments& a) {
   const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
   require_possible_experiment(c, train.front().dt);
   const std::vector<Recording> held_out = load_held_out(c, options.progress, loaded);
+  check_recordings(c, options.progress, loaded.warnings);
   const std::vector<MotorTrace> train_traces = traces_of(train), held_out_traces = traces_of(held_out);
   DiagnosisResult result{c.name, version(), resolved_yaml(c), c.rotation,
                          diagnose(train_traces, held_out_traces, c.model.reference_model(), options)};
@@ -105,7 +126,9 @@ void add_diagnose(CLI::App& app) {
   add_work_options(*command, arguments->threads, arguments->quiet);
   command->footer(
       "Fits the model to recording: file, adds every effect of `gapscope effects` in turn, and judges on\n"
-      "recording: held_out (a file or a list; without it on the last third of each file).\n"
+      "recording: held_out (a file or a list; without it on the last third of each file). What `gapscope "
+      "check`\n"
+      "says will spoil the estimates is a warning, of each of these files alike.\n"
       "Writes DIR/diagnosis.json [rad, N m, s], fitted.yaml, report.md, figures (PNG), traces/held_out_*.\n"
       "Where the recordings do not decide, next_experiment.yaml and .csv hold the input that would, within\n"
       "next_experiment: {input: ..., travel: ..., lowest_frequency: ..., highest_frequency: ..., duration: "

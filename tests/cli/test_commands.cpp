@@ -6,6 +6,7 @@
 
 #include "cli/executable.h"
 #include "gapscope/base/statistics.h"
+#include "gapscope/plant/effect.h"
 #include "support/paper_model.h"
 
 namespace gapscope {
@@ -170,6 +171,37 @@ model:
   ASSERT_EQ(fit.status, 0) << fit.err;
   EXPECT_THAT(fit.err, HasSubstr("motor_damping ended at its bound 20 N s/m."));
   EXPECT_THAT(text_of(place.folder() / "report/report.md"), Not(HasSubstr("N m")));
+}
+
+TEST(Commands, DiagnoseChecksWhatIsFittedAndWhatIsHeldOutAlike) {
+  Workplace place;
+  const std::string model =
+      "encoder: {bits: 16}\nmodel:\n  parameters: {motor_inertia: 0.001, torque_constant: 1, mass_ratio: 0, "
+      "motor_damping: {value: 0.01, estimate: true}}\n";
+  place.file("c.yaml",
+             "name: body\nsimulation: {rate: 200, duration: 3, excitation: {sine: {amplitude: 0.05, "
+             "frequency: 1}}}\n" +
+                 model);
+  ASSERT_EQ(place.run("simulate c.yaml -o good.csv").status, 0);
+  std::istringstream good(text_of(place.folder() / "good.csv"));
+  std::string turned, row;
+  std::getline(good, turned);
+  turned += "\n";
+  while (std::getline(good, row)) {  // u is the second column
+    const std::size_t u = row.find(',') + 1;
+    turned += row.substr(0, u) + (row[u] == '-' ? row.substr(u + 1) : "-" + row.substr(u)) + "\n";
+  }
+  place.file("bad.csv", turned);
+  std::string few;  // candidates, to be quick
+  for (const EffectEntry* e : effect_table())
+    if (std::string(e->name) != "quadratic_drag") few += std::string(" --exclude ") + e->name;
+  for (const char* files : {"{file: good.csv, held_out: bad.csv}", "{file: bad.csv, held_out: good.csv}"}) {
+    place.file("d.yaml", std::string("name: d\nrecording: ") + files + "\n" + model);
+    const auto diagnosed = place.run("diagnose d.yaml -o d" + few);
+    EXPECT_EQ(diagnosed.status, 0) << diagnosed.err;
+    EXPECT_THAT(diagnosed.err, HasSubstr("warning: bad.csv: sign: ")) << files;
+    EXPECT_THAT(diagnosed.err, Not(HasSubstr("good.csv:")));
+  }
 }
 
 TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {
