@@ -59,13 +59,21 @@ void check_recordings(const Configuration& c, const Progress& progress, std::vec
     for (std::string& warning : spoiling(c, *files)) warnings.push_back(std::move(warning));
 }
 
+/// Under the input of what was held out, which stands in the report; a motion that diverges has left no
+/// trace.
+std::string fitted_model(const Configuration& c, const Diagnosis& d, const MotorTrace& recording) {
+  if (d.traces.empty() || d.traces.front().x1.size() < 2) return fitted_yaml(c, d.fitted, recording, "");
+  const MismatchTrace& t = d.traces.front();
+  return fitted_yaml(c, d.fitted, {t.file, t.start, t.dt, t.u, t.x1, 0.0}, held_out_trace_name(0, t.file));
+}
+
 void write_outcome(const std::string& folder, const Configuration& c, const DiagnosisResult& result,
                    const MotorTrace& recording) {
   ReportFolder report(folder);
   report.keep_estimate();
   write_diagnosis_result(report.path(), result);
   write_text(report.path() + "/resolved.yaml", result.configuration);
-  write_text(report.path() + "/fitted.yaml", fitted_yaml(c, result.diagnosis.fitted, recording));
+  write_text(report.path() + "/fitted.yaml", fitted_model(c, result.diagnosis, recording));
   if (const NextExperiment& next = result.diagnosis.next_experiment; next.proposes()) {
     write_text(report.path() + "/next_experiment.yaml",
                experiment_yaml(c, result.diagnosis.rivals.front().model, next));

@@ -2,12 +2,14 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/config/configuration.h"
 
 namespace gapscope {
 namespace {
 
-constexpr std::size_t kLongestName = 90;  ///< of a configuration, before the suffix
+constexpr std::size_t kLongestName = 90;   ///< of a configuration, before the suffix
+constexpr std::size_t kFirstSamples = 20;  ///< in which the first speed is read
 
 /// Half the rate at which the input changes its sign, at least one period over the recording.
 double frequency_of(const MotorTrace& recording) {
@@ -30,6 +32,26 @@ SimulationConfig simulation_of(const MotorTrace& recording) {
   for (const double u : recording.u) s.excitation.amplitude = std::max(s.excitation.amplitude, std::abs(u));
   s.excitation.frequency = frequency_of(recording);
   return s;
+}
+
+/// The same under the input that a stored trace holds.
+SimulationConfig replay_of(const MotorTrace& recording, const std::string& trace) {
+  SimulationConfig s = simulation_of(recording);
+  s.excitation = {};
+  s.excitation.kind = ExcitationKind::kRecorded;
+  s.excitation.file = trace;
+  s.excitation.time_column = "t_s";
+  return s;
+}
+
+/// At the recording's first position and speed (of a parabola through its first samples), the load with the
+/// motor.
+void begin_with(const MotorTrace& recording, SimulationConfig& s) {
+  const std::size_t k = std::min(kFirstSamples, recording.size() - 1) / 2;
+  const auto& x = recording.x1;
+  const double w =
+      k == 0 ? 0.0 : (4.0 * x[k] - 3.0 * x[0] - x[2 * k]) / (2.0 * recording.dt * static_cast<double>(k));
+  s.initial = {recording.x1[0], w, recording.x1[0], w};
 }
 
 void fix(ParameterSetting& p) { p = {p.value, false, kNaN, kNaN, {}}; }
@@ -76,12 +98,19 @@ ReferenceModel fitted_model(ReferenceModel model, const FitSummary& fit) {
 
 }  // namespace
 
-std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted,
-                        const MotorTrace& recording) {
+std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted, const MotorTrace& recording,
+                        const std::string& trace) {
   Configuration c = with_model(given, fitted);
-  if (!c.simulation) c.simulation = simulation_of(recording);
+  std::string input = "its input";
+  if (!c.simulation) {
+    c.simulation = trace.empty() ? simulation_of(recording) : replay_of(recording, trace);
+    begin_with(recording, *c.simulation);
+    input = (trace.empty() ? "a sine like the input of " : "the input of ") + shown(recording.file);
+  }
   set_plant(c);
-  return "# The model as the diagnosis fitted it; `gapscope simulate` runs it.\n" + resolved_yaml(c);
+  const std::string text = resolved_yaml(c);
+  return "# The model as the diagnosis fitted it, under " + input + "; `gapscope simulate` runs it." +
+         text.substr(text.find('\n'));
 }
 
 std::string experiment_yaml(const Configuration& given, const ReferenceModel& model,
@@ -103,13 +132,7 @@ std::string fitted_yaml(const Configuration& given, const FitSummary& fit, const
                         const MotorTrace& recording) {
   GAPSCOPE_REQUIRE(!fit.initial_states.empty());
   Configuration c = with_model(given, fitted_model(given.model.reference_model(), fit));
-  if (!c.simulation) {
-    c.simulation = simulation_of(recording);
-    c.simulation->excitation = {};
-    c.simulation->excitation.kind = ExcitationKind::kRecorded;
-    c.simulation->excitation.file = trace;
-    c.simulation->excitation.time_column = "t_s";
-  }
+  if (!c.simulation) c.simulation = replay_of(recording, trace);
   const DriveState<double>& start = fit.initial_states.front().state;
   c.simulation->initial = {start.x1, start.w1, start.x2, start.w2};
   c.simulation->noise = 0.0;

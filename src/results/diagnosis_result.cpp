@@ -35,7 +35,7 @@ TraceSet set_of(const MismatchTrace& m) {
 
 StoredMismatch store(const std::string& folder, std::size_t index, const MismatchTrace& m) {
   StoredMismatch stored;
-  stored.trace = trace_name(index, m.file).insert(7, "held_out_");  // after "traces/"
+  stored.trace = held_out_trace_name(index, m.file);
   stored.samples = static_cast<int>(m.x1.size());
   stored.scored_from = static_cast<int>(m.scored_from);
   stored.mismatch.file = m.file, stored.mismatch.start = m.start, stored.mismatch.dt = m.dt;
@@ -66,6 +66,10 @@ namespace internal {
 Json diagnosis_schema() { return document_schema(kDiagnosisSchema, DiagnosisDocument()); }
 
 }  // namespace internal
+
+std::string held_out_trace_name(std::size_t index, const std::string& recording_file) {
+  return trace_name(index, recording_file).insert(7, "held_out_");  // after "traces/"
+}
 
 void write_diagnosis_result(const std::string& folder, const DiagnosisResult& result) {
   require_consistent(result.diagnosis);

@@ -204,6 +204,37 @@ TEST(Commands, DiagnoseChecksWhatIsFittedAndWhatIsHeldOutAlike) {
   }
 }
 
+TEST(Commands, TheModelOfADiagnosisRunsUnderTheInputThatWasHeldOut) {
+  Workplace place;
+  const std::string model =
+      "encoder: {bits: 16}\nmodel:\n  parameters: {motor_inertia: 0.001, torque_constant: 1, mass_ratio: 0, "
+      "motor_damping: {value: 0.01, estimate: true}}\n";
+  for (const char* frequency : {"1", "2"}) {
+    place.file("c.yaml",
+               std::string("name: body\nsimulation: {rate: 200, duration: 3, excitation: {triangle: "
+                           "{amplitude: 0.05, frequency: ") +
+                   frequency + "}}}\n" + model);
+    ASSERT_EQ(place.run(std::string("simulate c.yaml -o at_") + frequency + ".csv").status, 0);
+  }
+  place.file("d.yaml", "name: d\nrecording: {file: at_1.csv, held_out: at_2.csv}\n" + model);
+  const auto diagnosed = place.run("diagnose d.yaml -o d");
+  ASSERT_EQ(diagnosed.status, 0) << diagnosed.err;
+  const auto simulated = place.run("simulate d/fitted.yaml -o model.csv");
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+  const std::string held_out = text_of(place.folder() / "at_2.csv"),
+                    run = text_of(place.folder() / "model.csv");
+  EXPECT_LE(largest_difference(held_out, "u", run, "u"), 1e-12);
+  EXPECT_LE(largest_difference(held_out, "x1", run, "x1"), 0.03);  // of 0.5 rad: the first speed is read off 0.1 s
+}
+
+TEST(Commands, EffectsAreBareNamesInAPipeAndExplainedOnRequest) {
+  const Workplace place;
+  EXPECT_THAT(place.run("effects").out, ::testing::StartsWith("actuator_lag\nbacklash\n"));
+  EXPECT_THAT(place.run("effects --laws").out,
+              HasSubstr("\ncogging_torque          motor    motor torque -A sin"));
+  EXPECT_EQ(place.run("effects --laws --json").status, 2);
+}
+
 TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {
   Workplace place;
   place.file("c.yaml", kConfig);

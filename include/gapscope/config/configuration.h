@@ -82,9 +82,12 @@ std::string resolved_yaml(const Configuration& configuration);
 std::string resolved_reading(const Configuration& configuration);
 
 /// A fitted model as a configuration that `simulate` runs: every number known, its effects included. The
-/// excitation is that of the configuration where it simulates, else a sine of the given recording's peak and
-/// most frequent zero crossings.
+/// excitation is that of the configuration where it simulates, else that of the trace named here (columns t_s
+/// and u), from the recording's first position and speed, both bodies alike.
+/// @param recording what the trace holds
+/// @param trace     relative to where the text will be stored; empty: a sine of the recording's peak and most
+///                  frequent zero crossings instead
 std::string fitted_yaml(const Configuration& configuration, const ReferenceModel& fitted,
-                        const MotorTrace& recording);
+                        const MotorTrace& recording, const std::string& trace);
 
 }  // namespace gapscope

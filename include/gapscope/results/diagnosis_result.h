@@ -23,6 +23,9 @@ void write_diagnosis_result(const std::string& folder, const DiagnosisResult& re
 /// Reads back what write_diagnosis_result() wrote.  @throws ConfigError for another schema or a damaged file.
 DiagnosisResult read_diagnosis_result(const std::string& folder);
 
+/// Where a report keeps its held-out traces: "traces/held_out_1_run.csv".
+std::string held_out_trace_name(std::size_t index, const std::string& recording_file);
+
 /// Columns t [s] and u of the proposed input.
 /// @throws std::runtime_error if the file cannot be written.
 void write_input_csv(const std::string& path, const NextExperiment& experiment);
