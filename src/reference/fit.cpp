@@ -135,7 +135,8 @@ void FitOptions::fields(FieldVisitor& v) {
   v.field({"observer_hz", "Hz", "poles of the observer in the search", 0.01, 1000}, observer_hz);
   v.field({"rejected_hz", "Hz", "poles when the model does not reach the encoder floor", 0.01, 1000},
           rejected_hz);
-  v.field({"rejected_ratio", "", "prediction error in encoder floors above which the model is not the drive", 1, 1e6},
+  v.field({"rejected_ratio", "", "prediction error in encoder floors above which the model is not the drive",
+           1, 1e6},
           rejected_ratio);
   v.field({"loss_width", "rad", "Huber width; 0: plain least squares", 0}, loss_width);
   v.field({"max_condition", "", "condition above which a combination is not identifiable", 1}, max_condition);

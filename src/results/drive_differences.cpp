@@ -102,11 +102,11 @@ void add_misfit(const DriveReport& r, Lines& lines) {
   if (!r.reference || !r.reference->converged()) return;
   const double floors = r.reference->innovation_rmse / r.reference->floor;
   if (floors > kUnexplained)
-    lines.push_back(
-        fmt::format("{}: the model does not explain the recording (prediction error {:.2g} encoder floors): a change "
-                    "of what it lacks "
-                    "moves every number of the reference, and their intervals do not hold that",
-                    r.folder, floors));
+    lines.push_back(fmt::format(
+        "{}: the model does not explain the recording (prediction error {:.2g} encoder floors): a change "
+        "of what it lacks "
+        "moves every number of the reference, and their intervals do not hold that",
+        r.folder, floors));
 }
 
 }  // namespace

@@ -224,7 +224,8 @@ TEST(Commands, TheModelOfADiagnosisRunsUnderTheInputThatWasHeldOut) {
   const std::string held_out = text_of(place.folder() / "at_2.csv"),
                     run = text_of(place.folder() / "model.csv");
   EXPECT_LE(largest_difference(held_out, "u", run, "u"), 1e-12);
-  EXPECT_LE(largest_difference(held_out, "x1", run, "x1"), 0.03);  // of 0.5 rad: the first speed is read off 0.1 s
+  EXPECT_LE(largest_difference(held_out, "x1", run, "x1"),
+            0.03);  // of 0.5 rad: the first speed is read off 0.1 s
 }
 
 TEST(Commands, EffectsAreBareNamesInAPipeAndExplainedOnRequest) {
