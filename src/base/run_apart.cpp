@@ -9,13 +9,17 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <mutex>
+#include <new>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace gapscope {
 namespace {
 
-constexpr unsigned kLongestS = 60;
+constexpr rlim_t kLongestS = 60;
+constexpr int kFailed = 1, kNoMemory = 2;  ///< exit statuses
 
 bool send(int to, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -27,19 +31,21 @@ bool send(int to, std::string_view bytes) {
 }
 
 /// Whatever ends this process: what is said of it is said by the other one, and nothing is left behind.
-void be_silent() {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGALRM}) std::signal(signal, SIG_DFL);
-  constexpr rlimit kNoCore{0, 0};
+void be_a_trial() {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGXCPU}) std::signal(signal, SIG_DFL);
+  constexpr rlimit kNoCore{0, 0}, kTime{kLongestS, kLongestS};
   setrlimit(RLIMIT_CORE, &kNoCore);
+  setrlimit(RLIMIT_CPU, &kTime);
   if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, STDERR_FILENO);
 }
 
 [[noreturn]] void work_and_end(int to, const std::function<std::string()>& work) {
-  be_silent();
-  alarm(kLongestS);
-  int status = 1;
+  be_a_trial();
+  int status = kFailed;
   try {
     if (send(to, work())) status = 0;
+  } catch (const std::bad_alloc&) {
+    status = kNoMemory;
   } catch (...) {
   }
   _exit(status);
@@ -55,21 +61,57 @@ std::string received(int from) {
   return all;
 }
 
+/// One process; it does not outlive its owner.
+class Trial {
+ public:
+  explicit Trial(const std::function<std::string()>& work) {
+    static std::mutex one_at_a_time;  // or another one would inherit the end that is written to
+    const std::lock_guard alone(one_at_a_time);
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe can be made, expected free file handles");
+    from_ = ends[0];
+    child_ = fork();
+    if (child_ == 0) {
+      close(ends[0]);
+      work_and_end(ends[1], work);
+    }
+    close(ends[1]);
+    if (child_ > 0) return;
+    close(from_);
+    throw std::runtime_error("no process can be started, expected room for one more");
+  }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+  ~Trial() {
+    close(from_);
+    if (child_ > 0) kill(child_, SIGKILL), wait();
+  }
+
+  std::string answer() const { return received(from_); }
+
+  /// @returns as waitpid() gives it; nothing if there is no telling
+  std::optional<int> wait() {
+    int status = 0;
+    pid_t ended = 0;
+    while ((ended = waitpid(child_, &status, 0)) < 0 && errno == EINTR) {
+    }
+    return ended == std::exchange(child_, 0) ? std::optional(status) : std::nullopt;
+  }
+
+ private:
+  int from_ = -1;
+  pid_t child_ = 0;
+};
+
 }  // namespace
 
 std::optional<std::string> run_apart(const std::function<std::string()>& work) {
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe can be made, expected free file handles");
-  const pid_t child = fork();
-  if (child == 0) work_and_end(ends[1], work);
-  close(ends[1]);
-  std::string answer = child > 0 ? received(ends[0]) : "";
-  close(ends[0]);
-  if (child < 0) throw std::runtime_error("no process can be started, expected room for one more");
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return {};
+  Trial trial(work);
+  std::string answer = trial.answer();
+  const std::optional<int> status = trial.wait();
+  if (!status || !WIFEXITED(*status)) return {};
+  if (WEXITSTATUS(*status) == kNoMemory) throw std::bad_alloc();
+  if (WEXITSTATUS(*status) != 0) return {};
   return answer;
 }
 

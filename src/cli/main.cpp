@@ -137,6 +137,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, gapscope::cli::on_interrupt);
   std::signal(SIGTERM, gapscope::cli::on_interrupt);
   if (std::signal(SIGHUP, gapscope::cli::on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+  std::signal(SIGCHLD, SIG_DFL);  // who started this may not care how its processes end
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is a write that fails, and says so
   return gapscope::cli::guarded(argc, argv);
 }

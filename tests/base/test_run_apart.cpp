@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <new>
 #include <stdexcept>
 
 #include "gapscope/base/run_apart.h"
@@ -19,6 +20,7 @@ TEST(RunApart, ReturnsWhatTheWorkReturns) {
 TEST(RunApart, OutlivesTheEndOfTheWork) {
   EXPECT_EQ(run_apart([]() -> std::string { throw std::logic_error("no answer"); }), std::nullopt);
   EXPECT_EQ(run_apart([]() -> std::string { std::abort(); }), std::nullopt);
+  EXPECT_THROW(run_apart([]() -> std::string { throw std::bad_alloc(); }), std::bad_alloc);
   EXPECT_EQ(run_apart([] { return std::raise(SIGKILL), std::string("not reached"); }), std::nullopt);
 }
 
