@@ -19,8 +19,9 @@ std::string measures_table(const DiagnosisResult& r) {
     text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, m.unit),
                         quantity(m.after, m.unit), std::isfinite(m.floor) ? quantity(m.floor, m.unit) : "–");
   const MismatchSize& g = r.diagnosis.gap;
-  text += fmt::format("\nThe answer is of the {}. Its floor, {}, is the {}: {}.", g.measure,
-                      quantity(g.floor, r.rotation ? "rad" : "m"), floor_name(g.floor_from), g.floor_of);
+  text += fmt::format("\nThe answer is of the {}. Its floor, {}, is the {}{}{}.", g.measure,
+                      quantity(g.floor, r.rotation ? "rad" : "m"), floor_name(g.floor_from),
+                      g.floor_of.empty() ? "" : ": ", g.floor_of);
   if (std::isfinite(g.shrink)) {
     text += fmt::format(" The error shrinks by {}", rounded(g.shrink));
     if (std::isfinite(g.shrink_ci95.low))

@@ -55,7 +55,7 @@ void fields(Archive& archive, MismatchSize& g) {
                  Words<FloorSource>{{FloorSource::kEncoder, "encoder"},
                                     {FloorSource::kNoise, "noise"},
                                     {FloorSource::kRepeatability, "repeatability"}});
-  archive("floor_of", g.floor_of);
+  archive.addition("floor_of", g.floor_of);
   archive("shrink", g.shrink);
   archive("shrink_ci95", g.shrink_ci95);
   archive("remains_ratio", g.remains);

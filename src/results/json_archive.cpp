@@ -184,6 +184,11 @@ void JsonReader::bound(const char* key, double& value) {
   value = json == "inf" ? kInfinity : json == "-inf" ? -kInfinity : number(json, key);
 }
 
+void JsonReader::addition(const char* key, std::string& value) {
+  value.clear();
+  if (json_.contains(key)) (*this)(key, value);
+}
+
 void JsonReader::configuration(std::string& resolved) {
   resolved.clear();
   if (const Json made = json_.value(kConfiguration, Json()); !made.is_null())

@@ -56,6 +56,9 @@ class JsonWriter {
   /// A bound may be infinite, which is no missing number: "inf" or "-inf".
   void bound(const char* key, double& value);
 
+  /// What files of earlier versions do not have.
+  void addition(const char* key, std::string& value) { (*this)(key, value); }
+
   /// The configuration that a result was made from, as resolved text with its SHA-256; null where there is
   /// none.
   void configuration(std::string& resolved);
@@ -116,6 +119,8 @@ class JsonReader {
   void operator()(const char* key, std::vector<std::string>& values);
   void operator()(const char* key, std::vector<double>& values);
   void bound(const char* key, double& value);
+  void addition(const char* key,
+                std::string& value);          ///< empty in files that were written before it was stored
   void configuration(std::string& resolved);  ///< empty in files that were written before it was stored
 
   /// Refuses the document of another schema.

@@ -13,6 +13,11 @@ void SchemaWriter::bound(const char* key, double&) {
   add(key, {{"anyOf", {type_of(0.0), {{"enum", {"inf", "-inf"}}}}}});
 }
 
+void SchemaWriter::addition(const char* key, std::string& value) {
+  (*this)(key, value);
+  additions_.insert(key);
+}
+
 void SchemaWriter::configuration(std::string& resolved) {
   SchemaWriter made;
   made("resolved", resolved);
@@ -24,7 +29,7 @@ void SchemaWriter::configuration(std::string& resolved) {
 Json SchemaWriter::schema() const {
   Json required = Json::array();
   for (const auto& [key, any] : properties_.items())
-    if (key != kConfiguration) required.push_back(key);
+    if (!additions_.contains(key)) required.push_back(key);
   return {{"type", "object"}, {"properties", properties_}, {"required", required}};
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <set>
+
 #include "results/json_archive.h"
 
 namespace gapscope::internal {
 
 /// The third archive: of a list of fields it makes the JSON schema of what JsonWriter writes. Every key but
-/// the configuration is required; further ones are allowed, as later versions may add some.
+/// the configuration and additions is required; further ones are allowed, as later versions may add some.
 class SchemaWriter {
  public:
   void operator()(const char* key, double&) { add(key, type_of(0.0)); }
@@ -17,6 +19,7 @@ class SchemaWriter {
   void operator()(const char* key, std::vector<std::string>&) { add(key, list_of(type_of(std::string()))); }
   void operator()(const char* key, std::vector<double>&) { add(key, list_of(type_of(0.0))); }
   void bound(const char* key, double&);
+  void addition(const char* key, std::string& value);
   void configuration(std::string&);
 
   template <class Enum>
@@ -70,6 +73,7 @@ class SchemaWriter {
   void add(const char* key, const Json& schema) { properties_[key] = schema; }
 
   Json properties_ = Json::object();
+  std::set<std::string> additions_ = {kConfiguration};  ///< not required
 };
 
 /// The schema of a document that begins with the name of its own ("gapscope.result/1").

@@ -26,7 +26,7 @@ std::string sha256_of_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream bytes;
   if (in.peek() != std::ifstream::traits_type::eof()) bytes << in.rdbuf();
-  if (!in.is_open() || in.bad()) throw ConfigError(path, "cannot be read, expected a file");
+  if (!in.is_open() || in.bad() || bytes.fail()) throw ConfigError(path, "cannot be read, expected a file");
   return sha256(bytes.str());
 }
 

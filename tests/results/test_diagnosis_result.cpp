@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/results/diagnosis_result.h"
@@ -112,6 +113,17 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.traces[0].torque_after, a.traces[0].torque_after);
   EXPECT_EQ(b.traces[0].mode, a.traces[0].mode);
   EXPECT_EQ(b.traces[0].scored_from, 2u);
+}
+
+TEST(DiagnosisResult, IsReadWithoutWhatEarlierVersionsDidNotStore) {
+  ScratchFolder scratch;
+  write_diagnosis_result(scratch.path.string(), sample());
+  const fs::path file = scratch.path / "diagnosis.json";
+  nlohmann::json before = nlohmann::json::parse(std::ifstream(file));
+  before.erase("configuration");
+  ASSERT_EQ(before["gap"].erase("floor_of"), 1u);
+  std::ofstream(file) << before;
+  EXPECT_EQ(read_diagnosis_result(scratch.path.string()).diagnosis.gap.floor_of, "");
 }
 
 TEST(DiagnosisResult, WritesTheSameTextAgain) {
