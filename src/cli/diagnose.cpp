@@ -60,11 +60,12 @@ void check_recordings(const Configuration& c, const Progress& progress, std::vec
 }
 
 /// Under the input of what was held out, which stands in the report; a motion that diverges has left no
-/// trace.
+/// trace there.
 std::string fitted_model(const Configuration& c, const Diagnosis& d, const MotorTrace& recording) {
-  if (d.traces.empty() || d.traces.front().x1.size() < 2) return fitted_yaml(c, d.fitted, recording, "");
+  if (d.traces.empty()) return fitted_yaml(c, d.fitted, recording, "");
   const MismatchTrace& t = d.traces.front();
-  return fitted_yaml(c, d.fitted, {t.file, t.start, t.dt, t.u, t.x1, 0.0}, held_out_trace_name(0, t.file));
+  return fitted_yaml(c, d.fitted, {t.file, t.start, t.dt, t.u, t.x1, recording.quantum},
+                     held_out_trace_name(0, t.file));
 }
 
 void write_outcome(const std::string& folder, const Configuration& c, const DiagnosisResult& result,
@@ -96,6 +97,8 @@ void diagnose_configuration(const Arguments& a) {
   require_known(a.excluded);
   Configuration c = load_configuration(a.config);
   c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
+  std::sort(c.excluded.begin(), c.excluded.end());  // the same question, however it is asked
+  c.excluded.erase(std::unique(c.excluded.begin(), c.excluded.end()), c.excluded.end());
   require_reference_model(c);
   const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
   require_folder_name(folder);

@@ -9,7 +9,9 @@ namespace gapscope {
 namespace {
 
 constexpr std::size_t kLongestName = 90;   ///< of a configuration, before the suffix
-constexpr std::size_t kFirstSamples = 20;  ///< in which the first speed is read
+constexpr std::size_t kFirstSamples = 20;  ///< the first speed is read in so many or more
+constexpr double kReadQuanta = 50.0;       ///< over which it is read, lest it be a toggling count
+constexpr std::size_t kLargestPart = 50;   ///< of the recording for that: one in so many
 
 /// Half the rate at which the input changes its sign, at least one period over the recording.
 double frequency_of(const MotorTrace& recording) {
@@ -44,14 +46,25 @@ SimulationConfig replay_of(const MotorTrace& recording, const std::string& trace
   return s;
 }
 
-/// At the recording's first position and speed (of a parabola through its first samples), the load with the
-/// motor.
-void begin_with(const MotorTrace& recording, SimulationConfig& s) {
-  const std::size_t k = std::min(kFirstSamples, recording.size() - 1) / 2;
+/// Of a parabola through the first samples, as many as it takes to see the encoder move; 0 if it hardly does.
+double first_speed(const MotorTrace& recording) {
   const auto& x = recording.x1;
-  const double w =
-      k == 0 ? 0.0 : (4.0 * x[k] - 3.0 * x[0] - x[2 * k]) / (2.0 * recording.dt * static_cast<double>(k));
-  s.initial = {recording.x1[0], w, recording.x1[0], w};
+  const std::size_t most = std::max(kFirstSamples, recording.size() / kLargestPart) / 2;
+  for (std::size_t k = kFirstSamples / 2; k <= most && 2 * k < x.size(); ++k)
+    if (std::abs(x[2 * k] - x[0]) >= kReadQuanta * recording.quantum)
+      return (4.0 * x[k] - 3.0 * x[0] - x[2 * k]) / (2.0 * recording.dt * static_cast<double>(k));
+  return 0.0;
+}
+
+/// At the recording's first position and speed, the load with the motor; a locked one in the middle of the
+/// play.
+void begin_with(const MotorTrace& recording, const DriveStructure& structure, SimulationConfig& s) {
+  const double x = recording.x1[0], w = first_speed(recording);
+  s.initial = {x, w, x, w};
+  if (structure.load != LoadKind::kLocked) return;
+  const auto [low, high] = std::minmax_element(recording.x1.begin(), recording.x1.end());
+  s.initial.x2 = (*low + *high) / 2.0;
+  s.initial.w2 = 0.0;
 }
 
 void fix(ParameterSetting& p) { p = {p.value, false, kNaN, kNaN, {}}; }
@@ -104,7 +117,7 @@ std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted
   std::string input = "its input";
   if (!c.simulation) {
     c.simulation = trace.empty() ? simulation_of(recording) : replay_of(recording, trace);
-    begin_with(recording, *c.simulation);
+    begin_with(recording, c.model.structure, *c.simulation);
     input = (trace.empty() ? "a sine like the input of " : "the input of ") + shown(recording.file);
   }
   set_plant(c);
