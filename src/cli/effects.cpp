@@ -1,7 +1,6 @@
 // `effects`: the catalogue of unmodelled effects.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <memory>
 
@@ -43,18 +42,19 @@ void add_effects(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("effects", "Lists the effects that a model or a simulation can have");
   command->add_flag("--json", *json, "with side, law, parameters and units, and look-alikes");
-  command->add_flag("--laws", *laws, "each with its side and its law, as on a terminal")->excludes("--json");
+  command
+      ->add_flag("--laws", *laws,
+                 "each with what it acts on (command, motor, contact, load, sensor) and its law")
+      ->excludes("--json");
   command->footer(
-      "On a terminal one line each: identifier, what it acts on (command, motor, contact, load, sensor) and "
-      "its\n"
-      "law; x1, w1 are angle and speed of the motor, x2, w2 of the load, u is the input. Into a pipe or a "
-      "file\n"
-      "go the identifiers alone. In a configuration: effects: [{cogging_torque: {amplitude_nm: 0.004,\n"
+      "One identifier a line. In a law x1, w1 are angle and speed of the motor, x2, w2 of the load, u is the "
+      "input.\n"
+      "In a configuration: effects: [{cogging_torque: {amplitude_nm: 0.004,\n"
       "periods_per_turn: 24}}], under model: (known effects) or simulation: model: (the true plant).\n\n"
-      "Example: gapscope effects --json");
+      "Example: gapscope effects --laws");
   command->callback([json, laws] {
     if (*json) return print_json();
-    if (*laws || isatty(STDOUT_FILENO) != 0) return print_laws();
+    if (*laws) return print_laws();
     for (const EffectEntry* e : effect_table()) fmt::print("{}\n", e->name);
   });
 }
