@@ -50,7 +50,7 @@ constexpr Word kWords[] = {
      "large "
      "errors cannot decide: 1 at the floor, below 0 worse than without; candidates are ranked by it, but a "
      "simple effect goes before one that contains it"},
-    {"windows better", "windows better",
+    {"| windows better |", "windows better",
      "share of the held-out windows (half a second each, or less) above the floor in which its free run errs "
      "less"},
     {"the catalogue lacks", "the catalogue lacks it",

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/wording.h"
+
 namespace gapscope::internal {
 namespace {
 
@@ -37,7 +39,7 @@ std::vector<Place> log_places(const Interval& range, std::initializer_list<doubl
     for (const double m : multiples) {
       const double at = decade + std::log10(m);
       if (at >= range.low && at <= range.high)
-        places.push_back({at, fmt::format("{:g}", m * std::pow(10.0, decade))});
+        places.push_back({at, typeset(fmt::format("{:g}", m * std::pow(10.0, decade)))});
     }
   return places;
 }

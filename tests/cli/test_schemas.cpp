@@ -41,8 +41,9 @@ TEST(Schemas, AreThoseThatArePublished) {
 
 TEST(Schemas, TheKeptReportsAreValid) {
   std::string files;
-  for (const auto& entry : fs::recursive_directory_iterator(kSource / "reports"))
-    if (entry.path().extension() == ".json") files += entry.path().string() + " ";
+  for (const char* kept :
+       {"04_sampling_resolution/campaign.json", "05_estimators/campaign.json", "blind/blind.json"})
+    files += (kSource / "reports" / kept).string() + " ";
   Workplace place;
   const std::string said = judged(place, files);
   GAPSCOPE_NEEDS_VALIDATOR(said);
