@@ -83,7 +83,8 @@ std::string resolved_reading(const Configuration& configuration);
 
 /// A fitted model as a configuration that `simulate` runs: every number known, its effects included. The
 /// excitation is that of the configuration where it simulates, else that of the trace named here (columns t_s
-/// and u), from the recording's first position and speed, both bodies alike.
+/// and u), from the recording's first position and speed, both bodies alike; a
+/// locked load stands in the middle of the recorded positions.
 /// @param recording what the trace holds
 /// @param trace     relative to where the text will be stored; empty: a sine of the recording's peak and most
 ///                  frequent zero crossings instead
