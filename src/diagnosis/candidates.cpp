@@ -50,10 +50,24 @@ std::vector<double> point_of(const FitProblem& problem, ReferenceModel values) {
   return q;
 }
 
+/// Keys of the last effect's parameters that have ended at a bound.
+std::vector<std::string> at_bounds(const ReferenceModel& model, const FitProblem& problem,
+                                   const Solution& at) {
+  std::vector<std::string> keys;
+  if (model.effects.empty()) return keys;
+  const EffectEntry& last = *model.effects.back().entry;
+  const int first = kDriveParameterCount + static_cast<int>(model.effects.size() - 1) * kMostEffectParameters;
+  for (std::size_t i = 0; i < problem.free_count(); ++i)
+    if (const Parameter& p = problem.free_parameter(i); p.number >= first && p.at_bound(at.q[i]))
+      keys.emplace_back(last.parameters[static_cast<std::size_t>(p.number - first)].key);
+  return keys;
+}
+
 Fitted fitted_of(const ReferenceModel& model, const FitProblem& problem, const Solution& best) {
   const auto is_number = [](double q) { return std::isfinite(q); };
-  if (!best.usable() || !std::all_of(best.q.begin(), best.q.end(), is_number)) return {model, {}, kInfinity};
-  return {with_values(model, problem, best), best.starts, best.mean_square};
+  if (!best.usable() || !std::all_of(best.q.begin(), best.q.end(), is_number))
+    return {model, {}, kInfinity, {}};
+  return {with_values(model, problem, best), best.starts, best.mean_square, at_bounds(model, problem, best)};
 }
 
 /// Refined, with the loads' places at the beginning of the recordings chosen before and after.
@@ -259,7 +273,7 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
     if (found.mean_square < kFurther * best.mean_square) best = std::move(found);
   };
   for (const ReferenceModel& values : {candidate.model, moved, with_drive(candidate.model, sheet)})
-    take(refined(train, {values, candidate.starts, kInfinity}, options, hz));
+    take(refined(train, {values, candidate.starts, kInfinity, {}}, options, hz));
   if (!(best.mean_square < kFloorSquare) && hz < kFastHz)
     take(led_by_faster_observer(train, candidate, options, hz));
   return best;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "diagnosis/adjust.h"
@@ -13,7 +14,8 @@ namespace gapscope::internal {
 struct Fitted {
   FittedModel model;
   std::vector<RecordingStart> starts;
-  double mean_square = kInfinity;  ///< of the innovations [floor²]
+  double mean_square = kInfinity;     ///< of the innovations [floor²]
+  std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
 };
 
 /// The nominal model, from the given values and, where needed, others.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/statistics.h"
+
 namespace gapscope::internal {
 namespace {
 
@@ -18,7 +20,7 @@ const MapShare& largest(const std::vector<MapShare>& map) {
 }
 
 /// The bin with most of the error; of modes the one where it is densest, if that is clear.
-std::string mode_words(const std::vector<MapShare>& mode) {
+std::string mode_words(const std::vector<MapShare>& mode, bool rotation) {
   const MapShare* chosen = &largest(mode);
   for (const MapShare& m : mode)
     if (m.expected > 0.0 && m.share > 0.2 && m.share / m.expected > kDense &&
@@ -28,8 +30,8 @@ std::string mode_words(const std::vector<MapShare>& mode) {
   const char* const where = chosen->bin == "impact" ? "at impacts"
                             : chosen->bin == "gap"  ? "in the gap"
                                                     : "in engagement";
-  return fmt::format("{} ({:.0f} % of the squared residual torque in {:.0f} % of the time)", where,
-                     100.0 * chosen->share, 100.0 * chosen->expected);
+  return fmt::format("{} ({:.0f} % of the squared residual {} in {:.0f} % of the time)", where,
+                     100.0 * chosen->share, rotation ? "torque" : "force", 100.0 * chosen->expected);
 }
 
 std::string direction_words(const std::vector<MapShare>& direction) {
@@ -40,12 +42,19 @@ std::string direction_words(const std::vector<MapShare>& direction) {
   return "following the direction of motion, in both directions";
 }
 
-std::string pattern_words(Pattern pattern, const MismatchPlace& p) {
+std::string angle_words(const MismatchPlace& p, bool rotation) {
+  const char* const along = rotation ? "motor angle" : "motor position";
+  if (!std::isfinite(p.periods_per_turn))
+    return fmt::format("along the {}, most at {}", along, largest(p.angle).bin);
+  if (!rotation)
+    return fmt::format("periodic in the motor position, every {:.4g} m", 2.0 * kPi / p.periods_per_turn);
+  return fmt::format("periodic in the motor angle with {:.3g} cycles per turn", p.periods_per_turn);
+}
+
+std::string pattern_words(Pattern pattern, const MismatchPlace& p, bool rotation) {
   switch (pattern) {
     case Pattern::kAngle:
-      return std::isfinite(p.periods_per_turn)
-                 ? fmt::format("periodic in the motor angle with {:.3g} cycles per turn", p.periods_per_turn)
-                 : fmt::format("along the motor angle, most at {}", largest(p.angle).bin);
+      return angle_words(p, rotation);
     case Pattern::kDirection:
       return direction_words(p.direction);
     case Pattern::kSpeed:
@@ -90,8 +99,8 @@ double cycles_of(const ModelEffect& effect) {
 }
 
 std::string headline_of(const MismatchPlace& place, const std::vector<PatternStrength>& patterns,
-                        const ModelEffect* effect) {
-  std::string text = mode_words(place.mode);
+                        const ModelEffect* effect, bool rotation) {
+  std::string text = mode_words(place.mode, rotation);
   const auto add = [&text](const std::string& words) {
     text += text.empty() || words.empty() ? words : ", " + words;
   };
@@ -103,7 +112,7 @@ std::string headline_of(const MismatchPlace& place, const std::vector<PatternStr
   if (strongest != patterns.end() && strongest->strength > kWorthNaming &&
       std::find(named.begin(), named.end(), strongest->pattern) == named.end())
     named.push_back(strongest->pattern);
-  for (const Pattern pattern : named) add(pattern_words(pattern, place));
+  for (const Pattern pattern : named) add(pattern_words(pattern, place, rotation));
   if (named.empty()) add("in both directions, without a clear order in angle, speed, input or time");
   return text;
 }

@@ -26,6 +26,6 @@ double cycles_of(const ModelEffect& effect);
 /// The place of a mismatch in words: the mode where it is densest, and what it follows. The pattern of an
 /// effect that was found is always named.
 std::string headline_of(const MismatchPlace& place, const std::vector<PatternStrength>& patterns,
-                        const ModelEffect* effect);
+                        const ModelEffect* effect, bool rotation);
 
 }  // namespace gapscope::internal

@@ -14,7 +14,6 @@ constexpr double kLeastRatio = 1.3;   ///< a gap smaller than this many floors h
 constexpr double kTemperature = 0.3;  ///< of the softmax over S
 constexpr double kSmaller = 3.0, kMore = 3.0, kLess = 4.0, kSpread = 0.5, kBelow = 1.5;  ///< see below
 constexpr double kNearFloor = 6.0;  ///< floors within which what is left may be none on another recording
-constexpr double kFlatters = 0.15;  ///< change of a log mean that counts
 
 /// √ of the variance that white noise of variance 1 leaves in the innovations of an observer on a free mass:
 /// (1 − z⁻¹)²/(1 − p z⁻¹)².
@@ -125,15 +124,6 @@ double weight_of(const Judged& candidate, const Judged& best) {
   return std::isfinite(candidate.score)
              ? std::exp(-std::max(0.0, candidate.score - best.score) / kTemperature)
              : 0.0;
-}
-
-std::string remark_on(const Judged& c, const Judged& before) {
-  if (!std::isfinite(c.score)) return "the motion with it diverges";
-  const double innovation = mean_log(c.windows.innovation) - mean_log(before.windows.innovation);
-  const double free = mean_log(c.windows.free) - mean_log(before.windows.free);
-  if (innovation < -kFlatters && free > kFlatters) return "flatters the predictions, spoils the free runs";
-  if (free < -kFlatters && innovation > kFlatters) return "flatters the free runs, spoils the predictions";
-  return "";
 }
 
 }  // namespace gapscope::internal

@@ -23,7 +23,4 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
 /// Weight of a candidate against the best one: exp(−ΔS/T).
 double weight_of(const Judged& candidate, const Judged& best);
 
-/// Why a candidate that helps in one measure is not to be trusted; empty if nothing speaks against it.
-std::string remark_on(const Judged& candidate, const Judged& before);
-
 }  // namespace gapscope::internal

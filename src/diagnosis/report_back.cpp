@@ -9,6 +9,7 @@
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/periodic_torque.h"
 #include "diagnosis/probability.h"
+#include "diagnosis/remark.h"
 #include "diagnosis/where.h"
 #include "diagnosis/words.h"
 

@@ -66,6 +66,7 @@ Fitted with_quantum(Fitted nominal, const EffectEntry& entry, double quantum) {
   effect.entry = &entry;
   effect.parameters[0].value = quantum;
   nominal.model.effects.push_back(effect);
+  nominal.at_bound.clear();
   return nominal;
 }
 

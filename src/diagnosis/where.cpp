@@ -180,7 +180,7 @@ MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& he
   const double line_explained = lines.empty() ? 0.0 : lines.front().explained;
   if (line_explained > kLine) place.periods_per_turn = lines.front().periods;
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
-  place.headline = headline_of(place, patterns_of(samples, place, line_explained), effect);
+  place.headline = headline_of(place, patterns_of(samples, place, line_explained), effect, rotation);
   return place;
 }
 

@@ -123,10 +123,11 @@ Finding check_repeats(const Material& m, RecordingFacts& facts) {
         "diagnosis", Severity::kFine,
         fmt::format("u repeats itself every {:.4g} s: how well the drive does so too is measured", period),
         ""};
-  return {"diagnosis", Severity::kNote,
-          "u does not repeat itself three times: a diagnosis can only judge by the encoder, and a real drive "
-          "repeats worse",
-          "record three periods of one input, or the same input again for recording: held_out"};
+  return {
+      "diagnosis", Severity::kNote,
+      "u does not repeat itself three times: a diagnosis judges by the encoder, or by few repetitions, and a "
+      "real drive repeats worse than its encoder reads",
+      "record three periods of one input, or the same input again for recording: held_out"};
 }
 
 }  // namespace gapscope::internal

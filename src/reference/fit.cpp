@@ -16,21 +16,14 @@ namespace gapscope {
 namespace internal {
 namespace {
 
-/// Free run over x1's own size: a model that lacks friction drifts as far as the drive moves.
-constexpr double kWorseThanStill = 1.3;
-
-bool at_bound(const Parameter& p, double q) {
-  const double low = p.coordinate.solver(p.low), high = p.coordinate.solver(p.high);
-  const double near = 1e-6 * (high - low);
-  return q <= low + near || q >= high - near;
-}
+constexpr double kWorseThanStill = 1.3;  ///< free-run error over that of a motor that stood still
 
 FittedParameter fitted(const Parameter& p, const Determined& determined, double q, std::size_t i) {
   FittedParameter f;
   f.key = p.key, f.unit = p.unit, f.start = p.start, f.estimated = true;
   f.value = p.coordinate.physical(q);
   f.low = p.low, f.high = p.high;
-  f.at_bound = at_bound(p, q);
+  f.at_bound = p.at_bound(q);
   f.identifiable = determined.identifiable[i];
   f.std = determined.std[i];
   const double half = determined.quantile * f.std;
@@ -78,12 +71,12 @@ void report_motion(const FitProblem& problem, const Outcome& outcome, FitSummary
     summary.initial_states.push_back({problem.recordings[r].file, start_state(problem, outcome.solution, r)});
   }
   summary.rmse = free_run_error(problem, summary.traces);
-  if (const double still = rms_of_motion(problem); summary.rmse > kWorseThanStill * still)
+  if (const double ratio = error_over_stillness(problem, summary.traces); ratio > kWorseThanStill)
     summary.warnings.insert(
         summary.warnings.begin(),
-        fmt::format("the free run misses x1 by {:.3g} times what a motor that stood still would: "
+        fmt::format("the free run misses the motion by {:.3g} times what a motor that stood still would: "
                     "look at the sign and the unit of u first (gapscope check).",
-                    summary.rmse / still));
+                    ratio));
   summary.innovation_rmse = prediction_error(problem, summary.traces);
   summary.mode_errors = errors_by_mode(problem, summary.traces);
   test_residuals(problem, outcome.objective_hz == 0.0, summary);

@@ -177,6 +177,12 @@ void add_effects(FitProblem& problem, const ReferenceModel& model, const ScaleCo
 
 }  // namespace
 
+bool Parameter::at_bound(double q) const {
+  const double least = coordinate.solver(low), most = coordinate.solver(high);
+  const double near = 1e-6 * (most - least);
+  return q <= least + near || q >= most - near;
+}
+
 std::vector<int> FitProblem::free_states(const RecordingStart& start, bool free_run) const {
   std::vector<int> states;
   if (free_run) states.push_back(0);  // an observer has corrected it after a few samples

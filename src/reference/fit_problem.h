@@ -27,6 +27,9 @@ struct Parameter {
   bool given = true;  ///< false: the start was derived from the recordings
   std::optional<Prior> prior;
   Coordinate coordinate;
+
+  /// @param q in solver units
+  bool at_bound(double q) const;
 };
 
 /// Where the load may be at the first sample, relative to the motor.

@@ -1,5 +1,6 @@
 #include "reference/free_run.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
@@ -7,6 +8,8 @@
 
 namespace gapscope::internal {
 namespace {
+
+constexpr std::size_t kParts = 100;  ///< of a recording, in which the way is compared
 
 Mode mode_of(const DriveStepper<double>& stepper) {
   if (stepper.closed_in_last_step()) return Mode::kImpact;
@@ -62,14 +65,21 @@ double prediction_error(const FitProblem& problem, const std::vector<FitTrace>& 
   return error(problem, traces, &FitTrace::predicted_x1);
 }
 
-double rms_of_motion(const FitProblem& problem) {
-  double sum = 0.0, count = 0.0;
-  for (const MotorTrace& t : problem.recordings) {
-    const double center = mean(t.x1);
-    for (const double x : t.x1) sum += (x - center) * (x - center);
-    count += static_cast<double>(t.size());
+double error_over_stillness(const FitProblem& problem, const std::vector<FitTrace>& traces) {
+  double missed = 0.0, moved = 0.0, missed_ways = 0.0, ways = 0.0;
+  for (std::size_t r = 0; r < traces.size(); ++r) {
+    const std::span<const double> x = problem.recordings[r].x1;
+    const std::vector<double>& run = traces[r].x1;
+    const double center = mean(x);
+    const std::size_t part = std::max<std::size_t>(1, x.size() / kParts);
+    for (std::size_t i = 0; i < run.size(); ++i)
+      missed += std::pow(x[i] - run[i], 2), moved += std::pow(x[i] - center, 2);
+    for (std::size_t i = part; i < run.size(); ++i) {
+      const double way = x[i] - x[i - part];
+      missed_ways += std::pow(way - (run[i] - run[i - part]), 2), ways += way * way;
+    }
   }
-  return std::sqrt(sum / count);
+  return std::sqrt(std::min(missed / moved, missed_ways / ways));
 }
 
 std::vector<ModeError> errors_by_mode(const FitProblem& problem, const std::vector<FitTrace>& traces) {

@@ -18,8 +18,9 @@ FitTrace trace_of(const FitProblem& problem, const Solution& at, std::size_t r, 
 double free_run_error(const FitProblem& problem, const std::vector<FitTrace>& traces);
 double prediction_error(const FitProblem& problem, const std::vector<FitTrace>& traces);
 
-/// Root mean square of x1 about the mean of each recording, over all recordings [rad].
-double rms_of_motion(const FitProblem& problem);
+/// Free-run error over that of a motor that stood still, the smaller of two: of x1, and of the way made in a
+/// hundredth of each recording, since a free run drifts far from a closed loop although it moves alike.
+double error_over_stillness(const FitProblem& problem, const std::vector<FitTrace>& traces);
 
 /// Free-run error in each mode of the fitted model that occurs.
 std::vector<ModeError> errors_by_mode(const FitProblem& problem, const std::vector<FitTrace>& traces);

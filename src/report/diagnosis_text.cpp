@@ -35,9 +35,13 @@ std::string measures_table(const DiagnosisResult& r) {
 
 std::string parameters_of(const RankedEffect& e, bool rotation) {
   std::vector<std::string> parts;
-  for (const NamedValue& p : e.parameters)
-    parts.push_back(fmt::format("{} {}{}", p.key, rounded(p.value, 4),
-                                p.unit == "-" ? "" : " " + shown_unit(p.unit, rotation)));
+  for (const NamedValue& p : e.parameters) {
+    const bool phase = p.key == "phase_rad";  // an angle on a linear axis, too
+    const std::string unit = shown_unit(p.unit, rotation || phase);
+    parts.push_back(fmt::format("{} {}{}", p.key, rounded(p.value, 4), unit.empty() ? "" : " " + unit));
+    if (!rotation && p.key == "periods_per_turn")
+      parts.back() = "a period of " + quantity(2.0 * kPi / p.value, "m");
+  }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -96,15 +100,18 @@ std::string steps_table(const DiagnosisResult& r) {
 std::string periodic_table(const DiagnosisResult& r) {
   if (r.diagnosis.periodic.empty()) return "";
   const std::string angle = r.rotation ? "rad" : "m", torque = r.rotation ? "N·m" : "N";
-  std::string text =
-      "\n## " + std::string(r.rotation ? "Torque" : "Force") +
-      " that repeats with the position\n\nIn what the model leaves with all that was added. "
-      "Listed, not added: `cogging_torque` and `torque_ripple` are candidates like any other.\n\n| period | "
-      "cycles per turn | amplitude | over neighbouring periods | held-out windows better | holds there "
-      "|\n|---|---|---|---|---|---|\n";
+  std::string text = "\n## " + std::string(r.rotation ? "Torque" : "Force") +
+                     " that repeats with the position\n\nIn what the model leaves with all that was added. "
+                     "Listed, not added: `cogging_torque` and `torque_ripple` are candidates of every step, "
+                     "which start at the "
+                     "strongest lines and at given periods.\n\n| period | " +
+                     (r.rotation ? "cycles per turn | " : "") +
+                     "amplitude | over neighbouring periods | held-out windows better | holds there "
+                     "|\n|---|---|---|---|---|" +
+                     (r.rotation ? "---|\n" : "\n");
   for (const PeriodicTorque& p : r.diagnosis.periodic)
-    text += fmt::format("| {} | {} | {} | {} | {} of {} | {} |\n", quantity(p.period, angle),
-                        r.rotation ? rounded(p.periods_per_turn) : "–", quantity(p.amplitude, torque),
+    text += fmt::format("| {} | {}{} | {} | {} of {} | {} |\n", quantity(p.period, angle),
+                        r.rotation ? rounded(p.periods_per_turn) + " | " : "", quantity(p.amplitude, torque),
                         p.given ? "given" : rounded(p.stands_out) + " times", p.better, p.windows,
                         p.holds ? "yes" : "no");
   return text;

@@ -30,20 +30,30 @@ std::string parameter_row(const FittedParameter& p, bool rotation) {
                      remark);
 }
 
+/// The gap, or what the verdict says instead.
+std::string read_gap(const GapEstimate& g, const std::string& unit) {
+  if (g.verdict == GapVerdict::kBacklash) return quantity(g.gap, unit);
+  if (g.verdict == GapVerdict::kNone) return "none above " + quantity(g.smallest_visible_gap, unit);
+  return "inconclusive";
+}
+
 std::string estimate_rows(const RunResult& run) {
   const std::string unit = position_unit(run);
   std::string text = "| backlash gap 2β | value | 95 % interval | needed to know |\n|---|---|---|---|\n";
   int rows = 0;
-  const auto row = [&](const std::string& name, double value, const Interval& ci, const std::string& needed) {
+  const auto told = [&](const std::string& name, const std::string& value, const Interval& ci,
+                        const std::string& needed) {
     ++rows;
-    text +=
-        fmt::format("| {} | {} | {} | {} |\n", name, quantity(value, unit), interval_text(ci, unit), needed);
+    text += fmt::format("| {} | {} | {} | {} |\n", name, value, interval_text(ci, unit), needed);
+  };
+  const auto row = [&](const std::string& name, double value, const Interval& ci, const std::string& needed) {
+    told(name, quantity(value, unit), ci, needed);
   };
   if (run.model_free) {
     const GapEstimate& g = *run.model_free;
     const bool play = g.quantity == GapQuantity::kPlayAtZeroTorque;
-    row(play ? "model-free (play at zero torque)" : "model-free", g.gap, g.ci95,
-        g.method == GapMethod::kLostMotion ? "motor position and torque" : "motor position");
+    told(play ? "model-free (play at zero torque)" : "model-free", read_gap(g, unit), g.ci95,
+         g.method == GapMethod::kLostMotion ? "motor position and torque" : "motor position");
   }
   if (const FittedParameter* gap = parameter(run, "gap"))
     row("model-based reference", gap->value, gap->ci95,

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "gapscope/base/errors.h"
 #include "gapscope/results/drive_changes.h"
 #include "gapscope/results/run_result.h"
 
@@ -41,6 +43,9 @@ Excited excited(const Recording& r) {
 }  // namespace
 
 DriveReport read_drive_report(const std::string& folder) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(folder + "/result.json") && fs::exists(folder + "/diagnosis.json"))
+    throw ConfigError(folder, "holds a diagnosis alone, expected a result of run, detect or fit to compare");
   RunResult run = read_run_result(folder);
   DriveReport report;
   report.folder = folder;

@@ -55,6 +55,10 @@ TEST(Compare, AGapThatGrewIsToldAndOneThatDidNotIsNot) {
   const auto into = place.run("compare reports/march reports/june -o reports/june/");
   EXPECT_EQ(into.status, 2);
   EXPECT_THAT(into.err, StartsWith("reports/june/: is one of the reports itself, expected"));
+  place.file("reports/july/diagnosis.json", "{}");
+  const auto diagnosed = place.run("compare reports/march reports/july -o other");
+  EXPECT_EQ(diagnosed.status, 2);
+  EXPECT_THAT(diagnosed.err, StartsWith("reports/july: holds a diagnosis alone, expected a result of run"));
   place.file("reports/june/result.json", "{\"schema\": \"gapscope.result/1\", ");
   const auto damaged = place.run("compare reports/march reports/june -o other");
   EXPECT_EQ(damaged.status, 2);

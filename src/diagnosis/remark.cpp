@@ -1,0 +1,32 @@
+#include "diagnosis/remark.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace gapscope::internal {
+namespace {
+
+constexpr double kFlatters = 0.15;  ///< change of a log mean that counts
+constexpr double kNothing = 0.005;  ///< change of both log means that is none
+
+std::string words_on(double innovation, double free) {
+  if (innovation < -kFlatters && free > kFlatters) return "flatters the predictions, spoils the free runs";
+  if (free < -kFlatters && innovation > kFlatters) return "flatters the free runs, spoils the predictions";
+  if (std::abs(free) < kNothing && std::abs(innovation) < kNothing) return "as without it";
+  return "";
+}
+
+}  // namespace
+
+std::string remark_on(const Judged& c, const Judged& before) {
+  if (!std::isfinite(c.score)) return "the motion with it diverges";
+  const std::string words = words_on(mean_log(c.windows.innovation) - mean_log(before.windows.innovation),
+                                     mean_log(c.windows.free) - mean_log(before.windows.free));
+  if (c.fitted.at_bound.empty()) return words;
+  return fmt::format("{}{}{} at a bound", words, words.empty() ? "" : "; ",
+                     fmt::join(c.fitted.at_bound, ", "));
+}
+
+}  // namespace gapscope::internal
