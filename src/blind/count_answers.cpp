@@ -82,7 +82,7 @@ std::vector<BlindCount> count_answers(const Cases& cases) {
       "two effects: these and no other", cases, seen_pair, [](const Scored& s) { return s.right(); }, 0.75));
   counts.push_back(count(
       "two effects: a wrong one among those named", cases, seen_pair,
-      [](const Scored& s) { return s.answer->effects.size() > s.found(); }, 0.1, true));
+      [](const Scored& s) { return s.standing() > s.found(); }, 0.1, true));
   std::erase_if(counts, [](const BlindCount& c) { return c.of == 0; });
   return counts;
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "blind/scored.h"
+#include "diagnosis/effect_starts.h"
 #include "gapscope/plant/effect.h"
 
 namespace gapscope {
@@ -42,7 +43,18 @@ std::size_t Scored::found() const {
 bool Scored::right() const {
   if (none()) return answer->verdict == "none";
   if (outside()) return answer->verdict == "unknown";
-  return blamed() && found() == label->effects.size() && answer->effects.size() == found();
+  return blamed() && found() == label->effects.size() && standing() == found();
+}
+
+std::size_t Scored::standing() const {
+  const auto& names = answer->effects;
+  return static_cast<std::size_t>(std::count_if(names.begin(), names.end(), [&](const std::string& name) {
+    return std::none_of(names.begin(), names.end(), [&](const std::string& other) {
+      const EffectEntry* later = find_effect(other);  // a stored answer may name anything
+      const EffectEntry* contained = later == nullptr ? nullptr : internal::nested_parent(*later);
+      return contained != nullptr && contained == find_effect(name);
+    });
+  }));
 }
 
 std::size_t Scored::place() const {

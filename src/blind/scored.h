@@ -25,6 +25,9 @@ struct Scored {
   bool wrong() const { return blamed() && !holds(label->effects.front()); }
   bool right() const;  ///< all truths and nothing else; unknown where the truth is outside the catalogue
   std::size_t found() const;  ///< how many of the truths are named
+  /// How many effects the final model has: one whose law a later one contains, as Stribeck friction contains
+  /// Coulomb's, has given it its place.
+  std::size_t standing() const;
   std::size_t place() const;  ///< of the truth in the ranking, 0 is first
 };
 

@@ -42,7 +42,7 @@ const std::map<std::string_view, Starts>& table() {
       {"presliding_friction", {{0.05, 0.02, 0.001}, {0.15, 0.03, 0.003}, {0.1, 0.01, 0.001}}},
       {"quadratic_drag", {{0.1}, {0.4}}},
       {"shaft_compliance", {{0.5}, {2.0}}},
-      {"stribeck_friction", {{0.05, 0.8, 0.1}, {0.1, 0.8, 0.25}}},
+      {"stribeck_friction", {{0.05, 0.8, 0.1, 1.5}, {0.1, 0.8, 0.25, 1.5}}},
       {"torque_ripple", {{0.1, kNaN, kNaN}}},
       {"torque_saturation", {{1.0, 3.0}, {2.5, 3.0}}},
       {"viscous_drift", {{0.4, 0.4}, {-0.3, 0.4}}},

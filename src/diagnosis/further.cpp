@@ -19,6 +19,7 @@ constexpr double kStandIn = 0.15;               ///< S that an earlier effect mu
 constexpr double kLaterGain = 0.5;     ///< S of a later step that stays far from the floor for an earlier law
 constexpr double kLaterWindows = 0.8;  ///< share of the windows that it improves
 constexpr double kLaterMargin = 0.5;   ///< S by which it beats all others
+constexpr double kRefinedGain = 0.3;   ///< S of a law that contains an earlier one's, also over all others
 constexpr double kFitCollapses = 0.1;  ///< of the mean square that was fitted: then fewer windows will do
 constexpr double kAskedFor = 0.85;     ///< of the mean square that was fitted
 constexpr double kMuchOfTheWay = 0.4;  ///< share of the log distance to the floor that makes up for an unsure
@@ -53,7 +54,8 @@ FurtherStep next_step(const Study& study, const Judged& model) {
   if (study.repeats_badly() || step.candidates.empty()) return step;
   Decision& d = step.decision;
   d.probability = later_probability(d.rel, d.margin, d.gain);
-  d.accepted = d.accepted || clearly_better(step.before, step.candidates.front(), d);
+  d.accepted = d.accepted || clearly_better(step.before, step.candidates.front(), d) ||
+               refines(step.before, step.candidates.front(), d);
   return step;
 }
 
@@ -140,6 +142,13 @@ bool clearly_better(const Judged& before, const Judged& best, const Decision& d)
   const double left = best.fitted.mean_square / before.fitted.mean_square;
   const double windows = left < kFitCollapses ? kWorthFollowingWindows : kLaterWindows;
   return d.gain >= kLaterGain && d.windows_better >= windows && d.margin >= kLaterMargin && left < kAskedFor;
+}
+
+bool refines(const Judged& before, const Judged& best, const Decision& d) {
+  const EffectEntry* contained = nested_parent(*best.entry);
+  return contained != nullptr && contains(before.fitted.model, contained) && d.gain >= kRefinedGain &&
+         d.margin >= kRefinedGain && d.windows_better >= kWorthFollowingWindows &&
+         best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
 }
 
 bool borne_out(const Judged& before, const Additions& a) {

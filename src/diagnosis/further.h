@@ -55,6 +55,10 @@ std::vector<const Judged*> branches(const Findings& found);
 /// another than the real one's and keeps it away.
 bool clearly_better(const Judged& before, const Judged& best, const Decision& decision);
 
+/// Whether an effect of the model should have the more general law that contains it, as Stribeck friction
+/// contains Coulomb's: no new cause, so how far it leads to the floor does not matter.
+bool refines(const Judged& before, const Judged& best, const Decision& decision);
+
 /// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
 /// themselves and come far towards it, or leave little of the free runs' size. A first step that is there
 /// alone has been decided upon.

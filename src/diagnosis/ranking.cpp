@@ -39,6 +39,17 @@ bool leaves_a_part(const Judged& after, const Judged& before) {
          after.median_free - 1.0 > kTrace * (before.median_free - 1.0);
 }
 
+/// Of the windows above the floor; NaN where none is.
+double share_better(const std::vector<double>& before, const std::vector<double>& after) {
+  double above = 0.0, better = 0.0;
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    if (before[i] < kExplained) continue;
+    above += 1.0;
+    better += after[i] < before[i] ? 1.0 : 0.0;
+  }
+  return above > 0.0 ? better / above : kNaN;
+}
+
 }  // namespace
 
 bool look_alike(const EffectEntry& a, const EffectEntry& b) {
@@ -69,13 +80,8 @@ double relative_gain(const Judged& before, const Judged& after) {
 
 double share_of_windows_better(const Judged& before, const Judged& after) {
   if (after.windows.free.empty()) return after.windows_better;
-  double above = 0.0, better = 0.0;
-  for (std::size_t i = 0; i < std::min(before.windows.free.size(), after.windows.free.size()); ++i) {
-    if (before.windows.free[i] < kExplained) continue;
-    above += 1.0;
-    better += after.windows.free[i] < before.windows.free[i] ? 1.0 : 0.0;
-  }
-  return above > 0.0 ? better / above : kNaN;
+  const double free = share_better(before.windows.free, after.windows.free);
+  return std::isnan(free) ? share_better(before.windows.innovation, after.windows.innovation) : free;
 }
 
 void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_badly) {

@@ -62,6 +62,7 @@ Decision decide_alone(const std::vector<Judged>& ranked, const Judged& before, b
                       std::span<const Judged> excluded_parents);
 
 double relative_gain(const Judged& before, const Judged& after);
+/// Of the free runs above the floor; of the innovations where none is.
 double share_of_windows_better(const Judged& before, const Judged& after);
 
 }  // namespace gapscope::internal

@@ -232,7 +232,7 @@ TEST(Commands, EffectsAreBareNamesInAPipeAndExplainedOnRequest) {
   const Workplace place;
   EXPECT_THAT(place.run("effects").out, ::testing::StartsWith("actuator_lag\nbacklash\n"));
   EXPECT_THAT(place.run("effects --laws").out,
-              HasSubstr("\ncogging_torque          motor    motor torque -A sin"));
+              HasSubstr("\ncogging_torque          motor    motor torque -A (sin"));
   EXPECT_EQ(place.run("effects --laws --json").status, 2);
 }
 

@@ -139,11 +139,13 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
   row.details += fmt::format("after {:.3g}/{:.3g}{}", a.after.median_free, a.after.median_innovation,
                              a.explained ? ", explained together" : "");
   row.shrink = shrink_of(f.before.median_free, a.after.median_free);
+  std::vector<Addition> standing = a.effects;  // Coulomb friction gives its place to Stribeck's, which has it
+  std::erase_if(standing, [&](const Addition& e) { return !contains(a.after.fitted.model, e.entry); });
   Names found;
-  for (const Addition& e : a.effects) found.push_back(e.entry->name);
+  for (const Addition& e : standing) found.push_back(e.entry->name);
   if (!found.empty()) row.first = fmt::format("{}", fmt::join(found, "+"));
   if (!a.accepted) return row;
-  for (const Addition& e : a.effects)
+  for (const Addition& e : standing)
     row.group +=
         std::any_of(truth.begin(), truth.end(), [&](const std::string& t) { return among(e.group, t); });
   row.in_group = row.group == static_cast<int>(truth.size());

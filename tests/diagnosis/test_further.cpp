@@ -74,6 +74,23 @@ TEST(FurtherSteps, BearOutTheFirstOneWhereOneSetOfNumbersExplainsAllRecordings) 
   EXPECT_TRUE(borne_out(model(7.0, 180.0, 1e4), a));
 }
 
+TEST(FurtherSteps, TakeTheMoreGeneralLawOfAnEffectWithoutAskingHowFarItLeads) {
+  Judged before = model(3.0, 11.0, 100.0), best = model(2.6, 9.0, 70.0);
+  before.fitted.model.effects.emplace_back().entry = find_effect("motor_coulomb_friction");
+  best.entry = find_effect("stribeck_friction");
+  EXPECT_TRUE(refines(before, best, step(0.4, 0.4, 0.8)));
+  EXPECT_FALSE(refines(before, best, step(0.2, 0.4, 0.8))) << "gain";
+  EXPECT_FALSE(refines(before, best, step(0.4, 0.2, 0.8))) << "margin";
+  EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.5))) << "windows";
+  best.fitted.mean_square = 95.0;
+  EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.8))) << "what was fitted does not ask for it";
+  best.fitted.mean_square = 70.0, best.entry = find_effect("quadratic_drag");
+  EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.8))) << "another effect";
+  best.entry = find_effect("stribeck_friction");
+  before.fitted.model.effects.front().entry = find_effect("cogging_torque");
+  EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.8))) << "what it contains is not in the model";
+}
+
 TEST(FurtherSteps, CountFarFromTheFloorOnlyWhereTheyAreClearInEveryRespect) {
   const Judged before = model(7.0, 110.0, 5000.0), best = model(6.1, 60.0, 1300.0);
   EXPECT_TRUE(clearly_better(before, best, step(0.9, 0.87, 0.9)));

@@ -52,6 +52,7 @@ std::vector<double> moderate(const EffectEntry& e, const ScaleContext& scale) {
     if (key == "time_constant_s") v = p.scale == Scale::kSample ? 3.0 : 0.4;
     if (key == "stribeck_speed_rad_s") v = 0.1;
     if (key == "stiction_ratio") v = 0.6;
+    if (key == "exponent") v = 1.6;
     if (key == "length_rad") v = 0.005;
     if (key == "ratio" && e.side == EffectSide::kCommand) v = 0.2;
     if (key == "ratio" && e.side != EffectSide::kCommand) v = 0.5;

@@ -90,13 +90,13 @@ const std::vector<EqualForm>& equal_forms() {
        }},
       {"stribeck_friction",
        [](const Rig& r) {
-         return V{0.08 * torque(r), 0.5, 0.3};
+         return V{0.08 * torque(r), 0.5, 0.3, 1.4};
        },
        [](const V& p, blind::Effects& e) {
          e.motor.friction.level_nm = p[0];
          e.motor.friction.stiction_ratio = p[1];
          e.motor.friction.stribeck_speed_rad_s = p[2];
-         e.motor.friction.stribeck_exponent = 2.0;
+         e.motor.friction.stribeck_exponent = p[3];
        }},
       {"presliding_friction",
        [](const Rig& r) {
@@ -109,14 +109,14 @@ const std::vector<EqualForm>& equal_forms() {
        [](const V& p, blind::Effects& e) { e.motor.drag_nms2 = p[0]; }},
       {"cogging_torque",
        [](const Rig& r) {
-         return V{0.1 * torque(r), 24.0, 0.3};
+         return V{0.1 * torque(r), 24.0, 0.3, 0.0};
        },
        [](const V& p, blind::Effects& e) {
          e.motor.cogging = {p[0], p[1], p[2], 0.0};
        }},
       {"torque_ripple",
        [](const Rig&) {
-         return V{0.1, 12.0, 0.3};
+         return V{0.1, 12.0, 0.3, 0.0};
        },
        [](const V& p, blind::Effects& e) {
          e.command.ripple = {p[0], p[1], p[2], 0.0};

@@ -26,12 +26,14 @@ struct BristleFriction {
   double damping_nms = 0.0;
 };
 
-/// Periodic in the motor angle: amplitude·(sin(N·x1 + φ) + second·sin(2·(N·x1 + φ))).
+/// Periodic in the motor angle, steeper on one side of a tooth than on the other: with y = N·x1 + φ
+///   amplitude·sin(y + skew·sin(y)),
+/// whose second harmonic is skew/2 of the first, its third skew²/8, and so on.
 struct AngleHarmonic {
   double amplitude = 0.0;  ///< cogging: [N·m]; ripple: share of the torque [-]
   double periods_per_turn = 12.0;
   double phase_rad = 0.0;
-  double second = 0.0;  ///< second harmonic relative to the first [-]
+  double skew = 0.0;  ///< [rad]
 };
 
 /// A short push on the motor from outside: half-sine torque pulses at random times (outside the catalogue).

@@ -35,6 +35,8 @@ struct EffectScale {
 
 namespace {
 
+constexpr double kSkew = 0.2;  ///< of detents and ripple [rad]
+
 EffectScale scale_of(const BlindCase& c, double severity, std::uint64_t seed) {
   BlindOptions options = c.options;
   options.tolerance = kFastTolerance;
@@ -83,7 +85,7 @@ void quadratic_drag(BlindCase& c, EffectScale& s) {
   m.drag_nms2 = s.torque * s.between(0.05, 0.5) / std::pow(s.speed, m.drag_exponent);
 }
 void cogging_torque(BlindCase& c, EffectScale& s) {
-  c.drive.effects.motor.cogging = {s.torque * s.between(0.02, 0.2), s.periods_per_turn(), s.phase(), 0.1};
+  c.drive.effects.motor.cogging = {s.torque * s.between(0.02, 0.2), s.periods_per_turn(), s.phase(), kSkew};
 }
 void viscous_drift(BlindCase& c, EffectScale& s) {
   c.drive.effects.motor.viscous_drift_ratio = s.sign() * s.between(0.1, 0.7);
@@ -92,7 +94,7 @@ void viscous_drift(BlindCase& c, EffectScale& s) {
 
 // Command
 void torque_ripple(BlindCase& c, EffectScale& s) {
-  c.drive.effects.command.ripple = {s.between(0.03, 0.3), s.periods_per_turn(), s.phase(), 0.1};
+  c.drive.effects.command.ripple = {s.between(0.03, 0.3), s.periods_per_turn(), s.phase(), kSkew};
 }
 void torque_saturation(BlindCase& c, EffectScale& s) {
   c.drive.effects.command.saturation_knee = s.input * s.between(2.5, 0.7);

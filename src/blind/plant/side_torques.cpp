@@ -9,7 +9,7 @@ namespace {
 
 double harmonic(const AngleHarmonic& h, double angle) {
   const double phase = h.periods_per_turn * angle + h.phase_rad;
-  return h.amplitude * (std::sin(phase) + (h.second != 0.0 ? h.second * std::sin(2.0 * phase) : 0.0));
+  return h.amplitude * std::sin(phase + (h.skew != 0.0 ? h.skew * std::sin(phase) : 0.0));
 }
 
 double knock_torque(const std::vector<Knock>& knocks, double duration, double t) {

@@ -9,23 +9,25 @@ namespace {
 
 struct CoggingTorque {
   static constexpr EffectSide side = EffectSide::kMotor;
-  static constexpr const char* law = "motor torque -A sin(N x1 + phase)";
+  static constexpr const char* law = "motor torque -A (sin(y) + h sin(2 y)), y = N x1 + phase";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"amplitude_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
       {"periods_per_turn", "1/rev", 2.0, 0.25, 2000.0, Scale::kPerTravel},
-      {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
+      {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne},
+      {"second_harmonic", "-", 0.0, -0.5, 0.5, Scale::kOne}};
   static constexpr std::array<const char*, 1> look_alikes = {"torque_ripple"};
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
     using std::sin;
-    return {.motor = -p[0] * sin(p[1] * at.state.x1 + p[2])};
+    const T y = p[1] * at.state.x1 + p[2];
+    return {.motor = -p[0] * (sin(y) + p[3] * sin(2.0 * y))};
   }
 
   template <class T>
   static double rate(const EffectPoint<T>& at, const T* p) {
-    return std::abs(value_of(p[1]) * value_of(at.state.w1));
+    return std::abs(value_of(p[1]) * value_of(at.state.w1)) * (1.0 + std::abs(value_of(p[3])));
   }
 };
 
