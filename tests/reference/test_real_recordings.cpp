@@ -47,7 +47,7 @@ constexpr Published kAxis[] = {{"motor_inertia", 95.11, 0.01},
 TEST(RealRecordings, ARunThatDriftsFromAClosedLoopIsNoReasonToSuspectTheSignOfTheInput) {
   GAPSCOPE_NEEDS_DATA();
   const FitSummary summary = fit_axis({0.0, 1e3}, false);
-  EXPECT_GT(summary.rmse, 0.05) << "it drifts as far as the axis moves";
+  EXPECT_GT(summary.rmse, 0.11) << "it drifts farther than the axis moves, whose rms is 0.083 m";
   EXPECT_EQ(summary.full_report().find("the sign and the unit of u"), std::string::npos);
 }
 
