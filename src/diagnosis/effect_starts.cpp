@@ -40,7 +40,7 @@ const std::map<std::string_view, Starts>& table() {
       {"measurement_lag", {{0.7}, {3.0}, {10.0}}},
       {"motor_coulomb_friction", {{0.02}, {0.1}}},
       {"presliding_friction", {{0.05, 0.02, 0.001}, {0.15, 0.03, 0.003}, {0.1, 0.01, 0.001}}},
-      {"quadratic_drag", {{0.1}, {0.4}}},
+      {"quadratic_drag", {{0.1, 2.0}, {0.4, 2.0}}},
       {"shaft_compliance", {{0.5}, {2.0}}},
       {"stribeck_friction", {{0.05, 0.8, 0.1, 1.5}, {0.1, 0.8, 0.25, 1.5}}},
       {"torque_ripple", {{0.1, kNaN, kNaN}}},

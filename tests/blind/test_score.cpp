@@ -118,6 +118,18 @@ TEST(BlindScore, CountsPairsAsFoundWhereBothAreNamed) {
   EXPECT_EQ(counted(s, "two effects: a wrong one among those named"), Of(1, 4));
 }
 
+TEST(BlindScore, CountsNoEffectThatHasGivenItsPlaceToTheLawThatContainsIt) {
+  Check check;
+  check.add({"stribeck_friction", "input_delay"}, "effect",
+            {"motor_coulomb_friction", "stribeck_friction", "input_delay"}, {"motor_coulomb_friction"});
+  check.add({"quadratic_drag", "input_delay"}, "effect",
+            {"motor_coulomb_friction", "quadratic_drag", "input_delay"}, {"motor_coulomb_friction"});
+  const BlindScore s = check.score();
+  EXPECT_EQ(counted(s, "two effects: both named"), Of(2, 2));
+  EXPECT_EQ(counted(s, "two effects: these and no other"), Of(1, 2));
+  EXPECT_EQ(counted(s, "two effects: a wrong one among those named"), Of(1, 2));
+}
+
 TEST(BlindScore, IsReadBackAsItWasWritten) {
   Check check;
   check.add({"quadratic_drag"}, "effect", {"quadratic_drag"}, {"quadratic_drag"});

@@ -105,8 +105,11 @@ const std::vector<EqualForm>& equal_forms() {
        [](const V& p, blind::Effects& e) {
          e.motor.bristle = {p[0], p[1], p[2]};
        }},
-      {"quadratic_drag", [](const Rig& r) { return V{0.05 * torque(r)}; },
-       [](const V& p, blind::Effects& e) { e.motor.drag_nms2 = p[0]; }},
+      {"quadratic_drag",
+       [](const Rig& r) {
+         return V{0.05 * torque(r), 2.1};
+       },
+       [](const V& p, blind::Effects& e) { e.motor.drag_nms2 = p[0], e.motor.drag_exponent = p[1]; }},
       {"cogging_torque",
        [](const Rig& r) {
          return V{0.1 * torque(r), 24.0, 0.3, 0.0};

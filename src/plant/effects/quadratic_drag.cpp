@@ -9,16 +9,21 @@ namespace {
 
 struct QuadraticDrag {
   static constexpr EffectSide side = EffectSide::kMotor;
-  static constexpr const char* law = "motor torque -b w1 |w1|";
+  static constexpr const char* law = "motor torque -b w1 |w1| |w1/(1 rad/s)|^(n - 2)";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
-      {"coefficient_nms2", "N m s^2/rad^2", 0.0, 0.0, 2.0, Scale::kTorquePerSpeed2}};
+      {"coefficient_nms2", "N m s^2/rad^2", 0.0, 0.0, 2.0, Scale::kTorquePerSpeed2},
+      {"exponent", "-", 2.0, 1.5, 2.5, Scale::kOne}};
   static constexpr std::array<const char*, 2> look_alikes = {"torque_saturation", "stribeck_friction"};
+
+  /// A power has no derivative by its exponent at rest.
+  static constexpr double kRounding = 1e-12;  // (rad/s)²
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
+    using std::pow;
     const T& w1 = at.state.w1;
-    return {.motor = -p[0] * w1 * (value_of(w1) < 0.0 ? -w1 : w1)};
+    return {.motor = -p[0] * w1 * pow(w1 * w1 + kRounding, 0.5 * (p[1] - 1.0))};
   }
 };
 
