@@ -268,12 +268,14 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
   ReferenceModel moved = with_drive(candidate.model, other);
   if (nested_parent(*others) == mine || nested_parent(*mine) == others)
     moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
+  // By the numbers of the model without the effect the load may have seemed to start elsewhere.
+  const std::vector<RecordingStart> settled = settled_starts(train, candidate.model, hz);
   Fitted best = candidate;
   const auto take = [&](Fitted found) {
     if (found.mean_square < kFurther * best.mean_square) best = std::move(found);
   };
   for (const ReferenceModel& values : {candidate.model, moved, with_drive(candidate.model, sheet)})
-    take(refined(train, {values, candidate.starts, kInfinity, {}}, options, hz));
+    take(refined(train, {values, settled, kInfinity, {}}, options, hz));
   if (!(best.mean_square < kFloorSquare) && hz < kFastHz)
     take(led_by_faster_observer(train, candidate, options, hz));
   return best;
