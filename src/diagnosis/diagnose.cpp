@@ -21,11 +21,10 @@ namespace internal {
 namespace {
 
 constexpr double kBadRepetition = 10.0;  ///< floors of the encoder
-constexpr double kNearFloor = 4.0;  ///< mean square [floor²] of a fit that may only have missed the best one
-constexpr double kAsGood = 0.05;    ///< S: as good a fit
-constexpr double kNearlyWhole = 0.97;  ///< shrink
-constexpr double kFarBetter = 0.5;     ///< of the mean square
-constexpr double kFarMore = 20.0;      ///< times the size that is left on what was fitted
+constexpr double kAsGood = 0.05;         ///< S: as good a fit
+constexpr double kNearlyWhole = 0.97;    ///< shrink
+constexpr double kFarBetter = 0.5;       ///< of the mean square
+constexpr double kFarMore = 20.0;        ///< times the size that is left on what was fitted
 
 Judged judged_nominal(const Study& study) {
   return judge(nullptr, fit_nominal(study.train, study.sheet, study.options.fit, study.observer_hz),
@@ -133,11 +132,6 @@ Findings first_look(Study& study) {
   return found;
 }
 
-/// Whether half of what is held out could be fitted, too.
-bool may_look_wider(const Study& study, const Findings& found) {
-  return !found.candidates.empty() && !study.repeats_badly() && !(study.held_out.scored_from.front() > 0);
-}
-
 /// Mean square that the best fit leaves of what was fitted [floor²].
 double least_left(const Findings& found) {
   double least = found.before.fitted.mean_square;
@@ -148,7 +142,7 @@ double least_left(const Findings& found) {
 /// Whether the recordings that were fitted are explained while those held out are not: they do not ask for
 /// what the others need, neither of the drive nor of the effect.
 bool asked_too_little(const Study& study, const Findings& found) {
-  if (!may_look_wider(study, found)) return false;
+  if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
   const Judged& best = found.candidates.front();
   if (at_floor(best)) return false;
   if (found.decision.accepted && !(shrink_of(found.before.median_free, best.median_free) < kNearlyWhole))
@@ -158,19 +152,9 @@ bool asked_too_little(const Study& study, const Findings& found) {
 
 /// The same of a search that has found nothing, where the others show far more than the fitted ones do.
 bool asked_far_too_little(const Study& study, const Findings& found) {
-  if (!may_look_wider(study, found)) return false;
+  if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
   const double least = least_left(found);
   return least < kNearFloor && found.candidates.front().median_free > kFarMore * std::sqrt(least);
-}
-
-/// Moves the first half of what is held out to what is fitted.
-void fit_half_of_the_held_out(Study& study) {
-  HeldOut& held = study.held_out;
-  for (std::size_t r = 0; r < held.traces.size(); ++r) {
-    const std::size_t half = held.traces[r].size() / 2;
-    study.train.push_back(part(held.traces[r], 0, half));
-    held.scored_from[r] = half;
-  }
 }
 
 /// What the fitted recordings leave open, for the reader.
@@ -210,6 +194,7 @@ Findings investigate(Study& study) {
 Search search(Study& study) {
   Findings found = investigate(study);
   Additions added = add_further(study, found);
+  if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
   if (added.accepted || !asked_far_too_little(study, found)) return {std::move(found), std::move(added)};
   if (std::optional<Findings> wider = look_wider(study, found)) {
     added = add_further(study, *wider);
@@ -241,6 +226,10 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "no recording is held out: the last third of each file was, which tests the model on the same "
         "kind of excitation only.");
   if (std::isfinite(found.alone)) diagnosis.warnings.push_back(undetermined(found));
+  if (added.accepted && added.wider)
+    diagnosis.warnings.push_back(
+        "the recordings that were fitted do not show all that the others do: for the later steps the first "
+        "half of what was held out was fitted with them, and the second half judges.");
   if (added.accepted && added.explained)
     diagnosis.warnings.push_back(
         "the recordings that were fitted do not determine all numbers: what is left on those that were held "

@@ -23,8 +23,9 @@ constexpr double kRefinedGain = 0.3;   ///< S of a law that contains an earlier 
 constexpr double kFitCollapses = 0.1;  ///< of the mean square that was fitted: then fewer windows will do
 constexpr double kAskedFor = 0.85;     ///< of the mean square that was fitted
 constexpr double kMuchOfTheWay = 0.4;  ///< share of the log distance to the floor that makes up for an unsure
-constexpr double kMostOfTheSize = 0.8;  ///< of the free runs' error: the same
-constexpr double kSureMargin = 0.9;     ///< … first step, with a second one that beats all others by this S
+constexpr double kMostOfTheSize = 0.8;    ///< of the free runs' error: the same
+constexpr double kHardlyAnything = 0.99;  ///< of the free runs' error explained: no other branch is followed
+constexpr double kSureMargin = 0.9;  ///< … first step, with a second one that beats all others by this S
 
 /// The model so far as the one to add to. An effect that others contain comes last: they take its place.
 Judged base_of(const Judged& model) {
@@ -111,15 +112,50 @@ bool explained_together(const Study& study, const Judged& model) {
   return at_floor(together) && together.fitted.mean_square < kExplained;
 }
 
+/// Whether the fitted recordings leave nothing to ask, although those held out do.
+bool asks_elsewhere(const Study& study, const Judged& model) {
+  return may_fit_half_of_the_held_out(study) && model.fitted.mean_square < kNearFloor;
+}
+
+/// The same model by what is held out now.
+void judge_again(const Study& study, Judged& model) {
+  model = judge(model.entry, std::move(model.fitted), study.held_out, study.observer_hz);
+}
+
+/// What was found before is judged like what was found since.
+void keep_wider(const Study& study, const Findings& found, std::size_t steps_before, Additions& a) {
+  for (std::size_t i = 0; i < steps_before; ++i) {
+    judge_again(study, a.steps[i].before);
+    for (Judged& c : a.steps[i].candidates) judge_again(study, c);
+  }
+  a.wider = {study.train, study.held_out, found.before};
+  judge_again(study, a.wider->nominal);
+}
+
+/// Where one branch has led so far, others are not followed.
+bool leaves_little(const Judged& nominal, const Judged& after) {
+  return at_floor(after) || shrink_of(nominal.median_free, after.median_free) >= kHardlyAnything;
+}
+
 /// Forward from a candidate of the first step.
-Additions follow(const Study& study, const Judged& first, std::vector<const EffectEntry*> group) {
+Additions follow(Study study, const Findings& found, const Judged& first,
+                 std::vector<const EffectEntry*> group) {
   Additions a;
   a.after = first;
   a.effects = {{first.entry, std::move(group)}};
+  std::optional<Judged> narrow;  // the model so far, before half of what is held out was fitted
+  std::size_t steps_before = 0;
   while (a.steps.size() + 1 < kMostEffects && !at_floor(a.after)) {
     a.explained = explained_together(study, a.after);
     if (a.explained) break;
     study.options.progress("looking for a further effect");
+    if (asks_elsewhere(study, a.after)) {
+      narrow = a.after, steps_before = a.steps.size();
+      fit_half_of_the_held_out(study);
+      a.after = refitted(study, a.after.fitted.model);
+      a.explained = at_floor(a.after);
+      if (a.explained) break;
+    }
     a.steps.push_back(next_step(study, a.after));
     const FurtherStep& step = a.steps.back();
     if (!step.decision.accepted) break;
@@ -128,10 +164,19 @@ Additions follow(const Study& study, const Judged& first, std::vector<const Effe
     drop_stand_ins(study, a);
     choose_among_look_alikes(study, a);
   }
+  if (!narrow) return a;
+  if (a.steps.size() > steps_before && a.steps[steps_before].decision.accepted)
+    keep_wider(study, found, steps_before, a);
+  else
+    a.after = std::move(*narrow);
   return a;
 }
 
 }  // namespace
+
+const Judged& nominal_of(const Findings& found, const Additions& a) {
+  return a.wider ? a.wider->nominal : found.before;
+}
 
 bool contains(const FittedModel& model, const EffectEntry* entry) {
   return std::any_of(model.effects.begin(), model.effects.end(),
@@ -151,12 +196,12 @@ bool refines(const Judged& before, const Judged& best, const Decision& d) {
          best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
 }
 
-bool borne_out(const Judged& before, const Additions& a) {
+bool borne_out(const Judged& nominal, const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
   if (a.explained || at_floor(a.after)) return true;
   return a.steps.front().decision.margin >= kSureMargin &&
-         (relative_gain(before, a.after) >= kMuchOfTheWay ||
-          shrink_of(before.median_free, a.after.median_free) >= kMostOfTheSize);
+         (relative_gain(nominal, a.after) >= kMuchOfTheWay ||
+          shrink_of(nominal.median_free, a.after.median_free) >= kMostOfTheSize);
 }
 
 std::vector<const Judged*> branches(const Findings& found) {
@@ -179,18 +224,18 @@ Additions add_further(const Study& study, const Findings& found) {
   const auto& ranked = found.candidates;
   if (ranked.empty()) return {};
   if (sure.accepted) {
-    Additions a = follow(study, ranked.front(), sure.group);
+    Additions a = follow(study, found, ranked.front(), sure.group);
     a.accepted = true;
     return a;
   }
   Additions best;
   for (const Judged* first : branches(found)) {
     const bool is_best = first == &ranked.front();
-    Additions a = follow(study, *first, is_best ? sure.group : std::vector{first->entry});
-    a.accepted = borne_out(found.before, a) || (is_best && sure.in_part && a.effects.size() > 1);
+    Additions a = follow(study, found, *first, is_best ? sure.group : std::vector{first->entry});
+    a.accepted = borne_out(nominal_of(found, a), a) || (is_best && sure.in_part && a.effects.size() > 1);
     const bool better = a.accepted && (!best.accepted || a.after.score < best.after.score);
     if (better || (is_best && !best.accepted)) best = std::move(a);
-    if (best.accepted && (best.explained || at_floor(best.after))) break;
+    if (best.accepted && (best.explained || leaves_little(nominal_of(found, best), best.after))) break;
   }
   return best;
 }

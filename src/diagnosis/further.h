@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "diagnosis/pipeline.h"
@@ -20,6 +21,13 @@ struct Addition {
   std::vector<const EffectEntry*> group;  ///< all that it cannot be told from, itself first
 };
 
+/// Where half of what was held out was fitted for the later steps.
+struct Wider {
+  std::vector<MotorTrace> train;
+  HeldOut held_out;
+  Judged nominal;  ///< by what is still held out
+};
+
 /// What the search for several effects came to.
 struct Additions {
   bool accepted = false;
@@ -27,6 +35,7 @@ struct Additions {
   std::vector<Addition> effects;   ///< those that stay, in the order in which they were found
   Judged after;                    ///< with all of them
   std::vector<FurtherStep> steps;  ///< the last one may not have been taken
+  std::optional<Wider> wider;
 };
 
 /// Goes on where the first step has ended, to the floor or to the last step that the data asks for.
@@ -35,7 +44,13 @@ struct Additions {
 /// earlier effect without which the later ones do as well was only their stand-in and goes. A first step that
 /// is not sure in itself, as half of a cause cannot be, counts once others lead from it to the floor or far
 /// towards it.
+///
+/// A step that begins with what was fitted explained, but not what is held out, asks the recordings that
+/// know: the first half of what is held out is then fitted, too.
 Additions add_further(const Study& study, const Findings& found);
+
+/// The model without any effect, by what the additions are judged by.
+const Judged& nominal_of(const Findings& found, const Additions& additions);
 
 /// All steps.
 struct Search {
@@ -62,7 +77,7 @@ bool refines(const Judged& before, const Judged& best, const Decision& decision)
 /// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
 /// themselves and come far towards it, or leave little of the free runs' size. A first step that is there
 /// alone has been decided upon.
-bool borne_out(const Judged& before, const Additions& additions);
+bool borne_out(const Judged& nominal, const Additions& additions);
 
 /// Whether the effect is in the model.
 bool contains(const FittedModel& model, const EffectEntry* entry);

@@ -29,6 +29,10 @@ HeldOut fitted_as_held_out(const Study& study);
 /// What is fitted and what is held out.
 std::vector<MotorTrace> everything(const Study& study);
 
+/// Moves the first half of what is held out to what is fitted; once, and where the encoder is the floor.
+bool may_fit_half_of_the_held_out(const Study& study);
+void fit_half_of_the_held_out(Study& study);
+
 /// Every effect of a list that the model could have, refitted and judged, best first.
 /// @param first_step false: candidates that have lost clearly are not tried again
 std::vector<Judged> candidates_of(const Study& study, const Judged& before,

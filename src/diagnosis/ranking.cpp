@@ -9,7 +9,8 @@
 namespace gapscope::internal {
 namespace {
 
-constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate
+constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate,
+constexpr double kAlikeOfLeft = 0.15;       ///< and per S that the best leaves: a missing law's, not noise
 constexpr double kIndistinct = 0.08;        ///< the same for effects that no table calls alike
 constexpr double kLeastRel = 0.4;           ///< share of the log distance to the floor that a step closes
 constexpr double kLeastMargin = 0.3;        ///< S by which it beats all others
@@ -115,11 +116,12 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   d.gain = before.score - best.score;
   d.rel = relative_gain(before, best);
   d.windows_better = share_of_windows_better(before, best);
+  const double left = repeats_badly ? 0.0 : std::max(best.score - kFloorScore, 0.0);
   double other = before.score;
   for (const Judged& c : ranked) {
     if (nested_parent(*c.entry) == best.entry) continue;  // it contains the best: parsimony has decided
     const bool alike = &c == &best || look_alike(*c.entry, *best.entry);
-    if (c.score - best.score < (alike ? kAlike : kIndistinct))
+    if (c.score - best.score < (alike ? kAlike + kAlikeOfLeft * left : kIndistinct))
       d.group.push_back(c.entry);
     else
       other = std::min(other, c.score);

@@ -25,7 +25,9 @@ Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, d
 /// Whether the table of the catalogue names one as a look-alike of the other.
 bool look_alike(const EffectEntry& a, const EffectEntry& b);
 
-inline constexpr double kFloorRatio = 1.3;                       ///< medians within it: at the floor
+inline constexpr double kFloorRatio = 1.3;  ///< medians within it: at the floor
+/// Mean square [floor²] of a fit that may only have missed the best one.
+inline constexpr double kNearFloor = 4.0;
 inline constexpr double kExplained = kFloorRatio * kFloorRatio;  ///< mean square of a fit [floor²]
 
 /// Both medians within 1.3 floors.

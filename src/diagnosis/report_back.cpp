@@ -179,19 +179,20 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   d.verdict = verdict_of(found, additions);
   d.observer_hz = study.observer_hz;
   const bool added = d.verdict == DiagnosisVerdict::kEffect;
-  const Judged& after = added ? additions.after : found.before;
+  const Judged& nominal = added ? nominal_of(found, additions) : found.before;
+  const Judged& after = added ? additions.after : nominal;
   tell_steps(study, additions, d);
-  if (added) d.blame = blame_of(found.before, after);
+  if (added) d.blame = blame_of(nominal, after);
   d.ranking = ranking_of(study, found.before, found.candidates, found.decision);
   d.fitted = after.fitted.model;
   const double km = d.fitted.parameters[place::kTorqueConstant].value;
-  const auto before_played = play(found.before.fitted.model, study.held_out, study.observer_hz, true);
+  const auto before_played = play(nominal.fitted.model, study.held_out, study.observer_hz, true);
   const auto after_played = added ? play(d.fitted, study.held_out, study.observer_hz, true) : before_played;
   d.periodic = periodic_torques(study, d.fitted, after_played);
   if (!found.candidates.empty())
     d.outside_probability =
         probability_shares(found.candidates, found.decision, study.options.known.outside_catalogue).outside;
-  d.gap = mismatch_size(study, found.before, after);
+  d.gap = mismatch_size(study, nominal, after);
   d.measures = measures_of(study, before_played, after_played);
   d.where = place_of(before_played, study.held_out, km, study.options.rotation,
                      added ? &alone(found, additions.effects.front().entry) : nullptr);

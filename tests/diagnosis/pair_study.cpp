@@ -58,10 +58,10 @@ double left_by_one(const Findings& f, const Names& truth) {
 
 std::string describe(const Judged& before, const std::vector<Judged>& ranked, const Decision& d) {
   std::string text = fmt::format(
-      "[{:.3g}/{:.3g} S {:.2f}; rel {:.2f} mar {:.2f} gain {:.2f} win {:.2f} fit {:.2f} {}:",
+      "[{:.3g}/{:.3g} S {:.2f}; rel {:.2f} mar {:.2f} gain {:.2f} win {:.2f} fit {:.2f} of {:.3g} {}:",
       before.median_free, before.median_innovation, before.score, d.rel, d.margin, d.gain, d.windows_better,
       ranked.empty() ? kNaN : ranked.front().fitted.mean_square / before.fitted.mean_square,
-      d.accepted ? "yes" : "no");
+      before.fitted.mean_square, d.accepted ? "yes" : "no");
   for (std::size_t i = 0; i < std::min<std::size_t>(5, ranked.size()); ++i)
     text += fmt::format(" {} {:.2f}", ranked[i].entry->name, ranked[i].score);
   return text + "] ";

@@ -144,6 +144,20 @@ TEST(Diagnosis, PrefersTheSimplerOfTwoNestedEffectsAtTheFloor) {
   EXPECT_EQ(decide_again(e).ranking.front(), "friction_asymmetry");
 }
 
+TEST(Diagnosis, TellsLookAlikesApartTheLessTheMoreTheyLeave) {
+  StepEvidence e = evidence_of("input_delay", 1.0);
+  e.candidates.push_back({"actuator_lag", 0.0, 1.0, 1.0, 1.0, 1.0});
+  const std::vector<std::string> one{"input_delay"}, both{"input_delay", "actuator_lag"};
+  e.candidates[0].score = 0.3, e.candidates[2].score = 0.8;
+  EXPECT_EQ(decide_again(e).group, one);
+  e.candidates[0].score = 3.0, e.candidates[2].score = 3.5;
+  EXPECT_EQ(decide_again(e).group, both);
+  e.candidates[2].score = 4.5;
+  EXPECT_EQ(decide_again(e).group, one);
+  e.candidates[2].score = 3.5, e.repeats_badly = true;
+  EXPECT_EQ(decide_again(e).group, one) << "no floor to leave anything above";
+}
+
 TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereTheOtherRecordingAsksForTooLittle) {
   const Diagnosis d = diagnosis_of(blind::blind_pair("heavy", "encoder_eccentricity", 0.117, 442492),
                                    among({"encoder_eccentricity", "quadratic_drag"}));
@@ -225,6 +239,24 @@ TEST(Diagnosis, FindsTwoEffectsOneAfterTheOther) {
   EXPECT_TRUE(contains(d.effects, "motor_coulomb_friction")) << d.sentence;
   EXPECT_TRUE(contains(d.effects, "cogging_torque")) << d.sentence;
   EXPECT_GT(d.gap.shrink, 0.9);
+}
+
+// The load seemed to start elsewhere without friction, and that outweighed all else in what was fitted.
+TEST(Diagnosis, FindsASecondEffectWhereTheFirstHasMovedTheLoadsStart) {
+  const std::vector<std::string> both{"motor_coulomb_friction", "encoder_eccentricity"};
+  const Diagnosis d = diagnosis_of(blind::blind_pair("paper", both, 0.303, 716012), among(both));
+  EXPECT_EQ(d.effects, both) << d.sentence;
+}
+
+TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereOnlyThatShowsTheSecondEffect) {
+  const std::vector<std::string> both{"motor_coulomb_friction", "encoder_eccentricity"};
+  const Diagnosis d =
+      diagnosis_of(blind::blind_pair("geared", both, 0.536, 717007),
+                   among({"motor_coulomb_friction", "encoder_eccentricity", "shaft_compliance"}));
+  EXPECT_EQ(d.effects, both) << d.sentence;
+  ASSERT_EQ(d.warnings.size(), 1u);
+  EXPECT_NE(d.warnings.front().find("first half"), std::string::npos);
+  for (const MismatchTrace& t : d.traces) EXPECT_GT(t.scored_from, 0u) << "only the other half judges";
 }
 
 // The tempting wrong answers.
