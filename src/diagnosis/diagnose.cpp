@@ -24,7 +24,6 @@ constexpr double kBadRepetition = 10.0;  ///< floors of the encoder
 constexpr double kAsGood = 0.05;         ///< S: as good a fit
 constexpr double kNearlyWhole = 0.97;    ///< shrink
 constexpr double kFarBetter = 0.5;       ///< of the mean square
-constexpr double kFarMore = 20.0;        ///< times the size that is left on what was fitted
 
 Judged judged_nominal(const Study& study) {
   return judge(nullptr, fit_nominal(study.train, study.sheet, study.options.fit, study.observer_hz),

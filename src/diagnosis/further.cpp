@@ -1,6 +1,7 @@
 #include "diagnosis/further.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/probability.h"
@@ -112,9 +113,11 @@ bool explained_together(const Study& study, const Judged& model) {
   return at_floor(together) && together.fitted.mean_square < kExplained;
 }
 
-/// Whether the fitted recordings leave nothing to ask, although those held out do.
+/// Whether the fitted recordings leave nothing to ask, or far less than those held out.
 bool asks_elsewhere(const Study& study, const Judged& model) {
-  return may_fit_half_of_the_held_out(study) && model.fitted.mean_square < kNearFloor;
+  const double fitted = model.fitted.mean_square;
+  return may_fit_half_of_the_held_out(study) &&
+         (fitted < kNearFloor || model.median_free > kFarMore * std::sqrt(fitted));
 }
 
 /// The same model by what is held out now.

@@ -28,6 +28,8 @@ bool look_alike(const EffectEntry& a, const EffectEntry& b);
 inline constexpr double kFloorRatio = 1.3;  ///< medians within it: at the floor
 /// Mean square [floor²] of a fit that may only have missed the best one.
 inline constexpr double kNearFloor = 4.0;
+/// Times the size that is left on what was fitted: what is held out leaves far more.
+inline constexpr double kFarMore = 20.0;
 inline constexpr double kExplained = kFloorRatio * kFloorRatio;  ///< mean square of a fit [floor²]
 
 /// Both medians within 1.3 floors.

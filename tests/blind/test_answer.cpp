@@ -41,7 +41,7 @@ class Answered {
       c.name = "small";
       c.report = {9000001, 0, 0, 3, 0};  // quickly answered
       c.rigs = {"geared"};
-      c.duration = 3.0;
+      c.duration = 2.0;
       run_blind_check(c, place.folder().string(), 2);
       return true;
     }();
@@ -148,7 +148,7 @@ TEST(BlindCheck, OfSmallRecordingsNamesMostEffectsAndBlamesNothingWhereNothingIs
   const int quarter = cases_wanted() / 4;
   c.report = {9010001, cases_wanted() - 2 * quarter, quarter, quarter, 0};
   c.rigs = {"paper", "geared"};
-  c.duration = 3.0;
+  c.duration = 2.0;
   const BlindScore score = run_blind_check(c, place.folder().string(), 0);
   EXPECT_EQ(score.report_cases, cases_wanted());
   for (const BlindCount& count : score.counts) {
