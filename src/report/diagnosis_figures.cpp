@@ -113,13 +113,14 @@ std::string every(const DiagnosisResult& r, double periods_per_turn) {
 /// What repeats with the motor angle: in what the nominal model leaves, and in what is left in the end.
 std::string cycles_reading(const DiagnosisResult& r) {
   const double periods = r.diagnosis.where.periods_per_turn;
-  std::string text = std::isfinite(periods)
-                         ? "It repeats with the " + angle_word(r) + ", " + every(r, periods) + "."
-                         : "No cycle over the " + angle_word(r) + " stands out of it.";
+  std::string text =
+      std::isfinite(periods)
+          ? "What the nominal model leaves repeats with the " + angle_word(r) + ", " + every(r, periods) + "."
+          : "No cycle over the " + angle_word(r) + " stands out of what the nominal model leaves.";
   std::string lines;
   for (const PeriodicTorque& p : r.diagnosis.periodic)
     if (!p.given || p.holds) lines += (lines.empty() ? "" : ", ") + every(r, p.periods_per_turn);
-  return lines.empty() ? text : text + " In what all that was added leaves, one does: " + lines + ".";
+  return lines.empty() ? text : text + " In what remains " + with_added(r) + " one does: " + lines + ".";
 }
 
 }  // namespace
@@ -196,21 +197,23 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
       {"Time", w.time}};
   for (const auto& [title, map] : maps)
     if (!says_nothing(map)) figure.panels.push_back(map_panel(r, title, map));
-  figure.reading = "The residual " + torque_word(r) + " is " + w.headline + ".";
+  figure.reading = "The residual " + torque_word(r) + " appears " + w.headline + ".";
   return figure;
 }
 
 FigureData diagnosis_torque_map(const DiagnosisResult& r) {
   FigureData figure;
   figure.file = "diagnosis_torque_map.png";
-  figure.title = "Residual " + torque_word(r) + " of the nominal model";
+  const std::string torque = torque_word(r);
+  figure.title = "Residual " + torque + " over the " + angle_word(r) + " and the input";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
-  const auto scatter = [&](const std::string& title, const Axis& x, const auto& of) {
+  const auto scatter = [&](const std::string& title, const Axis& x, const std::vector<double>& of,
+                           const std::vector<double>& residual) {
     Panel panel;
     panel.title = title;
     panel.x = x;
-    panel.y = {"residual " + torque_word(r), torque_unit_of(r), {}, {}, {}};
+    panel.y = {"residual " + torque, torque_unit_of(r), {}, {}, {}};
     panel.height = 520.0;
     Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}};
     plus.joined = minus.joined = false;
@@ -218,17 +221,24 @@ FigureData diagnosis_torque_map(const DiagnosisResult& r) {
     const std::size_t step = std::max<std::size_t>(1, (t->x1.size() - t->scored_from) / 600);
     for (std::size_t i = std::max<std::size_t>(1, t->scored_from + step); i < t->x1.size(); i += step) {
       Series& s = t->x1[i] >= t->x1[i - step] ? plus : minus;
-      s.x.push_back(of(i)), s.y.push_back(t->torque_before[i]);
+      s.x.push_back(of[i]), s.y.push_back(residual[i]);
     }
     for (Series& s : std::vector<Series>{plus, minus})
       if (!s.x.empty()) panel.series.push_back(s);
     return panel;
   };
-  figure.panels.push_back(scatter("Over the " + angle_word(r),
-                                  {angle_word(r) + " $x_1$", length_unit(r), {}, {}, {}},
-                                  [&](std::size_t i) { return t->x1[i]; }));
-  figure.panels.push_back(scatter("Over the input", {"input $u$", "units of $u$", {}, {}, {}},
-                                  [&](std::size_t i) { return t->u[i]; }));
+  const Axis position{angle_word(r) + " $x_1$", length_unit(r), {}, {}, {}};
+  const Axis input{"input $u$", "units of $u$", {}, {}, {}};
+  const bool both = added(r) && t->torque_after.size() == t->x1.size();
+  const auto row = [&](const std::string& over, const Axis& x, const std::vector<double>& of) {
+    figure.panels.push_back(scatter("Nominal model, over " + over, x, of, t->torque_before));
+    if (both)
+      figure.panels.push_back(
+          scatter("W" + with_added(r).substr(1) + ", over " + over, x, of, t->torque_after));
+  };
+  row("the " + angle_word(r), position, t->x1);
+  row("the input", input, t->u);
+  if (both) figure.width = 3200.0, figure.columns = 2;
   figure.reading = cycles_reading(r);
   return figure;
 }

@@ -107,10 +107,23 @@ TEST(DiagnosisReport, TheCaptionKnowsOfTheLineThatTheTableLists) {
   r.rotation = false;
   r.diagnosis.periodic.front().periods_per_turn = 2.0 * kPi / 2.5e-3;
   const std::string reading = internal::diagnosis_torque_map(r).reading;
-  EXPECT_NE(reading.find("No cycle over the displacement stands out of it. In what all that was added "
-                         "leaves, one does: every 2.50 mm."),
-            std::string::npos)
+  EXPECT_NE(
+      reading.find("No cycle over the displacement stands out of what the nominal model leaves. In what "
+                   "remains with cogging torque one does: every 2.50 mm."),
+      std::string::npos)
       << reading;
+}
+
+TEST(DiagnosisReport, TheTorqueMapShowsWhatRemainsBesideWhatTheNominalModelLeaves) {
+  DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
+  const auto both = internal::diagnosis_torque_map(r);
+  ASSERT_EQ(both.panels.size(), 4u);
+  EXPECT_EQ(both.panels[0].title, "Nominal model, over the motor angle");
+  EXPECT_EQ(both.panels[1].title, "With cogging torque, over the motor angle");
+  EXPECT_NE(both.panels[0].series[0].y, both.panels[1].series[0].y);
+  EXPECT_EQ(both.panels[0].series[0].x, both.panels[1].series[0].x);
+  r.diagnosis.effects.clear();
+  EXPECT_EQ(internal::diagnosis_torque_map(r).panels.size(), 2u);
 }
 
 TEST(DiagnosisReport, AMapOfOnePlaceIsLeftOutAndSoAreNoCandidatesInSilence) {
