@@ -14,7 +14,7 @@ std::vector<FigureData> diagnosis_figures(const DiagnosisResult& result);
 FigureData diagnosis_traces(const DiagnosisResult& result);   ///< error and residual torque, before and after
 FigureData diagnosis_ranking(const DiagnosisResult& result);  ///< held-out score of every candidate
 FigureData diagnosis_where(const DiagnosisResult& result);    ///< the seven maps
-FigureData diagnosis_torque_map(const DiagnosisResult& result);  ///< residual torque over angle and speed
+FigureData diagnosis_torque_map(const DiagnosisResult& result);  ///< residual torque over angle and input
 
 /// Heading, sentence, tables and figures of a diagnosis.
 std::string diagnosis_text(const DiagnosisResult& result, const std::vector<FigureData>& figures);
