@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plant/effects/define_effect.h"
+#include "plant/effects/smooth_functions.h"
 
 namespace gapscope::internal {
 namespace {
@@ -21,9 +22,8 @@ struct QuadraticDrag {
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
-    using std::pow;
     const T& w1 = at.state.w1;
-    return {.motor = -p[0] * w1 * pow(w1 * w1 + kRounding, 0.5 * (p[1] - 1.0))};
+    return {.motor = -p[0] * w1 * power(T(w1 * w1 + kRounding), T(0.5 * (p[1] - 1.0)))};
   }
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plant/effects/define_effect.h"
+#include "plant/effects/smooth_functions.h"
 
 namespace gapscope::internal {
 namespace {
@@ -32,10 +33,10 @@ struct StribeckFriction {
   /// What the sliding motor is spared of its break-away level; zero at rest.
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
-    using std::exp, std::pow;
+    using std::exp;
     const T v = at.state.w1 / p[2];
     return {.motor = static_cast<double>(at.motor_direction) * p[0] * p[1] *
-                     (1.0 - exp(-pow(v * v + kRounding, 0.5 * p[3])))};
+                     (1.0 - exp(-power(T(v * v + kRounding), T(0.5 * p[3]))))};
   }
 
   /// Speed passes through the law's width at this rate, at the most that the torque in force can do;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plant/effects/define_effect.h"
+#include "plant/effects/smooth_functions.h"
 
 namespace gapscope::internal {
 namespace {
@@ -21,9 +22,7 @@ struct TorqueRipple {
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
-    using std::sin;
-    const T y = p[1] * at.state.x1 + p[2];
-    return {.motor = at.drive_torque * p[0] * (sin(y) + p[3] * sin(2.0 * y))};
+    return {.motor = at.drive_torque * p[0] * two_harmonics(T(p[1] * at.state.x1 + p[2]), p[3])};
   }
 
   template <class T>

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plant/effects/define_effect.h"
+#include "plant/effects/smooth_functions.h"
 
 namespace gapscope::internal {
 namespace {
@@ -18,10 +19,9 @@ struct TorqueSaturation {
 
   template <class T>
   static T command(const T& u, const T* p) {
-    using std::pow;
     if (value_of(u) == 0.0 || !std::isfinite(value_of(p[0]))) return u;
     const T size = value_of(u) < 0.0 ? T(-u) : u;
-    return u / pow(1.0 + pow(size / p[0], p[1]), 1.0 / p[1]);
+    return u / power(T(1.0 + power(T(size / p[0]), p[1])), T(1.0 / p[1]));
   }
 };
 
