@@ -11,7 +11,7 @@ namespace {
 /// Constant, share of the log distance, log margin, log gain. `learn_probability` learns them again.
 using Weights = double[4];
 constexpr Weights kFirst = {-1.706, 2.294, 1.026, 0.091};
-constexpr Weights kLater = {-0.588, 1.849, 1.208, 0.213};
+constexpr Weights kLater = {-0.698, 2.136, 1.382, 0.326};
 constexpr double kMarginOffset = 0.05;
 constexpr double kLeastGain = 1e-3;
 constexpr double kMistakenOrder = 0.04;  ///< of the cases where the group is wrong, at even odds
