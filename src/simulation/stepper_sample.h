@@ -290,7 +290,8 @@ void StepperImpl<T>::advance(T span) {
       healthy = false;
       return;
     }
-    const double rate = flow_rate(f, mode.contact != 0 || mode.outside != 0, has_load);
+    const double rate =
+        std::max(flow_rate(f, mode.contact != 0 || mode.outside != 0, has_load), value_of(f.decay_rate));
     double reach = (smooth ? kSmoothReach : kSeriesReach) / rate;
     if (smooth) reach = std::min(reach, kEffectReach / std::max(effect_rate(), 1e-9));
     const double pieces = std::max(1.0, std::ceil(value_of(span) / reach));

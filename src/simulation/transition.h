@@ -26,12 +26,12 @@ struct Transition {
   T response[kColumns][4];  ///< a column holds what one quantity does to all four
 };
 
-/// Fastest rate of a mode [1/s]: dampers, and in a closed compliant contact its oscillation and damping.
+/// Fastest rate of a mode [1/s]: dampers, and in a closed compliant contact its oscillation and damping. A
+/// dying torque may be faster.
 template <class T>
 double flow_rate(const FlowConstants<T>& f, bool closed, bool has_load) {
   const double m1 = value_of(f.m1), m2 = value_of(f.m2);
   double rate = std::max(std::abs(value_of(f.d1_plus)), std::abs(value_of(f.d1_minus))) / m1;
-  rate = std::max(rate, value_of(f.decay_rate));
   if (!has_load) return rate;
   rate = std::max(rate, value_of(f.d2) / m2);
   if (!closed || f.rigid) return rate;
@@ -58,6 +58,33 @@ void response_column(const FlowConstants<T>& f, const ContactMode& mode, int col
   transition.response[column][3] = end.w2;
 }
 
+/// What a dying torque does over a piece that is long against it: several short pieces, put together.
+template <class T>
+void dying_column(const FlowConstants<T>& f, const ContactMode& mode, bool has_load,
+                  Transition<T>& transition) {
+  const double rate = std::max(flow_rate(f, mode.contact != 0, has_load), value_of(f.decay_rate));
+  const double count = std::ceil(rate * value_of(transition.h) / kSeriesReach);
+  if (count <= 1.0) return response_column(f, mode, 9, transition);
+  Transition<T> part;
+  part.h = transition.h / count;
+  for (auto& responses : part.response)
+    for (T& r : responses) r = T(0.0);
+  for (const int column : {0, 1, 2, 9}) response_column(f, mode, column, part);
+  using std::exp;
+  const T share = exp(-f.decay_rate * part.h);  // of the amplitude, that a part leaves
+  const auto& r = part.response;
+  T(&sum)[4] = transition.response[9];
+  T amplitude(1.0);
+  for (double n = 0.0; n < count; n += 1.0) {
+    const T depth = sum[0] - sum[2], w1 = sum[1], w2 = sum[3];
+    for (int i = 0; i < 4; ++i) {
+      const T moved = r[0][i] * depth + r[1][i] * w1 + r[2][i] * w2 + r[9][i] * amplitude;
+      sum[i] = i % 2 == 0 ? T(sum[i] + moved) : moved;
+    }
+    amplitude *= share;
+  }
+}
+
 /// @param span length of the segment of a sample that the transition is for [s]
 /// @param halvings how often the pieces are halved beyond what the flow itself needs
 template <class T>
@@ -71,10 +98,8 @@ void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, 
   if (smooth && value_of(transition.h) > 0.0) transition.inverse_h = 1.0 / transition.h;
   for (auto& responses : transition.response)
     for (T& r : responses) r = T(0.0);
-  for (int column = 0; column < kColumns; ++column) {
-    const bool used = column < 5 || (column == 9 ? value_of(f.decay_rate) > 0.0 : smooth);
-    if (used) response_column(f, mode, column, transition);
-  }
+  for (int column = 0; column < (smooth ? 9 : 5); ++column) response_column(f, mode, column, transition);
+  if (value_of(f.decay_rate) > 0.0) dying_column(f, mode, has_load, transition);
   transition.ready = true;
 }
 

@@ -212,6 +212,18 @@ TEST_P(EveryEffect, StaysHealthyAtRestUntilTheInputBegins) {
 std::string name_of(const testing::TestParamInfo<std::string>& info) { return info.param; }
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, ::testing::ValuesIn(names()), name_of);
 
+TEST(ActuatorLag, FarShorterThanASampleIsFollowedAlsoBesideATorqueThatIsNotConstant) {
+  const Case c;
+  for (const char* beside : {"encoder_eccentricity", "cogging_torque", "quadratic_drag"}) {
+    StepperModel<double> model = with(*find_effect(beside), moderate(*find_effect(beside), c.scale));
+    const auto without = measured(model, held(c.u, 32), 32 * kRate, 32);
+    add_effect<double>(model, *find_effect("actuator_lag"), std::vector<double>{0.05 / kRate});
+    const auto truth = measured(model, held(c.u, 32), 32 * kRate, 32);
+    EXPECT_GT(largest_difference(without, truth), 1e-5) << beside;  // the lag can be seen
+    EXPECT_LT(largest_difference(measured(model, c.u, kRate), truth), 1e-6) << beside;
+  }
+}
+
 TEST(EffectTable, IsSortedAndHoldsTheWholeCatalogue) {
   const auto table = effect_table();
   EXPECT_GE(table.size(), 24u);
