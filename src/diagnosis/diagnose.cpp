@@ -153,7 +153,7 @@ bool asked_too_little(const Study& study, const Findings& found) {
 bool asked_far_too_little(const Study& study, const Findings& found) {
   if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
   const double least = least_left(found);
-  return least < kNearFloor && found.candidates.front().median_free > kFarMore * std::sqrt(least);
+  return least < kNearFloor && leaves_far_more_held_out(found.candidates.front(), least);
 }
 
 /// What the fitted recordings leave open, for the reader.

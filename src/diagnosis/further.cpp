@@ -117,7 +117,7 @@ bool explained_together(const Study& study, const Judged& model) {
 bool asks_elsewhere(const Study& study, const Judged& model) {
   const double fitted = model.fitted.mean_square;
   return may_fit_half_of_the_held_out(study) &&
-         (fitted < kNearFloor || model.median_free > kFarMore * std::sqrt(fitted));
+         (fitted < kNearFloor || leaves_far_more_held_out(model, fitted));
 }
 
 /// The same model by what is held out now.

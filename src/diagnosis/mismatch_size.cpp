@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastRatio = 1.3;   ///< a gap smaller than this many floors has no shrink
 constexpr double kTemperature = 0.3;  ///< of the softmax over S
 constexpr double kSmaller = 3.0, kMore = 3.0, kLess = 4.0, kSpread = 0.5, kBelow = 1.5;  ///< see below
-constexpr double kNearFloor = 6.0;  ///< floors within which what is left may be none on another recording
+constexpr double kMayBeNone = 6.0;  ///< floors within which what is left may be none on another recording
 
 /// √ of the variance that white noise of variance 1 leaves in the innovations of an observer on a free mass:
 /// (1 − z⁻¹)²/(1 − p z⁻¹)².
@@ -37,7 +37,7 @@ Interval shrink_interval(double before, double after, double shrink) {
   const double room = std::max(before / kSmaller, std::min(before, 2.0)) - 1.0;
   const double remaining = std::max(0.0, 1.0 - shrink);
   const double low = 1.0 - std::max(kMore * remaining, kSpread / room);
-  const double high = after > kNearFloor ? 1.0 - remaining / kLess : 1.0 + kSpread / room;
+  const double high = after > kMayBeNone ? 1.0 - remaining / kLess : 1.0 + kSpread / room;
   const double below_floor = 1.0 + kBelow * std::max(0.0, shrink - 1.0);
   return {std::min(low, shrink), std::max({high, shrink, below_floor})};
 }

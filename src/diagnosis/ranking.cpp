@@ -27,6 +27,7 @@ constexpr double kNestedShareOfSize = 0.5;  ///< the same of what the prediction
 constexpr double kLeastDistance = 0.3;      ///< S to the floor of which a share can be told
 constexpr double kTrace = 0.02;             ///< share of the free runs' size that such a law may leave
 constexpr double kParentAsGood = 0.1;       ///< S, at the floor
+constexpr double kFarMore = 20.0;           ///< times the size that is left of what was fitted
 const double kFloorScore = std::log(1.0 + kScoreOffset);
 
 bool names(std::span<const char* const> list, std::string_view name) {
@@ -74,6 +75,10 @@ Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, d
 }
 
 bool at_floor(const Judged& j) { return j.median_free < kFloorRatio && j.median_innovation < kFloorRatio; }
+
+bool leaves_far_more_held_out(const Judged& model, double fitted_mean_square) {
+  return model.median_free > kFarMore * std::sqrt(fitted_mean_square);
+}
 
 double relative_gain(const Judged& before, const Judged& after) {
   return (before.score - after.score) / std::max(before.score - kFloorScore, kLeastDistance);

@@ -28,12 +28,13 @@ bool look_alike(const EffectEntry& a, const EffectEntry& b);
 inline constexpr double kFloorRatio = 1.3;  ///< medians within it: at the floor
 /// Mean square [floor²] of a fit that may only have missed the best one.
 inline constexpr double kNearFloor = 4.0;
-/// Times the size that is left on what was fitted: what is held out leaves far more.
-inline constexpr double kFarMore = 20.0;
 inline constexpr double kExplained = kFloorRatio * kFloorRatio;  ///< mean square of a fit [floor²]
 
 /// Both medians within 1.3 floors.
 bool at_floor(const Judged& judged);
+
+/// Whether a model leaves far more of what is held out than the mean square that was left of what was fitted.
+bool leaves_far_more_held_out(const Judged& model, double fitted_mean_square);
 
 /// How sure a step is.
 struct Decision {
