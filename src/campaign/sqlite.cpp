@@ -12,6 +12,12 @@ namespace {
 
 constexpr int kPatience = 20000;  // for another process that writes [ms]
 
+/// Not the machine and no other process is to blame. SQLITE_ERROR: a table is not there; SQLITE_TOOBIG: a
+/// cell claims a length that no store has.
+bool lies_in_file(int code) {
+  return code == SQLITE_NOTADB || code == SQLITE_CORRUPT || code == SQLITE_ERROR || code == SQLITE_TOOBIG;
+}
+
 }  // namespace
 
 Database::Database(const std::string& file, bool create) : file_(file) {
@@ -27,10 +33,8 @@ Database::Database(const std::string& file, bool create) : file_(file) {
 Database::~Database() { sqlite3_close(handle_); }
 
 void Database::fail() const {
-  const int code = sqlite3_errcode(handle_);
   const std::string what = printable(sqlite3_errmsg(handle_), 200);
-  if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT ||
-      code == SQLITE_ERROR)  // the last: a table is not there
+  if (lies_in_file(sqlite3_errcode(handle_)))
     throw ConfigError(file_, "is damaged or no store (" + what + "), expected one that `campaign` wrote");
   throw std::runtime_error(file_ + ": " + what);
 }
