@@ -1,5 +1,7 @@
 #include "campaign/sqlite.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -12,10 +14,14 @@ namespace {
 
 constexpr int kPatience = 20000;  // for another process that writes [ms]
 
-/// Not the machine and no other process is to blame. SQLITE_ERROR: a table is not there; SQLITE_TOOBIG: a
-/// cell claims a length that no store has.
-bool lies_in_file(int code) {
-  return code == SQLITE_NOTADB || code == SQLITE_CORRUPT || code == SQLITE_ERROR || code == SQLITE_TOOBIG;
+/// What is wrong with a file where neither the machine nor another process is to blame; nullptr where they
+/// are. SQLITE_ERROR: a table is not there; SQLITE_TOOBIG: a cell claims a length that no store has, and
+/// SQLITE_NOMEM where it claims one that no memory has.
+const char* fault_of_file(int code) {
+  if (code == SQLITE_NOMEM) return "is damaged, or memory is short";
+  return code == SQLITE_NOTADB || code == SQLITE_CORRUPT || code == SQLITE_ERROR || code == SQLITE_TOOBIG
+             ? "is damaged or no store"
+             : nullptr;
 }
 
 }  // namespace
@@ -34,8 +40,8 @@ Database::~Database() { sqlite3_close(handle_); }
 
 void Database::fail() const {
   const std::string what = printable(sqlite3_errmsg(handle_), 200);
-  if (lies_in_file(sqlite3_errcode(handle_)))
-    throw ConfigError(file_, "is damaged or no store (" + what + "), expected one that `campaign` wrote");
+  if (const char* fault = fault_of_file(sqlite3_errcode(handle_)))
+    throw ConfigError(file_, fmt::format("{} ({}), expected one that `campaign` wrote", fault, what));
   throw std::runtime_error(file_ + ": " + what);
 }
 
