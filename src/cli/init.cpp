@@ -32,8 +32,10 @@ void write_starter(const Arguments& a) {
                                                 parent.empty() ? "." : parent.string(), a.model);
   write_text(output, starter.yaml);
   print_warnings(starter.spoiling);
-  fmt::print("{:<12}{}\n{:<12}{}\n{:<12}fill in what is marked GUESS, then gapscope run {}\n", "written",
-             output, "model", starter.model, "next", output);
+  fmt::print(
+      "{:<12}{}\n{:<12}{}\n{:<12}fill in what is marked GUESS, then gapscope run {} (or detect, fit, "
+      "diagnose)\n",
+      "written", output, "model", starter.model, "next", output);
 }
 
 }  // namespace

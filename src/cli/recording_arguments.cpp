@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 
 namespace gapscope::cli {
 
@@ -30,8 +31,10 @@ RecordingConfig RecordingArguments::configuration() const {
   o.columns.input = input;
   o.columns.position = position;
   o.columns.scales =
-      declared_scales(units, gear, encoder(), !translation, [](const char* key, auto& expected) {
-        throw ConfigError(fmt::format("gapscope: --{}-unit is not known, expected {}", key, expected));
+      declared_scales(units, gear, encoder(), !translation, [&](const std::string& key, auto& expected) {
+        const std::string& unit = key == "time" ? units.time : key == "input" ? units.input : units.position;
+        throw ConfigError(
+            fmt::format("gapscope: --{}-unit {} is not known, expected {}", key, shown(unit), expected));
       });
   if (!window.empty()) o.window = {window[0], window[1]};
   if (o.window && !(o.window->first < o.window->second))

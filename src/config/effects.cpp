@@ -68,6 +68,7 @@ const EffectEntry& effect_named(const std::string& name, const Value& value) {
 
 EffectConfig read_effect(const Value& value) {
   const char* const form = "one effect, {name: {key: number}}";
+  if (value.is_text()) effect_named(value.text(), value);
   if (!value.is_map()) value.fail_expecting(form);
   const auto entries = value.entries();
   if (entries.size() != 1) value.fail_expecting(form);

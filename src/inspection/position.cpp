@@ -37,8 +37,16 @@ bool is_usual(double counts) {
                                                 [&](double usual) { return near(counts, usual); });
 }
 
-/// 0.001, 1e-5, ...: what rounding to so many decimals leaves.
-bool is_decimal(double step) { return std::abs(std::log10(step) - std::round(std::log10(step))) < 1e-6; }
+constexpr double kMostCounts = 1 << 30;    ///< a turn
+constexpr double kFinestSlide = 0.99e-10;  ///< [m]
+
+/// 0.001, 5e-8, ...: what rounding to so many decimals leaves, or the step of a linear scale.
+bool is_round(double step) {
+  const auto is_power_of_ten = [](double x) {
+    return std::abs(std::log10(x) - std::round(std::log10(x))) < 1e-6;
+  };
+  return is_power_of_ten(step) || is_power_of_ten(2.0 * step) || is_power_of_ten(5.0 * step);
+}
 
 double fastest(const Material& m) {
   const Samples x = m.recording.x1;
@@ -120,11 +128,17 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
             fmt::format("no smallest step is seen; noise {:.3g} {} per position", noise, m.unit()),
             "if x1 was filtered, interpolated or computed, record the raw counts: filters blur the impacts"};
   facts.quantum = q;
-  if (m.rotation && is_decimal(q))
+  if (m.rotation && is_round(q))
     return {"encoder", Severity::kNote,
-            fmt::format("x1 steps by {:.4g} rad, a round number: so many decimals, not the counts", q),
-            "write x1 with more digits, and give the real step as encoder: {bits: ...}"};
+            fmt::format(
+                "x1 steps by {:.4g} rad, a round number: so many decimals, not the counts, or no angle", q),
+            "write x1 with more digits, and give the real step as encoder: {bits: ...}; a linear axis in m: "
+            "--translation"};
   const double per_turn = 2.0 * std::numbers::pi / q;
+  if (m.rotation ? per_turn > kMostCounts : q < kFinestSlide)
+    return {"encoder", Severity::kNote,
+            fmt::format("x1 steps by {:.4g} {}, finer than any encoder: another unit?", q, m.unit()),
+            "declare it, recording: units: {position: ...}"};
   return {"encoder", Severity::kFine,
           fmt::format("x1 steps by {:.4g} {}{}, noise {:.2g} steps; a gap below {:.3g} {} (40 steps) is too "
                       "coarse for the detector",

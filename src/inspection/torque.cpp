@@ -80,9 +80,11 @@ Finding check_sign(const Material& m, RecordingFacts& facts) {
   if (cosine >= 0.0) return {"sign", Severity::kFine, found + ": it drives the motion", ""};
   const double delay = explaining_delay(m, cosine);
   if (cosine < kTaken && delay > kLongestDelay)
-    return {"sign", Severity::kSpoils,
-            found + ": the motion would drive the motor, as no passive load can for long",
-            "turn the sign of u or of x1 (unless a weight or another motor drives this one)"};
+    return {
+        "sign", Severity::kSpoils,
+        found + ": the motion would drive the motor, as no passive load can for long",
+        "turn the sign of u or of x1, for instance recording: gear_ratio: {position: -1} (unless a weight or "
+        "another motor drives this one)"};
   return {"sign", Severity::kNote,
           found + fmt::format(": little, and less than none, as where x1 is {:.2g} ms late", 1e3 * delay),
           "look whether a positive u accelerates towards positive x1, and whether t is that of u and of x1 "
@@ -103,10 +105,12 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
   if (!(rough.inertia > 0.0) && !(rough.damping > 0.0))
     return {"scale of u", Severity::kNote, "no inertia and no damping is seen in how x1 answers u",
             "look at the sign of u; add faster parts to the excitation"};
+  const std::string friction =
+      rough.friction > 0.0 ? fmt::format("{:.3g}", rough.friction) : "too small to be seen";
   return {"scale of u", Severity::kFine,
-          fmt::format("as one body: inertia {}, damping {:.3g}, friction {:.3g}, each times torque_constant "
+          fmt::format("as one body: inertia {}, damping {:.3g}, friction {}, each times torque_constant "
                       "in {}; compare with the sheets of motor and load",
-                      inertia, rough.damping, rough.friction, units),
+                      inertia, rough.damping, friction, units),
           ""};
 }
 

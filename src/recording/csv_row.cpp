@@ -1,6 +1,7 @@
 #include "recording/csv_row.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -63,12 +64,22 @@ std::string CsvRow::wanted() const {
   return fmt::format("the columns {}, {}, {}", columns_.time, columns_.input, columns_.position);
 }
 
+/// The header as it is, its first columns.
+std::string CsvRow::there() const {
+  constexpr std::size_t kMost = 6;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(kMost, fields_.size()); ++i) names.push_back(shown(fields_[i]));
+  return fmt::format("{}{}", fmt::join(names, ", "), fields_.size() > kMost ? ", ..." : "");
+}
+
 /// Place of a column in the header; -1 if it is not there and need not be.
 int CsvRow::place(const std::string& name, bool required) const {
   const auto found = std::find(fields_.begin(), fields_.end(), name);
   if (found == fields_.end()) {
     if (!required) return -1;
-    fail(fmt::format("there is no column {}, expected a header with {}", shown(name), wanted_with(name)));
+    fail(fmt::format(
+        "there is no column {} among {}, expected a header with {}; other names are declared ({})",
+        shown(name), there(), wanted_with(name), "recording: columns, or --time, --input, --position"));
   }
   if (std::find(found + 1, fields_.end(), name) != fields_.end())
     fail(fmt::format("the column {} is there twice, expected it once", shown(name)));

@@ -37,6 +37,7 @@ class CsvRow {
   int place(const std::string& name, bool required) const;
   std::string wanted() const;
   std::string wanted_with(const std::string& name) const;
+  std::string there() const;
   double number(int place, const std::string& column, const UnitScale& scale) const;
 
   std::string name_;

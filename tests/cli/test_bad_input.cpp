@@ -153,6 +153,8 @@ const std::vector<BadInput> kCommandLines = {
     line("simulate_into_folder", "simulate c.yaml -o folder", "folder: is a folder"),
     line("simulate_into_nowhere", "simulate c.yaml -o no/where.csv", "no/where.csv: cannot be written there"),
     line("simulate_over_its_config", "simulate c.yaml -o ./c.yaml", "./c.yaml: is the input itself"),
+    {"diagnose_recording", "diagnose r.csv", kRecorded, rows(60),
+     "r.csv: is a recording, expected a configuration in YAML; `gapscope init` writes one from it"},
     {"simulate_recorded", "simulate c.yaml -o o.csv", kRecorded, rows(60), "c.yaml: there is no simulation"},
     line("check_nothing", "check", "gapscope: FILE is required"),
     line("check_missing", "check nothing.csv", "nothing.csv: there is no such file"),

@@ -85,7 +85,7 @@ TEST(Formats, UnitsThatAreNotKnownAreRefusedBeforeAnythingIsRead) {
   Workplace place;
   const auto unit = place.run("check none.csv --position-unit degree");
   EXPECT_EQ(unit.status, 2);
-  EXPECT_THAT(unit.err, HasSubstr("--position-unit is not known, expected rad, mrad, deg"));
+  EXPECT_THAT(unit.err, HasSubstr("--position-unit 'degree' is not known, expected rad, mrad, deg"));
   const auto counts = place.run("check none.csv --position-unit counts");
   EXPECT_EQ(counts.status, 2);
   EXPECT_THAT(counts.err, HasSubstr("--position-unit is counts, expected --bits"));

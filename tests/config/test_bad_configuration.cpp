@@ -203,6 +203,10 @@ const std::vector<BadConfig> kBadModels = {
      "c.yaml:23: model.effects[0].motor_coulomb_friction.level_nm is -1"},
     {"effect_form", recorded("effects: []", "effects: [stribeck_friction]"),
      "c.yaml:23: model.effects[0] is 'stribeck_friction'"},
+    {"effect_alone_unknown", recorded("effects: []", "effects: [coulomb_friction]"),
+     "c.yaml:23: model.effects[0] is no effect of the catalogue, expected one of `gapscope effects`; the "
+     "nearest "
+     "is motor_coulomb_friction"},
     {"excluded", kRecorded + "diagnosis: {exclude: [load_unbalance, coging_torque]}\n",
      "c.yaml:25: diagnosis.exclude[1] is no effect of the catalogue, expected one of `gapscope effects`; the "
      "nearest is cogging_torque"},

@@ -19,6 +19,7 @@ using testing::closed_loop;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::rig;
 using testing::Rows;
 using testing::TemporaryFile;
@@ -67,6 +68,13 @@ TEST(Inspection, AGoodRecordingIsTold) {
   EXPECT_NEAR(i.facts.input_period, 1.0, 1e-3);
   EXPECT_NEAR(i.facts.input_frequency, 1.0, 0.1);
   EXPECT_THAT(i.report(), HasSubstr("nothing of 16 questions will spoil the estimates"));
+}
+
+TEST(Inspection, AStepThatIsARoundNumberOfRadiansMayBeOneOfMetres) {
+  Rows rows = rig([](double t) { return 0.5814 * std::sin(2.0 * kPi * t); }, {}, 30);
+  for (double& x : rows.x1) x = 5e-8 * std::round(x / 5e-8);
+  EXPECT_THAT(finding(inspected(rows), "encoder").found, HasSubstr("a round number"));
+  EXPECT_THAT(finding(inspected(good()), "encoder").found, Not(HasSubstr("a round number")));
 }
 
 struct Fault {

@@ -148,7 +148,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(BadCsv{"empty", "", "r.csv: is empty"},
                       BadCsv{"comments_only", "# a\n\n", "r.csv: is empty"},
                       BadCsv{"no_header", rows(60), "r.csv:1: there is no column 't'"},
-                      BadCsv{"missing_column", "# c\nt,u,y\n" + rows(60), "r.csv:2: there is no column 'x1'"},
+                      BadCsv{"missing_column", "# c\nt,u,y\n" + rows(60),
+                             "r.csv:2: there is no column 'x1' among 't', 'u', 'y', expected a header with "
+                             "the columns t, u, x1"},
                       BadCsv{"column_twice", "t,u,x1,u\n", "r.csv:1: the column 'u' is there twice"},
                       BadCsv{"semicolons", "t;u;x1\n0;1;2\n", "r.csv:1: there is no column 't'"},
                       BadCsv{"decimal_comma", kHead + "0,001,0,5,0,2\n", "r.csv:2: 6 fields, expected 3"},
