@@ -135,7 +135,9 @@ int changed(const DriveChanges& all) {
 }
 
 std::string summary_line(const DriveChanges& all) {
-  if (all.compared == 0) return "No quantity is told by " + all.reports.front() + " and by another report";
+  if (all.compared == 0)
+    return "No quantity has a value both in " + all.reports.front() +
+           " and in another report: nothing to compare";
   return fmt::format(
       "{} of {} differences from {} are more than the intervals carry, all taken together at 5 %",
       changed(all), all.compared, all.reports.front());

@@ -139,6 +139,7 @@ std::string interval_text(const Interval& ci95, const std::string& unit) {
 std::string plus_minus(double value, const Interval& ci95, const std::string& unit) {
   if (!std::isfinite(value) || !known(ci95)) return quantity(value, unit);
   const double half = (ci95.high - ci95.low) / 2;
+  if (std::abs(ci95.low + half - value) > 0.1 * half) return with_interval(value, ci95, unit);
   const UnitScale scale = unit_scale(unit, std::max(std::abs(value), half));
   if (std::max(std::abs(value), half) / scale.factor < 1e-2)
     return scientific(value, 4) + " ± " + scientific(half, 2) + unit_after(unit);

@@ -22,7 +22,8 @@ std::string with_interval(double value, const Interval& ci95, const std::string&
 /// "18.50 to 18.90 mrad"; empty without an interval.
 std::string interval_text(const Interval& ci95, const std::string& unit);
 
-/// "18.70 ± 0.20 mrad"
+/// "18.70 ± 0.20 mrad"; an interval that is not around its value, as where it was cut at 0, as
+/// with_interval() has it
 std::string plus_minus(double value, const Interval& ci95, const std::string& unit);
 
 /// A ratio or count for people: "7.0", "132".

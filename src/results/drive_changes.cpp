@@ -79,9 +79,9 @@ Change change_of(const Observed& first, const Observed& now) {
   return c;
 }
 
-/// The quantity where at least one report tells it.
+/// The quantity where at least one report tells it; a gap that was denied is told.
 void add(DriveChanges& all, DriveQuantity quantity) {
-  const auto tells = [](const Observed& o) { return o.remark.empty(); };
+  const auto tells = [](const Observed& o) { return o.remark.empty() || known(o.ci95); };
   if (std::none_of(quantity.observed.begin(), quantity.observed.end(), tells)) return;
   for (std::size_t i = 1; i < quantity.observed.size(); ++i)
     quantity.changes.push_back(change_of(quantity.observed.front(), quantity.observed[i]));

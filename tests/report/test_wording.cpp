@@ -10,6 +10,7 @@ TEST(Wording, ShowsTheDigitsThatTheIntervalWarrants) {
   EXPECT_EQ(with_interval(0.01872, {0.0185, 0.0189}, "rad"), "18.72 mrad (95 %: 18.50 to 18.90)");
   EXPECT_EQ(plus_minus(0.0188, {0.018771, 0.018829}, "rad"), "18.800 ± 0.029 mrad");
   EXPECT_EQ(plus_minus(0.0188, {}, "rad"), "18.8 mrad");
+  EXPECT_EQ(plus_minus(2e-5, {0.0, 4.2e-4}, "m"), with_interval(2e-5, {0.0, 4.2e-4}, "m"));
   EXPECT_EQ(interval_text({0.018771, 0.018829}, "rad"), "18.771 to 18.829 mrad");
   EXPECT_EQ(interval_text({}, "rad"), "");
 }

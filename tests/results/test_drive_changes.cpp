@@ -142,6 +142,17 @@ TEST(DriveChanges, AGapThatIsNoLongerSeenHasChangedWhereItWouldHaveShown) {
   EXPECT_EQ(gap.changes[0].verdict, ChangeVerdict::kUntold);
 }
 
+TEST(DriveChanges, AGapThatNoReportSeesIsToldAsDenied) {
+  DriveReport before = report("a", kNaN, kNaN), after = report("b", kNaN, kNaN);
+  before.model_free->verdict = GapVerdict::kNone;
+  before.model_free->smallest_visible_gap = 0.005;
+  after.model_free->verdict = GapVerdict::kInconclusive;
+  const DriveQuantity gap = quantity(compared({before, after}), "model_free", "gap");
+  EXPECT_THAT(gap.observed[0].remark, HasSubstr("none above 0.005 rad"));
+  EXPECT_EQ(gap.observed[1].remark, "inconclusive");
+  EXPECT_EQ(gap.changes[0].verdict, ChangeVerdict::kUntold);
+}
+
 TEST(DriveChanges, APlayAtZeroTorqueIsNotHeldAgainstAGap) {
   DriveReport play = report("b", 0.030, 1e-4);
   play.model_free->quantity = GapQuantity::kPlayAtZeroTorque;

@@ -70,10 +70,11 @@ struct DriveChanges {
   std::string version;        ///< of gapscope
   std::string configuration;  ///< of each report the name, the version and the hash of its configuration
   bool rotation = true;
-  std::vector<std::string> reports;       ///< their folders
-  std::vector<DriveQuantity> quantities;  ///< what at least one report tells; what was given is no finding
-  int compared = 0;                       ///< differences that have a p
-  std::vector<std::string> warnings;      ///< why values may differ though the drive does not
+  std::vector<std::string> reports;  ///< their folders
+  std::vector<DriveQuantity>
+      quantities;    ///< what at least one report tells or denies; what was given is no finding
+  int compared = 0;  ///< differences that have a p
+  std::vector<std::string> warnings;  ///< why values may differ though the drive does not
 
   const DriveQuantity* find(const std::string& from, const std::string& key) const;  ///< nullptr if untold
 };
