@@ -223,7 +223,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "
-        "kind of excitation only.");
+        "kind of excitation only: another one may name other effects, or in another order.");
   if (std::isfinite(found.alone)) diagnosis.warnings.push_back(undetermined(found));
   if (added.accepted && added.wider)
     diagnosis.warnings.push_back(

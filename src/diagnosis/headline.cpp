@@ -39,7 +39,7 @@ std::string direction_words(const std::vector<MapShare>& direction) {
   if (most.share > kOneSided)
     return fmt::format("following the direction of motion, mostly in {} motion ({:.0f} %)", most.bin,
                        100.0 * most.share);
-  return "following the direction of motion, in both directions";
+  return "following the direction of motion, alike forward and backward";
 }
 
 std::string angle_words(const MismatchPlace& p, bool rotation) {
@@ -113,7 +113,7 @@ std::string headline_of(const MismatchPlace& place, const std::vector<PatternStr
       std::find(named.begin(), named.end(), strongest->pattern) == named.end())
     named.push_back(strongest->pattern);
   for (const Pattern pattern : named) add(pattern_words(pattern, place, rotation));
-  if (named.empty()) add("in both directions, without a clear order in angle, speed, input or time");
+  if (named.empty()) add("forward and backward, without a clear order in angle, speed, input or time");
   return text;
 }
 

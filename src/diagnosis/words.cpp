@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/effect_starts.h"
+
 namespace gapscope {
 namespace internal {
 namespace {
@@ -23,7 +25,15 @@ std::string likeness(std::vector<std::string> group) {
                      fmt::join(group.begin() + 1, group.end(), " or "));
 }
 
-/// The effects in their order, each with what it cannot be told from.
+/// The simpler law that an effect brings along, where no earlier effect has named it.
+std::string within(const std::string& effect, const std::vector<std::string>& all) {
+  const EffectEntry* entry = find_effect(effect);
+  const EffectEntry* simpler = entry == nullptr ? nullptr : nested_parent(*entry);
+  if (simpler == nullptr || std::find(all.begin(), all.end(), simpler->name) != all.end()) return "";
+  return fmt::format(" (which contains {})", readable(simpler->name));
+}
+
+/// The effects in their order, each with what it contains and what it cannot be told from.
 std::string listed(const Diagnosis& d) {
   std::string text;
   for (const std::string& effect : d.effects) {
@@ -31,7 +41,7 @@ std::string listed(const Diagnosis& d) {
     if (text.empty()) group = d.group;
     for (const DiagnosisStep& s : d.steps)
       if (s.accepted && s.effect == effect) group = s.group;
-    text += (text.empty() ? "" : ", then ") + readable(effect) + likeness(group);
+    text += (text.empty() ? "" : ", then ") + readable(effect) + within(effect, d.effects) + likeness(group);
   }
   return text;
 }
@@ -44,7 +54,7 @@ std::string ratio(double value, const Diagnosis& d) {
 std::string effect_sentence(const Diagnosis& d) {
   std::string text = fmt::format("The model lacks {}", listed(d));
   if (std::isfinite(d.gap.shrink))
-    text += fmt::format(": with {} the held-out error shrinks by {:.0f} %",
+    text += fmt::format(": with {} the held-out error shrinks by {:.0f} % of what is above the floor",
                         d.effects.size() > 1 ? "them" : "it", 100.0 * d.gap.shrink);
   return text + fmt::format(", to {}.", ratio(d.gap.remains, d));
 }

@@ -129,7 +129,8 @@ void take_rejected(const FitProblem& problem, const SearchResult& found, Outcome
   outcome.warnings.push_back(
       fmt::format("the model does not explain the recordings: its prediction error is {:.3g} times the "
                   "encoder floor. Values are those of an observer at {:.3g} Hz; intervals hold their scatter "
-                  "over windows, gains and parts of the recordings, not what the missing physics may bias.",
+                  "over windows, gains and parts of the recordings, not what the missing physics may bias. "
+                  "`gapscope diagnose` asks what is missing.",
                   std::sqrt(found.best().mean_square), o.rejected_hz));
   const Solution best = best_at(problem, found.ends, o.rejected_hz);
   take_two_gains(problem, best.usable() ? best : found.best(), o.rejected_hz, kSecondGain * o.rejected_hz,

@@ -62,7 +62,8 @@ std::string probability_words(const Diagnosis& d) {
 std::string ranking_table(const DiagnosisResult& r) {
   if (r.diagnosis.ranking.empty()) return "";
   std::string text =
-      "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive." +
+      "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive; "
+      "`gapscope effects --laws` has the law of each and what its parameters mean." +
       probability_words(r.diagnosis) +
       "\n\n| effect | probability | closed share (log) | shrink | windows better | parameters | remark "
       "|\n|---|---|---|---|---|---|---|\n";

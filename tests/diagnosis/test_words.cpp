@@ -1,0 +1,32 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "diagnosis/words.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string sentence(std::vector<std::string> effects) {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kEffect;
+  d.effects = std::move(effects);
+  d.gap.shrink = 0.9;
+  return internal::sentence_of(d, true);
+}
+
+TEST(Words, AnEffectThatBringsASimplerOneSaysSo) {
+  EXPECT_THAT(sentence({"friction_asymmetry"}),
+              HasSubstr("lacks friction asymmetry (which contains motor coulomb friction): with it"));
+  EXPECT_THAT(sentence({"motor_coulomb_friction", "friction_asymmetry"}), Not(HasSubstr("contains")));
+  EXPECT_THAT(sentence({"cogging_torque"}), Not(HasSubstr("contains")));
+}
+
+TEST(Words, WhatShrinksIsWhatIsAboveTheFloor) {
+  EXPECT_THAT(sentence({"cogging_torque"}), HasSubstr("shrinks by 90 % of what is above the floor"));
+}
+
+}  // namespace
+}  // namespace gapscope
