@@ -93,9 +93,13 @@ Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::v
   return panel;
 }
 
-/// Whether the drive was in one place all the time: then the map says nothing.
+/// Whether the drive was in one place all the time, or errs as much in one as in the other: then the map says
+/// nothing.
 bool says_nothing(const std::vector<MapShare>& map) {
-  return std::any_of(map.begin(), map.end(), [](const MapShare& m) { return m.expected > 0.999; });
+  constexpr double kAlike = 0.02;  ///< less than the marks of a panel tell apart
+  return std::any_of(map.begin(), map.end(), [](const MapShare& m) { return m.expected > 0.999; }) ||
+         std::all_of(map.begin(), map.end(),
+                     [](const MapShare& m) { return std::abs(m.share - m.expected) < kAlike; });
 }
 
 /// "0.99"; no minus before a zero.
@@ -197,6 +201,8 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
       {"Time", w.time}};
   for (const auto& [title, map] : maps)
     if (!says_nothing(map)) figure.panels.push_back(map_panel(r, title, map));
+  if (figure.panels.empty())
+    return missing_figure(figure.file, figure.title, "the error is alike everywhere");
   figure.reading = "The residual " + torque_word(r) + " appears " + w.headline + ".";
   return figure;
 }

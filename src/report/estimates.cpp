@@ -11,6 +11,11 @@ namespace {
 
 constexpr Interval kNone{};
 
+bool is_denied(const ReportView& view) {
+  return view.run.model_free && view.run.model_free->verdict == GapVerdict::kNone &&
+         std::isfinite(view.run.model_free->smallest_visible_gap);
+}
+
 bool is_play(const ReportView& view) {
   return view.run.model_free && view.run.model_free->quantity == GapQuantity::kPlayAtZeroTorque;
 }
@@ -78,8 +83,8 @@ Interval interval_of(const GapEvent& e) {
   return {e.gap - half, e.gap + half};
 }
 
-/// Room for what was accepted and what it means, intervals included; a passage that was set aside may lie
-/// beyond.
+/// Room for what was accepted and what it means, intervals included, or from nothing to the gap that would
+/// have shown; a passage that was set aside may lie beyond.
 Interval event_range(const ReportView& view) {
   std::vector<GapEvent> shown = view.accepted();
   if (shown.empty()) shown = view.events;
@@ -90,6 +95,7 @@ Interval event_range(const ReportView& view) {
   const Interval& ci = view.run.model_free->ci95;
   for (const double v : {ci.low, ci.high, view.true_gap()})
     if (std::isfinite(v)) values.push_back(v);
+  if (is_denied(view)) values.insert(values.end(), {0.0, view.run.model_free->smallest_visible_gap});
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double room = std::max(0.1 * (*high - *low), 0.01 * std::abs(*high));
   return {*low - room, *high + room};
@@ -124,12 +130,16 @@ Panel over_time(const ReportView& view) {
              {},
              {}};
   panel.height = 520.0;
-  for (const Series& s : {passages(view, "$x_1$ rising", 1, true, Marker::kTriangleUp),
-                          passages(view, "$x_1$ falling", -1, true, Marker::kTriangleDown),
-                          passages(view, "set aside", 0, false, Marker::kCross)})
+  for (const Series& s :
+       {passages(view, "$x_1$ rising", 1, true, Marker::kTriangleUp),
+        passages(view, "$x_1$ falling", -1, true, Marker::kTriangleDown),
+        passages(view, is_denied(view) ? "set aside: no gap" : "set aside", 0, false, Marker::kCross)})
     if (!s.x.empty()) panel.series.push_back(s);
   const Interval& ci = view.run.model_free->ci95;
   if (std::isfinite(ci.low)) panel.y_bands.push_back({ci, kBandShade, "95 % interval"});
+  if (is_denied(view))
+    panel.y_marks.push_back(
+        {view.run.model_free->smallest_visible_gap, model_free_style(), "a gap this wide would have shown"});
   if (std::isfinite(view.true_gap()))
     panel.y_marks.push_back({view.true_gap(), truth_style(), view.true_gap_name()});
   return panel;

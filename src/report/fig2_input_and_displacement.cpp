@@ -62,7 +62,8 @@ std::string reading(const ReportView& view) {
 FigureData fig2_input_and_displacement(const ReportView& view) {
   FigureData figure;
   figure.file = "fig2_input_and_displacement.png";
-  figure.title = "Input, displacement and backlash state";
+  figure.title = view.state.empty() ? "Input, displacement and estimation error"
+                                    : "Input, displacement and backlash state";
   if (!view.recording) return missing_figure(figure.file, figure.title, "no recording is stored");
   figure.panels.push_back(
       over_time(view, "Input", {"input $u$", "units of $u$", {}, {}, {}}, input_style(), view.recording->u));

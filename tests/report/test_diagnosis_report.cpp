@@ -42,7 +42,7 @@ DiagnosisResult sample(DiagnosisVerdict verdict) {
   }
   d.where.headline = "in engagement, periodic in the motor angle with 24 cycles per turn";
   d.where.mode = map_of({"gap", "engagement", "impact"});
-  d.where.direction = map_of({"backward", "forward"});
+  d.where.direction = {{"backward", 0.6, 0.5}, {"forward", 0.4, 0.5}};
   d.where.speed = d.where.angle = d.where.input = d.where.frequency = d.where.time =
       map_of({"0..1", "1..2", "2..3"});
   d.where.periods_per_turn = 24.0;
@@ -124,6 +124,12 @@ TEST(DiagnosisReport, TheTorqueMapShowsWhatRemainsBesideWhatTheNominalModelLeave
   EXPECT_EQ(both.panels[0].series[0].x, both.panels[1].series[0].x);
   r.diagnosis.effects.clear();
   EXPECT_EQ(internal::diagnosis_torque_map(r).panels.size(), 2u);
+}
+
+TEST(DiagnosisReport, AMapOfAnErrorThatIsAlikeEverywhereIsLeftOut) {
+  DiagnosisResult r = sample(DiagnosisVerdict::kUnknown);
+  r.diagnosis.where.direction = {{"backward", 0.51, 0.5}, {"forward", 0.49, 0.5}};
+  for (const auto& panel : internal::diagnosis_where(r).panels) EXPECT_NE(panel.title, "Direction of motion");
 }
 
 TEST(DiagnosisReport, AMapOfOnePlaceIsLeftOutAndSoAreNoCandidatesInSilence) {

@@ -217,6 +217,18 @@ TEST(Overview, KeepsTheTitlesOfThePanelsThatItBorrows) {
                            [](const Panel& p) { return p.title == "Estimates with 95 % intervals"; }));
 }
 
+TEST(Estimates, AGapThatWasDeniedIsDrawnAgainstTheOneThatWouldHaveShown) {
+  RunResult run =
+      sample_run({.samples = 7500, .load_recorded = false, .fitted = false, .verdict = GapVerdict::kNone});
+  run.model_free->smallest_visible_gap = 0.03;
+  const ReportView view(run);
+  const Panel passages = estimates(view).panels.back();
+  ASSERT_EQ(passages.y_marks.size(), 1u);
+  EXPECT_DOUBLE_EQ(passages.y_marks[0].at, 0.03);
+  EXPECT_LE(passages.y.range.low, 0.0);
+  EXPECT_GE(passages.y.range.high, 0.03);
+}
+
 TEST(Residuals, OfWhiteNoiseAreCalledWhite) {
   RunResult run = sample_run({.samples = 6000});
   // Deterministic and white enough: the fractional parts of i² √2.
