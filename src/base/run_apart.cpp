@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 #include <mutex>
 #include <new>
 #include <stdexcept>
@@ -19,7 +20,8 @@ namespace gapscope {
 namespace {
 
 constexpr rlim_t kLongestS = 60;
-constexpr int kFailed = 1, kNoMemory = 2;  ///< exit statuses
+constexpr rlim_t kMostMemory = rlim_t{2} << 30;  ///< beyond what the process has already [bytes]
+constexpr int kFailed = 1, kNoMemory = 2;        ///< exit statuses
 
 bool send(int to, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -30,12 +32,29 @@ bool send(int to, std::string_view bytes) {
   return true;
 }
 
+/// What the process has of its address space [bytes]; 0 if there is no telling.
+rlim_t address_space() {
+  std::ifstream pages("/proc/self/statm");
+  rlim_t count = 0;
+  pages >> count;
+  return count * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit_memory() {
+  rlimit limit{};
+  const rlim_t present = address_space();
+  if (present == 0 || getrlimit(RLIMIT_AS, &limit) != 0) return;
+  limit.rlim_cur = std::min(limit.rlim_max, present + kMostMemory);
+  setrlimit(RLIMIT_AS, &limit);
+}
+
 /// Whatever ends this process: what is said of it is said by the other one, and nothing is left behind.
 void be_a_trial() {
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGXCPU}) std::signal(signal, SIG_DFL);
   constexpr rlimit kNoCore{0, 0}, kTime{kLongestS, kLongestS};
   setrlimit(RLIMIT_CORE, &kNoCore);
   setrlimit(RLIMIT_CPU, &kTime);
+  limit_memory();
   if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, STDERR_FILENO);
 }
 

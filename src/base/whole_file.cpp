@@ -1,8 +1,16 @@
 #include "gapscope/base/whole_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <stdexcept>
+#include <string_view>
+
+#include "gapscope/base/errors.h"
 
 namespace gapscope {
 namespace {
@@ -18,17 +26,41 @@ void write_file(const fs::path& path, const std::string& name,
     throw std::runtime_error(name + ": cannot be written, expected a writable place with room for it");
 }
 
+/// Another name of what the process writes to anyway, whatever that is.
+bool is_stream(const std::string& path) {
+  const std::string_view name = path;
+  return name == "/dev/stdout" || name == "/dev/stderr" || name.starts_with("/dev/fd/") ||
+         name.starts_with("/proc/self/fd/");
+}
+
 }  // namespace
 
+std::string new_file_beside(const std::string& path) {
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    const std::string name = ".gapscope-" + std::to_string(random()) + "-" + std::to_string(random());
+    const fs::path file = fs::path(path).parent_path() / name;
+    const int handle = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (handle >= 0) return close(handle), file.string();
+    if (errno != EEXIST) break;
+  }
+  throw std::runtime_error(path + ": cannot be written, expected a writable place with room for it");
+}
+
 void write_whole_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
-  if (fs::exists(path) && !fs::is_regular_file(path)) return write_file(path, path, write);
-  const fs::path aside = path + ".part";
+  std::error_code problem;
+  const fs::file_status there = fs::status(path, problem);
+  if (is_stream(path) || (fs::exists(there) && !fs::is_regular_file(there)))
+    return write_file(path, path, write);
+  if (fs::is_symlink(fs::symlink_status(path, problem)))
+    throw ConfigError(path, "is a link to another file, expected the name of the file itself");
+  const fs::path aside = new_file_beside(path);
   try {
     write_file(aside, path, write);
-    fs::rename(aside, path);
+    fs::rename(aside, path, problem);
+    if (problem) throw std::runtime_error(path + ": cannot be written: " + problem.message());
   } catch (...) {
-    std::error_code ignored;
-    fs::remove(aside, ignored);
+    fs::remove(aside, problem);
     throw;
   }
 }

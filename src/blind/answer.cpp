@@ -4,9 +4,11 @@
 #include <filesystem>
 
 #include "blind/answer_journal.h"
+#include "blind/case_copy.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/campaign/pipeline.h"
@@ -41,8 +43,22 @@ Diagnosis diagnosis_of(const std::string& sheet) {
   return diagnose(traces_of(train), traces_of(held_out), c.model.reference_model(), options);
 }
 
+/// What is said of a copy, said of the original.
+std::string of_original(std::string message, const std::string& copy, const std::string& folder) {
+  for (auto at = message.find(copy); at != message.npos; at = message.find(copy, at + folder.size()))
+    message.replace(at, copy.size(), folder);
+  return message;
+}
+
 BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
-  const Diagnosis d = diagnosis_of(folder + "/" + c.name + ".yaml");
+  const blind::CaseCopy copy(folder, c);
+  Diagnosis d;
+  try {
+    d = diagnosis_of(copy.folder() + "/" + c.name + ".yaml");
+  } catch (const ConfigError& error) {
+    throw ConfigError(of_original(error.what(), copy.folder(), folder));
+  }
+  stop_point();  // a diagnosis that was asked to stop has judged by less than it had
   return {c.name,      c.files,          word_of(d.verdict), d.effects,
           d.group,     d.where.headline, d.gap.before,       d.gap.after,
           d.gap.floor, d.gap.shrink,     d.gap.shrink_ci95,  d.evidence,
@@ -53,13 +69,22 @@ std::string sealed_after(const std::string& previous, const BlindAnswer& answer)
   return sha256(previous + "\n" + line_of(answer) + "\n");
 }
 
+/// Answers may be given again; those to another check stay, and so does any other file.
+void require_replaceable(const std::string& path, const BlindManifest& manifest, const std::string& sealed) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(path) || is_answers_file(path, sha256_of_file(sealed))) return;
+  throw ConfigError(path, "is there and holds no answers to " + manifest.name + ", expected another name");
+}
+
 }  // namespace
 
 BlindAnswers answer_blind_check(const std::string& folder, const std::string& path, int threads,
                                 const BlindProgress& progress) {
   const BlindManifest manifest = read_blind_manifest(folder + "/manifest.json");
   verify_recordings(manifest, folder);
+  require_replaceable(path, manifest, folder + "/manifest.json");
   BlindAnswers answers{manifest.name, version(), sha256_of_file(folder + "/manifest.json"), {}};
+  const std::string head = sha256(head_line_of(answers));
   if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty())
     std::filesystem::create_directories(parent);
   blind::AnswerJournal journal(path + ".partial",
@@ -75,7 +100,7 @@ BlindAnswers answer_blind_check(const std::string& folder, const std::string& pa
   });
   for (const SealedCase& c : manifest.cases) {
     BlindAnswer answer = journal.answers().at(c.name);
-    answer.seal = sealed_after(answers.seal(), answer);
+    answer.seal = sealed_after(answers.cases.empty() ? head : answers.seal(), answer);
     answers.cases.push_back(std::move(answer));
   }
   write_blind_answers(path, answers);
@@ -87,7 +112,10 @@ void verify_answers(const BlindManifest& manifest, const BlindAnswers& answers, 
   if (answers.cases.size() != manifest.cases.size())
     throw ConfigError(file, fmt::format("answers {} cases, expected the {} of the manifest",
                                         answers.cases.size(), manifest.cases.size()));
-  std::string previous = answers.manifest_sha256;
+  if (answers.name != manifest.name)
+    throw ConfigError(file,
+                      "answers the check " + shown(answers.name) + ", expected " + shown(manifest.name));
+  std::string previous = sha256(head_line_of(answers));
   for (std::size_t i = 0; i < manifest.cases.size(); ++i) {
     const SealedCase& c = manifest.cases[i];
     const BlindAnswer& a = answers.cases[i];

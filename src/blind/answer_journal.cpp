@@ -4,6 +4,8 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
+#include "gapscope/base/whole_file.h"
 #include "gapscope/results/blind_files.h"
 
 namespace gapscope::blind {
@@ -11,13 +13,16 @@ namespace gapscope::blind {
 AnswerJournal::AnswerJournal(std::string path, const std::string& check) : path_(std::move(path)) {
   require_alone();
   read(check);
-  const std::string whole = path_ + ".whole";
+  const std::string whole = new_file_beside(path_);
   out_.open(whole, std::ios::binary);
   lock_.emplace(whole);
   out_ << check << '\n';
   for (const auto& [name, answer] : answers_) out_ << line_of(answer) << '\n';
-  if (!out_.flush()) throw std::runtime_error(whole + ": cannot be written");
-  std::filesystem::rename(whole, path_);
+  std::error_code problem;
+  if (out_.flush()) std::filesystem::rename(whole, path_, problem);
+  if (out_ && !problem) return;
+  std::filesystem::remove(whole, problem);
+  throw std::runtime_error(path_ + ": cannot be written");
 }
 
 void AnswerJournal::require_alone() const {
@@ -26,11 +31,17 @@ void AnswerJournal::require_alone() const {
 }
 
 void AnswerJournal::read(const std::string& check) {
+  std::error_code ignored;
+  const auto there = std::filesystem::symlink_status(path_, ignored);
+  if (!std::filesystem::exists(there)) return;
+  if (!std::filesystem::is_regular_file(there))
+    throw ConfigError(path_, "is no regular file, expected the answers so far");
   std::ifstream in(path_, std::ios::binary);
   std::string line;
-  if (!std::getline(in, line) || in.eof()) return;
-  if (line != check)
-    throw ConfigError(path_, 1, "answers '" + line + "', expected '" + check + "'; remove it to begin anew");
+  if (!std::getline(in, line) || line != check)
+    throw ConfigError(
+        path_, 1,
+        "answers " + shown(line, 200) + ", expected " + shown(check, 200) + "; remove it to begin anew");
   for (int number = 2; std::getline(in, line) && !in.eof(); ++number) {
     BlindAnswer answer = blind_answer_of(line, path_ + ":" + std::to_string(number));
     answers_.insert_or_assign(answer.name, answer);

@@ -12,6 +12,7 @@
 #include "gapscope/config/configuration.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/results/blind_files.h"
+#include "gapscope/results/report_folder.h"
 
 namespace gapscope {
 namespace {
@@ -61,19 +62,24 @@ void require_apart(const fs::path& folder, const fs::path& labels) {
 void make_blind_check(const BlindConfig& config, const std::string& folder, const std::string& labels,
                       int threads, const BlindProgress& progress) {
   require_apart(folder, labels);
-  fs::create_directories(folder);
+  const std::string resolved = resolved_yaml(config);
+  if (fs::exists(labels) && !is_labels_file(labels, config.name, resolved))
+    throw ConfigError(labels, "is there and holds no labels of " + config.name + ", expected another name");
+  ReportFolder handed_out(folder, FolderKind::kCases);
   std::vector<blind::PlannedCase> cases = blind::plan_cases(config);
   std::atomic<std::size_t> done{0};
   parallel_for(cases.size(), threads, [&](std::size_t i) {
     stop_point();
-    write_case(folder, config.duration, cases[i]);
+    write_case(handed_out.path(), config.duration, cases[i]);
     if (const std::size_t count = ++done; progress) progress(count, cases.size());
   });
-  BlindLabels stored{config.name, resolved_yaml(config), {}};
+  BlindLabels stored{config.name, resolved, {}};
   for (const blind::PlannedCase& c : cases) stored.cases.push_back(c.label);
   if (const fs::path parent = fs::path(labels).parent_path(); !parent.empty()) fs::create_directories(parent);
   write_blind_labels(labels, stored);
-  seal_blind_check(folder, labels);
+  seal_blind_check(handed_out.path(), labels);
+  stop_point();
+  handed_out.commit();
 }
 
 }  // namespace gapscope

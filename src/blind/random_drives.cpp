@@ -13,6 +13,7 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording_file.h"
+#include "gapscope/results/report_folder.h"
 
 namespace gapscope {
 namespace {
@@ -87,7 +88,8 @@ std::string truth_row(const std::string& name, const BlindCase& c, const blind::
 void write_random_drives(RandomDriveKind kind, std::uint64_t first_seed, std::uint64_t last_seed,
                          const std::string& folder, const std::function<void(std::uint64_t)>& progress) {
   const bool with_gap = kind == RandomDriveKind::kGap;
-  fs::create_directories(folder);
+  ReportFolder drives(folder, FolderKind::kDrives);
+  const fs::path place = drives.path();
   std::string truth = kTruthHeader;
   for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
     stop_point();
@@ -96,13 +98,14 @@ void write_random_drives(RandomDriveKind kind, std::uint64_t first_seed, std::ui
     run.recording.x2.clear();
     run.recording.mode.clear();
     const std::string name = fmt::format("{}_{}", word(kind), seed);
-    write_csv((fs::path(folder) / (name + ".csv")).string(), run.recording);
-    write_text(fs::path(folder) / (name + ".yaml"),
-               configuration(name, c, blind::data_sheet(c.drive, seed), with_gap));
+    write_csv((place / (name + ".csv")).string(), run.recording);
+    write_text(place / (name + ".yaml"), configuration(name, c, blind::data_sheet(c.drive, seed), with_gap));
     truth += truth_row(name, c, run.truth, with_gap);
     if (progress) progress(seed - first_seed + 1);
   }
-  write_text(fs::path(folder) / "truth.csv", truth);
+  write_text(place / "truth.csv", truth);
+  stop_point();
+  drives.commit();
 }
 
 }  // namespace gapscope

@@ -46,7 +46,9 @@ BlindScore score_blind_check(const std::string& folder, const std::string& label
   verify_answers(manifest, given, answers);
   if (!seal.empty() && given.seal() != seal)
     throw ConfigError(answers, "has the seal " + given.seal() + ", expected the one announced, " + seal);
-  return score_blind_answers(opened, given);
+  BlindScore score = score_blind_answers(opened, given);
+  score.announced_seal = seal;
+  return score;
 }
 
 BlindScore run_blind_check(const BlindConfig& config, const std::string& folder, int threads,

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <cmath>
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
+#include "blind/sealed_files.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/plain_name.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/config/configuration.h"
@@ -24,17 +27,34 @@ bool is_plain(const std::string& name) {
                               "0123456789_-") == std::string::npos;
 }
 
+/// Names and words of a label are shown in tables, joined by '+'.
+bool is_word(const std::string& text) {
+  return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
+}
+
+void require_sound(const BlindLabel& l, const std::string& file) {
+  if (!is_plain(l.name))
+    throw ConfigError(
+        file, "has a case '" + printable(l.name, 100) + "', expected a name of letters, digits, _ and -");
+  if (l.part != "calibration" && l.part != "report")
+    throw ConfigError(file, l.name + " is of the part " + shown(l.part) + ", expected calibration or report");
+  if (l.salt.size() < kShortestSalt)
+    throw ConfigError(file, l.name + fmt::format(" has a salt of {} characters, expected at least {}",
+                                                 l.salt.size(), kShortestSalt));
+  for (const std::string* text : {&l.rig, &l.seed, &l.salt})
+    if (!is_word(*text)) throw ConfigError(file, l.name + " has a control character, expected plain text");
+  for (const std::string& effect : l.effects)
+    if (effect.empty() || !is_word(effect) || effect.find('+') != effect.npos)
+      throw ConfigError(file, l.name + " has the effect " + shown(effect) +
+                                  ", expected a name without + and control characters, one item each");
+}
+
 void require_sound(const BlindLabels& labels, const std::string& file) {
+  require_plain_name(labels.name, file);
   std::set<std::string> names;
   for (const BlindLabel& l : labels.cases) {
-    if (!is_plain(l.name))
-      throw ConfigError(file, "has a case '" + l.name + "', expected a name of letters, digits, _ and -");
+    require_sound(l, file);
     if (!names.insert(l.name).second) throw ConfigError(file, "labels " + l.name + " twice, expected once");
-    if (l.part != "calibration" && l.part != "report")
-      throw ConfigError(file, l.name + " is of the part '" + l.part + "', expected calibration or report");
-    if (l.salt.size() < kShortestSalt)
-      throw ConfigError(file, l.name + fmt::format(" has a salt of {} characters, expected at least {}",
-                                                   l.salt.size(), kShortestSalt));
   }
 }
 
@@ -45,35 +65,58 @@ std::vector<SealedFile> files_of(const std::string& folder, const std::string& n
   if (!c.recording) throw ConfigError(path, "simulates, expected recording: {file, held_out}");
   std::vector<SealedFile> files = {{sheet, sha256_of_file(path)}};
   for (const auto* list : {&c.recording->files, &c.recording->held_out})
-    for (const RecordedFile& r : *list) files.push_back({r.given, sha256_of_file(folder + "/" + r.given)});
+    for (const RecordedFile& r : *list) {
+      require_inside(r.given, path);
+      files.push_back({r.given, sha256_of_file(folder + "/" + r.given)});
+    }
   return files;
 }
 
 }  // namespace
 
-std::string label_hash(const BlindLabel& l) {
-  const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; };
-  return sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n", l.salt, l.name, l.part,
-                            fmt::join(l.effects, "+"), l.rig, number(l.severity), number(l.cycles_per_turn),
-                            l.seed));
+void require_plain_name(const std::string& name, const std::string& file) {
+  if (!is_plain_name(name))
+    throw ConfigError(file, "has the name " + shown(name) + ", expected a plain file name");
 }
+
+void require_inside(const std::string& name, const std::string& file) {
+  const std::filesystem::path path(name);
+  const bool leaves = std::find(path.begin(), path.end(), "..") != path.end();
+  if (name.empty() || path.is_absolute() || leaves)
+    throw ConfigError(file,
+                      "names the file " + shown(name) + ", expected one in the folder that is handed out");
+}
+
+std::string label_hash(const BlindLabel& label) { return sha256(line_of(label)); }
+std::string labels_hash(const BlindLabels& labels) { return sha256(head_line_of(labels)); }
 
 BlindManifest seal_blind_check(const std::string& folder, const std::string& labels) {
   const BlindLabels secret = read_blind_labels(labels);
   require_sound(secret, labels);
-  BlindManifest manifest{secret.name, version(), {}};
+  const std::string path = folder + "/manifest.json";
+  if (std::filesystem::exists(path) && !is_manifest_file(path))
+    throw ConfigError(path, "is there and no manifest of a blind check, expected another folder");
+  BlindManifest manifest{secret.name, version(), labels_hash(secret), {}};
   for (const BlindLabel& l : secret.cases)
     manifest.cases.push_back({l.name, l.part, label_hash(l), files_of(folder, l.name)});
-  write_blind_manifest(folder + "/manifest.json", manifest);
+  write_blind_manifest(path, manifest);
   return manifest;
 }
 
 void verify_recordings(const BlindManifest& manifest, const std::string& folder) {
+  require_plain_name(manifest.name, folder + "/manifest.json");
   for (const SealedCase& c : manifest.cases)
-    for (const SealedFile& f : c.files)
-      if (sha256_of_file(folder + "/" + f.file) != f.sha256)
-        throw ConfigError(folder + "/" + f.file,
-                          "is not the file of " + c.name + " that was sealed, expected SHA-256 " + f.sha256);
+    for (const SealedFile& f : c.files) {
+      require_inside(f.file, folder + "/manifest.json");
+      verify_file(folder + "/" + f.file, sha256_of_file(folder + "/" + f.file), c.name, f);
+    }
+}
+
+void verify_file(const std::string& path, const std::string& found, const std::string& name,
+                 const SealedFile& sealed) {
+  if (found != sealed.sha256)
+    throw ConfigError(path,
+                      "is not the file of " + name + " that was sealed, expected SHA-256 " + sealed.sha256);
 }
 
 void verify_labels(const BlindManifest& manifest, const BlindLabels& labels, const std::string& file) {
@@ -89,6 +132,10 @@ void verify_labels(const BlindManifest& manifest, const BlindLabels& labels, con
       throw ConfigError(file, "has another label of " + c.name +
                                   " than the one that was sealed, expected one of SHA-256 " + c.label_sha256);
   }
+  if (labels.name != manifest.name || labels_hash(labels) != manifest.labels_sha256)
+    throw ConfigError(file,
+                      "has another name or configuration than those that were sealed, expected SHA-256 " +
+                          manifest.labels_sha256);
 }
 
 }  // namespace gapscope

@@ -8,6 +8,7 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/campaign/pipeline.h"
 #include "gapscope/recording/recording_file.h"
+#include "gapscope/results/sha256.h"
 #include "gapscope/simulation/simulate.h"
 
 namespace gapscope {
@@ -88,12 +89,40 @@ std::vector<Recording> read_all(const Configuration& c, const std::vector<Record
     r.file = name_of(file, files);
     apply_sheet(r, c, outcome.warnings);
     if (!r.resampling.empty()) outcome.result.notes.push_back(r.file + ": " + r.resampling);
+    if (r.open_end)
+      outcome.result.notes.push_back(r.file +
+                                     ": its last line has no end, so the last number may be cut off");
     recordings.push_back(std::move(r));
   }
   return recordings;
 }
 
 }  // namespace
+
+std::vector<std::string> source_paths(const Configuration& c) {
+  std::vector<std::string> paths = {c.file};
+  if (c.recording)
+    for (const auto* files : {&c.recording->files, &c.recording->held_out})
+      for (const RecordedFile& f : *files) paths.push_back(f.path);
+  if (c.simulation && !c.simulation->excitation.file.empty())
+    paths.push_back(
+        (std::filesystem::path(c.simulation->excitation.folder) / c.simulation->excitation.file).string());
+  return paths;
+}
+
+std::vector<SourceFile> sources_of(const Configuration& c) {
+  Configuration asked_of_all = c;
+  asked_of_all.excluded.clear();  // a question of the diagnosis, no other drive
+  std::vector<SourceFile> sources = {{"configuration", sha256(resolved_yaml(asked_of_all))}};
+  for (const std::string& path : source_paths(c)) {
+    if (path == c.file) continue;
+    const std::string name = std::filesystem::path(path).filename().string();
+    std::error_code unreachable;  // what is held out need not be there for an estimate
+    const bool there = std::filesystem::is_regular_file(path, unreachable);
+    sources.push_back({name, there ? sha256_of_file(path) : ""});
+  }
+  return sources;
+}
 
 Recording simulated_recording(const Configuration& c) {
   const SimulationConfig& s = *c.simulation;

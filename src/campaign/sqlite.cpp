@@ -1,8 +1,11 @@
 #include "campaign/sqlite.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
@@ -24,11 +27,37 @@ const char* fault_of_file(int code) {
              : nullptr;
 }
 
+/// Where nobody can write and no rows are still in its log, a file needs none of those that SQLite otherwise
+/// keeps beside it.
+std::string as_archive(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::string uri = "file:";
+  for (const char c : fs::absolute(file).string()) {
+    const bool plain =
+        std::isalnum(static_cast<unsigned char>(c)) || c == '/' || c == '.' || c == '_' || c == '-';
+    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  std::error_code problem;
+  const fs::path log = file + "-wal";
+  return fs::exists(log, problem) && fs::file_size(log, problem) > 0 ? uri : uri + "?immutable=1";
+}
+
+bool can_be_written(const std::string& file) {
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  return access(file.c_str(), W_OK) == 0 && access(folder.c_str(), W_OK) == 0;
+}
+
+int open_database(const std::string& file, bool create, sqlite3** handle) {
+  if (create)
+    return sqlite3_open_v2(file.c_str(), handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  if (can_be_written(file)) return sqlite3_open_v2(file.c_str(), handle, SQLITE_OPEN_READWRITE, nullptr);
+  return sqlite3_open_v2(as_archive(file).c_str(), handle, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+}
+
 }  // namespace
 
 Database::Database(const std::string& file, bool create) : file_(file) {
-  const int flags = create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
-  if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
+  if (open_database(file, create, &handle_) != SQLITE_OK) {
     const std::string what = handle_ == nullptr ? "out of memory" : sqlite3_errmsg(handle_);
     sqlite3_close(handle_);
     throw std::runtime_error(file_ + ": " + what);
@@ -47,6 +76,15 @@ void Database::fail() const {
 
 void Database::execute(const std::string& sql) {
   if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+}
+
+void Database::require_sound() {
+  Statement check(*this, "PRAGMA quick_check(1)");
+  std::string answer;
+  if (check.step()) check.read(answer);
+  if (answer != "ok")
+    throw ConfigError(file_, fmt::format("is damaged or no store ({}), expected one that `campaign` wrote",
+                                         printable(answer, 200)));
 }
 
 Statement::Statement(Database& database, const std::string& sql) : database_(database) {
@@ -91,6 +129,9 @@ void Statement::read(std::string& text) {
   const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
   text.assign(bytes == nullptr ? "" : bytes,
               static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
+  if (!is_text(text))
+    throw ConfigError(database_.file(),
+                      "is damaged (a cell holds no text), expected one that `campaign` wrote");
 }
 void Statement::read(double& value) {
   const int column = read_++;

@@ -12,13 +12,14 @@ namespace gapscope::internal {
 /// store or a damaged one, else std::runtime_error.
 class Database {
  public:
-  /// @param create  false: it must be there, and is only read
+  /// @param create  false: it must be there, and is only read, be it in an archive that cannot be written
   Database(const std::string& file, bool create);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
   void execute(const std::string& sql);
+  void require_sound();  ///< reads all of it  @throws ConfigError where it is damaged
   [[noreturn]] void fail() const;
   sqlite3* handle() const { return handle_; }
   const std::string& file() const { return file_; }

@@ -95,9 +95,11 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
   const std::string file = file_in(folder);
   connection_ = std::make_unique<Connection>(file, std::move(lock));
   Database& database = connection_->database;
+  const bool is_new = internal::is_empty(database);
+  if (!is_new) internal::require_campaign(database, file);
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
-  if (!internal::has_tables(database)) internal::create_tables(database, header);
+  if (is_new) internal::create_tables(database, header);
   const CampaignHeader stored = internal::read_header(database, file);
   if (const std::string what = internal::difference(stored, header); !what.empty())
     throw ConfigError(file, what);
@@ -111,7 +113,8 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
 
 CampaignStore::CampaignStore(const std::string& folder)
     : connection_(std::make_unique<Connection>(existing(folder), nullptr)),
-      header_(internal::read_header(connection_->database, file_in(folder))) {}
+      header_((connection_->database.require_sound(),
+               internal::read_header(connection_->database, file_in(folder)))) {}
 
 CampaignStore::~CampaignStore() = default;
 

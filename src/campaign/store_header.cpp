@@ -136,6 +136,11 @@ struct FieldNames {
   void operator()(const char* name, std::optional<bool>&) { names.emplace_back(name); }
 };
 
+bool has_tables(Database& database) {
+  Statement select(database, "SELECT name FROM sqlite_master WHERE name = 'campaign'");
+  return select.step();
+}
+
 }  // namespace
 
 std::vector<std::string> run_columns(const CampaignHeader& header) {
@@ -148,9 +153,14 @@ std::vector<std::string> run_columns(const CampaignHeader& header) {
   return collect.names;
 }
 
-bool has_tables(Database& database) {
-  Statement select(database, "SELECT name FROM sqlite_master WHERE name = 'campaign'");
-  return select.step();
+bool is_empty(Database& database) {
+  Statement select(database, "SELECT name FROM sqlite_master");
+  return !select.step();
+}
+
+void require_campaign(Database& database, const std::string& file) {
+  if (!has_tables(database))
+    throw ConfigError(file, "holds no campaign, expected a store that `campaign` wrote");
 }
 
 void create_tables(Database& database, const CampaignHeader& h) {
@@ -182,8 +192,7 @@ void create_tables(Database& database, const CampaignHeader& h) {
 }
 
 CampaignHeader read_header(Database& database, const std::string& file) {
-  if (!has_tables(database))
-    throw ConfigError(file, "holds no campaign, expected a store that `campaign` wrote");
+  require_campaign(database, file);
   if (const std::string schema = fact(database, file, "schema"); schema != kSchema)
     throw ConfigError(file, fmt::format("has the schema {}, expected '{}'", shown(schema), kSchema));
   CampaignHeader h;

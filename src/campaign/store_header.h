@@ -10,7 +10,9 @@ namespace gapscope::internal {
 /// Makes the tables of an empty database and writes the header, all at once.
 void create_tables(Database& database, const CampaignHeader& header);
 
-bool has_tables(Database& database);
+bool is_empty(Database& database);  ///< has no tables at all
+/// @throws ConfigError for a database of something else
+void require_campaign(Database& database, const std::string& file);
 
 /// @throws ConfigError for another schema
 CampaignHeader read_header(Database& database, const std::string& file);

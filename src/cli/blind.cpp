@@ -31,7 +31,6 @@ BlindProgress counted(const Progress& progress, const char* what) {
 
 void make(const Arguments& a) {
   const BlindConfig config = load_blind_config(a.config);
-  require_folder_name(a.cases);
   make_blind_check(config, a.cases, a.labels, a.threads, counted(progress_on_terminal(a.quiet), "made case"));
   say("cases", fmt::format("{} in {}", config.calibration.cases() + config.report.cases(), a.cases));
   say("labels", a.labels + " (not to be handed out before the answers are in)");
@@ -109,8 +108,7 @@ void add_answer(CLI::App& blind) {
   command->callback([a] { answer(*a); });
 }
 
-void report(const std::string& folder, const BlindScore& score) {
-  ReportFolder report(folder);
+void write_score(ReportFolder& report, const std::string& folder, const BlindScore& score) {
   write_blind_score(report.path(), score);
   if (!score.configuration.empty()) write_text(report.path() + "/resolved.yaml", score.configuration);
   write_blind_report(report.path());
@@ -139,8 +137,8 @@ void add_score(CLI::App& blind) {
   command->callback([a] {
     const BlindScore score = score_blind_check(a->cases, a->labels, a->answers, a->seal);
     const std::string folder = a->folder.empty() ? "reports/" + score.name : a->folder;
-    require_folder_name(folder);
-    report(folder, score);
+    ReportFolder report(folder, FolderKind::kBlind, {a->labels, a->answers});
+    write_score(report, folder, score);
   });
 }
 
@@ -160,10 +158,11 @@ void add_whole(CLI::App& blind) {
   command->callback([a] {
     const BlindConfig config = load_blind_config(a->config);
     const std::string folder = a->folder.empty() ? "reports/" + config.name : a->folder;
-    require_folder_name(folder);
+    ReportFolder report(folder, FolderKind::kBlind, {a->config});
     const Progress progress = progress_on_terminal(a->quiet);
-    report(folder, run_blind_check(config, folder, a->threads, counted(progress, "made case"),
-                                   counted(progress, "answered case")));
+    write_score(report, folder,
+                run_blind_check(config, folder, a->threads, counted(progress, "made case"),
+                                counted(progress, "answered case")));
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
@@ -96,19 +97,31 @@ void dry_run(const CampaignConfig& c, const CampaignShard& shard, int threads) {
     }
 }
 
-/// The report of a campaign of which every run is there.
-void report_whole(const CampaignStore& store, const std::string& folder) {
-  const CampaignSummary summary = summarise(store);
-  if (summary.done < summary.runs) return;
-  ReportFolder report(folder);
-  write_campaign_summary(report.path(), summary);
-  write_campaign_report(report.path());
+/// The report of a campaign of which every run is there, else the list of what is there.
+void report_whole(ReportFolder& report, const std::string& folder, const CampaignSummary& summary) {
+  const bool whole = summary.done >= summary.runs;
+  if (whole) {
+    write_campaign_summary(report.path(), summary);
+    write_campaign_report(report.path());
+  }
   stop_point();
   report.commit();
+  if (!whole) return;
   say("report", folder + "/report.md");
   for (const SummaryAnswer& a : summary.answers)
     if (a.tolerance == 0.02)  // the other tolerances are in the report
       say(a.estimator.c_str(), fmt::format("for at most 2 %, {}: {}", a.parameters, a.needs));
+}
+
+CampaignSummary run_and_summarise(const CampaignConfig& c, const CampaignShard& shard,
+                                  const std::string& folder, const Arguments& a) {
+  CampaignStore store(folder, campaign_header(c, shard));
+  ProgressLine line(a.quiet);
+  const CampaignProgress p = run_campaign(c, store, a.threads, std::ref(line));
+  say("store", folder + "/results.sqlite");
+  say("runs", fmt::format("{} ({} of them now{})", p.done, p.fresh,
+                          p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
+  return shard.of == 1 ? summarise(store) : CampaignSummary();
 }
 
 void run(const Arguments& a) {
@@ -116,14 +129,13 @@ void run(const Arguments& a) {
   const CampaignShard shard = shard_of(a.shard);
   if (a.dry_run) return dry_run(c, shard, a.threads);
   const std::string folder = a.folder.empty() ? default_folder(c, shard) : a.folder;
-  require_folder_name(folder);
-  CampaignStore store(folder, campaign_header(c, shard));
-  ProgressLine line(a.quiet);
-  const CampaignProgress p = run_campaign(c, store, a.threads, std::ref(line));
-  say("store", folder + "/results.sqlite");
-  say("runs", fmt::format("{} ({} of them now{})", p.done, p.fresh,
-                          p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
-  if (shard.of == 1) report_whole(store, folder);
+  const std::vector<std::string> inputs = {a.config};
+  ReportFolder(folder, FolderKind::kCampaign,
+               inputs);  // told before the work; the store keeps others out then
+  const auto summary = run_and_summarise(c, shard, folder, a);
+  ReportFolder report(folder, FolderKind::kCampaign, inputs);
+  if (shard.of == 1) return report_whole(report, folder, summary);
+  report.commit();
 }
 
 void add_export(CLI::App& campaign) {
@@ -145,6 +157,14 @@ void add_merge(CLI::App& campaign) {
     std::string target;
   };
   auto a = std::make_shared<MergeArguments>();
+  const auto require_new_store = [](const MergeArguments& merge) {
+    namespace fs = std::filesystem;
+    for (const std::string& folder : merge.folders)
+      if (fs::exists(merge.target) && fs::exists(folder) && fs::equivalent(folder, merge.target))
+        throw ConfigError(merge.target, "is one of the folders to merge, expected another one to merge into");
+    if (fs::exists(fs::path(merge.target) / "results.sqlite"))
+      throw ConfigError(merge.target, "has a store already, expected a folder without one to merge into");
+  };
   CLI::App* command = campaign.add_subcommand("merge", "One store from the shards of a campaign");
   command->add_option("DIR", a->folders, "folders of the shards")->required();
   command->add_option("-o,--output", a->target, "folder of the whole campaign")->required()->type_name("DIR");
@@ -153,13 +173,14 @@ void add_merge(CLI::App& campaign) {
       "-o DIR`\n"
       "does them.\n\n"
       "Example: gapscope campaign merge shard_1 shard_2 shard_3 -o reports/sampling_resolution");
-  command->callback([a] {
-    require_folder_name(a->target);
-    const std::uint64_t merged = merge_campaigns(a->folders, a->target);
-    const CampaignStore store(a->target);
+  command->callback([a, require_new_store] {
+    require_new_store(*a);
+    ReportFolder report(a->target, FolderKind::kCampaign);
+    const std::uint64_t merged = merge_campaigns(a->folders, report.path());
+    const CampaignSummary summary = summarise(CampaignStore(report.path()));
+    report_whole(report, a->target, summary);
     say("store", a->target + "/results.sqlite");
-    say("runs", fmt::format("{} of {}", merged, store.header().runs));
-    report_whole(store, a->target);
+    say("runs", fmt::format("{} of {}", merged, summary.runs));
   });
 }
 

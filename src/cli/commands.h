@@ -35,8 +35,14 @@ inline constexpr const char* kConfigHelp = "configuration (YAML)";
 /// @throws std::runtime_error naming what cannot be written
 void write_text(const std::string& path, const std::string& text);
 
-/// @throws ConfigError if no file of that name can be written, or it is the command's own source
-void require_file_name(const std::string& file, const std::string& source);
+/// @param sources  that the command reads
+/// @param is_own   whether a file that is there is one that the command may write again
+/// @throws ConfigError if no file of that name can be written, or it is a source or somebody else's
+void require_file_name(const std::string& file, const std::vector<std::string>& sources,
+                       bool (*is_own)(const std::string& file));
+
+/// For options: a number of a range, which no NaN is.
+CLI::Validator number_within(double low, double high);
 
 /// A recording that is named on the command line, and how it is to be read.
 struct RecordingArguments {
@@ -56,8 +62,5 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& arguments);
 
 /// -j and --quiet.
 void add_work_options(CLI::App& command, int& threads, bool& quiet);
-
-/// @throws ConfigError if something other than a folder has this name already, or it is no name
-void require_folder_name(const std::string& folder);
 
 }  // namespace gapscope::cli

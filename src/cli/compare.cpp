@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -23,14 +24,12 @@ struct Arguments {
 
 /// A comparison that went into one of its reports would remove that report.
 void require_another_folder(const Arguments& a) {
-  require_folder_name(a.output);
   for (const std::string& folder : a.folders)
     if (fs::exists(a.output) && fs::exists(folder) && fs::equivalent(a.output, folder))
       throw ConfigError(a.output, "is one of the reports itself, expected another folder for the comparison");
 }
 
-void write_comparison(const std::string& folder, const DriveChanges& all) {
-  ReportFolder report(folder);
+void write_comparison(ReportFolder& report, const DriveChanges& all) {
   write_drive_changes(report.path(), all);
   write_changes_report(report.path());
   stop_point();
@@ -39,13 +38,15 @@ void write_comparison(const std::string& folder, const DriveChanges& all) {
 
 void compare(const Arguments& a) {
   if (!a.output.empty()) require_another_folder(a);
+  std::optional<ReportFolder> report;
+  if (!a.output.empty()) report.emplace(a.output, FolderKind::kChanges);
   std::vector<DriveReport> reports;
   for (const std::string& folder : a.folders) {
     stop_point();
     reports.push_back(read_drive_report(folder));
   }
   const DriveChanges all = changes(reports);
-  if (!a.output.empty()) write_comparison(a.output, all);
+  if (report) write_comparison(*report, all);
   print_warnings(all.warnings);
   if (!a.output.empty()) fmt::print("{:<12}{}\n", "report", a.output);
   fmt::print("{}", changes_text(all));

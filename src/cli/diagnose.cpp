@@ -68,10 +68,8 @@ std::string fitted_model(const Configuration& c, const Diagnosis& d, const Motor
                      held_out_trace_name(0, t.file));
 }
 
-void write_outcome(const std::string& folder, const Configuration& c, const DiagnosisResult& result,
+void write_outcome(ReportFolder& report, const Configuration& c, const DiagnosisResult& result,
                    const MotorTrace& recording) {
-  ReportFolder report(folder);
-  report.keep_estimate();
   write_diagnosis_result(report.path(), result);
   write_text(report.path() + "/resolved.yaml", result.configuration);
   write_text(report.path() + "/fitted.yaml", fitted_model(c, result.diagnosis, recording));
@@ -80,7 +78,7 @@ void write_outcome(const std::string& folder, const Configuration& c, const Diag
                experiment_yaml(c, result.diagnosis.rivals.front().model, next));
     write_input_csv(report.path() + "/next_experiment.csv", next);
   }
-  write_report(report.path());
+  write_report(report.path(), report.dropped());
   stop_point();
   report.commit();
 }
@@ -101,10 +99,11 @@ void diagnose_configuration(const Arguments& a) {
   c.excluded.erase(std::unique(c.excluded.begin(), c.excluded.end()), c.excluded.end());
   require_reference_model(c);
   const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
-  require_folder_name(folder);
+  ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = a.threads;
   options.progress = progress_on_terminal(a.quiet);
+  const std::vector<SourceFile> sources = sources_of(c);
   Outcome loaded;
   const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
   require_possible_experiment(c, train.front().dt);
@@ -113,11 +112,14 @@ void diagnose_configuration(const Arguments& a) {
   const std::vector<MotorTrace> train_traces = traces_of(train), held_out_traces = traces_of(held_out);
   DiagnosisResult result{c.name, version(), resolved_yaml(c), c.rotation,
                          diagnose(train_traces, held_out_traces, c.model.reference_model(), options)};
+  result.sources = sources;
   auto& warnings = result.diagnosis.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
   ask_further(c, train_traces.front(), options, result.diagnosis);
   options.progress("drawing the report");
-  write_outcome(folder, c, result, train_traces.front());
+  report.keep_estimate(result.version, sources);
+  write_outcome(report, c, result, train_traces.front());
+  if (!report.dropped().empty()) warnings.push_back(report.dropped());
   print_warnings(warnings);
   print_diagnosis(folder, result);
 }

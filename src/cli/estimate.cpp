@@ -1,6 +1,5 @@
 // `run`, `detect` and `fit`: the same pipeline with both estimators, or one of them.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -38,14 +37,14 @@ void write_fitted_model(const std::string& folder, const Configuration& c, const
 }
 
 /// The folder is replaced only when everything is in it.
-void write_outcome(const std::string& folder, const Configuration& c, const Outcome& outcome) {
-  ReportFolder report(folder);
-  report.keep_diagnosis();
+void write_outcome(ReportFolder& report, const Configuration& c, Outcome& outcome) {
+  report.keep_diagnosis(outcome.result.version, outcome.result.sources);
+  if (!report.dropped().empty()) outcome.warnings.push_back(report.dropped());
   write_run_result(report.path(), outcome.result);
   write_timing(report.path(), outcome.timing);
   write_text(report.path() + "/resolved.yaml", outcome.result.configuration);
   write_fitted_model(report.path(), c, outcome.result);
-  write_report(report.path());
+  write_report(report.path(), report.dropped());
   stop_point();
   report.commit();
 }
@@ -53,11 +52,13 @@ void write_outcome(const std::string& folder, const Configuration& c, const Outc
 void estimate(const Arguments& a, const Estimators& wanted) {
   const Configuration c = load_configuration(a.config);
   const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
-  require_folder_name(folder);
+  ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   const Progress progress = progress_on_terminal(a.quiet);
-  const Outcome outcome = run_pipeline(c, wanted, progress);
+  const std::vector<SourceFile> sources = sources_of(c);
+  Outcome outcome = run_pipeline(c, wanted, progress);
+  outcome.result.sources = sources;
   progress("drawing the report");
-  write_outcome(folder, c, outcome);
+  write_outcome(report, c, outcome);
   print_warnings(outcome.warnings);
   print_headline(folder, outcome.result);
 }
@@ -90,7 +91,7 @@ void add_streaming(CLI::App& detect, const std::shared_ptr<Arguments>& a) {
       .add_option("--quantum", a->quantum,
                   "of a stream: step of the encoder [rad; m where x1 is] (default: as it shows)")
       ->type_name("RAD")
-      ->check(CLI::Range(1e-15, 1e3).description(""))
+      ->check(number_within(1e-15, 1e3))
       ->needs(stream);
   detect.callback([a, config] {
     if (a->stream) return detect_stream(a->columns, a->quantum);
@@ -115,16 +116,6 @@ std::string fit_details() {
 
 void write_text(const std::string& path, const std::string& text) {
   write_whole_file(path, [&](std::ostream& out) { out << text; });
-}
-
-void require_folder_name(const std::string& folder) {
-  namespace fs = std::filesystem;
-  if (fs::exists(folder) && !fs::is_directory(folder))
-    throw ConfigError(folder, "is a file, expected the folder of a report");
-  fs::path there = fs::absolute(folder).lexically_normal();
-  while (!fs::exists(there) && there.has_relative_path()) there = there.parent_path();
-  if (access(there.c_str(), W_OK | X_OK) != 0)
-    throw ConfigError(there.string(), "cannot be written in, expected a writable folder for the report");
 }
 
 void add_work_options(CLI::App& command, int& threads, bool& quiet) {

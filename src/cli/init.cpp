@@ -24,9 +24,7 @@ struct Arguments {
 void write_starter(const Arguments& a) {
   const RecordingArguments& r = a.recording;
   const std::string output = a.output.empty() ? fs::path(r.file).stem().string() + ".yaml" : a.output;
-  require_file_name(output, r.file);
-  if (fs::exists(output))
-    throw ConfigError(output, "is there already, expected another name (-o FILE) or that it is moved away");
+  require_file_name(output, {r.file}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
   const Starter starter = starter_configuration(r.configuration(), r.encoder(), !r.translation,
                                                 parent.empty() ? "." : parent.string(), a.model);

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 
@@ -123,6 +124,10 @@ int guarded(int argc, char** argv) {
     return kInterrupted;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "gapscope: there is not enough memory, expected fewer samples or threads\n");
+    return kFailed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string path = error.path1().string();
+    tell(fmt::format("{}: {}", path.empty() ? "gapscope" : path, error.code().message()));
     return kFailed;
   } catch (const std::exception& error) {
     tell(fmt::format("gapscope: {}", error.what()));

@@ -77,22 +77,44 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& a) {
   command.add_option("--position", a.position, "column of the position (default: x1)")->type_name("NAME");
   command.add_option("--window", a.window, "part of the file that is used [s]")
       ->type_name("FROM TO")
-      ->expected(2);
+      ->expected(2)
+      ->check(number_within(-1e15, 1e15));
   command.add_option("--resample", a.resample, "rate that it is brought to [Hz]")
       ->type_name("RATE")
-      ->check(CLI::Range(1e-3, 1e7));
+      ->check(number_within(1e-3, 1e7));
   add_unit_options(command, a);
   command.add_flag("--translation", a.translation, "positions in m and forces in N instead of rad and N m");
 }
 
-void require_file_name(const std::string& file, const std::string& source) {
+CLI::Validator number_within(double low, double high) {
+  return CLI::Validator(
+      [low, high](std::string& text) -> std::string {
+        double value = 0.0;
+        const bool number = CLI::detail::lexical_cast(text, value);
+        if (number && value >= low && value <= high) return "";  // NaN is in no range
+        return fmt::format("expected a number from {:g} to {:g}", low, high);
+      },
+      "");
+}
+
+void require_file_name(const std::string& file, const std::vector<std::string>& sources,
+                       bool (*is_own)(const std::string& file)) {
   namespace fs = std::filesystem;
-  if (fs::is_directory(file)) throw ConfigError(file, "is a folder, expected the name of a file to write");
-  if (fs::exists(file) && fs::exists(source) && fs::equivalent(file, source))
-    throw ConfigError(file, "is the input itself, expected another file to write");
+  std::error_code problem;
+  const fs::file_status there = fs::status(file, problem);
+  if (problem && there.type() != fs::file_type::not_found)
+    throw ConfigError(file, "cannot be written (" + problem.message() + "), expected another name");
+  if (fs::is_directory(there)) throw ConfigError(file, "is a folder, expected the name of a file to write");
+  for (const std::string& source : sources)
+    if (fs::equivalent(file, source, problem))
+      throw ConfigError(file, "is the input itself, expected another file to write");
   const fs::path parent = fs::path(file).parent_path();
-  if (!parent.empty() && !fs::is_directory(parent))
+  if (!parent.empty() && !fs::is_directory(parent, problem))
     throw ConfigError(file, "cannot be written there, expected a folder that exists");
+  if (fs::is_regular_file(there) && fs::file_size(file, problem) > 0 && !is_own(file))
+    throw ConfigError(file,
+                      "is there already, expected another name (-o FILE) or that it is moved away: this "
+                      "command did not write it");
 }
 
 }  // namespace gapscope::cli

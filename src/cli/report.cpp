@@ -33,16 +33,20 @@ void read_what_is_stored(const std::string& folder) {
 
 /// What a folder may hold: how that is told, read and drawn.
 struct Kind {
+  FolderKind kind;
   bool (*is_in)(const std::string& folder);
   void (*read)(const std::string& folder);
-  void (*draw)(const std::string& folder);
+  void (*draw)(const std::string& folder, const std::string& note);
 };
 
 constexpr Kind kKinds[] = {
-    {has_campaign_summary, [](const std::string& f) { read_campaign_summary(f); }, write_campaign_report},
-    {has_blind_score, [](const std::string& f) { read_blind_score(f); }, write_blind_report},
-    {has_drive_changes, [](const std::string& f) { read_drive_changes(f); }, write_changes_report},
-    {[](const std::string&) { return true; }, read_what_is_stored, write_report},
+    {FolderKind::kCampaign, has_campaign_summary, [](const std::string& f) { read_campaign_summary(f); },
+     [](const std::string& f, const std::string&) { write_campaign_report(f); }},
+    {FolderKind::kBlind, has_blind_score, [](const std::string& f) { read_blind_score(f); },
+     [](const std::string& f, const std::string&) { write_blind_report(f); }},
+    {FolderKind::kChanges, has_drive_changes, [](const std::string& f) { read_drive_changes(f); },
+     [](const std::string& f, const std::string&) { write_changes_report(f); }},
+    {FolderKind::kDrive, [](const std::string&) { return true; }, read_what_is_stored, write_report},
 };
 
 /// Draws aside, so that the old report stands until the new one is complete.
@@ -50,9 +54,8 @@ void redraw(const std::string& folder) {
   const Kind& kind =
       *std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.is_in(folder); });
   kind.read(folder);  // so that what is wrong is told with its place in the folder that the user knows
-  ReportFolder fresh(folder);
-  fresh.keep_stored();
-  kind.draw(fresh.path());
+  ReportFolder fresh = ReportFolder::to_redraw(folder, kind.kind);
+  kind.draw(fresh.path(), fresh.dropped());
   fresh.commit();
 }
 

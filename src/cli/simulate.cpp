@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "cli/commands.h"
@@ -23,11 +24,18 @@ struct Arguments {
   bool quiet = false;
 };
 
+/// A recording with the mode of the coupling, which no encoder tells.
+bool is_simulated(const std::string& file) {
+  std::string header;
+  std::getline(std::ifstream(file), header);
+  return header.starts_with("t,u,x1") && header.ends_with(",mode");
+}
+
 void simulate_to_file(const Arguments& a) {
   const Configuration c = load_configuration(a.config);
   if (!c.simulation)
     throw ConfigError(c.file, "there is no simulation, expected simulation: to make data from");
-  require_file_name(a.file, a.config);
+  require_file_name(a.file, source_paths(c), is_simulated);
   const Progress progress = progress_on_terminal(a.quiet);
   progress("simulating " + c.name);
   const Recording r = simulated_recording(c);

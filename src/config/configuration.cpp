@@ -12,6 +12,7 @@
 #include "config/model_reader.h"
 #include "config/yaml_document.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/plain_name.h"
 #include "gapscope/base/require.h"
 
 namespace gapscope {
@@ -108,15 +109,6 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
 }
 
 }  // namespace
-
-bool is_plain_name(const std::string& name) {
-  const auto plain = [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  };
-  return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), plain) &&
-         name[0] != '.' && name[0] != '-';
-}
 
 std::string read_name(const Section& root, const std::string& file) {
   if (const auto given = root.find("name")) {

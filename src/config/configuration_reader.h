@@ -5,9 +5,6 @@
 
 namespace gapscope::internal {
 
-/// Whether a folder may have this name: letters, digits, '_', '-' and '.', 100 at most, no '.' or '-' first.
-bool is_plain_name(const std::string& name);
-
 /// `name:`, or what the file is called: fit to name a folder.  @throws ConfigError
 std::string read_name(const Section& root, const std::string& file);
 

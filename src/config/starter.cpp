@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "config/configuration_reader.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
+#include "gapscope/base/plain_name.h"
 #include "gapscope/base/units.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/sliding_mode/detector.h"
@@ -69,8 +69,8 @@ double round_down(double rate) {
 std::string plain_name(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string().substr(0, 100);
   for (char& c : name)
-    if (!internal::is_plain_name("a" + std::string(1, c))) c = '_';
-  return internal::is_plain_name(name) ? name : "drive_" + name.substr(0, 90);
+    if (!is_plain_name("a" + std::string(1, c))) c = '_';
+  return is_plain_name(name) ? name : "drive_" + name.substr(0, 90);
 }
 
 /// The recording as it is named in a configuration of that folder.

@@ -88,6 +88,8 @@ std::string read_text(const std::string& path) {
   const fs::file_status status = fs::status(path, problem);
   if (!fs::exists(status)) throw ConfigError(path, "there is no such file, expected a configuration in YAML");
   if (fs::is_directory(status)) throw ConfigError(path, "is a folder, expected a configuration in YAML");
+  if (!fs::is_regular_file(status))
+    throw ConfigError(path, "is no regular file, expected a configuration in YAML");
   if (const fs::path ending = fs::path(path).extension(); ending == ".csv" || ending == ".mat")
     throw ConfigError(path,
                       "is a recording, expected a configuration in YAML; `gapscope init` writes one from it");

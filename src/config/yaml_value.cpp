@@ -109,7 +109,10 @@ bool Value::truth() const {
 
 std::string Value::text() const {
   if (!node_.IsScalar() || (node_.Tag() != "?" && node_.Tag() != "!")) fail_expecting("a text");
-  if (node_.Scalar().empty()) fail("is an empty text, expected a text");
+  const std::string& text = node_.Scalar();
+  if (text.empty()) fail("is an empty text, expected a text");
+  if (text.find('\0') != text.npos || !gapscope::is_text(text))
+    fail("is " + shown(text) + ", expected a text without control characters");
   return node_.Scalar();
 }
 

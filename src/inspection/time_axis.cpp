@@ -87,6 +87,12 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
             "give t in seconds (row numbers, ms or µs?)"};
   if (s.pauses > 0) return pauses(m, s, facts);
   if (!facts.uniform) return jitter(m, s, facts);
+  if (m.rows.open_end)
+    return {
+        "time", Severity::kNote,
+        fmt::format("{} samples, {:.5g} s at {:.5g} Hz, uniform; the last line has no end", facts.samples,
+                    facts.duration, facts.rate),
+        "if the file was cut off, its last number is another: leave the last row out with recording: window"};
   return {
       "time", Severity::kFine,
       fmt::format("{} samples, {:.5g} s at {:.5g} Hz, uniform", facts.samples, facts.duration, facts.rate),

@@ -9,6 +9,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
+#include "recording/limits.h"
 
 namespace gapscope::internal {
 namespace {
@@ -26,13 +27,19 @@ std::string_view unquoted(std::string_view field) {
   return field;
 }
 
-/// Splits at commas outside quotes; a `#` outside quotes ends the line. The vector is reused: no allocation
+/// Where a comment begins: at a `#` outside quotes that begins the line or follows a blank. Others are part
+/// of what they stand in, as in Microsoft's 1.#QNAN.
+bool begins_comment(std::string_view text, std::size_t at) {
+  return text[at] == '#' && (at == 0 || text[at - 1] == ' ' || text[at - 1] == '\t');
+}
+
+/// Splits at commas outside quotes; a comment ends the line. The vector is reused: no allocation
 /// per row. A line with nothing but blanks and comment gives no field.
 void split(std::string_view text, std::vector<std::string_view>& fields) {
   fields.clear();
   std::size_t begin = 0, end = 0;
   bool quoted = false;
-  for (; end < text.size() && (quoted || text[end] != '#'); ++end) {
+  for (; end < text.size() && (quoted || !begins_comment(text, end)); ++end) {
     if (text[end] == '"') quoted = !quoted;
     if (text[end] != ',' || quoted) continue;
     fields.push_back(unquoted(trimmed(text.substr(begin, end - begin))));
@@ -115,10 +122,12 @@ double CsvRow::number(int place, const std::string& column, const UnitScale& sca
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = end == text.data() + text.size() && !text.empty();
   value = scale(value);
-  if (whole && problem == std::errc() && std::isfinite(value)) return value;
+  if (whole && problem == std::errc() && std::abs(value) <= kLargestNumber) return value;
   const bool vanishes = text.find("e-") != text.npos || text.find("E-") != text.npos;
   if (whole && problem == std::errc::result_out_of_range && vanishes) return 0.0;
-  fail(fmt::format("{} is {}, expected a finite number", column, text.empty() ? "empty" : shown(text)));
+  const bool too_large = whole && problem == std::errc() && std::isfinite(value);
+  fail(fmt::format("{} is {}, expected {}", column, text.empty() ? "empty" : shown(text),
+                   too_large ? fmt::format("at most {:g} in size", kLargestNumber) : "a finite number"));
 }
 
 }  // namespace gapscope::internal

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,7 @@ class CsvRow {
   double load_position() const { return number(x2_, columns_.load_position, columns_.scales.load_position); }
 
   bool has_load_position() const { return x2_ >= 0; }
-  int line() const { return line_; }  ///< of the file, from 1
+  std::int64_t line() const { return line_; }  ///< of the file, from 1
   const RecordingColumns& columns() const { return columns_; }
 
   void require_header() const;  ///< @throws ConfigError unless there was one
@@ -44,7 +45,8 @@ class CsvRow {
   RecordingColumns columns_;
   std::vector<std::string_view> fields_;  // of the line that was taken last
   std::size_t width_ = 0;
-  int line_ = 0, t_ = -1, u_ = -1, x1_ = -1, x2_ = -1;
+  std::int64_t line_ = 0;
+  int t_ = -1, u_ = -1, x1_ = -1, x2_ = -1;
   bool has_header_ = false;
 };
 

@@ -42,6 +42,7 @@ RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, 
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   row.require_header();
+  table.open_end = !text.empty() && text.back() != '\n';
   return table;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gapscope/base/errors.h"
+#include "recording/limits.h"
 #include "recording/mat_file.h"
 #include "recording/recorded_rows.h"
 
@@ -29,8 +30,12 @@ void require_length(const std::string& path, const Column& column, const Column&
 
 void append(std::vector<double>& to, const Column& column, std::size_t i, const RecordedRows& rows) {
   const double value = column.values[i];
+  const auto sample = static_cast<std::int64_t>(i) + 1;
   if (!std::isfinite(value))
-    rows.fail(static_cast<int>(i) + 1, fmt::format("{} is {}, expected a finite number", column.name, value));
+    rows.fail(sample, fmt::format("{} is {}, expected a finite number", column.name, value));
+  if (std::abs(value) > kLargestNumber)
+    rows.fail(sample,
+              fmt::format("{} is {}, expected at most {:g} in size", column.name, value, kLargestNumber));
   to.push_back(value);
 }
 
@@ -55,7 +60,7 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   rows.path = path;
   rows.is_text = false;
   for (std::size_t i = 0; i < t.values.size(); ++i) {
-    const int sample = static_cast<int>(i) + 1;
+    const auto sample = static_cast<std::int64_t>(i) + 1;
     if (!std::isnan(t.values[i]) && !rows.admits(t.values[i], sample, earlier, t.name)) continue;
     append(rows.t, t, i, rows);
     append(rows.u, u, i, rows);

@@ -33,7 +33,7 @@ void RecordedRows::keep(std::size_t first, std::size_t count) {
   keep_part(line, first, count);
 }
 
-bool RecordedRows::admits(double time, int of_line, EarlierRow earlier, const std::string& column) {
+bool RecordedRows::admits(double time, std::int64_t of_line, EarlierRow earlier, const std::string& column) {
   const bool goes_on = t.empty() || time > t.back();
   if (!goes_on && earlier == EarlierRow::kSkipped) {
     skipped.push_back(of_line);
@@ -47,12 +47,12 @@ bool RecordedRows::admits(double time, int of_line, EarlierRow earlier, const st
   return true;
 }
 
-void RecordedRows::fail(int of_line, const std::string& what) const {
+void RecordedRows::fail(std::int64_t of_line, const std::string& what) const {
   if (is_text) throw ConfigError(path, of_line, what);
   throw ConfigError(path, place(of_line) + ": " + what);
 }
 
-std::string RecordedRows::place(int of_line) const {
+std::string RecordedRows::place(std::int64_t of_line) const {
   return fmt::format("{} {}", is_text ? "line" : "sample", of_line);
 }
 

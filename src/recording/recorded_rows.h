@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,25 +14,26 @@ enum class EarlierRow { kRefused, kSkipped };
 /// The rows of a recording as they stand in its file, in SI, with the place of each.
 struct RecordedRows {
   std::string path;
-  bool is_text = true;       ///< whether `line` counts the lines of a text, else the samples of variables
-  std::vector<double> t;     ///< [s], strictly increasing
-  std::vector<double> u;     ///< [unit of u]
-  std::vector<double> x1;    ///< [rad]
-  std::vector<double> x2;    ///< [rad]; empty if the file has none
-  std::vector<int> line;     ///< of each row, from 1
-  std::vector<int> skipped;  ///< lines of rows that were left out: not later than the row before
+  bool is_text = true;     ///< whether `line` counts the lines of a text, else the samples of variables
+  std::vector<double> t;   ///< [s], strictly increasing
+  std::vector<double> u;   ///< [unit of u]
+  std::vector<double> x1;  ///< [rad]
+  std::vector<double> x2;  ///< [rad]; empty if the file has none
+  std::vector<std::int64_t> line;     ///< of each row, from 1
+  std::vector<std::int64_t> skipped;  ///< lines of rows that were left out: not later than the row before
+  bool open_end = false;              ///< the last line has no end: its last number may be cut off
 
   std::size_t size() const { return t.size(); }
   void keep(std::size_t first, std::size_t count);  ///< drops all other rows
 
   /// Whether a row of this time goes on where the rows before it end; one that is skipped is noted.
   /// @throws ConfigError for one that is refused, and for one too many
-  bool admits(double time, int of_line, EarlierRow earlier, const std::string& column);
+  bool admits(double time, std::int64_t of_line, EarlierRow earlier, const std::string& column);
 
   /// @throws ConfigError "file:line: what" or "file: sample N: what"
-  [[noreturn]] void fail(int of_line, const std::string& what) const;
+  [[noreturn]] void fail(std::int64_t of_line, const std::string& what) const;
 
-  std::string place(int of_line) const;  ///< "line 12" or "sample 12"
+  std::string place(std::int64_t of_line) const;  ///< "line 12" or "sample 12"
 };
 
 /// By the name of the file: read_mat() or read_csv().  @throws ConfigError, see read_recording().

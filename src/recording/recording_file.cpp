@@ -33,6 +33,10 @@ void cut_to_window(RecordedRows& table, const std::pair<double, double>& window)
 }
 
 void require_uniform(const RecordedRows& table) {
+  if (const double mean = internal::mean_step(table); mean < internal::kShortestStep)
+    table.fail(table.line.back(),
+               fmt::format("time goes on by {:.3g} s from row to row, expected at least {:g} s", mean,
+                           internal::kShortestStep));
   if (internal::is_uniform(table)) return;
   const std::size_t worst = internal::worst_step(table);
   const double mean = internal::mean_step(table), step = table.t[worst] - table.t[worst - 1];
@@ -111,11 +115,13 @@ Recording uniform_recording(RecordedRows&& table) {
 
 Recording read_recording(const std::string& path, const ReadOptions& options) {
   RecordedRows table = internal::read_window(path, options);
+  const bool open_end = table.open_end;
   const double quantum = seen_quantum(table.x1);  // of the raw samples: resampling hides it
   Recording r = options.resample_rate ? internal::resample(table, *options.resample_rate)
                                       : internal::uniform_recording(std::move(table));
   if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
   r.file = std::filesystem::path(path).filename().string();
+  r.open_end = open_end;
   r.quantum = quantum;
   return r;
 }

@@ -32,9 +32,16 @@ std::string report_diagnosis(const std::string& folder, std::vector<internal::Fi
   return internal::diagnosis_text(result, figures);
 }
 
+/// Below the title.
+std::string with_note(const std::string& text, const std::string& note) {
+  const std::size_t title = text.find("\n\n");
+  if (note.empty() || title == text.npos) return text;
+  return text.substr(0, title) + "\n\n> " + note + text.substr(title);
+}
+
 }  // namespace
 
-void write_report(const std::string& folder) {
+void write_report(const std::string& folder, const std::string& note) {
   const auto stored = [&](const char* name) {
     return std::filesystem::exists(std::filesystem::path(folder) / name);
   };
@@ -42,7 +49,7 @@ void write_report(const std::string& folder) {
   std::string text;
   if (stored("result.json") || !stored("diagnosis.json")) text = report_run(folder, figures);
   if (stored("diagnosis.json")) text += (text.empty() ? "" : "\n") + report_diagnosis(folder, figures);
-  internal::write_report_files(folder, figures, text + internal::glossary_section(text));
+  internal::write_report_files(folder, figures, with_note(text, note) + internal::glossary_section(text));
 }
 
 }  // namespace gapscope

@@ -1,6 +1,7 @@
 #include "report/report_files.h"
 
 #include <filesystem>
+#include <new>
 #include <opencv2/imgcodecs.hpp>
 #include <ostream>
 #include <string_view>
@@ -20,6 +21,16 @@ void write_png(const fs::path& path, const cv::Mat& image) {
   write_whole_file(path.string(), [&](std::ostream& out) { out << bytes; });
 }
 
+/// The library below has its own words for a machine that is too small.
+void draw_file(const fs::path& path, const FigureData& figure) {
+  try {
+    write_png(path, draw(figure));
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
+    throw;
+  }
+}
+
 }  // namespace
 
 void write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
@@ -27,7 +38,7 @@ void write_report_files(const std::string& folder, const std::vector<FigureData>
   for (const FigureData& figure : figures) {
     const fs::path path = fs::path(folder) / figure.file;
     if (figure.missing.empty())
-      write_png(path, draw(figure));
+      draw_file(path, figure);
     else
       fs::remove(path);  // of an earlier result
   }

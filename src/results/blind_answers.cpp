@@ -1,3 +1,4 @@
+#include "gapscope/base/errors.h"
 #include "gapscope/results/blind_files.h"
 #include "results/blind_fields.h"
 #include "results/json_schema.h"
@@ -47,15 +48,20 @@ void fields(Archive& archive, BlindAnswer& a) {
 }
 
 template <class Archive>
-void fields(Archive& archive, BlindAnswers& a) {
+void head_fields(Archive& archive, BlindAnswers& a) {
   archive("name", a.name);
   archive("version", a.version);
   archive("manifest_sha256", a.manifest_sha256);
+}
+
+template <class Archive>
+void fields(Archive& archive, BlindAnswers& a) {
+  head_fields(archive, a);
   archive.list("cases", a.cases);
 }
 
 namespace {
-constexpr const char* kAnswers = "gapscope.blind_answers/1";
+constexpr const char* kAnswers = "gapscope.blind_answers/2";
 }  // namespace
 
 Json blind_answers_schema() { return document_schema(kAnswers, BlindAnswers()); }
@@ -70,10 +76,25 @@ BlindAnswers read_blind_answers(const std::string& path) {
   return internal::read_document<BlindAnswers>(path, internal::kAnswers);
 }
 
+bool is_answers_file(const std::string& path, const std::string& manifest_sha256) {
+  try {
+    return read_blind_answers(path).manifest_sha256 == manifest_sha256;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
 std::string line_of(const BlindAnswer& answer) {
   BlindAnswer copy = answer;
   internal::JsonWriter writer;
   internal::answer_fields(writer, copy);
+  return internal::text_of(writer.json, -1);
+}
+
+std::string head_line_of(const BlindAnswers& all) {
+  BlindAnswers copy{all.name, all.version, all.manifest_sha256, {}};
+  internal::JsonWriter writer;
+  internal::head_fields(writer, copy);
   return internal::text_of(writer.json, -1);
 }
 

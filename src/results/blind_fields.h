@@ -3,7 +3,7 @@
 #include <string>
 
 #include "gapscope/blind/records.h"
-#include "results/json_archive.h"
+#include "results/json_document.h"
 
 namespace gapscope::internal {
 
@@ -11,26 +11,6 @@ template <class Archive>
 void fields(Archive& archive, SealedFile& f) {
   archive("file", f.file);
   archive("sha256", f.sha256);
-}
-
-/// A file that is one struct after the name of its schema.
-template <class Struct>
-void write_document(const std::string& path, std::string schema, Struct value) {
-  JsonWriter writer;
-  writer("schema", schema);
-  fields(writer, value);
-  save_json(path, writer.json);
-}
-
-/// @throws ConfigError for another schema or a damaged file.
-template <class Struct>
-Struct read_document(const std::string& path, const std::string& expected) {
-  const Json json = load_json(path);
-  JsonReader reader(json, path, "");
-  reader.schema(expected);
-  Struct value;
-  fields(reader, value);
-  return value;
 }
 
 }  // namespace gapscope::internal

@@ -1,5 +1,6 @@
 #include "gapscope/results/blind_files.h"
 
+#include "gapscope/base/errors.h"
 #include "results/blind_fields.h"
 #include "results/json_schema.h"
 
@@ -37,13 +38,14 @@ template <class Archive>
 void fields(Archive& archive, BlindManifest& m) {
   archive("name", m.name);
   archive("version", m.version);
+  archive("labels_sha256", m.labels_sha256);
   archive.list("cases", m.cases);
 }
 
 namespace {
 
 constexpr const char* kLabels = "gapscope.blind_labels/1";
-constexpr const char* kManifest = "gapscope.blind_manifest/1";
+constexpr const char* kManifest = "gapscope.blind_manifest/2";
 
 }  // namespace
 
@@ -64,6 +66,39 @@ void write_blind_manifest(const std::string& path, const BlindManifest& manifest
 }
 BlindManifest read_blind_manifest(const std::string& path) {
   return internal::read_document<BlindManifest>(path, internal::kManifest);
+}
+
+bool is_labels_file(const std::string& path, const std::string& name, const std::string& configuration) {
+  try {
+    const BlindLabels there = read_blind_labels(path);
+    return there.name == name && there.configuration == configuration;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
+bool is_manifest_file(const std::string& path) {
+  try {
+    read_blind_manifest(path);
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
+std::string line_of(const BlindLabel& label) {
+  BlindLabel copy = label;
+  internal::JsonWriter writer;
+  internal::fields(writer, copy);
+  return internal::text_of(writer.json, -1);
+}
+
+std::string head_line_of(const BlindLabels& all) {
+  internal::Json head;
+  head["name"] = all.name;
+  head["configuration"] = all.configuration;
+  for (const BlindLabel& label : all.cases) head["salts"].push_back(label.salt);
+  return internal::text_of(head, -1);
 }
 
 }  // namespace gapscope

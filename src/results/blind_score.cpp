@@ -87,6 +87,7 @@ void fields(Archive& archive, BlindScore& s) {
   archive("version", s.version);
   archive("manifest_sha256", s.manifest_sha256);
   archive("answers_seal_sha256", s.answers_seal);
+  archive.addition("announced_seal_sha256", s.announced_seal);
   archive.configuration(s.configuration);
   archive("calibration_cases", s.calibration_cases);
   archive("report_cases", s.report_cases);

@@ -25,8 +25,7 @@ void write_bound_map(const std::string& path, const BoundMap& map) {
 }
 
 void read_bound_map(const std::string& path, BoundMap& map) {
-  std::ifstream in(path);
-  if (!in) throw ConfigError(path, "there is no such file, expected the map that the stored result names");
+  std::istringstream in(text_of_table(path, "map"));
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;

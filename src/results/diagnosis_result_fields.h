@@ -5,6 +5,7 @@
 
 #include "gapscope/results/diagnosis_result.h"
 #include "results/json_archive.h"
+#include "results/source_fields.h"
 
 /// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
 namespace gapscope::internal {
@@ -194,6 +195,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("version", d.result.version);
   archive.choice("coordinates", d.result.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
   archive.configuration(d.result.configuration);
+  archive.added_list("sources", d.result.sources);
   archive.list("held_out", d.held_out);
 }
 

@@ -1,5 +1,6 @@
 #include "gapscope/results/inspection_result.h"
 
+#include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 #include "results/json_archive.h"
 #include "results/json_schema.h"
@@ -73,6 +74,16 @@ constexpr const char* kCheckSchema = "gapscope.check/1";
 Json check_schema() { return document_schema(kCheckSchema, InspectionDocument()); }
 
 }  // namespace internal
+
+bool is_inspection_file(const std::string& path) {
+  try {
+    const internal::Json json = internal::load_json(path);
+    internal::JsonReader(json, path, "").schema(internal::kCheckSchema);
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
 
 std::string inspection_json(const Inspection& inspection, const std::string& configuration) {
   internal::InspectionDocument document{inspection, version(), configuration};

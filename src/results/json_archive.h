@@ -59,6 +59,11 @@ class JsonWriter {
   /// What files of earlier versions do not have.
   void addition(const char* key, std::string& value) { (*this)(key, value); }
 
+  template <class Struct>
+  void added_list(const char* key, std::vector<Struct>& values) {
+    list(key, values);
+  }
+
   /// The configuration that a result was made from, as resolved text with its SHA-256; null where there is
   /// none.
   void configuration(std::string& resolved);
@@ -148,6 +153,11 @@ class JsonReader {
       const std::string place = place_of(key) + "[" + std::to_string(values.size()) + "]";
       read(item, place, values.emplace_back());
     }
+  }
+  template <class Struct>
+  void added_list(const char* key, std::vector<Struct>& values) {  ///< empty in files without it
+    values.clear();
+    if (json_.contains(key)) list(key, values);
   }
   template <class Struct>
   void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {

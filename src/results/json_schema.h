@@ -34,6 +34,11 @@ class SchemaWriter {
     add(key, list_of(schema_of(item)));
   }
   template <class Struct>
+  void added_list(const char* key, std::vector<Struct>& values) {
+    list(key, values);
+    additions_.insert(key);
+  }
+  template <class Struct>
   void named(const char* key, std::vector<Struct>&, std::string Struct::*) {
     Struct item{};
     add(key, map_of(schema_of(item)));
@@ -97,5 +102,6 @@ Json blind_labels_schema();
 Json blind_manifest_schema();
 Json blind_answers_schema();
 Json stream_schema();
+Json files_schema();
 
 }  // namespace gapscope::internal

@@ -1,108 +1,131 @@
 #include "gapscope/results/report_folder.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <regex>
-#include <set>
 #include <stdexcept>
-#include <vector>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/version.h"
+#include "gapscope/results/sha256.h"
+#include "results/file_list.h"
+#include "results/folder_content.h"
 
 namespace gapscope {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::chrono::seconds kStillBeingMade{60};  ///< a folder that is younger may not be locked yet
+using internal::FileList;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
 }
 
-/// Files below a folder as paths relative to it: sorted, so that every commit goes the same way, and the
-/// result last, so that whoever finds a new result finds all that belongs to it.
-std::vector<fs::path> files_below(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(folder));
-  const auto is_result = [](const fs::path& f) {
-    return f == "result.json" || f == "diagnosis.json" || f == "campaign.json" || f == "blind.json" ||
-           f == "compare.json";
-  };
-  std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
-    return std::make_pair(is_result(a), a) < std::make_pair(is_result(b), b);
-  });
-  return files;
-}
-
-/// The figures that the report.md of an earlier report shows.
-std::set<std::string> figures_of(const fs::path& folder) {
-  std::set<std::string> names;
-  std::ifstream in(folder / "report.md");
-  static const std::regex figure(R"rx(\]\(([^)/]+\.png)\))rx");
-  std::smatch match;
-  for (std::string line; std::getline(in, line);)
-    for (std::string rest = line; std::regex_search(rest, match, figure); rest = match.suffix())
-      names.insert(match[1]);
-  return names;
-}
-
-/// Is this something that a report with these figures wrote?
-bool is_ours(const fs::path& file, const std::set<std::string>& figures) {
-  if (!file.has_parent_path()) {
-    static const char* const names[] = {
-        "report.md",   "result.json",          "diagnosis.json",     "campaign.json",
-        "blind.json",  "compare.json",         "resolved.yaml",      "timing.json",
-        "fitted.yaml", "next_experiment.yaml", "next_experiment.csv"};
-    return figures.contains(file.string()) ||
-           std::any_of(std::begin(names), std::end(names), [&](const char* name) { return file == name; });
-  }
-  return *file.begin() == "traces" && file.extension() == ".csv";
+[[noreturn]] void refuse_to_write(const fs::path& path, const std::string& why) {
+  throw ConfigError(path.string(),
+                    "cannot be written in, expected a writable folder for the report (" + why + ")");
 }
 
 fs::path without_trailing_slash(const std::string& folder) {
-  const fs::path path = fs::absolute(folder).lexically_normal();
-  return path.has_filename() ? path : path.parent_path();
+  const fs::path path = fs::path(folder).lexically_normal();
+  return path.has_filename() || path == path.root_path() ? path : path.parent_path();
 }
 
-/// What a process left that was killed while it made the same report.
-void remove_left_behind(const fs::path& target, const std::string& prefix) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(target.parent_path(), ignored)) {
-    if (!entry.path().filename().string().starts_with(prefix)) continue;
-    const bool fresh = fs::file_time_type::clock::now() - entry.last_write_time(ignored) < kStillBeingMade;
-    if (!fresh && !ProcessLock(entry.path().string()).held_by_another())
-      fs::remove_all(entry.path(), ignored);
-  }
+/// A result is found when all that belongs to it is there.
+bool is_result(const std::string& file) {
+  return file == "result.json" || file == "diagnosis.json" || file == "campaign.json" ||
+         file == "blind.json" || file == "compare.json" || file == "manifest.json" || file == "truth.csv";
+}
+
+/// An entry of the list for a file that was just written. Wall times are no function of the input.
+internal::ListedFile listed(const fs::path& folder, const std::string& file) {
+  const bool varies = file == "timing.json" || file == "results.sqlite";
+  return {file, varies ? "" : sha256_of_file((folder / file).string())};
 }
 
 }  // namespace
 
-ReportFolder::ReportFolder(const std::string& folder) {
-  const fs::path target = without_trailing_slash(folder);
-  if (fs::exists(target) && !fs::is_directory(target)) fail(target, "is not a folder");
-  std::error_code error;
-  fs::create_directories(target.parent_path(), error);
-  if (error) fail(target.parent_path(), "cannot be created: " + error.message());
-  const std::string prefix = "." + target.filename().string() + ".partial-";
-  remove_left_behind(target, prefix);
-  std::string name = target.parent_path().string() + "/" + prefix + "XXXXXX";
-  if (mkdtemp(name.data()) == nullptr)
-    fail(target.parent_path(), std::string("cannot be written in: ") + std::strerror(errno));
-  fs::permissions(name, fs::perms(0755),
-                  error);  // mkdtemp gives 0700, which would survive as the report's own
-  lock_ = std::make_unique<ProcessLock>(name);
-  final_ = target.string();
-  partial_ = name;
+ReportFolder::ReportFolder(const std::string& folder, FolderKind kind, const std::vector<std::string>& inputs)
+    : ReportFolder(folder, kind, inputs, false) {}
+
+ReportFolder ReportFolder::to_redraw(const std::string& folder, FolderKind kind) {
+  ReportFolder redrawn(folder, kind, {}, true);
+  for (const std::string& file : internal::files_below(redrawn.final_))
+    if (internal::is_stored(file)) redrawn.take_over(file);
+  if (redrawn.before_) redrawn.dropped_ = redrawn.before_->dropped;
+  return redrawn;
 }
 
-ReportFolder::~ReportFolder() {
+ReportFolder::ReportFolder(const std::string& folder, FolderKind kind, const std::vector<std::string>& inputs,
+                           bool redraw)
+    : kind_(kind), final_(without_trailing_slash(folder).string()) {
+  try {
+    make_target();
+    take(inputs, redraw);
+    make_partial();
+  } catch (...) {
+    clear();
+    throw;
+  }
+}
+
+ReportFolder::ReportFolder(ReportFolder&& other) noexcept = default;
+
+ReportFolder::~ReportFolder() { clear(); }
+
+void ReportFolder::make_target() {
+  std::error_code problem;
+  const fs::file_status there = fs::status(final_, problem);
+  if (fs::exists(there) && !fs::is_directory(there))
+    throw ConfigError(final_, "is a file, expected the folder of a report");
+  std::vector<fs::path> missing;
+  for (fs::path path = final_; !path.empty() && !fs::exists(path, problem); path = path.parent_path())
+    missing.push_back(path);
+  std::reverse(missing.begin(), missing.end());
+  for (const fs::path& path : missing) {
+    fs::create_directory(path, problem);
+    if (problem) refuse_to_write(path.has_parent_path() ? path.parent_path() : ".", problem.message());
+    made_.push_back(path.string());
+  }
+}
+
+void ReportFolder::take(const std::vector<std::string>& inputs, bool redraw) {
+  lock_ = std::make_unique<ProcessLock>(final_);
+  if (lock_->held_by_another())
+    throw ConfigError(final_, "is being written by another process, expected one at a time");
+  internal::remove_left_behind(final_);
+  if (auto list = internal::read_file_list(final_)) before_ = std::make_unique<FileList>(*std::move(list));
+  if (redraw)
+    internal::require_redrawable(final_, before_.get());
+  else
+    internal::require_own(final_, internal::word_of(kind_), before_.get());
+  internal::require_no_input(final_, before_.get(), inputs);
+}
+
+void ReportFolder::make_partial() {
+  std::string name = final_ + "/" + internal::kPartial + "XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) refuse_to_write(final_, std::strerror(errno));
+  partial_ = name;
+  std::ofstream mark(partial_ + "/" + internal::kMark);
+  mark << internal::kMarkText;
+  if (!mark.flush()) refuse_to_write(final_, "no room for a file");
+}
+
+/// Needs no more handles than there are: where they ran out, a folder can still be removed file by file.
+void ReportFolder::clear() noexcept {
+  lock_.reset();
   std::error_code ignored;
-  if (!partial_.empty()) fs::remove_all(partial_, ignored);
+  if (!partial_.empty()) {
+    fs::remove(partial_ + "/" + internal::kMark, ignored);
+    if (!fs::remove(partial_, ignored) || ignored) fs::remove_all(partial_, ignored);
+  }
+  partial_.clear();
+  for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), ignored);  // unless something is in it
 }
 
 void ReportFolder::take_over(const std::string& file) {
@@ -110,49 +133,70 @@ void ReportFolder::take_over(const std::string& file) {
   std::error_code error;
   fs::create_directories(to.parent_path(), error);
   if (!error) fs::copy_file(from, to, error);
-  if (error) fail(fs::path(final_).parent_path(), "cannot be written in: " + error.message());
+  if (error) fail(final_, "cannot be written in: " + error.message());
+  kept_.insert(file);
 }
 
 void ReportFolder::keep(const char* result, const std::vector<const char*>& others, bool held_out_traces) {
   const fs::path from = final_;
-  if (!fs::exists(from / result)) return;
   take_over(result);
   for (const char* other : others)
     if (fs::exists(from / other)) take_over(other);
-  for (const fs::path& file : files_below(from / "traces"))
-    if (file.string().starts_with("held_out_") == held_out_traces) take_over("traces/" + file.string());
+  for (const std::string& file : internal::files_below(from))
+    if (file.starts_with("traces/") && file.starts_with("traces/held_out_") == held_out_traces)
+      take_over(file);
 }
 
-void ReportFolder::keep_stored() {
-  for (const fs::path& file : files_below(final_))
-    if (is_ours(file, {}) && file != "report.md") take_over(file.string());
+void ReportFolder::keep_estimate(const std::string& version, const std::vector<SourceFile>& sources) {
+  dropped_ = internal::why_not_together(final_, "result.json", version, sources);
+  if (dropped_.empty() && fs::exists(fs::path(final_) / "result.json"))
+    keep("result.json", {"timing.json"}, false);
 }
 
-void ReportFolder::keep_estimate() { keep("result.json", {"timing.json"}, false); }
-void ReportFolder::keep_diagnosis() {
-  keep("diagnosis.json", {"fitted.yaml", "next_experiment.yaml", "next_experiment.csv"}, true);
+void ReportFolder::keep_diagnosis(const std::string& version, const std::vector<SourceFile>& sources) {
+  dropped_ = internal::why_not_together(final_, "diagnosis.json", version, sources);
+  if (dropped_.empty() && fs::exists(fs::path(final_) / "diagnosis.json"))
+    keep("diagnosis.json", {"fitted.yaml", "next_experiment.yaml", "next_experiment.csv"}, true);
+}
+
+void ReportFolder::move_list(const FileList& list) {
+  internal::write_file_list(partial_, list);
+  std::error_code error;
+  fs::rename(fs::path(partial_) / internal::kFileList, fs::path(final_) / internal::kFileList, error);
+  if (error) fail(fs::path(final_) / internal::kFileList, "cannot be written: " + error.message());
 }
 
 void ReportFolder::commit() {
-  const std::vector<fs::path> fresh = files_below(partial_);
-  const std::vector<fs::path> old = files_below(final_);
-  const std::set<std::string> old_figures = figures_of(final_);
-  std::error_code error;
-  for (const fs::path& file : fresh) {
-    const fs::path target = fs::path(final_) / file;
-    fs::create_directories(target.parent_path(), error);
-    if (!error) fs::rename(fs::path(partial_) / file, target, error);
-    if (error) fail(target, "cannot be written: " + error.message());
+  const fs::path to = final_, from = partial_;
+  std::vector<std::string> fresh, stale;
+  for (const std::string& file : internal::files_below(from))
+    if (!kept_.contains(file) && file != internal::kMark) fresh.push_back(file);
+  std::stable_partition(fresh.begin(), fresh.end(), [](const std::string& f) { return !is_result(f); });
+  FileList after{version(), internal::word_of(kind_), dropped_, {}};
+  for (const std::string& file : fresh) after.files.push_back(listed(from, file));
+  FileList meanwhile = after;
+  if (before_) {
+    for (const internal::ListedFile& old : before_->files) {
+      meanwhile.files.push_back(old);
+      if (kept_.contains(old.file))
+        after.files.push_back(old);
+      else if (!after.holds(old.file) && !internal::is_left_alone(old.file))
+        stale.push_back(old.file);
+    }
   }
-  for (const fs::path& file : old) {
-    if (!is_ours(file, old_figures) || std::find(fresh.begin(), fresh.end(), file) != fresh.end()) continue;
-    fs::remove(fs::path(final_) / file, error);
-    if (error) fail(fs::path(final_) / file, "cannot be removed: " + error.message());
-  }
-  const fs::path traces = fs::path(final_) / "traces";
-  if (fs::is_directory(traces) && fs::is_empty(traces)) fs::remove(traces, error);
-  fs::remove_all(partial_, error);
-  partial_.clear();
+  for (const std::string& file : internal::files_left_alone(to))
+    if (!after.holds(file)) after.files.push_back({file, ""});
+  const auto by_name = [](const internal::ListedFile& a, const internal::ListedFile& b) {
+    return a.file < b.file;
+  };
+  std::sort(after.files.begin(), after.files.end(), by_name);
+  internal::require_out_of_the_way(to, before_.get(), fresh);
+  std::erase_if(stale, [&](const std::string& f) { return !before_->wrote(to, f); });
+  move_list(meanwhile);  // whatever ends this process now, what is ours is known
+  made_.clear();
+  internal::replace_files(from, to, fresh, stale, is_result);
+  move_list(after);
+  clear();
 }
 
 }  // namespace gapscope

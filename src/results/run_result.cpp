@@ -97,6 +97,19 @@ void require_bounds(const JsonReader& reader, const RunResult& run) {
                    "does not rise, expected two bounds above 0 or more");
 }
 
+/// A passage of the gap takes samples: more events than there are would only be drawn for a long time.
+void require_events(const JsonReader& reader, const Document& document) {
+  if (!document.run.model_free || document.recordings.empty()) return;
+  std::size_t samples = 0;
+  for (const StoredRecording& stored : document.recordings)
+    samples += static_cast<std::size_t>(std::max(0, stored.samples));
+  const std::size_t events = document.run.model_free->events.size();
+  if (events > samples)
+    reader.fail_at("model_free.events", "has " + std::to_string(events) +
+                                            " items, expected at most one for each of " +
+                                            std::to_string(samples) + " samples");
+}
+
 }  // namespace
 
 void write_run_result(const std::string& folder, const RunResult& result) {
@@ -124,6 +137,7 @@ RunResult read_run_result(const std::string& folder) {
   fields(reader, document);
   RunResult& run = document.run;
   require_bounds(reader, run);
+  require_events(reader, document);
   for (const StoredRecording& stored : document.recordings) load_recording(folder, stored, run);
   if (run.model_free && run.model_free->map && !run.recordings.empty())
     internal::read_bound_map(folder + "/traces/" + internal::kBoundMapName, *run.model_free->map);

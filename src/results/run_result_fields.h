@@ -5,6 +5,7 @@
 
 #include "gapscope/results/run_result.h"
 #include "results/json_archive.h"
+#include "results/source_fields.h"
 
 /// The fields of a stored result, each named once. The first ones of every list are those that readers
 /// outside the project rely on; the rest is what a report needs beside them.
@@ -181,6 +182,7 @@ void fields(Archive& archive, Document& d) {
   archive("simulated_gap_rad", d.run.simulated_gap);
   archive("notes", d.run.notes);
   archive.configuration(d.run.configuration);
+  archive.added_list("sources", d.run.sources);
   archive.list("recordings", d.recordings);
 }
 

@@ -25,6 +25,8 @@ std::string trace_name(std::size_t index, const std::string& recording_file) {
 namespace internal {
 namespace {
 
+constexpr std::uintmax_t kLargestTable = std::uintmax_t{16} << 30;  ///< of the longest recording that is read
+
 constexpr Mode kModes[] = {Mode::kGap, Mode::kEngagementPlus, Mode::kEngagementMinus, Mode::kImpact};
 
 /// The number columns of a set in their order in the file, after t_s.
@@ -180,10 +182,22 @@ std::string trace_path(const std::string& folder, const std::string& name) {
   return folder + "/" + name;
 }
 
-void read_trace(const std::string& path, TraceSet& set) {
+std::string text_of_table(const std::string& path, const char* what) {
+  namespace fs = std::filesystem;
+  std::error_code problem;
+  const fs::file_status there = fs::status(path, problem);
+  const std::string expected = std::string(", expected the ") + what + " that the stored result names";
+  if (!fs::exists(there)) throw ConfigError(path, "there is no such file" + expected);
+  if (!fs::is_regular_file(there)) throw ConfigError(path, "is no regular file" + expected);
+  if (fs::file_size(path, problem) > kLargestTable)
+    throw ConfigError(path, "is larger than 16 GiB" + expected);
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw ConfigError(path, "there is no such file, expected the trace that the stored result names");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw ConfigError(path, "cannot be read" + expected);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void read_trace(const std::string& path, TraceSet& set) {
+  const std::string text = text_of_table(path, "trace");
   if (text.empty()) throw ConfigError(path, "is empty, expected a stored trace");
   std::string_view rest = text;
   Columns columns;

@@ -26,6 +26,9 @@ void write_trace(const std::string& path, TraceSet set);
 /// Where a trace that a stored result names is.  @throws ConfigError for a place outside the folder's traces.
 std::string trace_path(const std::string& folder, const std::string& name);
 
+/// All of a stored table.  @throws ConfigError unless it is a regular file of a size that is stored
+std::string text_of_table(const std::string& path, const char* what);
+
 /// Fills the columns of a set.  @throws ConfigError with file and line for a damaged file.
 void read_trace(const std::string& path, TraceSet& set);
 

@@ -87,9 +87,8 @@ bool FrozenSearch::try_to_learn() {
 }
 
 void FrozenSearch::learn(const SignalFacts& facts, const MotorTrace& trace) {
-  frozen_.facts = facts;
-  frozen_.samples = trace.size();
   const BankRun run = run_bank(trace, facts, bound_grid(facts, dt_), Discretisation::kMatched);
+  frozen_.facts = facts;
   frozen_.bounds = run.bounds, frozen_.floor = run.floor, frozen_.quiet = run.quiet;
   frozen_.sliding = smallest_sliding(run);
   const double half_period = facts.half_period / dt_;
@@ -103,6 +102,7 @@ void FrozenSearch::learn(const SignalFacts& facts, const MotorTrace& trace) {
   tops_.assign(run.bounds.size(), 0);
   const auto samples = [&](double share) { return static_cast<std::size_t>(std::ceil(share * half_period)); };
   hop_ = samples(kHop), before_ = samples(kBefore), after_ = samples(kAfter);
+  frozen_.samples = trace.size();  // last: half of it would be nothing to go on with
 }
 
 void FrozenSearch::go_on(double u, double x1) {

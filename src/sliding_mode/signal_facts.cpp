@@ -12,6 +12,8 @@
 namespace gapscope::internal {
 namespace {
 
+constexpr double kFastest = 1e60;  ///< beyond it squares of accelerations leave the range of a double [rad/s]
+
 using Samples = std::span<const double>;
 
 constexpr double kFewestDriftPeriods = 3.0;  ///< of the input, for a drift to be told from the motion
@@ -101,6 +103,8 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
         "no periodic motion: {} half periods found, {} needed; excite with a sine and record three periods "
         "or more",
         facts.half_periods, kFewestHalfPeriods);
+  else if (!(facts.speed_rms < kFastest))
+    facts.defect = "x1 jumps farther than any motion does: look for a spike, and for the unit";
   else if (!(facts.speed_rms > 0.0))
     facts.defect = "no speed above the encoder's noise: raise the excitation";
   return facts;

@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
+#include <thread>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/results/blind_files.h"
 #include "support/reading.h"
@@ -85,6 +89,58 @@ TEST(BlindAnswer, RefusesASwappedRecording) {
   EXPECT_THAT(check.score(), HasSubstr("is not the file of case_002 that was sealed"));
 }
 
+TEST(BlindAnswer, AStopLeavesNoAnswerThatAWholeRunWouldNotGive) {
+  const Answered check;
+  std::map<std::string, std::string> whole;
+  for (const BlindAnswer& a : check.answers().cases) whole[a.name] = line_of(a);
+  const std::string again = check.path("again.json");
+  for (const int after : {150, 50, 250, 20, 100, 200, 300, 400}) {  // milliseconds
+    std::thread stop([after] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(after));
+      request_stop();
+    });
+    try {
+      answer_blind_check(check.path("cases"), again, 1);
+    } catch (const Interrupted&) {
+    }
+    stop.join();
+    clear_stop_request();
+    std::ifstream journal(again + ".partial");
+    std::string line;
+    std::getline(journal, line);  // of what check
+    while (std::getline(journal, line)) {
+      const BlindAnswer answer = blind_answer_of(line, "journal");
+      EXPECT_EQ(line, whole.at(answer.name)) << after << " ms";
+    }
+  }
+  answer_blind_check(check.path("cases"), again, 1);
+  EXPECT_EQ(text_of(again), text_of(check.path("answers.json")));
+}
+
+TEST(BlindAnswer, IsToWhatWasSealedAlsoWhereThatIsSwappedMeanwhile) {
+  const Answered check;
+  const fs::path cases = check.path("cases");
+  const auto swap_the_last = [&](std::size_t, std::size_t) {  // when the first one is answered
+    for (const char* part : {"_train.csv", "_held_out.csv"})
+      fs::copy(cases / ("case_001" + std::string(part)), cases / ("case_003" + std::string(part)),
+               fs::copy_options::overwrite_existing);
+  };
+  EXPECT_THAT(
+      refusal([&] { answer_blind_check(cases.string(), check.path("again.json"), 1, swap_the_last); }),
+      HasSubstr("is not the file of case_003 that was sealed"));
+}
+
+TEST(BlindAnswer, TakesNoFileOfSomebodyElse) {
+  const Answered check;
+  for (const char* name : {"again.json", "again.json.partial"}) {
+    std::ofstream(check.path(name)) << "mine";
+    EXPECT_THAT(refusal([&] { answer_blind_check(check.path("cases"), check.path("again.json"), 1); }),
+                HasSubstr(name));
+    EXPECT_EQ(text_of(check.path(name)), "mine");
+    fs::remove(check.path(name));
+  }
+}
+
 TEST(BlindCheck, ScoresWhatNobodyChanged) { EXPECT_EQ(Answered().score(), ""); }
 
 TEST(BlindCheck, RefusesAChangedAnswer) {
@@ -125,6 +181,29 @@ TEST(BlindCheck, RefusesAnswersWithAnotherSealThanTheAnnouncedOne) {
   };
   EXPECT_EQ(score(check.answers().seal()), "");
   EXPECT_THAT(score(std::string(64, '0')), HasSubstr("expected the one announced"));
+}
+
+TEST(BlindCheck, TellsWhetherAnAnnouncedSealWasChecked) {
+  const Answered check;
+  const auto scored = [&](const std::string& seal) {
+    return score_blind_check(check.path("cases"), check.path("labels.json"), check.path("answers.json"), seal)
+        .announced_seal;
+  };
+  EXPECT_EQ(scored(""), "");
+  EXPECT_EQ(scored(check.answers().seal()), check.answers().seal());
+}
+
+TEST(BlindCheck, RefusesAnotherNameOrVersion) {
+  const Answered check;
+  const BlindAnswers answers = check.answers();
+  for (const bool name : {true, false}) {
+    BlindAnswers changed = answers;
+    (name ? changed.name : changed.version) = "../evil";
+    write_blind_answers(check.path("answers.json"), changed);
+    EXPECT_THAT(check.score(),
+                HasSubstr(name ? "answers the check '../evil', expected 'small'"
+                               : "has another answer to case_001 than the one that was sealed"));
+  }
 }
 
 TEST(BlindCheck, RefusesAChangedLabel) {

@@ -92,7 +92,7 @@ TEST(BlindMake, WritesRecordingsThatTellNothingButInputAndMotor) {
   const Check check;
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(check.folder())) files.insert(entry.path().filename());
-  EXPECT_EQ(files.size(), 1u + 3u * 5u);
+  EXPECT_EQ(files.size(), 2u + 3u * 5u) << "a manifest, a list, three files a case";
   const std::string csv = text_of(check.folder() + "/case_001_train.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')), "t,u,x1");
   for (const BlindLabel& label : read_blind_labels(check.labels()).cases)
@@ -164,6 +164,63 @@ TEST(Seal, RefusesASwappedRecordingAndAChangedSheet) {
   std::ofstream(folder / "case_004.yaml", std::ios::app) << "# a word\n";
   EXPECT_THAT(refusal([&] { verify_recordings(check.manifest(), check.folder()); }),
               HasSubstr("case_004.yaml"));
+}
+
+TEST(Seal, NoTwoTruthsHaveOneHash) {
+  BlindLabel a;
+  a.name = "case_001", a.part = "report", a.effects = {"cogging_torque"}, a.salt = "0123456789abcdef",
+  a.seed = "7";
+  const auto hash_with = [&](auto change) {
+    BlindLabel b = a;
+    change(b);
+    return label_hash(b);
+  };
+  // As they ran into each other while fields were joined by line ends and effects by '+'.
+  EXPECT_NE(hash_with([](BlindLabel& l) { l.rig = "paper\nnull\nnull"; }),
+            hash_with([](BlindLabel& l) { l.rig = "paper", l.seed = "null\n7"; }));
+  EXPECT_NE(hash_with([](BlindLabel& l) { l.effects = {"a+b"}; }), hash_with([](BlindLabel& l) {
+              l.effects = {"a", "b"};
+            }));
+  EXPECT_NE(hash_with([](BlindLabel& l) { l.effects = {""}; }),
+            hash_with([](BlindLabel& l) { l.effects = {}; }));
+}
+
+TEST(Seal, RefusesWordsThatCouldBeReadInTwoWays) {
+  const Check check;
+  const BlindLabels labels = read_blind_labels(check.labels());
+  const auto changes = std::vector<void (*)(BlindLabel&)>{
+      [](BlindLabel& l) { l.effects = {"a+b"}; },  [](BlindLabel& l) { l.effects = {""}; },
+      [](BlindLabel& l) { l.effects = {"a\nb"}; }, [](BlindLabel& l) { l.rig = "paper\n"; },
+      [](BlindLabel& l) { l.salt += "\n"; },       [](BlindLabel& l) { l.seed = "1\n2"; }};
+  for (const auto change : changes) {
+    BlindLabels changed = labels;
+    change(changed.cases[0]);
+    write_blind_labels(check.labels(), changed);
+    EXPECT_THAT(refusal([&] { seal_blind_check(check.folder(), check.labels()); }),
+                HasSubstr("control character"));
+  }
+}
+
+TEST(Seal, HoldsNameAndConfigurationToo) {
+  const Check check;
+  for (const bool name : {true, false}) {
+    BlindLabels changed = read_blind_labels(check.labels());
+    (name ? changed.name : changed.configuration) += "9";
+    EXPECT_THAT(refusal([&] { verify_labels(check.manifest(), changed, "labels.json"); }),
+                HasSubstr("another name or configuration than those that were sealed"));
+  }
+}
+
+TEST(Seal, ReachesNoFileOutsideTheFolder) {
+  const Check check;
+  BlindManifest manifest = check.manifest();
+  manifest.cases[0].files[1].file = "../labels.json";
+  EXPECT_THAT(refusal([&] { verify_recordings(manifest, check.folder()); }),
+              HasSubstr("'../labels.json', expected one in the folder that is handed out"));
+  manifest = check.manifest();
+  manifest.name = "../../elsewhere";
+  EXPECT_THAT(refusal([&] { verify_recordings(manifest, check.folder()); }),
+              HasSubstr("expected a plain file name"));
 }
 
 TEST(Seal, TakesOwnRecordingsAndRefusesLabelsThatAreIncomplete) {

@@ -77,7 +77,7 @@ const std::vector<Damage> kDamages = {
     {"runs_too_many", "UPDATE campaign SET value = '20000000' WHERE key = 'runs'", "",
      "runs is '20000000', expected a whole number from 1 to 10000000"},
     {"control_characters", "UPDATE campaign SET value = 'a' || char(27) || 'b' WHERE key = 'schema'", "",
-     "has the schema 'a?b'"},
+     "is damaged (a cell holds no text)"},
     {"axis_without_values", "UPDATE axes SET count = 0", "",
      "the axis 'encoder.bits' has neither values nor a range"},
     {"run_beyond", "INSERT INTO runs (run, \"encoder.bits\") VALUES (7, '16')", "",
@@ -90,6 +90,32 @@ const std::vector<Damage> kDamages = {
 
 INSTANTIATE_TEST_SUITE_P(Store, DamagedStoreTest, ::testing::ValuesIn(kDamages),
                          [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(DamagedStore, NothingIsExportedOfADamagedOne) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  small.run("store", 1);
+  execute(small.place("store/results.sqlite"),
+          "UPDATE runs SET model_free_verdict = CAST(x'ff00a5' AS TEXT) WHERE run = 1");
+  std::string told;
+  EXPECT_THAT(testing::refusal([&] {
+                export_campaign(CampaignStore(small.place("store")),
+                                [&](const std::string& t) { told += t; });
+              }),
+              HasSubstr("results.sqlite: is damaged (a cell holds no text)"));
+  EXPECT_EQ(told, "") << "not a row of it";
+}
+
+TEST(DamagedStore, ADatabaseOfSomethingElseIsNotWrittenTo) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  std::filesystem::create_directory(small.place("store"));
+  const std::string file = small.place("store/results.sqlite");
+  execute(file, "CREATE TABLE photographs (name TEXT)");
+  const std::string before = testing::text_of(file);
+  EXPECT_THAT(
+      testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
+      HasSubstr("results.sqlite: holds no campaign"));
+  EXPECT_EQ(testing::text_of(file), before);
+}
 
 TEST(DamagedStore, PagesThatWereOverwrittenAreToldAsDamage) {
   const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -144,6 +146,41 @@ TEST(Campaign, AMissingShardIsMadeGoodByTheSameCommand) {
   EXPECT_THAT(place.run("campaign merge shard1 shard3 -o merged").out, HasSubstr("8 of 12"));
   EXPECT_FALSE(std::filesystem::exists(place.folder() / "merged/report.md"));
   EXPECT_THAT(place.run("campaign c.yaml -o merged").out, HasSubstr("12 (4 of them now)"));
+}
+
+TEST(Campaign, ARefusedMergeLeavesNothing) {
+  Workplace place;
+  with_campaign(place, 2);
+  for (const std::string k : {"1", "2"})
+    ASSERT_EQ(place.run("campaign c.yaml -o shard" + k + " --shard " + k + "/2").status, 0);
+  std::filesystem::copy(place.folder() / "shard1", place.folder() / "other",
+                        std::filesystem::copy_options::recursive);
+  sqlite3* store = nullptr;
+  ASSERT_EQ(sqlite3_open((place.folder() / "other/results.sqlite").c_str(), &store), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(store, "UPDATE runs SET model_free_gap_rad = 1", nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(store);
+  const auto refused = place.run("campaign merge shard1 other shard2 -o merged");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("other: has another result for run 1"));
+  EXPECT_FALSE(std::filesystem::exists(place.folder() / "merged"));
+  EXPECT_EQ(place.run("campaign merge shard1 shard2 -o merged").status, 0);
+}
+
+TEST(Campaign, AnArchiveThatCannotBeWrittenIsExported) {
+  namespace fs = std::filesystem;
+  Workplace place;
+  with_campaign(place, 1);
+  ASSERT_EQ(place.run("campaign c.yaml -o k").status, 0);
+  const std::string whole = exported(place, "k");
+  fs::permissions(place.folder() / "k/results.sqlite", fs::perms(0444));
+  fs::permissions(place.folder() / "k", fs::perms(0555));
+  const std::string somebody =
+      geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : std::string();
+  const auto archive = place.run("campaign export k", somebody);
+  EXPECT_EQ(archive.status, 0) << archive.err;
+  EXPECT_EQ(archive.out, whole);
+  fs::permissions(place.folder() / "k", fs::perms::owner_all);
 }
 
 TEST(Campaign, AStoreOfAnotherCampaignIsRefusedAndStays) {

@@ -97,10 +97,11 @@ TEST(ResolvedConfiguration, LiesBesideItsResultWithTheHashThatTheResultTells) {
         std::pair("diagnose", "diagnosis.json"), std::pair("blind run", "blind.json")}) {
     SCOPED_TRACE(command);
     const std::string config = std::string(command) == "blind run" ? "check.yaml" : "c.yaml";
-    ASSERT_EQ(place.run(std::string(command) + " " + config + " -o out").status, 0);
-    const json made = read(place, std::string("out/") + result);
-    EXPECT_EQ(made["configuration"]["sha256"], sha256sum(place, "out/resolved.yaml"));
-    EXPECT_EQ(made["configuration"]["resolved"], text_of(place.folder() / "out/resolved.yaml"));
+    const std::string out = config == "check.yaml" ? "checked" : "out";
+    ASSERT_EQ(place.run(std::string(command) + " " + config + " -o " + out).status, 0);
+    const json made = read(place, out + "/" + result);
+    EXPECT_EQ(made["configuration"]["sha256"], sha256sum(place, out + "/resolved.yaml"));
+    EXPECT_EQ(made["configuration"]["resolved"], text_of(place.folder() / out / "resolved.yaml"));
     EXPECT_EQ("gapscope " + made["version"].get<std::string>() + "\n", place.run("--version").out);
   }
 }

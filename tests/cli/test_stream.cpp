@@ -103,6 +103,17 @@ TEST_F(Stream, ABrokenLineIsRefusedAfterTheSummaryOfWhatStoodBeforeIt) {
   EXPECT_THAT(empty.err, StartsWith("standard input: is empty, expected a header"));
 }
 
+TEST_F(Stream, ANumberThatNoDriveHasIsRefusedAfterTheSummary) {
+  for (const char* edit : {"NR==4{$3=\"1e200\"}", "NR==1200{$3=\"1.7e308\"}", "NR>1{$3=$3*1e200}"}) {
+    const auto told = stream(std::string("awk -F, -v OFS=, '") + edit + " {print}' r.csv");
+    EXPECT_EQ(told.status, 2) << edit << told.err;
+    EXPECT_THAT(told.err, HasSubstr("expected at most 1e+15 in size")) << edit;
+  }
+  EXPECT_EQ(lines(stream("awk -F, -v OFS=, 'NR==4000{$3=\"1.#QNAN\"} {print}' r.csv").out).back()["samples"],
+            3998);
+  EXPECT_EQ(stream("awk -F, -v OFS=, 'NR>1{$1=$1*1e-300} {print}' r.csv").status, 2);
+}
+
 TEST_F(Stream, EventsAreThereAtOnceAndCtrlCEndsWithTheSummary) {
   shell(
       "rm -f told.jsonl pipe; mkfifo pipe; (cat r.csv; exec sleep 60) >pipe & "

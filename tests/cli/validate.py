@@ -17,7 +17,7 @@ except ImportError:
     sys.exit(77)
 
 # Made on the way to a result, or with what would give the labels of a blind check away.
-NO_CONFIGURATION = ("timing", "blind_manifest", "blind_answers")
+NO_CONFIGURATION = ("files", "timing", "blind_manifest", "blind_answers")
 MAY_BE_NULL = ("blind", "blind_labels")  # of own recordings, whose sheets are sealed instead
 
 

@@ -60,6 +60,28 @@ TEST(Csv, ToleratesByteOrderMarkCrlfCommentsBlanksAndQuotes) {
   EXPECT_EQ(a.dt, b.dt);
 }
 
+TEST(Csv, ACommentBeginsALineOrFollowsABlankAndNothingElse) {
+  EXPECT_EQ(refusal("t,u,x1\n# of a rig\n" + rows(60, " # later\n") + "#\n"), "(accepted)");
+  for (const char* number : {"1.#QNAN", "1.#INF", "-1.#IND"})  // Microsoft's words for what is no number
+    EXPECT_THAT(refusal("t,u,x1\n" + rows(60) + "0.06,0," + number + "\n"),
+                HasSubstr("r.csv:62: x1 is '" + std::string(number) + "', expected a finite number"));
+}
+
+TEST(Csv, NumbersThatNoDriveHasAreRefusedWithTheirLine) {
+  for (const char* number : {"1e300", "-1.7e308", "1e200"})
+    EXPECT_THAT(refusal("t,u,x1\n" + rows(60) + "0.06,0," + number + "\n"),
+                HasSubstr("r.csv:62: x1 is '" + std::string(number) + "', expected at most 1e+15 in size"));
+  std::string fast = "t,u,x1\n";
+  for (int i = 0; i < 60; ++i) fast += std::to_string(i) + "e-300,0,0\n";
+  EXPECT_THAT(refusal(fast), HasSubstr("from row to row, expected at least 1e-10 s"));
+}
+
+TEST(Csv, ALastLineWithoutAnEndIsNoted) {
+  const TemporaryFile whole("t,u,x1\n" + rows(55)), cut("t,u,x1\n" + rows(55) + "0.055,0,0.5");
+  EXPECT_FALSE(read_recording(whole.path()).open_end);
+  EXPECT_TRUE(read_recording(cut.path()).open_end);
+}
+
 TEST(Csv, ALastLineWithoutNewlineCounts) {
   std::string text = "t,u,x1\n" + rows(55);
   text.pop_back();

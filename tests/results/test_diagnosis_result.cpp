@@ -8,7 +8,6 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/report_folder.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
 
@@ -141,21 +140,6 @@ TEST(DiagnosisResult, RefusesAnotherSchemaAndAContradiction) {
   DiagnosisResult contradiction = sample();
   contradiction.diagnosis.verdict = DiagnosisVerdict::kUnknown;  // with an effect
   EXPECT_THROW(write_diagnosis_result(scratch.path.string(), contradiction), std::logic_error);
-}
-
-TEST(DiagnosisResult, AFolderKeepsWhatTheOtherKindOfCommandStored) {
-  ScratchFolder scratch;
-  const fs::path target = scratch.path / "rig";
-  fs::create_directories(target / "traces");
-  for (const char* name : {"result.json", "traces/1_a.csv", "traces/held_out_1_b.csv"})
-    std::ofstream(target / name) << "old";
-  ReportFolder folder(target.string());
-  folder.keep_estimate();
-  std::ofstream(fs::path(folder.path()) / "diagnosis.json") << "new";
-  folder.commit();
-  EXPECT_EQ(text_of(target / "result.json"), "old");
-  EXPECT_EQ(text_of(target / "traces/1_a.csv"), "old");
-  EXPECT_FALSE(fs::exists(target / "traces/held_out_1_b.csv"));  // of the diagnosis before this one
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
+// What a report may replace, what it leaves alone, what it refuses, and what remains when it is not finished.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 
+#include "gapscope/base/errors.h"
 #include "gapscope/results/report_folder.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
@@ -13,6 +15,9 @@
 namespace gapscope {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::refusal;
 using testing::text_of;
 namespace fs = std::filesystem;
 
@@ -30,84 +35,229 @@ Names files_in(const fs::path& folder) {
   return names;
 }
 
-TEST(ReportFolder, AppearsOnlyWithCommit) {
+void write(const fs::path& target, const Names& names, const std::string& text,
+           FolderKind kind = FolderKind::kDrive) {
+  ReportFolder folder(target.string(), kind);
+  for (const std::string& name : names) put(fs::path(folder.path()) / name, text);
+  folder.commit();
+}
+
+std::string refused(const fs::path& target, FolderKind kind = FolderKind::kDrive,
+                    const std::vector<std::string>& inputs = {}) {
+  return refusal([&] { ReportFolder folder(target.string(), kind, inputs); });
+}
+
+TEST(ReportFolder, AppearsOnlyWithCommitAndListsItsFiles) {
   ScratchFolder scratch;
   const fs::path target = scratch.path / "deep" / "rig";
-  ReportFolder folder(target.string());
+  ReportFolder folder(target.string(), FolderKind::kDrive);
   put(fs::path(folder.path()) / "result.json", "new");
   put(fs::path(folder.path()) / "traces" / "1_a.csv", "t");
-  EXPECT_FALSE(fs::exists(target));
+  EXPECT_FALSE(fs::exists(target / "result.json"));
   folder.commit();
-  EXPECT_EQ(files_in(target), (Names{"result.json", "traces/1_a.csv"}));
-  EXPECT_EQ(files_in(scratch.path).size(), 2u) << "the temporary folder is gone";
+  EXPECT_EQ(files_in(target), (Names{"files.json", "result.json", "traces/1_a.csv"}));
+  EXPECT_THAT(text_of(target / "files.json"), AllOf(HasSubstr("traces/1_a.csv"), HasSubstr("result.json")));
+  EXPECT_EQ(files_in(scratch.path).size(), 3u) << "the temporary folder is gone";
 }
 
 TEST(ReportFolder, LeavesNoTraceWithoutCommit) {
   ScratchFolder scratch;
-  const fs::path target = scratch.path / "rig";
-  put(target / "result.json", "old");
+  write(scratch.path / "rig", {"result.json"}, "old");
+  const Names before = files_in(scratch.path);
   {
-    ReportFolder folder(target.string());
+    ReportFolder folder((scratch.path / "rig").string(), FolderKind::kDrive);
     put(fs::path(folder.path()) / "result.json", "new");
-    EXPECT_EQ(fs::path(folder.path()).parent_path(), scratch.path) << "a sibling, so that moving is renaming";
-    EXPECT_TRUE(fs::path(folder.path()).filename().string().starts_with(".rig.partial-"));
+    ReportFolder other((scratch.path / "a" / "b").string(), FolderKind::kDrive);
   }
-  EXPECT_EQ(files_in(scratch.path), Names{"rig/result.json"});
-  EXPECT_EQ(text_of(target / "result.json"), "old");
+  EXPECT_EQ(files_in(scratch.path), before);
+  EXPECT_FALSE(fs::exists(scratch.path / "a"));
+  EXPECT_EQ(text_of(scratch.path / "rig/result.json"), "old");
 }
 
-TEST(ReportFolder, ReplacesAnOldReportAndNothingElse) {
+TEST(ReportFolder, ReplacesWhatItWroteAndLeavesTheRest) {
   ScratchFolder scratch;
   const fs::path target = scratch.path / "rig";
-  for (const char* name : {"result.json", "overview.png", "fig3.png", "report.md", "timing.json",
-                           "resolved.yaml", "traces/1_a.csv", "traces/2_b.csv"})
-    put(target / name, "old");
-  put(target / "report.md", "![overview](overview.png)\n![map](fig3.png)\n");
-  for (const char* name : {"notes.txt", "photo.png", "photos/rig.png", "traces/mine.txt"})
-    put(target / name, "mine");
-  ReportFolder folder(target.string() + "/");
-  for (const char* name : {"result.json", "overview.png", "traces/1_a.csv"})
-    put(fs::path(folder.path()) / name, "new");
-  folder.commit();
-  EXPECT_EQ(files_in(target), (Names{"result.json", "overview.png", "traces/1_a.csv", "notes.txt",
-                                     "photo.png", "photos/rig.png", "traces/mine.txt"}));
+  write(target, {"result.json", "overview.png", "fig3.png", "report.md", "traces/1_a.csv", "traces/2_b.csv"},
+        "old");
+  for (const char* name : {"notes.txt", "photo.png", "photos/rig.png"}) put(target / name, "mine");
+  write(target.string() + "/", {"result.json", "overview.png", "traces/1_a.csv"}, "new");
+  EXPECT_EQ(files_in(target), (Names{"files.json", "result.json", "overview.png", "traces/1_a.csv",
+                                     "notes.txt", "photo.png", "photos/rig.png"}));
   EXPECT_EQ(text_of(target / "result.json"), "new");
-  EXPECT_EQ(text_of(target / "notes.txt"), "mine");
+  EXPECT_EQ(text_of(target / "photo.png"), "mine");
+}
+
+TEST(ReportFolder, RefusesAFolderOfSomethingElse) {
+  for (const char* name :
+       {"drive.csv", "traces/drive.csv", "report.md", "result.json", ".git/config", "blind.json"}) {
+    ScratchFolder scratch;
+    put(scratch.path / name, "mine");
+    const Names before = files_in(scratch.path);
+    EXPECT_THAT(refused(scratch.path), HasSubstr("and no report of gapscope, expected an empty folder"))
+        << name;
+    EXPECT_EQ(files_in(scratch.path), before);
+  }
+}
+
+TEST(ReportFolder, RefusesWhatTheUserPutInItsPlaceOrChanged) {
+  for (const char* name : {"diagnosis.json", "traces/mine.csv", "resolved.yaml", "fitted.yaml"}) {
+    ScratchFolder scratch;
+    write(scratch.path / "rig", {"result.json", "report.md"}, "old");
+    put(scratch.path / "rig" / name, "mine");
+    EXPECT_THAT(refused(scratch.path / "rig"), HasSubstr("which gapscope did not write there")) << name;
+  }
+  ScratchFolder scratch;
+  write(scratch.path / "rig", {"result.json", "overview.png"}, "old");
+  put(scratch.path / "rig/overview.png", "a better one");
+  EXPECT_THAT(refused(scratch.path / "rig"),
+              HasSubstr("holds 'overview.png', which was changed since gapscope wrote it"));
+}
+
+TEST(ReportFolder, FollowsNoLinks) {
+  ScratchFolder scratch;
+  put(scratch.path / "elsewhere/1_a.csv", "t");
+  write(scratch.path / "rig", {"result.json", "traces/1_a.csv"}, "t");
+  fs::remove_all(scratch.path / "rig/traces");
+  fs::create_directory_symlink(scratch.path / "elsewhere", scratch.path / "rig/traces");
+  EXPECT_THAT(refused(scratch.path / "rig"), HasSubstr("'traces"));
+  fs::remove(scratch.path / "rig/traces");
+  fs::remove(scratch.path / "rig/result.json");
+  fs::create_symlink(scratch.path / "elsewhere/1_a.csv", scratch.path / "rig/result.json");
+  EXPECT_THAT(refused(scratch.path / "rig"), HasSubstr("result.json"));
+}
+
+TEST(ReportFolder, TakesAFolderThatIsALinkItself) {
+  ScratchFolder scratch;
+  fs::create_directory(scratch.path / "disk");
+  fs::create_directory_symlink(scratch.path / "disk", scratch.path / "link");
+  write(scratch.path / "link", {"result.json"}, "new");
+  EXPECT_EQ(files_in(scratch.path / "disk"), (Names{"files.json", "result.json"}));
+}
+
+TEST(ReportFolder, RefusesAReportOfAnotherKind) {
+  ScratchFolder scratch;
+  write(scratch.path / "check", {"blind.json", "report.md"}, "an hour of work", FolderKind::kBlind);
+  EXPECT_THAT(refused(scratch.path / "check"), HasSubstr("holds a report of another kind (blind)"));
+  EXPECT_EQ(refused(scratch.path / "check", FolderKind::kBlind), "");
+}
+
+TEST(ReportFolder, ReplacesNoInput) {
+  ScratchFolder scratch;
+  const fs::path rig = scratch.path / "rig";
+  write(rig, {"result.json", "fitted.yaml"}, "old");
+  EXPECT_THAT(refused(rig, FolderKind::kDrive, {(rig / "fitted.yaml").string()}),
+              HasSubstr("fitted.yaml: is read, and would be replaced by the report"));
+  put(rig / "mine.yaml", "beside it");
+  EXPECT_EQ(refused(rig, FolderKind::kDrive, {(rig / "mine.yaml").string()}), "");
+}
+
+TEST(ReportFolder, RefusesAListThatReachesOutside) {
+  for (const char* file : {"../victim.txt", "/victim.txt", "traces/../../victim.txt", "traces/..", ""}) {
+    ScratchFolder scratch;
+    put(scratch.path / "victim.txt", "mine");
+    put(scratch.path / "rig/files.json",
+        std::string(
+            R"({"schema": "gapscope.files/1", "version": "1", "kind": "drive", "dropped": "", "files": [{"file": ")") +
+            file + R"(", "sha256": ""}]})");
+    EXPECT_THAT(refused(scratch.path / "rig"), HasSubstr("expected one in the folder itself")) << file;
+  }
+}
+
+TEST(ReportFolder, RefusesWhatCameInTheWayDuringTheWork) {
+  ScratchFolder scratch;
+  const fs::path target = scratch.path / "rig";
+  ReportFolder folder(target.string(), FolderKind::kDrive);
+  put(fs::path(folder.path()) / "overview.png", "new");
+  put(target / "overview.png", "mine");
+  EXPECT_THAT(refusal([&] { folder.commit(); }), HasSubstr("rig/overview.png: is in the way"));
+  EXPECT_EQ(text_of(target / "overview.png"), "mine");
+}
+
+TEST(ReportFolder, RemovesWhatAKilledProcessLeftAndNothingThatLooksLikeIt) {
+  ScratchFolder scratch;
+  const fs::path rig = scratch.path / "rig";
+  put(rig / ".gapscope-partial-abcdef/.made-by-gapscope",
+      "A report that is being written; may be removed when nobody writes it.\n");
+  put(rig / ".gapscope-partial-abcdef/result.json", "half");
+  put(rig / ".gapscope-partial-backup/photo.png", "mine");
+  EXPECT_THAT(refused(rig), HasSubstr(".gapscope-partial-backup"));
+  EXPECT_FALSE(fs::exists(rig / ".gapscope-partial-abcdef"));
+  EXPECT_TRUE(fs::exists(rig / ".gapscope-partial-backup/photo.png"));
+}
+
+TEST(ReportFolder, IsWrittenByOneAtATime) {
+  ScratchFolder scratch;
+  ReportFolder first((scratch.path / "rig").string(), FolderKind::kDrive);
+  EXPECT_THAT(refused(scratch.path / "rig"), HasSubstr("is being written by another process"));
 }
 
 TEST(ReportFolder, IsReadableForOthersAsAnyNewFolderIs) {
   ScratchFolder scratch;
-  ReportFolder folder((scratch.path / "rig").string());
-  put(fs::path(folder.path()) / "result.json", "new");
-  folder.commit();
+  write(scratch.path / "rig", {"result.json"}, "new");
   EXPECT_NE(fs::status(scratch.path / "rig").permissions() & fs::perms::others_exec, fs::perms::none);
 }
 
 TEST(ReportFolder, NamesThePlaceThatCannotBeWritten) {
   ScratchFolder scratch;
   put(scratch.path / "file", "x");
-  for (const fs::path& path : {scratch.path / "file" / "rig", scratch.path / "file"}) {
-    try {
-      ReportFolder folder(path.string());
-      FAIL() << path;
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find((scratch.path / "file").string()), std::string::npos)
-          << error.what();
-    }
-  }
+  EXPECT_THAT(refused(scratch.path / "file"), HasSubstr("file: is a file, expected the folder of a report"));
+  EXPECT_THAT(refused(scratch.path / "file" / "rig"), HasSubstr((scratch.path / "file").string()));
+  EXPECT_THAT(refused(scratch.path / std::string(300, 'a')), HasSubstr("File name too long"));
 }
 
-TEST(ReportFolder, AFolderInTheWayIsAnErrorWithItsPath) {
+TEST(ReportFolder, DrawsAgainWithoutTouchingWhatIsStored) {
   ScratchFolder scratch;
-  put(scratch.path / "rig" / "result.json" / "x", "a folder of that name");
-  ReportFolder folder((scratch.path / "rig").string());
-  put(fs::path(folder.path()) / "result.json", "new");
-  try {
+  put(scratch.path / "result.json", "copied here");
+  put(scratch.path / "traces/1_a.csv", "t");
+  ReportFolder fresh = ReportFolder::to_redraw(scratch.path.string(), FolderKind::kDrive);
+  EXPECT_EQ(text_of(fs::path(fresh.path()) / "result.json"), "copied here");
+  put(fs::path(fresh.path()) / "report.md", "drawn");
+  fresh.commit();
+  EXPECT_EQ(files_in(scratch.path), (Names{"files.json", "result.json", "traces/1_a.csv", "report.md"}));
+  EXPECT_THAT(refused(scratch.path), HasSubstr("'result.json', which gapscope did not write there"));
+  put(scratch.path / "report.md", "with a word of my own");
+  EXPECT_THAT(refusal([&] { ReportFolder::to_redraw(scratch.path.string(), FolderKind::kDrive); }),
+              HasSubstr("'report.md', which was changed"));
+}
+
+/// A stored half of a report.
+std::string half(const std::string& version, const std::string& sha256) {
+  return R"({"version": ")" + version + R"(", "sources": [{"file": "c.yaml", "sha256": ")" + sha256 +
+         R"("}]})";
+}
+
+TEST(ReportFolder, KeepsTheOtherHalfOnlyOfTheSameDrive) {
+  const std::vector<SourceFile> sources = {{"c.yaml", "1"}};
+  const auto dropped = [&](const std::string& stored) {
+    ScratchFolder scratch;
+    write(scratch.path, {"diagnosis.json", "fitted.yaml", "traces/held_out_1_a.csv"}, stored);
+    ReportFolder folder(scratch.path.string(), FolderKind::kDrive);
+    folder.keep_diagnosis("2", sources);
+    put(fs::path(folder.path()) / "result.json", "new");
     folder.commit();
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("rig/result.json"), std::string::npos) << error.what();
-  }
+    EXPECT_EQ(fs::exists(scratch.path / "diagnosis.json"), folder.dropped().empty());
+    EXPECT_EQ(fs::exists(scratch.path / "traces/held_out_1_a.csv"), folder.dropped().empty());
+    return folder.dropped();
+  };
+  EXPECT_EQ(dropped(half("2", "1")), "");
+  EXPECT_THAT(dropped(half("1", "1")), HasSubstr("made from another version of gapscope"));
+  EXPECT_THAT(dropped(half("2", "3")),
+              HasSubstr("The diagnosis that stood in this folder was dropped, as it was "
+                        "made from another c.yaml"));
+  EXPECT_THAT(dropped(R"({"version": "2"})"), HasSubstr("another c.yaml"));
+  EXPECT_THAT(dropped("no JSON"), HasSubstr("cannot be read"));
+}
+
+TEST(ReportFolder, AnEstimateThatIsKeptBringsNoTraceOfTheDiagnosisBefore) {
+  ScratchFolder scratch;
+  write(scratch.path, {"result.json", "traces/1_a.csv", "traces/held_out_1_b.csv"}, half("2", "1"));
+  ReportFolder folder(scratch.path.string(), FolderKind::kDrive);
+  folder.keep_estimate("2", {{"c.yaml", "1"}});
+  put(fs::path(folder.path()) / "diagnosis.json", "new");
+  folder.commit();
+  EXPECT_EQ(text_of(scratch.path / "result.json"), half("2", "1"));
+  EXPECT_EQ(files_in(scratch.path), (Names{"files.json", "diagnosis.json", "result.json", "traces/1_a.csv"}));
+  EXPECT_EQ(refused(scratch.path), "") << "what was kept is still known as its own";
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -12,7 +13,7 @@ class ConfigError : public std::runtime_error {
   explicit ConfigError(const std::string& message) : std::runtime_error(message) {}
   ConfigError(const std::string& file, const std::string& message)
       : std::runtime_error(file + ": " + message) {}
-  ConfigError(const std::string& file, int line, const std::string& message)
+  ConfigError(const std::string& file, std::int64_t line, const std::string& message)
       : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
 };
 

@@ -6,9 +6,15 @@
 
 namespace gapscope {
 
-/// Writes a file aside and gives it its name when it is complete, so that nobody ever finds a part of it, and
-/// what was there before stays until then. A pipe or a device is written as it is.
-/// @throws std::runtime_error where it cannot be written; nothing is left of it
+/// Makes an empty file in the folder of another one, under a name that nobody has or could have guessed.
+/// @throws std::runtime_error naming `path` where none can be made
+std::string new_file_beside(const std::string& path);
+
+/// Writes a file aside, under a name of its own, and gives it its name when it is complete: nobody ever finds
+/// a part of it, what was there before stays until then, and of two that write the same file one is whole. A
+/// pipe or a device is written as it is.
+/// @throws std::runtime_error where it cannot be written, ConfigError for a link to another file, which would
+/// be lost; nothing is left of it
 void write_whole_file(const std::string& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace gapscope

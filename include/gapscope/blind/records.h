@@ -42,8 +42,9 @@ struct SealedCase {
 };
 
 struct BlindManifest {
-  std::string name;
-  std::string version;
+  std::string name;           ///< a plain file name
+  std::string version;        ///< of gapscope
+  std::string labels_sha256;  ///< see labels_hash()
   std::vector<SealedCase> cases;
 };
 
@@ -57,8 +58,9 @@ struct BlindAnswer {
   double before = kNaN, after = kNaN, floor = kNaN, shrink = kNaN;
   Interval shrink_ci95;
   StepEvidence evidence;
-  std::string seal;  ///< SHA-256 of the previous answer's seal (of the first: of manifest.json), of this
-                     ///< answer as one line of JSON without its seal, and a newline after each
+  std::string seal;  ///< SHA-256 of the previous answer's seal (of the first: of the head of the answers, as
+                     ///< one line of JSON), of this answer as one line of JSON without its seal, and a
+                     ///< newline after each
 };
 
 struct BlindAnswers {
@@ -69,8 +71,11 @@ struct BlindAnswers {
   const std::string& seal() const { return cases.empty() ? manifest_sha256 : cases.back().seal; }
 };
 
-/// SHA-256 of salt, name, part, effects (joined by '+'), rig, severity, cycles per turn (both in the shortest
-/// decimal form that reads back the same, "null" where not known) and seed, each followed by a newline.
+/// SHA-256 of the label as one line of JSON, its salt included.
 std::string label_hash(const BlindLabel& label);
+
+/// SHA-256 of what the labels say beside the cases (name, configuration) and of all salts, as one line of
+/// JSON.
+std::string labels_hash(const BlindLabels& labels);
 
 }  // namespace gapscope

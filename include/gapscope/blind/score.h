@@ -71,7 +71,8 @@ struct ScoredCase {
 
 struct BlindScore {
   std::string name, version, manifest_sha256, answers_seal;
-  std::string configuration;  ///< of the labels
+  std::string announced_seal;  ///< that the answers were held against; empty: none was given
+  std::string configuration;   ///< of the labels
   int calibration_cases = 0, report_cases = 0;
   std::vector<BlindCount> counts;
   double group_median = kNaN, group_mean = kNaN;

@@ -37,6 +37,7 @@ struct Recording {
   std::vector<Mode> mode;  ///< empty unless simulated
   double quantum = 0.0;    ///< encoder quantum of the sheet, else the one seen in the raw samples [rad]
   std::string resampling;  ///< what was done to make the sampling uniform; empty if nothing was
+  bool open_end = false;   ///< the last line of its file has no end: the last number may be cut off
 
   std::size_t size() const { return x1.size(); }
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }

@@ -17,8 +17,17 @@ BlindManifest read_blind_manifest(const std::string& path);
 void write_blind_answers(const std::string& path, const BlindAnswers& answers);
 BlindAnswers read_blind_answers(const std::string& path);
 
-/// One answer as one line of JSON, without its seal and the newline.
-std::string line_of(const BlindAnswer& answer);
+/// Whether a file is a blind check's own: labels of that name and configuration, answers to that manifest.
+/// False for anything else.
+bool is_labels_file(const std::string& path, const std::string& name, const std::string& configuration);
+bool is_answers_file(const std::string& path, const std::string& manifest_sha256);
+bool is_manifest_file(const std::string& path);
+
+// Each as one line of JSON, without the newline.
+std::string line_of(const BlindAnswer& answer);     ///< without its seal
+std::string head_line_of(const BlindAnswers& all);  ///< name, version, manifest
+std::string line_of(const BlindLabel& label);
+std::string head_line_of(const BlindLabels& all);  ///< name, configuration, salts
 /// @throws ConfigError naming the file where the line is no answer.
 BlindAnswer blind_answer_of(const std::string& line, const std::string& file);
 

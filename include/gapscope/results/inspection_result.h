@@ -11,4 +11,7 @@ namespace gapscope {
 /// @param configuration  resolved_reading() of the recording, which is stored with its SHA-256
 std::string inspection_json(const Inspection& inspection, const std::string& configuration);
 
+/// Whether a file holds what inspection_json() gives.
+bool is_inspection_file(const std::string& path);
+
 }  // namespace gapscope

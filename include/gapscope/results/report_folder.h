@@ -1,50 +1,79 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "gapscope/base/process_lock.h"
+#include "gapscope/results/source_file.h"
 
 namespace gapscope {
 
-/// A folder that appears complete or not at all. What is to be stored is first written into a temporary
-/// folder beside the final one; commit() then moves it over file by file, result.json last. Until then the
-/// final folder, and whatever an earlier run left in it, stays as it was; without commit() the temporary
-/// folder is removed; one that a killed process left is removed by the next report of the same name.
+namespace internal {
+struct FileList;
+}
+
+/// What a folder holds. A folder takes reports of one kind.
+enum class FolderKind { kDrive, kCampaign, kBlind, kCases, kDrives, kChanges };
+
+/// A folder that is written whole or not at all, and in which nothing is touched that gapscope did not write
+/// there. It is taken before the work: files.json in it lists what gapscope wrote, with SHA-256, and only
+/// what is listed and unchanged since may be replaced or removed. A folder that holds anything else instead
+/// is refused.
 ///
-/// A folder holds one report, of an estimate and a diagnosis where both were made: commit() also removes what
-/// an earlier report left and the new one does not have (the figures that its report.md shows, report.md,
-/// result.json, diagnosis.json, fitted.yaml, next_experiment.*, campaign.json, blind.json, compare.json,
-/// resolved.yaml, timing.json and traces/). Any other file in the folder belongs to the user and stays.
+/// What is to be stored is first written into a hidden folder within the final one; commit() then moves it
+/// file by file, the results last, and removes what the earlier report had and the new one does not. Until
+/// then what an earlier run left stays as it was. Without commit() nothing remains; what a killed process
+/// left is removed by the next one that takes the folder.
 class ReportFolder {
  public:
-  /// Makes the temporary folder, and the folders above it where they are missing.
-  /// @throws std::runtime_error with the path where that cannot be done.
-  explicit ReportFolder(const std::string& folder);
+  /// @param inputs  files that the command reads; none of them is replaced
+  /// @throws ConfigError where the folder holds something else, is written by another process, would replace
+  /// an input, or cannot be written: nothing has been changed then
+  ReportFolder(const std::string& folder, FolderKind kind, const std::vector<std::string>& inputs = {});
+
+  /// For drawing again what is stored there: only the text and the figures are replaced. All that is stored
+  /// is taken over.
+  static ReportFolder to_redraw(const std::string& folder, FolderKind kind);
+
   ~ReportFolder();
-  ReportFolder(const ReportFolder&) = delete;
-  ReportFolder& operator=(const ReportFolder&) = delete;
+  ReportFolder(ReportFolder&&) noexcept;
+  ReportFolder& operator=(ReportFolder&&) = delete;
 
   /// Where to write; exists and is empty at the start.
   const std::string& path() const { return partial_; }
 
-  /// Takes over what the other kind of command stored here, so that the new report shows it too; nothing
-  /// where there is none.
-  void keep_estimate();   ///< of run, detect or fit
-  void keep_diagnosis();  ///< of diagnose
-  void keep_stored();     ///< all that a report is drawn from
+  // Each takes over what the other kind of command stored here, so that the new report shows it too, if it is
+  // of the same version, configuration and recordings; else it is dropped, and dropped() says so.
+  void keep_estimate(const std::string& version,
+                     const std::vector<SourceFile>& sources);  ///< of run, detect, fit
+  void keep_diagnosis(const std::string& version, const std::vector<SourceFile>& sources);  ///< of diagnose
 
-  /// @throws std::runtime_error with the path of what could not be moved or removed.
+  /// A sentence on what was not taken over; empty where nothing was there, or all goes together.
+  const std::string& dropped() const { return dropped_; }
+
+  /// @throws ConfigError for a file that is in the way, std::runtime_error with the path of what could not be
+  /// moved or removed.
   void commit();
 
  private:
-  void take_over(const std::string& file);
+  ReportFolder(const std::string& folder, FolderKind kind, const std::vector<std::string>& inputs,
+               bool redraw);
+  void make_target();
+  void take(const std::vector<std::string>& inputs, bool redraw);
+  void make_partial();
   void keep(const char* result, const std::vector<const char*>& others, bool held_out_traces);
+  void take_over(const std::string& file);
+  void move_list(const internal::FileList& list);
+  void clear() noexcept;
 
-  std::string final_;
-  std::string partial_;
-  std::unique_ptr<ProcessLock> lock_;  ///< of the temporary folder
+  FolderKind kind_;
+  std::string final_, partial_, dropped_;
+  std::vector<std::string> made_;  ///< folders, the outermost first
+  std::set<std::string> kept_;     ///< files that stay as they are
+  std::unique_ptr<internal::FileList> before_;
+  std::unique_ptr<ProcessLock> lock_;
 };
 
 }  // namespace gapscope

@@ -1,0 +1,11 @@
+#include "gapscope/base/plain_name.h"
+
+namespace gapscope {
+
+bool is_plain_name(std::string_view name) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  return !name.empty() && name.size() <= 100 && name.find_first_not_of(kPlain) == name.npos &&
+         name.front() != '.' && name.front() != '-';
+}
+
+}  // namespace gapscope

@@ -1,0 +1,240 @@
+#include "results/folder_content.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
+#include "results/json_document.h"
+#include "results/source_fields.h"
+
+namespace gapscope::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExpected = "expected an empty folder or one that holds a report of its own";
+
+bool is_one_of(const std::string& file, std::initializer_list<const char*> names) {
+  return std::any_of(names.begin(), names.end(), [&](const char* name) { return file == name; });
+}
+
+/// Names that every report may take.
+bool is_taken(const std::string& file) {
+  return is_stored(file) || is_one_of(file, {"report.md", "resolved.yaml", "timing.json", "fitted.yaml",
+                                             "next_experiment.yaml", "next_experiment.csv", "truth.csv"});
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code problem;
+  return fs::exists(fs::symlink_status(path, problem)) || problem.value() == EACCES;
+}
+
+bool is_partial(const fs::directory_entry& entry) {
+  const std::string name = entry.path().filename().string();
+  constexpr std::size_t kRandom = 6;
+  return name.starts_with(kPartial) && name.size() == std::string_view(kPartial).size() + kRandom &&
+         entry.is_directory() && !entry.is_symlink();
+}
+
+/// A file system of its own begins with a folder for what fsck finds.
+bool is_of_the_system(const fs::directory_entry& entry) {
+  return entry.path().filename() == "lost+found" && entry.is_directory();
+}
+
+fs::directory_iterator entries_of(const fs::path& folder) {
+  std::error_code problem;
+  fs::directory_iterator entries(folder, problem);
+  if (problem) throw ConfigError(folder.string(), "cannot be read: " + problem.message() + ", " + kExpected);
+  return entries;
+}
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& what) {
+  throw ConfigError(folder.string(), what + ", " + kExpected);
+}
+
+void require_nothing(const fs::path& folder) {
+  std::set<std::string> others;
+  for (const fs::directory_entry& entry : entries_of(folder))
+    if (!is_left_alone(entry.path().filename().string()) && !is_of_the_system(entry))
+      others.insert(entry.path().filename().string());
+  if (!others.empty())
+    refuse(folder, "holds " + gapscope::shown(*others.begin()) + " and no report of gapscope");
+}
+
+void require_unchanged(const fs::path& folder, const FileList& list, const std::string& file) {
+  if (is_there(folder / file) && !list.wrote(folder, file))
+    refuse(folder, list.holds(file)
+                       ? "holds " + gapscope::shown(file) + ", which was changed since gapscope wrote it"
+                       : "holds " + gapscope::shown(file) + ", which gapscope did not write there");
+}
+
+struct Half {
+  std::string version;
+  std::vector<SourceFile> sources;
+};
+
+Half read_half(const fs::path& path) {
+  const Json json = load_json(path.string());
+  JsonReader reader(json, path.string(), "");
+  Half half;
+  reader("version", half.version);
+  reader.added_list("sources", half.sources);
+  return half;
+}
+
+std::string difference(const Half& a, const Half& b) {
+  if (a.version != b.version) return "another version of gapscope";
+  const auto is_in = [](const SourceFile& s, const std::vector<SourceFile>& all) {
+    return std::find(all.begin(), all.end(), s) != all.end();
+  };
+  for (const Half* h : {&a, &b})
+    for (const SourceFile& s : h->sources)
+      if (!is_in(s, a.sources) || !is_in(s, b.sources)) return "another " + printable(s.file, 100);
+  return "";
+}
+
+}  // namespace
+
+std::string word_of(FolderKind kind) {
+  constexpr std::array kWords = {"drive", "campaign", "blind", "cases", "drives", "changes"};
+  return kWords[static_cast<std::size_t>(kind)];
+}
+
+std::vector<std::string> files_below(const fs::path& folder) {
+  std::vector<std::string> files;
+  if (!fs::is_directory(folder)) return files;
+  const auto hidden = [](const fs::path& path) { return path.filename().string().starts_with('.'); };
+  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
+       ++entry) {
+    if (entry->is_directory() && (hidden(entry->path()) || entry->is_symlink()))
+      entry.disable_recursion_pending();
+    if (!entry->is_directory() && !hidden(entry->path()))
+      files.push_back(entry->path().lexically_relative(folder).string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_stored(const std::string& file) {
+  const fs::path path(file);
+  if (path.has_parent_path()) return path.parent_path() == "traces" && path.extension() == ".csv";
+  return is_one_of(
+      file, {"result.json", "diagnosis.json", "campaign.json", "blind.json", "compare.json", "resolved.yaml",
+             "timing.json", "fitted.yaml", "next_experiment.yaml", "next_experiment.csv"});
+}
+
+bool is_left_alone(const std::string& file) {
+  return is_one_of(file, {"results.sqlite", "results.sqlite-wal", "results.sqlite-shm", "cases",
+                          "labels.json", "answers.json", "answers.json.partial"});
+}
+
+std::vector<std::string> files_left_alone(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : entries_of(folder))
+    if (const std::string name = entry.path().filename().string();
+        is_left_alone(name) && entry.is_regular_file())
+      files.push_back(name);
+  return files;
+}
+
+void remove_left_behind(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (!is_partial(entry)) continue;
+    std::ifstream in(entry.path() / kMark);
+    if (std::string(std::istreambuf_iterator<char>(in), {}) == kMarkText)
+      fs::remove_all(entry.path(), ignored);
+  }
+}
+
+void require_own(const fs::path& folder, const std::string& kind, const FileList* list) {
+  if (list == nullptr) return require_nothing(folder);
+  if (list->kind != kind)
+    throw ConfigError(folder.string(), "holds a report of another kind (" + printable(list->kind, 20) +
+                                           "), expected one of its own kind (" + kind +
+                                           ") or another folder");
+  for (const ListedFile& f : list->files)
+    if (!is_left_alone(f.file)) require_unchanged(folder, *list, f.file);
+  for (const fs::directory_entry& entry : entries_of(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (is_taken(name)) require_unchanged(folder, *list, name);
+  }
+  if (!is_there(folder / "traces")) return;
+  if (!fs::is_directory(fs::symlink_status(folder / "traces")))
+    refuse(folder, "holds 'traces', which gapscope did not write there");
+  for (const fs::directory_entry& entry : entries_of(folder / "traces"))
+    require_unchanged(folder, *list, "traces/" + entry.path().filename().string());
+}
+
+void require_redrawable(const fs::path& folder, const FileList* list) {
+  const FileList none;
+  if (list == nullptr) list = &none;
+  require_unchanged(folder, *list, "report.md");
+  for (const ListedFile& f : list->files)
+    if (fs::path(f.file).extension() == ".png") require_unchanged(folder, *list, f.file);
+}
+
+void require_no_input(const fs::path& folder, const FileList* list, const std::vector<std::string>& inputs) {
+  if (list == nullptr) return;
+  std::error_code problem;
+  for (const std::string& input : inputs)
+    for (const ListedFile& f : list->files)
+      if (fs::equivalent(input, folder / f.file, problem))
+        throw ConfigError(
+            input, "is read, and would be replaced by the report, expected another folder for it (-o)");
+}
+
+void require_out_of_the_way(const fs::path& folder, const FileList* list,
+                            const std::vector<std::string>& files) {
+  const FileList none;
+  if (list == nullptr) list = &none;
+  for (const std::string& file : files)
+    if (is_there(folder / file) && !list->wrote(folder, file))
+      throw ConfigError(
+          (folder / file).string(),
+          "is in the way of the report and not what gapscope wrote there, expected it elsewhere");
+}
+
+std::string why_not_together(const fs::path& folder, const char* result, const std::string& version,
+                             const std::vector<SourceFile>& sources) {
+  if (!is_there(folder / result)) return "";
+  std::string what;
+  try {
+    what = difference(read_half(folder / result), {version, sources});
+  } catch (const ConfigError&) {
+    what = "a file that cannot be read";
+  }
+  if (what.empty()) return "";
+  const bool diagnosis = std::string_view(result) == "diagnosis.json";
+  return std::string("The ") + (diagnosis ? "diagnosis" : "estimate") +
+         " that stood in this folder was dropped, as it was made from " + what + ".";
+}
+
+void replace_files(const fs::path& from, const fs::path& to, const std::vector<std::string>& fresh,
+                   const std::vector<std::string>& stale, bool (*is_result)(const std::string&)) {
+  const auto remove = [&](const std::string& file) {
+    std::error_code error;
+    fs::remove(to / file, error);
+    if (error) throw std::runtime_error((to / file).string() + ": cannot be removed: " + error.message());
+  };
+  for (const auto* files : {&fresh, &stale})
+    for (const std::string& file : *files)
+      if (is_result(file)) remove(file);
+  for (const std::string& file : stale) remove(file);
+  for (const std::string& file : fresh) {
+    std::error_code error;
+    fs::create_directories((to / file).parent_path(), error);
+    if (!error) fs::rename(from / file, to / file, error);
+    if (error) throw std::runtime_error((to / file).string() + ": cannot be written: " + error.message());
+  }
+  std::error_code ignored;
+  fs::remove(to / "traces", ignored);  // if it is empty
+}
+
+}  // namespace gapscope::internal

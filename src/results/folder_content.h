@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gapscope/results/report_folder.h"
+#include "results/file_list.h"
+
+/// What is in a folder that a report goes to: what is gapscope's own there, and what is somebody else's.
+namespace gapscope::internal {
+
+inline constexpr const char* kPartial = ".gapscope-partial-";  ///< begins the name of a folder being written
+inline constexpr const char* kMark = ".made-by-gapscope";      ///< a file in it
+inline constexpr const char* kMarkText =
+    "A report that is being written; may be removed when nobody writes it.\n";
+
+std::string word_of(FolderKind kind);
+
+/// Files below a folder as sorted paths relative to it, without what is hidden.
+std::vector<std::string> files_below(const std::filesystem::path& folder);
+
+/// Whether a report is drawn from it.
+bool is_stored(const std::string& file);
+
+/// Files that others write and watch over: the store of a campaign, the labels and answers of a blind check.
+bool is_left_alone(const std::string& file);
+std::vector<std::string> files_left_alone(const std::filesystem::path& folder);  ///< that are there
+
+/// Removes what processes left that were killed while they wrote into the folder.
+void remove_left_behind(const std::filesystem::path& folder);
+
+// Each throws ConfigError naming what is not gapscope's own.  @param list  of the folder, or nullptr
+void require_own(const std::filesystem::path& folder, const std::string& kind, const FileList* list);
+void require_redrawable(const std::filesystem::path& folder, const FileList* list);
+void require_no_input(const std::filesystem::path& folder, const FileList* list,
+                      const std::vector<std::string>& inputs);
+void require_out_of_the_way(const std::filesystem::path& folder, const FileList* list,
+                            const std::vector<std::string>& files);
+
+/// Why what is stored under a name is not of these sources; empty where it is, or is not there.
+std::string why_not_together(const std::filesystem::path& folder, const char* result,
+                             const std::string& version, const std::vector<SourceFile>& sources);
+
+/// Moves fresh files over and removes stale ones; results go first and come last, so that none is ever found
+/// beside traces of another.  @throws std::runtime_error
+void replace_files(const std::filesystem::path& from, const std::filesystem::path& to,
+                   const std::vector<std::string>& fresh, const std::vector<std::string>& stale,
+                   bool (*is_result)(const std::string&));
+
+}  // namespace gapscope::internal

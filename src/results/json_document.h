@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "results/json_archive.h"
+
+namespace gapscope::internal {
+
+/// A file that is one struct after the name of its schema.
+template <class Struct>
+void write_document(const std::string& path, std::string schema, Struct value) {
+  JsonWriter writer;
+  writer("schema", schema);
+  fields(writer, value);
+  save_json(path, writer.json);
+}
+
+/// @throws ConfigError for another schema or a damaged file.
+template <class Struct>
+Struct read_document(const std::string& path, const std::string& expected) {
+  const Json json = load_json(path);
+  JsonReader reader(json, path, "");
+  reader.schema(expected);
+  Struct value;
+  fields(reader, value);
+  return value;
+}
+
+}  // namespace gapscope::internal

@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <thread>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
+#include "gapscope/base/whole_file.h"
+#include "support/reading.h"
+#include "support/temporary_file.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::text_of;
+
+TEST(WholeFile, OfTwoThatWriteItOneIsWhole) {
+  const testing::TemporaryFile place("");
+  const auto write = [&](char letter) {
+    write_whole_file(place.path(), [&](std::ostream& out) {
+      for (int i = 0; i < 2000; ++i) out << std::string(100, letter) << std::flush;
+    });
+  };
+  for (int round = 0; round < 5; ++round) {
+    std::thread other([&] { write('b'); });
+    write('a');
+    other.join();
+    const std::string text = text_of(place.path());
+    EXPECT_EQ(text, std::string(200000, text.at(0)));
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(place.folder()), {}), 1) << "nothing is left aside";
+}
+
+TEST(WholeFile, LeavesWhatIsThereUntilItIsWhole) {
+  const testing::TemporaryFile place("old");
+  const auto fails = [](std::ostream& out) {
+    out << "half";
+    throw std::runtime_error("no more");
+  };
+  EXPECT_THROW(write_whole_file(place.path(), fails), std::runtime_error);
+  EXPECT_EQ(text_of(place.path()), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(place.folder()), {}), 1);
+}
+
+TEST(WholeFile, ReplacesNoLink) {
+  const testing::TemporaryFile place("old");
+  const fs::path link = place.folder() / "link";
+  fs::create_symlink(place.path(), link);
+  EXPECT_THROW(write_whole_file(link.string(), [](std::ostream& out) { out << "new"; }), ConfigError);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(text_of(place.path()), "old");
+}
+
+TEST(Text, IsUtf8WithoutControlCharacters) {
+  for (const char* text : {"", "plain\n", "µm", "2β", "\xF0\x9F\x98\x80", "tab\t"})
+    EXPECT_TRUE(is_text(text)) << text;
+  for (const char* bytes : {"\x01", "a\x7f", "\xff", "\xc0\xaf", "\xe2\x82", "\xc3", "\xf5\x80\x80\x80"})
+    EXPECT_FALSE(is_text(bytes));
+  EXPECT_FALSE(is_text(std::string("a\0b", 3)));
+}
+
+}  // namespace
+}  // namespace gapscope
