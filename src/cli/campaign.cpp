@@ -130,8 +130,7 @@ void run(const Arguments& a) {
   if (a.dry_run) return dry_run(c, shard, a.threads);
   const std::string folder = a.folder.empty() ? default_folder(c, shard) : a.folder;
   const std::vector<std::string> inputs = {a.config};
-  ReportFolder(folder, FolderKind::kCampaign,
-               inputs);  // told before the work; the store keeps others out then
+  ReportFolder(folder, FolderKind::kCampaign, inputs).leave();  // the store keeps others out from here on
   const auto summary = run_and_summarise(c, shard, folder, a);
   ReportFolder report(folder, FolderKind::kCampaign, inputs);
   if (shard.of == 1) return report_whole(report, folder, summary);

@@ -128,7 +128,9 @@ void add_work_options(CLI::App& command, int& threads, bool& quiet) {
 
 void add_run(CLI::App& app) {
   add(app, "run", "Both estimators, their comparison, and a report with figures",
-      "Writes DIR/result.json, report.md, figures (PNG), traces/, resolved.yaml and timing.json.\n"
+      "Writes DIR/result.json, report.md, figures (PNG), traces/, resolved.yaml, timing.json and "
+      "files.json,\n"
+      "which lists them: only what it lists is replaced by the next report, any other folder is refused.\n"
       "On standard output gaps are in mrad (mm for coordinates: translation), in result.json in rad (m).\n\n"
       "Example: gapscope run configs/02_experiment.yaml -o reports/experiment",
       {true, true});

@@ -18,6 +18,7 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
+#include "gapscope/results/report_folder.h"
 
 namespace gapscope::cli {
 namespace {
@@ -109,7 +110,7 @@ int parse_and_run(int argc, char** argv) {
 }
 
 /// On one line, whatever a file or a name brought into it.
-void tell(const std::string& message) { fmt::print(stderr, "{}\n", printable(message, 4000)); }
+void tell(const std::string& message) { fmt::print(stderr, "{}\n", printable(in_its_folder(message), 4000)); }
 
 int guarded(int argc, char** argv) {
   try {

@@ -78,20 +78,38 @@ ReportFolder::ReportFolder(ReportFolder&& other) noexcept = default;
 
 ReportFolder::~ReportFolder() { clear(); }
 
+std::string in_its_folder(std::string message) {
+  const std::string hidden = std::string("/") + internal::kPartial;
+  constexpr std::size_t kRandom = 6;
+  for (auto at = message.find(hidden); at != message.npos; at = message.find(hidden, at))
+    message.erase(at, hidden.size() + kRandom);
+  return message;
+}
+
 void ReportFolder::make_target() {
   std::error_code problem;
   const fs::file_status there = fs::status(final_, problem);
   if (fs::exists(there) && !fs::is_directory(there))
     throw ConfigError(final_, "is a file, expected the folder of a report");
+  constexpr int kPatience = 100;  // another process may be removing what it made and did not need
+  for (int attempt = 0; attempt < kPatience && make_missing(); ++attempt) {
+  }
+}
+
+/// @returns whether a folder above was removed meanwhile
+bool ReportFolder::make_missing() {
+  std::error_code problem;
   std::vector<fs::path> missing;
   for (fs::path path = final_; !path.empty() && !fs::exists(path, problem); path = path.parent_path())
     missing.push_back(path);
   std::reverse(missing.begin(), missing.end());
   for (const fs::path& path : missing) {
-    fs::create_directory(path, problem);
+    const bool made = fs::create_directory(path, problem);
+    if (problem == std::errc::no_such_file_or_directory) return true;
     if (problem) refuse_to_write(path.has_parent_path() ? path.parent_path() : ".", problem.message());
-    made_.push_back(path.string());
+    if (made) made_.push_back(path.string());
   }
+  return false;
 }
 
 void ReportFolder::take(const std::vector<std::string>& inputs, bool redraw) {
@@ -126,6 +144,11 @@ void ReportFolder::clear() noexcept {
   }
   partial_.clear();
   for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), ignored);  // unless something is in it
+}
+
+void ReportFolder::leave() {
+  made_.clear();
+  clear();
 }
 
 void ReportFolder::take_over(const std::string& file) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
+#include <vector>
 
 #include "gapscope/base/run_apart.h"
 
@@ -22,6 +23,16 @@ TEST(RunApart, OutlivesTheEndOfTheWork) {
   EXPECT_EQ(run_apart([]() -> std::string { std::abort(); }), std::nullopt);
   EXPECT_THROW(run_apart([]() -> std::string { throw std::bad_alloc(); }), std::bad_alloc);
   EXPECT_EQ(run_apart([] { return std::raise(SIGKILL), std::string("not reached"); }), std::nullopt);
+}
+
+TEST(RunApart, HasSoMuchMemoryAndNoMore) {
+  bool refused = false;
+  try {
+    refused = !run_apart([] { return std::string(1, std::vector<char>(std::size_t{3} << 30, 'x').back()); });
+  } catch (const std::bad_alloc&) {
+    refused = true;
+  }
+  EXPECT_TRUE(refused) << "three GiB beyond what there is here";
 }
 
 TEST(RunApart, ChangesNothingHere) {

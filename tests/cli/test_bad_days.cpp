@@ -103,6 +103,7 @@ TEST_F(BadDay, AFullDiskIsToldAndWhatWasThereStays) {
     const Outcome full = place_.run(command, "ulimit -f " + std::to_string(blocks) + ";");
     EXPECT_EQ(full.status, 1);
     EXPECT_THAT(full.err, HasSubstr("cannot be written"));
+    EXPECT_THAT(full.err, Not(HasSubstr("/.")));  // a hidden folder
     EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
     EXPECT_TRUE(visible(place_) == before);
   }

@@ -11,7 +11,7 @@ namespace gapscope::testing {
 namespace {
 
 /// In pieces that end anywhere, as a pipe gives them.
-void read_stream(std::string_view bytes) {
+void read_in_pieces(std::string_view bytes) {
   CsvStream stream("standard input");
   double last = -kInfinity;
   const auto take = [&] {
@@ -40,7 +40,7 @@ int read_recording(std::string_view bytes) {
   options.resample_rate = 700.0;
   taken += attempt([&] { require_sound(gapscope::read_recording(file.path(), options)); });
   taken += attempt([&] { internal::read_window(file.path(), {}, internal::EarlierRow::kSkipped); });
-  return taken + attempt([&] { read_stream(bytes); });
+  return taken + attempt([&] { read_in_pieces(bytes); });
 }
 
 }  // namespace gapscope::testing

@@ -6,6 +6,7 @@
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/drive_changes.h"
 #include "gapscope/results/run_result.h"
+#include "results/file_list.h"
 #include "results/traces.h"
 
 namespace gapscope::testing {
@@ -25,8 +26,8 @@ class Report {
     const fs::path folder = file.folder();
     fs::create_directory(folder / "traces");
     std::ofstream(folder / "traces/1_rig.csv") << kTrace;
-    for (const char* name :
-         {"result.json", "diagnosis.json", "campaign.json", "blind.json", "compare.json", "timing.json"})
+    for (const char* name : {"result.json", "diagnosis.json", "campaign.json", "blind.json", "compare.json",
+                             "timing.json", "files.json"})
       fs::create_symlink("stored", folder / name);
   }
   const GivenFile file{"stored"};
@@ -41,6 +42,7 @@ int read_json(const Report& report) {
   taken += attempt([&] { read_blind_score(folder); });
   taken += attempt([&] { read_drive_changes(folder); });
   taken += attempt([&] { read_timing(folder); });
+  taken += attempt([&] { internal::read_file_list(folder); });
   taken += attempt([&] { read_blind_labels(path); });
   taken += attempt([&] { read_blind_manifest(path); });
   return taken + attempt([&] { read_blind_answers(path); });

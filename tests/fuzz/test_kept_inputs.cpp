@@ -19,7 +19,8 @@ const std::map<std::string, Reader> kReaders = {{"recording", testing::read_reco
                                                 {"mat", testing::read_mat},
                                                 {"configuration", testing::read_configuration},
                                                 {"result", testing::read_result},
-                                                {"store", testing::read_store}};
+                                                {"store", testing::read_store},
+                                                {"stream", testing::read_stream}};
 
 class KeptInputs : public ::testing::TestWithParam<std::string> {};
 
@@ -37,7 +38,7 @@ TEST_P(KeptInputs, AreReadOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, KeptInputs,
-                         ::testing::Values("recording", "mat", "configuration", "result", "store"),
+                         ::testing::Values("recording", "mat", "configuration", "result", "store", "stream"),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace

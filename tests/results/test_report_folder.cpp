@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <thread>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/results/report_folder.h"
@@ -189,6 +190,16 @@ TEST(ReportFolder, IsWrittenByOneAtATime) {
   ScratchFolder scratch;
   ReportFolder first((scratch.path / "rig").string(), FolderKind::kDrive);
   EXPECT_THAT(refused(scratch.path / "rig"), HasSubstr("is being written by another process"));
+}
+
+TEST(ReportFolder, OthersBesideItMayComeAndGo) {
+  ScratchFolder scratch;
+  const auto come_and_go = [&](const char* name) {
+    for (int i = 0; i < 200; ++i) ReportFolder((scratch.path / "all" / name).string(), FolderKind::kDrive);
+  };
+  std::thread other(come_and_go, "b");
+  EXPECT_NO_THROW(come_and_go("a"));
+  other.join();
 }
 
 TEST(ReportFolder, IsReadableForOthersAsAnyNewFolderIs) {

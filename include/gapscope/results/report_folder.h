@@ -53,6 +53,9 @@ class ReportFolder {
   /// A sentence on what was not taken over; empty where nothing was there, or all goes together.
   const std::string& dropped() const { return dropped_; }
 
+  /// Leaves the folder, empty if it was new, to what else is written there: nothing is committed.
+  void leave();
+
   /// @throws ConfigError for a file that is in the way, std::runtime_error with the path of what could not be
   /// moved or removed.
   void commit();
@@ -61,6 +64,7 @@ class ReportFolder {
   ReportFolder(const std::string& folder, FolderKind kind, const std::vector<std::string>& inputs,
                bool redraw);
   void make_target();
+  bool make_missing();
   void take(const std::vector<std::string>& inputs, bool redraw);
   void make_partial();
   void keep(const char* result, const std::vector<const char*>& others, bool held_out_traces);
@@ -75,5 +79,8 @@ class ReportFolder {
   std::unique_ptr<internal::FileList> before_;
   std::unique_ptr<ProcessLock> lock_;
 };
+
+/// A message about a file on its way into a folder, as one about the file in that folder.
+std::string in_its_folder(std::string message);
 
 }  // namespace gapscope
