@@ -177,9 +177,9 @@ void add_merge(CLI::App& campaign) {
     ReportFolder report(a->target, FolderKind::kCampaign);
     const std::uint64_t merged = merge_campaigns(a->folders, report.path());
     const CampaignSummary summary = summarise(CampaignStore(report.path()));
-    report_whole(report, a->target, summary);
     say("store", a->target + "/results.sqlite");
     say("runs", fmt::format("{} of {}", merged, summary.runs));
+    report_whole(report, a->target, summary);
   });
 }
 

@@ -30,6 +30,12 @@ TEST(Blind, ThreeCommandsDoWhatOneDoes) {
     EXPECT_EQ(text_of(place.folder() / "apart" / file), text_of(place.folder() / "reports/check" / file))
         << file;
   EXPECT_EQ(place.run("report apart").status, 0);
+  EXPECT_THAT(text_of(place.folder() / "apart/report.md"), HasSubstr("no seal was announced"));
+  const std::string seal = answered.out.substr(answered.out.find("seal") + 12, 64);
+  ASSERT_EQ(place.run("blind score cases labels.json answers.json -o held --seal " + seal).status, 0);
+  EXPECT_THAT(text_of(place.folder() / "held/report.md"), HasSubstr("the one that was announced (" + seal));
+  EXPECT_THAT(text_of(place.folder() / "held/blind.json"),
+              HasSubstr("\"announced_seal_sha256\": \"" + seal));
 }
 
 TEST(Blind, RefusesWhatWasChangedWithTheReasonAndWritesNothing) {

@@ -182,7 +182,7 @@ TEST_F(UserFiles, AMachineThatIsTooSmallIsToldAndNothingIsLeft) {
 
 TEST_F(UserFiles, WhatIsNoRegularFileIsNotWaitedFor) {
   ASSERT_EQ(mkfifo(at("fifo.yaml").c_str(), 0600), 0);
-  const Outcome refused = place_.run("detect fifo.yaml", "timeout 20");
+  const Outcome refused = place_.run("detect fifo.yaml", "timeout -s KILL 20");
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("fifo.yaml: is no regular file, expected a configuration"));
   for (const bool folder : {false, true}) {
@@ -191,7 +191,7 @@ TEST_F(UserFiles, WhatIsNoRegularFileIsNotWaitedFor) {
       fs::create_directory(at("r/traces/bound_map.csv"));
     else
       ASSERT_EQ(mkfifo(at("r/traces/bound_map.csv").c_str(), 0600), 0);
-    const Outcome report = place_.run("report r", "timeout 20");
+    const Outcome report = place_.run("report r", "timeout -s KILL 20");
     EXPECT_EQ(report.status, 2);
     EXPECT_THAT(report.err, ::testing::StartsWith("r/traces/bound_map.csv: is no regular file"));
   }

@@ -11,7 +11,7 @@
 namespace gapscope::testing {
 namespace {
 
-constexpr std::size_t kSamples = 1500;
+constexpr std::size_t kSamples = 500;
 constexpr double kLargest = 1e15;  ///< that a recording may hold
 
 /// Cuts a number off the bytes; what is left of them is filled up with zeros.
