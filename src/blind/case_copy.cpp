@@ -24,7 +24,7 @@ std::string bytes_of(const std::string& path) {
   return bytes;
 }
 
-void copy_file(const std::string& folder, const std::string& name, const SealedFile& sealed,
+void copy_file(const std::string& folder, const std::string& name, const FileHash& sealed,
                const fs::path& to) {
   require_inside(sealed.file, folder + "/manifest.json");
   const std::string from = folder + "/" + sealed.file, bytes = bytes_of(from);
@@ -43,7 +43,7 @@ CaseCopy::CaseCopy(const std::string& folder, const SealedCase& sealed) {
     throw std::runtime_error(name + ": cannot be made, expected a writable folder for temporary files");
   folder_ = name;
   try {
-    for (const SealedFile& file : sealed.files) copy_file(folder, sealed.name, file, folder_);
+    for (const FileHash& file : sealed.files) copy_file(folder, sealed.name, file, folder_);
   } catch (...) {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);

@@ -59,11 +59,11 @@ void require_sound(const BlindLabels& labels, const std::string& file) {
 }
 
 /// The sheet and the recordings that it names.
-std::vector<SealedFile> files_of(const std::string& folder, const std::string& name) {
+std::vector<FileHash> files_of(const std::string& folder, const std::string& name) {
   const std::string sheet = name + ".yaml", path = folder + "/" + sheet;
   const Configuration c = load_configuration(path);
   if (!c.recording) throw ConfigError(path, "simulates, expected recording: {file, held_out}");
-  std::vector<SealedFile> files = {{sheet, sha256_of_file(path)}};
+  std::vector<FileHash> files = {{sheet, sha256_of_file(path)}};
   for (const auto* list : {&c.recording->files, &c.recording->held_out})
     for (const RecordedFile& r : *list) {
       require_inside(r.given, path);
@@ -106,14 +106,14 @@ BlindManifest seal_blind_check(const std::string& folder, const std::string& lab
 void verify_recordings(const BlindManifest& manifest, const std::string& folder) {
   require_plain_name(manifest.name, folder + "/manifest.json");
   for (const SealedCase& c : manifest.cases)
-    for (const SealedFile& f : c.files) {
+    for (const FileHash& f : c.files) {
       require_inside(f.file, folder + "/manifest.json");
       verify_file(folder + "/" + f.file, sha256_of_file(folder + "/" + f.file), c.name, f);
     }
 }
 
 void verify_file(const std::string& path, const std::string& found, const std::string& name,
-                 const SealedFile& sealed) {
+                 const FileHash& sealed) {
   if (found != sealed.sha256)
     throw ConfigError(path,
                       "is not the file of " + name + " that was sealed, expected SHA-256 " + sealed.sha256);

@@ -14,6 +14,6 @@ void require_inside(const std::string& path, const std::string& file);
 
 /// @param found  SHA-256 of what is at `path`  @throws ConfigError unless it is what was sealed of that case
 void verify_file(const std::string& path, const std::string& found, const std::string& name,
-                 const SealedFile& sealed);
+                 const FileHash& sealed);
 
 }  // namespace gapscope

@@ -110,10 +110,10 @@ std::vector<std::string> source_paths(const Configuration& c) {
   return paths;
 }
 
-std::vector<SourceFile> sources_of(const Configuration& c) {
+std::vector<FileHash> sources_of(const Configuration& c) {
   Configuration asked_of_all = c;
   asked_of_all.excluded.clear();  // a question of the diagnosis, no other drive
-  std::vector<SourceFile> sources = {{"configuration", sha256(resolved_yaml(asked_of_all))}};
+  std::vector<FileHash> sources = {{"configuration", sha256(resolved_yaml(asked_of_all))}};
   for (const std::string& path : source_paths(c)) {
     if (path == c.file) continue;
     const std::string name = std::filesystem::path(path).filename().string();

@@ -103,7 +103,7 @@ void diagnose_configuration(const Arguments& a) {
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = a.threads;
   options.progress = progress_on_terminal(a.quiet);
-  const std::vector<SourceFile> sources = sources_of(c);
+  const std::vector<FileHash> sources = sources_of(c);
   Outcome loaded;
   const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
   require_possible_experiment(c, train.front().dt);

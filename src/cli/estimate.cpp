@@ -54,7 +54,7 @@ void estimate(const Arguments& a, const Estimators& wanted) {
   const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   const Progress progress = progress_on_terminal(a.quiet);
-  const std::vector<SourceFile> sources = sources_of(c);
+  const std::vector<FileHash> sources = sources_of(c);
   Outcome outcome = run_pipeline(c, wanted, progress);
   outcome.result.sources = sources;
   progress("drawing the report");

@@ -1,6 +1,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/results/blind_files.h"
-#include "results/blind_fields.h"
+#include "results/file_hash_fields.h"
+#include "results/json_document.h"
 #include "results/json_schema.h"
 
 namespace gapscope {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "results/blind_fields.h"
+#include "results/json_document.h"
 #include "results/json_schema.h"
 
 namespace gapscope {

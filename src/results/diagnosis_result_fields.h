@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "gapscope/results/diagnosis_result.h"
+#include "results/file_hash_fields.h"
 #include "results/json_archive.h"
-#include "results/source_fields.h"
 
 /// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
 namespace gapscope::internal {

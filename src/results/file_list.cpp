@@ -5,7 +5,9 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/results/sha256.h"
+#include "results/file_hash_fields.h"
 #include "results/json_document.h"
+#include "results/json_schema.h"
 
 namespace gapscope::internal {
 namespace {
@@ -24,12 +26,6 @@ bool is_below(const std::string& file) {
 }  // namespace
 
 template <class Archive>
-void fields(Archive& archive, ListedFile& f) {
-  archive("file", f.file);
-  archive("sha256", f.sha256);
-}
-
-template <class Archive>
 void fields(Archive& archive, FileList& l) {
   archive("version", l.version);
   archive("kind", l.kind);
@@ -38,7 +34,7 @@ void fields(Archive& archive, FileList& l) {
 }
 
 bool FileList::holds(const std::string& file) const {
-  return std::any_of(files.begin(), files.end(), [&](const ListedFile& f) { return f.file == file; });
+  return std::any_of(files.begin(), files.end(), [&](const FileHash& f) { return f.file == file; });
 }
 
 bool FileList::wrote(const fs::path& folder, const std::string& file) const {
@@ -46,7 +42,7 @@ bool FileList::wrote(const fs::path& folder, const std::string& file) const {
   const fs::path path = folder / file;
   if (!fs::is_regular_file(fs::symlink_status(path, problem))) return false;
   std::string found;
-  return std::any_of(files.begin(), files.end(), [&](const ListedFile& f) {
+  return std::any_of(files.begin(), files.end(), [&](const FileHash& f) {
     if (f.file != file) return false;
     if (!f.sha256.empty() && found.empty()) found = sha256_of_file(path.string());
     return f.sha256.empty() || f.sha256 == found;
@@ -58,7 +54,7 @@ std::optional<FileList> read_file_list(const fs::path& folder) {
   const fs::path path = folder / kFileList;
   if (!fs::exists(fs::symlink_status(path, problem))) return {};
   FileList list = read_document<FileList>(path.string(), kSchema);
-  for (const ListedFile& f : list.files)
+  for (const FileHash& f : list.files)
     if (!is_below(f.file))
       throw ConfigError(path.string(),
                         "lists the file " + gapscope::shown(f.file) + ", expected one in the folder itself");

@@ -5,23 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "results/json_schema.h"
+#include "gapscope/base/file_hash.h"
 
 namespace gapscope::internal {
 
 inline constexpr const char* kFileList = "files.json";
 
-struct ListedFile {
-  std::string file;    ///< below the folder
-  std::string sha256;  ///< empty: its content varies
-};
-
 /// What gapscope wrote into a folder, and so may replace or remove there; nothing else.
 struct FileList {
-  std::string version;  ///< of gapscope
-  std::string kind;     ///< of report: "drive", "campaign", ...
-  std::string dropped;  ///< what an earlier report had that does not go with this one; empty: nothing
-  std::vector<ListedFile> files;
+  std::string version;          ///< of gapscope
+  std::string kind;             ///< of report: "drive", "campaign", ...
+  std::string dropped;          ///< what an earlier report had that does not go with this one; empty: nothing
+  std::vector<FileHash> files;  ///< below the folder; without a hash where the content varies
 
   bool holds(const std::string& file) const;
   /// Whether a file of the folder is as gapscope wrote it: in the list, no link, of that content.

@@ -10,8 +10,8 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
+#include "results/file_hash_fields.h"
 #include "results/json_document.h"
-#include "results/source_fields.h"
 
 namespace gapscope::internal {
 namespace {
@@ -76,7 +76,7 @@ void require_unchanged(const fs::path& folder, const FileList& list, const std::
 
 struct Half {
   std::string version;
-  std::vector<SourceFile> sources;
+  std::vector<FileHash> sources;
 };
 
 Half read_half(const fs::path& path) {
@@ -90,11 +90,11 @@ Half read_half(const fs::path& path) {
 
 std::string difference(const Half& a, const Half& b) {
   if (a.version != b.version) return "another version of gapscope";
-  const auto is_in = [](const SourceFile& s, const std::vector<SourceFile>& all) {
+  const auto is_in = [](const FileHash& s, const std::vector<FileHash>& all) {
     return std::find(all.begin(), all.end(), s) != all.end();
   };
   for (const Half* h : {&a, &b})
-    for (const SourceFile& s : h->sources)
+    for (const FileHash& s : h->sources)
       if (!is_in(s, a.sources) || !is_in(s, b.sources)) return "another " + printable(s.file, 100);
   return "";
 }
@@ -159,7 +159,7 @@ void require_own(const fs::path& folder, const std::string& kind, const FileList
     throw ConfigError(folder.string(), "holds a report of another kind (" + printable(list->kind, 20) +
                                            "), expected one of its own kind (" + kind +
                                            ") or another folder");
-  for (const ListedFile& f : list->files)
+  for (const FileHash& f : list->files)
     if (!is_left_alone(f.file)) require_unchanged(folder, *list, f.file);
   for (const fs::directory_entry& entry : entries_of(folder)) {
     const std::string name = entry.path().filename().string();
@@ -176,7 +176,7 @@ void require_redrawable(const fs::path& folder, const FileList* list) {
   const FileList none;
   if (list == nullptr) list = &none;
   require_unchanged(folder, *list, "report.md");
-  for (const ListedFile& f : list->files)
+  for (const FileHash& f : list->files)
     if (fs::path(f.file).extension() == ".png") require_unchanged(folder, *list, f.file);
 }
 
@@ -184,7 +184,7 @@ void require_no_input(const fs::path& folder, const FileList* list, const std::v
   if (list == nullptr) return;
   std::error_code problem;
   for (const std::string& input : inputs)
-    for (const ListedFile& f : list->files)
+    for (const FileHash& f : list->files)
       if (fs::equivalent(input, folder / f.file, problem))
         throw ConfigError(
             input, "is read, and would be replaced by the report, expected another folder for it (-o)");
@@ -202,7 +202,7 @@ void require_out_of_the_way(const fs::path& folder, const FileList* list,
 }
 
 std::string why_not_together(const fs::path& folder, const char* result, const std::string& version,
-                             const std::vector<SourceFile>& sources) {
+                             const std::vector<FileHash>& sources) {
   if (!is_there(folder / result)) return "";
   std::string what;
   try {

@@ -40,7 +40,7 @@ void require_out_of_the_way(const std::filesystem::path& folder, const FileList*
 
 /// Why what is stored under a name is not of these sources; empty where it is, or is not there.
 std::string why_not_together(const std::filesystem::path& folder, const char* result,
-                             const std::string& version, const std::vector<SourceFile>& sources);
+                             const std::string& version, const std::vector<FileHash>& sources);
 
 /// Moves fresh files over and removes stale ones; results go first and come last, so that none is ever found
 /// beside traces of another.  @throws std::runtime_error

@@ -43,7 +43,7 @@ bool is_result(const std::string& file) {
 }
 
 /// An entry of the list for a file that was just written. Wall times are no function of the input.
-internal::ListedFile listed(const fs::path& folder, const std::string& file) {
+FileHash listed(const fs::path& folder, const std::string& file) {
   const bool varies = file == "timing.json" || file == "results.sqlite";
   return {file, varies ? "" : sha256_of_file((folder / file).string())};
 }
@@ -170,13 +170,13 @@ void ReportFolder::keep(const char* result, const std::vector<const char*>& othe
       take_over(file);
 }
 
-void ReportFolder::keep_estimate(const std::string& version, const std::vector<SourceFile>& sources) {
+void ReportFolder::keep_estimate(const std::string& version, const std::vector<FileHash>& sources) {
   dropped_ = internal::why_not_together(final_, "result.json", version, sources);
   if (dropped_.empty() && fs::exists(fs::path(final_) / "result.json"))
     keep("result.json", {"timing.json"}, false);
 }
 
-void ReportFolder::keep_diagnosis(const std::string& version, const std::vector<SourceFile>& sources) {
+void ReportFolder::keep_diagnosis(const std::string& version, const std::vector<FileHash>& sources) {
   dropped_ = internal::why_not_together(final_, "diagnosis.json", version, sources);
   if (dropped_.empty() && fs::exists(fs::path(final_) / "diagnosis.json"))
     keep("diagnosis.json", {"fitted.yaml", "next_experiment.yaml", "next_experiment.csv"}, true);
@@ -199,7 +199,7 @@ void ReportFolder::commit() {
   for (const std::string& file : fresh) after.files.push_back(listed(from, file));
   FileList meanwhile = after;
   if (before_) {
-    for (const internal::ListedFile& old : before_->files) {
+    for (const FileHash& old : before_->files) {
       meanwhile.files.push_back(old);
       if (kept_.contains(old.file))
         after.files.push_back(old);
@@ -209,9 +209,7 @@ void ReportFolder::commit() {
   }
   for (const std::string& file : internal::files_left_alone(to))
     if (!after.holds(file)) after.files.push_back({file, ""});
-  const auto by_name = [](const internal::ListedFile& a, const internal::ListedFile& b) {
-    return a.file < b.file;
-  };
+  const auto by_name = [](const FileHash& a, const FileHash& b) { return a.file < b.file; };
   std::sort(after.files.begin(), after.files.end(), by_name);
   internal::require_out_of_the_way(to, before_.get(), fresh);
   std::erase_if(stale, [&](const std::string& f) { return !before_->wrote(to, f); });

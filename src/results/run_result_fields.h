@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "gapscope/results/run_result.h"
+#include "results/file_hash_fields.h"
 #include "results/json_archive.h"
-#include "results/source_fields.h"
 
 /// The fields of a stored result, each named once. The first ones of every list are those that readers
 /// outside the project rely on; the rest is what a report needs beside them.

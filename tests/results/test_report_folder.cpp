@@ -238,7 +238,7 @@ std::string half(const std::string& version, const std::string& sha256) {
 }
 
 TEST(ReportFolder, KeepsTheOtherHalfOnlyOfTheSameDrive) {
-  const std::vector<SourceFile> sources = {{"c.yaml", "1"}};
+  const std::vector<FileHash> sources = {{"c.yaml", "1"}};
   const auto dropped = [&](const std::string& stored) {
     ScratchFolder scratch;
     write(scratch.path, {"diagnosis.json", "fitted.yaml", "traces/held_out_1_a.csv"}, stored);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/file_hash.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/diagnosis/evidence.h"
 
@@ -27,18 +28,12 @@ struct BlindLabels {
   std::vector<BlindLabel> cases;
 };
 
-struct SealedFile {
-  std::string file;  ///< relative to the folder of the manifest
-  std::string sha256;
-  bool operator==(const SealedFile&) const = default;
-};
-
 /// What is public of one case.
 struct SealedCase {
   std::string name;
   std::string part;
-  std::string label_sha256;       ///< see label_hash()
-  std::vector<SealedFile> files;  ///< the data sheet (YAML), then its recordings
+  std::string label_sha256;     ///< see label_hash()
+  std::vector<FileHash> files;  ///< the data sheet (YAML), then its recordings
 };
 
 struct BlindManifest {
@@ -51,8 +46,8 @@ struct BlindManifest {
 /// What the diagnosis says of one case.
 struct BlindAnswer {
   std::string name;
-  std::vector<SealedFile> files;  ///< that it was given
-  std::string verdict;            ///< "effect", "none" or "unknown"
+  std::vector<FileHash> files;  ///< that it was given
+  std::string verdict;          ///< "effect", "none" or "unknown"
   std::vector<std::string> effects, group;
   std::string headline;  ///< where
   double before = kNaN, after = kNaN, floor = kNaN, shrink = kNaN;

@@ -40,7 +40,7 @@ std::vector<Recording> load_held_out(const Configuration& configuration, const P
 /// What a result will be made from, each with its SHA-256: the configuration as resolved (but for effects
 /// that the diagnosis leaves out), the recordings that it names, those held out, the input that a simulation
 /// plays again.
-std::vector<SourceFile> sources_of(const Configuration& configuration);
+std::vector<FileHash> sources_of(const Configuration& configuration);
 
 /// The paths of the configuration itself and of these files.
 std::vector<std::string> source_paths(const Configuration& configuration);

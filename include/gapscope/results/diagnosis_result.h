@@ -2,19 +2,19 @@
 
 #include <string>
 
+#include "gapscope/base/file_hash.h"
 #include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/results/source_file.h"
 
 namespace gapscope {
 
 /// All that `diagnose` leaves behind, and all that its report is drawn from.
 struct DiagnosisResult {
-  std::string name;                      ///< of the configuration
-  std::string version;                   ///< of gapscope
-  std::string configuration;             ///< resolved_yaml(), which is stored with its SHA-256
-  bool rotation = true;                  ///< false: rad and N·m mean m and N
-  Diagnosis diagnosis;                   ///< the fitted model is not stored here but in fitted.yaml
-  std::vector<SourceFile> sources = {};  ///< the configuration and every recording that it names
+  std::string name;                    ///< of the configuration
+  std::string version;                 ///< of gapscope
+  std::string configuration;           ///< resolved_yaml(), which is stored with its SHA-256
+  bool rotation = true;                ///< false: rad and N·m mean m and N
+  Diagnosis diagnosis;                 ///< the fitted model is not stored here but in fitted.yaml
+  std::vector<FileHash> sources = {};  ///< the configuration and every recording that it names
 };
 
 /// Writes diagnosis.json and traces/held_out_<n>_<file>.csv into an existing folder. The columns of a trace

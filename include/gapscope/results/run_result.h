@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/file_hash.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit_summary.h"
-#include "gapscope/results/source_file.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 
 namespace gapscope {
@@ -17,7 +17,7 @@ struct RunResult {
   std::string name;                       ///< of the configuration
   std::string version;                    ///< of gapscope
   std::string configuration;              ///< resolved_yaml(), which is stored with its SHA-256
-  std::vector<SourceFile> sources;        ///< the configuration and every recording that it names
+  std::vector<FileHash> sources;          ///< the configuration and every recording that it names
   bool rotation = true;                   ///< false: rad and N·m mean m and N
   std::optional<GapEstimate> model_free;  ///< absent: not asked for (`fit`)
   std::optional<FitSummary> reference;    ///< absent: not asked for (`detect`)

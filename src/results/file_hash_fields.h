@@ -1,14 +1,11 @@
 #pragma once
 
-#include <string>
-
-#include "gapscope/blind/records.h"
-#include "results/json_document.h"
+#include "gapscope/base/file_hash.h"
 
 namespace gapscope::internal {
 
 template <class Archive>
-void fields(Archive& archive, SealedFile& f) {
+void fields(Archive& archive, FileHash& f) {
   archive("file", f.file);
   archive("sha256", f.sha256);
 }
