@@ -14,8 +14,8 @@ constexpr std::uintmax_t kMostBytes = 200 * std::uintmax_t{kMostSamples};
 /// Numbers beyond this [SI] are no measurement, and their powers would leave the range of a double.
 constexpr double kLargestNumber = 1e15;
 
-/// Rows closer than this are no samples of a drive [s].
-constexpr double kShortestStep = 1e-10;
+/// Rows closer than this, or farther apart, are no samples of a drive [s].
+constexpr double kShortestStep = 1e-10, kLongestStep = 1e9;
 
 /// Largest deviation of a step from the mean step that still counts as uniform [-].
 constexpr double kUniformTolerance = 1e-3;

@@ -33,13 +33,14 @@ void cut_to_window(RecordedRows& table, const std::pair<double, double>& window)
 }
 
 void require_uniform(const RecordedRows& table) {
-  if (const double mean = internal::mean_step(table); mean < internal::kShortestStep)
+  const double mean = internal::mean_step(table);
+  if (mean < internal::kShortestStep || mean > internal::kLongestStep)
     table.fail(table.line.back(),
-               fmt::format("time goes on by {:.3g} s from row to row, expected at least {:g} s", mean,
-                           internal::kShortestStep));
+               fmt::format("time goes on by {:.3g} s from row to row, expected {:g} to {:g} s", mean,
+                           internal::kShortestStep, internal::kLongestStep));
   if (internal::is_uniform(table)) return;
   const std::size_t worst = internal::worst_step(table);
-  const double mean = internal::mean_step(table), step = table.t[worst] - table.t[worst - 1];
+  const double step = table.t[worst] - table.t[worst - 1];
   table.fail(
       table.line[worst],
       fmt::format(

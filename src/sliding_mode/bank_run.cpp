@@ -116,7 +116,7 @@ std::vector<Excursion> find_excursions(const BankRun& run, std::size_t bound) {
   std::size_t free_from = 0;  // samples before this belong to the last excursion
   for (std::size_t i = 0; i < n; ++i) {
     const double e = run.error(i, bound);
-    if (std::abs(e) <= 2.0 * floor) continue;
+    if (!(std::abs(e) > 2.0 * floor)) continue;  // also what is no number
     Excursion x{bound, e > 0.0 ? 1 : -1, i, i, i, 0.0};
     while (x.start > free_from && run.error(x.start, bound) * x.sign > floor) --x.start;
     for (x.end = i; x.end < n && run.error(x.end, bound) * x.sign > 0.5 * floor; ++x.end) {
