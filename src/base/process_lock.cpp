@@ -8,7 +8,8 @@
 
 namespace gapscope {
 
-ProcessLock::ProcessLock(const std::string& path) : handle_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+ProcessLock::ProcessLock(const std::string& path)
+    : handle_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (handle_ >= 0) held_by_another_ = flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 

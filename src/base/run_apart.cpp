@@ -1,6 +1,7 @@
 #include "gapscope/base/run_apart.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <mutex>
@@ -15,6 +17,8 @@
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+
+#include "gapscope/base/interrupt.h"
 
 namespace gapscope {
 namespace {
@@ -58,8 +62,15 @@ void be_a_trial() {
   if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, STDERR_FILENO);
 }
 
+/// A lock that this process inherited would outlive its owner.
+void close_others(int kept) {
+  if (kept > 3) close_range(3, static_cast<unsigned>(kept) - 1, 0);
+  close_range(static_cast<unsigned>(kept) + 1, ~0u, 0);
+}
+
 [[noreturn]] void work_and_end(int to, const std::function<std::string()>& work) {
   be_a_trial();
+  close_others(to);
   int status = kFailed;
   try {
     if (send(to, work())) status = 0;
@@ -70,14 +81,24 @@ void be_a_trial() {
   _exit(status);
 }
 
-std::string received(int from) {
+/// All that comes until the other end is closed; nothing where that takes longer than any work may, as it
+/// does where the work waits for somebody else.  @throws Interrupted
+std::optional<std::string> received(int from) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + std::chrono::seconds(2 * kLongestS);
   std::string all;
   std::array<char, 1 << 16> piece;
-  for (ssize_t size = 0; (size = read(from, piece.data(), piece.size())) != 0;) {
+  while (Clock::now() < end) {
+    stop_point();
+    pollfd input{from, POLLIN, 0};
+    constexpr int kPatience = 100;  // milliseconds
+    if (poll(&input, 1, kPatience) <= 0) continue;
+    const ssize_t size = read(from, piece.data(), piece.size());
+    if (size == 0) return all;
     if (size > 0) all.append(piece.data(), static_cast<std::size_t>(size));
-    if (size < 0 && errno != EINTR) break;
+    if (size < 0 && errno != EINTR) return all;
   }
-  return all;
+  return {};
 }
 
 /// One process; it does not outlive its owner.
@@ -106,7 +127,7 @@ class Trial {
     if (child_ > 0) kill(child_, SIGKILL), wait();
   }
 
-  std::string answer() const { return received(from_); }
+  std::optional<std::string> answer() const { return received(from_); }
 
   /// @returns as waitpid() gives it; nothing if there is no telling
   std::optional<int> wait() {
@@ -126,7 +147,8 @@ class Trial {
 
 std::optional<std::string> run_apart(const std::function<std::string()>& work) {
   Trial trial(work);
-  std::string answer = trial.answer();
+  std::optional<std::string> answer = trial.answer();
+  if (!answer) return {};
   const std::optional<int> status = trial.wait();
   if (!status || !WIFEXITED(*status)) return {};
   if (WEXITSTATUS(*status) == kNoMemory) throw std::bad_alloc();

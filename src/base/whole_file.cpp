@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -33,6 +34,19 @@ bool is_stream(const std::string& path) {
          name.starts_with("/proc/self/fd/");
 }
 
+/// @returns false where something is there already
+bool moved_where_nothing_is(const fs::path& from, const std::string& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  if (errno == EEXIST) return false;
+  if (errno != EINVAL && errno != ENOSYS) throw std::runtime_error(to + ": cannot be written");
+  if (link(from.c_str(), to.c_str()) != 0) {  // a file system that does not know the other way
+    if (errno == EEXIST) return false;
+    throw std::runtime_error(to + ": cannot be written");
+  }
+  unlink(from.c_str());
+  return true;
+}
+
 }  // namespace
 
 std::string new_file_beside(const std::string& path) {
@@ -47,7 +61,8 @@ std::string new_file_beside(const std::string& path) {
   throw std::runtime_error(path + ": cannot be written, expected a writable place with room for it");
 }
 
-void write_whole_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
+void write_whole_file(const std::string& path, const std::function<void(std::ostream&)>& write,
+                      bool replace) {
   std::error_code problem;
   const fs::file_status there = fs::status(path, problem);
   if (is_stream(path) || (fs::exists(there) && !fs::is_regular_file(there)))
@@ -57,7 +72,10 @@ void write_whole_file(const std::string& path, const std::function<void(std::ost
   const fs::path aside = new_file_beside(path);
   try {
     write_file(aside, path, write);
-    fs::rename(aside, path, problem);
+    if (!replace && !moved_where_nothing_is(aside, path))
+      throw ConfigError(path, "came to be there meanwhile, expected that it stays free");
+    problem.clear();
+    if (replace) fs::rename(aside, path, problem);
     if (problem) throw std::runtime_error(path + ": cannot be written: " + problem.message());
   } catch (...) {
     fs::remove(aside, problem);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 
@@ -13,6 +14,7 @@
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/campaign/pipeline.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/plant/effect.h"
 #include "gapscope/results/blind_files.h"
 #include "gapscope/results/sha256.h"
 
@@ -31,8 +33,20 @@ std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
 }
 
 /// On one thread: cases, not candidates, share the cores.
-Diagnosis diagnosis_of(const std::string& sheet) {
+/// What a sheet names was sealed with it.
+void require_sealed(const Configuration& c, const SealedCase& sealed) {
+  if (!c.recording) throw ConfigError(c.file, "simulates, expected recording: {file, held_out}");
+  for (const auto* files : {&c.recording->files, &c.recording->held_out})
+    for (const RecordedFile& r : *files)
+      if (std::none_of(sealed.files.begin(), sealed.files.end(),
+                       [&](const FileHash& f) { return f.file == r.given; }))
+        throw ConfigError(c.file, r.line,
+                          "names " + shown(r.given) + ", expected a recording that was sealed with it");
+}
+
+Diagnosis diagnosis_of(const std::string& sheet, const SealedCase& sealed) {
   const Configuration c = load_configuration(sheet);
+  require_sealed(c, sealed);
   require_reference_model(c);
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = 1;
@@ -54,7 +68,7 @@ BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
   const blind::CaseCopy copy(folder, c);
   Diagnosis d;
   try {
-    d = diagnosis_of(copy.folder() + "/" + c.name + ".yaml");
+    d = diagnosis_of(copy.folder() + "/" + c.name + ".yaml", c);
   } catch (const ConfigError& error) {
     throw ConfigError(of_original(error.what(), copy.folder(), folder));
   }
@@ -69,10 +83,34 @@ std::string sealed_after(const std::string& previous, const BlindAnswer& answer)
   return sha256(previous + "\n" + line_of(answer) + "\n");
 }
 
+void require_given(const BlindAnswer& a, const SealedCase& c, const std::string& file) {
+  if (a.files != c.files)
+    throw ConfigError(file, "answers " + c.name + " from other recordings, expected those of the manifest");
+}
+
+/// An answer that a diagnosis can give, whoever wrote it.
+void require_answer(const BlindAnswer& a, const std::string& file) {
+  constexpr std::size_t kLongestHeadline = 4000;
+  const auto fail = [&](const std::string& what) {
+    throw ConfigError(file, "its answer to " + shown(a.name) + what);
+  };
+  const bool effect = a.verdict == "effect";
+  if (!effect && a.verdict != "none" && a.verdict != "unknown")
+    fail(" is " + shown(a.verdict) + ", expected effect, none or unknown");
+  if (effect == a.effects.empty() || effect == a.group.empty())
+    fail(" is " + shown(a.verdict) + " with " + std::to_string(a.effects.size()) +
+         " effects, expected at least one where it is 'effect' and none elsewhere");
+  if (a.headline.size() > kLongestHeadline) fail(" has a headline of that length, expected a sentence");
+  for (const ModelEvidence& e : a.evidence.candidates)
+    if (find_effect(e.effect) == nullptr)
+      fail(" ranks " + shown(e.effect) + ", expected an effect of the catalogue");
+}
+
 /// Answers may be given again; those to another check stay, and so does any other file.
 void require_replaceable(const std::string& path, const BlindManifest& manifest, const std::string& sealed) {
   namespace fs = std::filesystem;
-  if (!fs::exists(path) || is_answers_file(path, sha256_of_file(sealed))) return;
+  std::error_code problem;
+  if (!fs::exists(fs::symlink_status(path, problem)) || is_answers_file(path, sha256_of_file(sealed))) return;
   throw ConfigError(path, "is there and holds no answers to " + manifest.name + ", expected another name");
 }
 
@@ -90,8 +128,15 @@ BlindAnswers answer_blind_check(const std::string& folder, const std::string& pa
   blind::AnswerJournal journal(path + ".partial",
                                fmt::format("manifest {}, gapscope {}", answers.manifest_sha256, version()));
   std::vector<const SealedCase*> open;
-  for (const SealedCase& c : manifest.cases)
-    if (!journal.answers().contains(c.name)) open.push_back(&c);
+  for (const SealedCase& c : manifest.cases) {
+    const auto answered = journal.answers().find(c.name);
+    if (answered == journal.answers().end()) {
+      open.push_back(&c);
+      continue;
+    }
+    require_answer(answered->second, path + ".partial");
+    require_given(answered->second, c, path + ".partial");
+  }
   std::atomic<std::size_t> done{manifest.cases.size() - open.size()};
   parallel_for(open.size(), threads, [&](std::size_t i) {
     stop_point();
@@ -120,11 +165,11 @@ void verify_answers(const BlindManifest& manifest, const BlindAnswers& answers, 
     const SealedCase& c = manifest.cases[i];
     const BlindAnswer& a = answers.cases[i];
     if (a.name != c.name) throw ConfigError(file, "answers " + a.name + " where " + c.name + " was expected");
-    if (a.files != c.files)
-      throw ConfigError(file, "answers " + c.name + " from other recordings than those of the manifest");
+    require_given(a, c, file);
     if (sealed_after(previous, a) != a.seal)
       throw ConfigError(file, "has another answer to " + c.name +
                                   " than the one that was sealed, expected one of seal " + a.seal);
+    require_answer(a, file);
     previous = a.seal;
   }
 }

@@ -58,7 +58,9 @@ void AnswerJournal::add(const BlindAnswer& answer) {
 
 void AnswerJournal::remove() {
   out_.close();
-  std::filesystem::remove(path_);
+  std::error_code gone;
+  if (std::filesystem::equivalent("/proc/self/fd/" + std::to_string(lock_->handle()), path_, gone))
+    std::filesystem::remove(path_);
 }
 
 }  // namespace gapscope::blind

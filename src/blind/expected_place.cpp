@@ -1,5 +1,6 @@
 #include "blind/expected_place.h"
 
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <regex>
@@ -46,7 +47,10 @@ bool names_the_place(const std::string& headline, const std::string& effect, dou
   std::smatch found;
   static const std::regex cycles("motor angle with ([0-9.e+]+) cycles? per turn");
   if (!std::regex_search(headline, found, cycles)) return false;
-  return std::abs(std::stod(found[1]) / cycles_per_turn - 1.0) < kCyclesWithin;
+  const std::string text = found[1];
+  double cycles_told = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), cycles_told);
+  return end.ec == std::errc() && std::abs(cycles_told / cycles_per_turn - 1.0) < kCyclesWithin;
 }
 
 }  // namespace gapscope::blind

@@ -51,6 +51,13 @@ void write_case(const fs::path& folder, double duration, blind::PlannedCase& pla
                    [&](std::ostream& out) { out << sheet_of(label.name, pair); });
 }
 
+/// The same labels may be there already; any others stay.
+void write_or_find(const std::string& path, const BlindLabels& labels) {
+  if (!fs::exists(fs::symlink_status(path))) return write_blind_labels(path, labels, false);
+  if (head_line_of(read_blind_labels(path)) != head_line_of(labels))
+    throw ConfigError(path, "holds other labels of " + labels.name + ", expected another name");
+}
+
 void require_apart(const fs::path& folder, const fs::path& labels) {
   const fs::path inside = fs::weakly_canonical(labels).lexically_relative(fs::weakly_canonical(folder));
   if (!inside.empty() && *inside.begin() != "..")
@@ -76,7 +83,7 @@ void make_blind_check(const BlindConfig& config, const std::string& folder, cons
   BlindLabels stored{config.name, resolved, {}};
   for (const blind::PlannedCase& c : cases) stored.cases.push_back(c.label);
   if (const fs::path parent = fs::path(labels).parent_path(); !parent.empty()) fs::create_directories(parent);
-  write_blind_labels(labels, stored);
+  write_or_find(labels, stored);
   seal_blind_check(handed_out.path(), labels);
   stop_point();
   handed_out.commit();

@@ -55,7 +55,10 @@ BlindScore run_blind_check(const BlindConfig& config, const std::string& folder,
                            const BlindProgress& made, const BlindProgress& answered) {
   const std::string cases = folder + "/cases", labels = folder + "/labels.json",
                     answers = folder + "/answers.json";
-  if (!is_made(config, cases, labels)) make_blind_check(config, cases, labels, threads, made);
+  const bool is_there = is_made(config, cases, labels);
+  if (!is_there && fs::exists(answers))
+    throw ConfigError(answers, "answers another check, expected another folder for this one");
+  if (!is_there) make_blind_check(config, cases, labels, threads, made);
   if (!is_answered(cases, answers)) answer_blind_check(cases, answers, threads, answered);
   return score_blind_check(cases, labels, answers);
 }

@@ -94,11 +94,13 @@ BlindManifest seal_blind_check(const std::string& folder, const std::string& lab
   const BlindLabels secret = read_blind_labels(labels);
   require_sound(secret, labels);
   const std::string path = folder + "/manifest.json";
-  if (std::filesystem::exists(path) && !is_manifest_file(path))
-    throw ConfigError(path, "is there and no manifest of a blind check, expected another folder");
   BlindManifest manifest{secret.name, version(), labels_hash(secret), {}};
   for (const BlindLabel& l : secret.cases)
     manifest.cases.push_back({l.name, l.part, label_hash(l), files_of(folder, l.name)});
+  if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
+    if (!is_manifest_file(path) || read_blind_manifest(path).cases != manifest.cases)
+      throw ConfigError(path, "is there and seals something else, expected that it is moved away");
+  }
   write_blind_manifest(path, manifest);
   return manifest;
 }

@@ -1,6 +1,7 @@
 #include "campaign/recorded_data.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <set>
 
@@ -46,6 +47,24 @@ std::string recorded_data(const CampaignConfig& c) {
   std::string text;
   for (const std::string& line : lines) text += line;
   return text;
+}
+
+std::vector<std::string> recorded_files(const CampaignConfig& c) {
+  std::set<std::string> paths;
+  for (const std::uint64_t run : runs_to_look_at(c))
+    for (const RecordedFile& file : files_of(c, run)) paths.insert(file.path);
+  return {paths.begin(), paths.end()};
+}
+
+std::string state_of(const std::vector<std::string>& files) {
+  std::string state;
+  for (const std::string& path : files) {
+    struct stat s {};
+    if (stat(path.c_str(), &s) != 0) s = {};
+    state += fmt::format("{} {} {} {}.{} {}.{}\n", s.st_dev, s.st_ino, s.st_size, s.st_mtim.tv_sec,
+                         s.st_mtim.tv_nsec, s.st_ctim.tv_sec, s.st_ctim.tv_nsec);
+  }
+  return state;
 }
 
 }  // namespace gapscope::internal

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "campaign/recorded_data.h"
 #include "campaign/store_header.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
@@ -107,6 +108,9 @@ CampaignRow run_of_campaign(const CampaignConfig& c, std::uint64_t run, Campaign
 CampaignProgress run_campaign(const CampaignConfig& c, CampaignStore& store, int threads,
                               const std::function<void(const CampaignProgress&)>& tell) {
   const auto begin = Clock::now();
+  const std::vector<std::string> recordings = internal::recorded_files(c);
+  const std::string state = internal::state_of(recordings);
+  if (!recordings.empty()) require_same_recordings(c, store);
   const std::vector<std::uint64_t> runs = pending(c, store);
   CampaignProgress progress;
   progress.runs = store.header().shard.size(c.runs());
@@ -118,6 +122,8 @@ CampaignProgress run_campaign(const CampaignConfig& c, CampaignStore& store, int
     CampaignRow row = run_of_campaign(c, runs[i], timing);
     const bool failed = !row.error.empty();
     if (failed) require_same_recordings(c, store);
+    if (internal::state_of(recordings) != state)
+      throw std::runtime_error("a recording was touched while the campaign ran: begin it anew");
     store.add(std::move(row), timing);
     const std::lock_guard lock(mutex);
     ++progress.done;

@@ -133,14 +133,22 @@ void Statement::read(std::string& text) {
     throw ConfigError(database_.file(),
                       "is damaged (a cell holds no text), expected one that `campaign` wrote");
 }
+/// NULL, or a number; SQLite would take any text for one.
+int Statement::number_column() {
+  const int column = read_++, type = sqlite3_column_type(statement_, column);
+  if (type != SQLITE_NULL && type != SQLITE_INTEGER && type != SQLITE_FLOAT)
+    throw ConfigError(database_.file(),
+                      "is damaged (a cell holds no number), expected one that `campaign` wrote");
+  return column;
+}
 void Statement::read(double& value) {
-  const int column = read_++;
+  const int column = number_column();
   value = sqlite3_column_type(statement_, column) == SQLITE_NULL ? kNaN
                                                                  : sqlite3_column_double(statement_, column);
 }
-void Statement::read(std::int64_t& value) { value = sqlite3_column_int64(statement_, read_++); }
+void Statement::read(std::int64_t& value) { value = sqlite3_column_int64(statement_, number_column()); }
 void Statement::read(std::optional<bool>& value) {
-  const int column = read_++;
+  const int column = number_column();
   value.reset();
   if (sqlite3_column_type(statement_, column) != SQLITE_NULL)
     value = sqlite3_column_int(statement_, column) != 0;

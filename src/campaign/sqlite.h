@@ -57,6 +57,7 @@ class Statement {
 
  private:
   void check(int code) const;
+  int number_column();
   Database& database_;
   sqlite3_stmt* statement_ = nullptr;
   int bound_ = 0, read_ = 0;

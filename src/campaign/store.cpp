@@ -93,6 +93,9 @@ struct CampaignStore::Connection {
 CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& header) : header_(header) {
   auto lock = locked(made(folder));
   const std::string file = file_in(folder);
+  std::error_code problem;
+  if (const auto there = fs::symlink_status(file, problem); fs::exists(there) && !fs::is_regular_file(there))
+    throw ConfigError(file, "is no regular file, expected the store of a campaign");
   connection_ = std::make_unique<Connection>(file, std::move(lock));
   Database& database = connection_->database;
   const bool is_new = internal::is_empty(database);

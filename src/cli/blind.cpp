@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/report/blind_report.h"
@@ -134,7 +135,10 @@ void add_score(CLI::App& blind) {
       "DIR/blind.json,\n"
       "report.md and figures (PNG). Sizes of mismatch are in floors.\n\n"
       "Example: gapscope blind score cases labels.json answers.json -o reports/check");
-  command->callback([a] {
+  command->callback([a, command] {
+    if (command->get_option("--seal")->count() > 0 && a->seal.size() != 64)
+      throw ConfigError(
+          fmt::format("gapscope: --seal is '{}', expected the 64 digits that `blind answer` told", a->seal));
     const BlindScore score = score_blind_check(a->cases, a->labels, a->answers, a->seal);
     const std::string folder = a->folder.empty() ? "reports/" + score.name : a->folder;
     ReportFolder report(folder, FolderKind::kBlind, {a->labels, a->answers});

@@ -161,8 +161,12 @@ void add_merge(CLI::App& campaign) {
     for (const std::string& folder : merge.folders)
       if (fs::exists(merge.target) && fs::exists(folder) && fs::equivalent(folder, merge.target))
         throw ConfigError(merge.target, "is one of the folders to merge, expected another one to merge into");
-    if (fs::exists(fs::path(merge.target) / "results.sqlite"))
-      throw ConfigError(merge.target, "has a store already, expected a folder without one to merge into");
+    for (const char* end : {"", "-wal", "-shm", "-journal"})
+      if (fs::exists(merge.target + "/results.sqlite" + end))
+        throw ConfigError(merge.target,
+                          fmt::format("has a store already (results.sqlite{}), expected a folder "
+                                      "without one to merge into",
+                                      end));
   };
   CLI::App* command = campaign.add_subcommand("merge", "One store from the shards of a campaign");
   command->add_option("DIR", a->folders, "folders of the shards")->required();

@@ -31,11 +31,11 @@ Configuration reading_of(const RecordingArguments& r) {
 
 void check_recording(const Arguments& a) {
   const RecordingArguments& r = a.recording;
-  if (!a.output.empty()) require_file_name(a.output, {r.file}, is_inspection_file);
+  const bool replace = !a.output.empty() && require_file_name(a.output, {r.file}, is_inspection_file);
   const Configuration c = reading_of(r);
   const Inspection inspection = inspect(r.file, c.recording->reading, c.rotation);
   const std::string json = inspection_json(inspection, resolved_reading(c));
-  if (!a.output.empty()) write_text(a.output, json);
+  if (!a.output.empty()) write_text(a.output, json, replace);
   fmt::print("{}", a.json ? json : inspection.report());
   if (inspection.spoilt()) throw CLI::RuntimeError(kSpoiltRecording);
 }

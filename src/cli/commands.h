@@ -32,13 +32,18 @@ inline constexpr int kSpoiltRecording = 3;
 /// What stands in the help of every command that takes a configuration.
 inline constexpr const char* kConfigHelp = "configuration (YAML)";
 
+/// Of files that are another when they were read.
+inline constexpr const char* kSourcesChanged =
+    "or a recording that it names changed while it was read, expected it to stay";
+
 /// @throws std::runtime_error naming what cannot be written
-void write_text(const std::string& path, const std::string& text);
+void write_text(const std::string& path, const std::string& text, bool replace = true);
 
 /// @param sources  that the command reads
 /// @param is_own   whether a file that is there is one that the command may write again
 /// @throws ConfigError if no file of that name can be written, or it is a source or somebody else's
-void require_file_name(const std::string& file, const std::vector<std::string>& sources,
+/// @returns whether there is one to be replaced
+bool require_file_name(const std::string& file, const std::vector<std::string>& sources,
                        bool (*is_own)(const std::string& file));
 
 /// For options: a number of a range, which no NaN is.

@@ -108,6 +108,7 @@ void diagnose_configuration(const Arguments& a) {
   const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
   require_possible_experiment(c, train.front().dt);
   const std::vector<Recording> held_out = load_held_out(c, options.progress, loaded);
+  if (sources != sources_of(c)) throw ConfigError(a.config, kSourcesChanged);
   check_recordings(c, options.progress, loaded.warnings);
   const std::vector<MotorTrace> train_traces = traces_of(train), held_out_traces = traces_of(held_out);
   DiagnosisResult result{c.name, version(), resolved_yaml(c), c.rotation,

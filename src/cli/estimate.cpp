@@ -56,6 +56,7 @@ void estimate(const Arguments& a, const Estimators& wanted) {
   const Progress progress = progress_on_terminal(a.quiet);
   const std::vector<FileHash> sources = sources_of(c);
   Outcome outcome = run_pipeline(c, wanted, progress);
+  if (sources != sources_of(c)) throw ConfigError(a.config, kSourcesChanged);
   outcome.result.sources = sources;
   progress("drawing the report");
   write_outcome(report, c, outcome);
@@ -114,8 +115,9 @@ std::string fit_details() {
 
 }  // namespace
 
-void write_text(const std::string& path, const std::string& text) {
-  write_whole_file(path, [&](std::ostream& out) { out << text; });
+void write_text(const std::string& path, const std::string& text, bool replace) {
+  write_whole_file(
+      path, [&](std::ostream& out) { out << text; }, replace);
 }
 
 void add_work_options(CLI::App& command, int& threads, bool& quiet) {

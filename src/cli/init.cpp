@@ -28,7 +28,7 @@ void write_starter(const Arguments& a) {
   const fs::path parent = fs::path(output).parent_path();
   const Starter starter = starter_configuration(r.configuration(), r.encoder(), !r.translation,
                                                 parent.empty() ? "." : parent.string(), a.model);
-  write_text(output, starter.yaml);
+  write_text(output, starter.yaml, false);
   print_warnings(starter.spoiling);
   fmt::print(
       "{:<12}{}\n{:<12}{}\n{:<12}fill in what is marked GUESS, then gapscope run {} (or detect, fit, "

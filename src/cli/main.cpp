@@ -110,7 +110,9 @@ int parse_and_run(int argc, char** argv) {
 }
 
 /// On one line, whatever a file or a name brought into it.
-void tell(const std::string& message) { fmt::print(stderr, "{}\n", printable(in_its_folder(message), 4000)); }
+void tell(const std::string& message) {
+  std::fputs((printable(in_its_folder(message), 4000) + "\n").c_str(), stderr);  // which may be closed
+}
 
 int guarded(int argc, char** argv) {
   try {
@@ -121,10 +123,10 @@ int guarded(int argc, char** argv) {
     tell(error.what());
     return kWrongInput;
   } catch (const Interrupted&) {
-    fmt::print(stderr, "gapscope: interrupted\n");
+    tell("gapscope: interrupted");
     return kInterrupted;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "gapscope: there is not enough memory, expected fewer samples or threads\n");
+    tell("gapscope: there is not enough memory, expected fewer samples or threads");
     return kFailed;
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string path = error.path1().string();

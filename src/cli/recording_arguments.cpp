@@ -97,7 +97,7 @@ CLI::Validator number_within(double low, double high) {
       "");
 }
 
-void require_file_name(const std::string& file, const std::vector<std::string>& sources,
+bool require_file_name(const std::string& file, const std::vector<std::string>& sources,
                        bool (*is_own)(const std::string& file)) {
   namespace fs = std::filesystem;
   std::error_code problem;
@@ -105,6 +105,9 @@ void require_file_name(const std::string& file, const std::vector<std::string>& 
   if (problem && there.type() != fs::file_type::not_found)
     throw ConfigError(file, "cannot be written (" + problem.message() + "), expected another name");
   if (fs::is_directory(there)) throw ConfigError(file, "is a folder, expected the name of a file to write");
+  const bool linked = fs::is_symlink(fs::symlink_status(file, problem)) && !file.starts_with("/dev/");
+  if (linked && (fs::is_regular_file(there) || !fs::exists(there)))
+    throw ConfigError(file, "is a link to another file, expected the name of the file itself");
   for (const std::string& source : sources)
     if (fs::equivalent(file, source, problem))
       throw ConfigError(file, "is the input itself, expected another file to write");
@@ -115,6 +118,7 @@ void require_file_name(const std::string& file, const std::vector<std::string>& 
     throw ConfigError(file,
                       "is there already, expected another name (-o FILE) or that it is moved away: this "
                       "command did not write it");
+  return fs::exists(there);
 }
 
 }  // namespace gapscope::cli

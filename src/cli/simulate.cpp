@@ -26,21 +26,24 @@ struct Arguments {
 
 /// A recording with the mode of the coupling, which no encoder tells.
 bool is_simulated(const std::string& file) {
-  std::string header;
-  std::getline(std::ifstream(file), header);
-  return header.starts_with("t,u,x1") && header.ends_with(",mode");
+  std::ifstream in(file);
+  std::string header, row;
+  std::getline(in, header) && std::getline(in, row);
+  const std::string mode = row.substr(row.rfind(',') + 1);
+  const bool told = mode == "gap" || mode == "impact" || mode.starts_with("engagement");
+  return header.starts_with("t,u,x1") && header.ends_with(",mode") && told;
 }
 
 void simulate_to_file(const Arguments& a) {
   const Configuration c = load_configuration(a.config);
   if (!c.simulation)
     throw ConfigError(c.file, "there is no simulation, expected simulation: to make data from");
-  require_file_name(a.file, source_paths(c), is_simulated);
+  const bool replace = require_file_name(a.file, source_paths(c), is_simulated);
   const Progress progress = progress_on_terminal(a.quiet);
   progress("simulating " + c.name);
   const Recording r = simulated_recording(c);
   stop_point();
-  write_csv(a.file, r);
+  write_csv(a.file, r, replace);
   if (fs::is_regular_file(a.file))  // not into a pipe that may be standard output itself
     fmt::print("{}: {} samples at {} Hz\n", a.file, r.size(), c.simulation->rate);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
@@ -123,7 +124,7 @@ double CsvRow::number(int place, const std::string& column, const UnitScale& sca
   const bool whole = end == text.data() + text.size() && !text.empty();
   value = scale(value);
   if (whole && problem == std::errc() && std::abs(value) <= kLargestNumber) return value;
-  const bool vanishes = text.find("e-") != text.npos || text.find("E-") != text.npos;
+  const bool vanishes = std::abs(std::strtod(std::string(text).c_str(), nullptr)) < 1.0;
   if (whole && problem == std::errc::result_out_of_range && vanishes) return 0.0;
   const bool too_large = whole && problem == std::errc() && std::isfinite(value);
   fail(fmt::format("{} is {}, expected {}", column, text.empty() ? "empty" : shown(text),

@@ -34,9 +34,10 @@ void write_rows(std::ostream& out, const Recording& r) {
 
 }  // namespace
 
-void write_csv(const std::string& path, const Recording& recording) {
+void write_csv(const std::string& path, const Recording& recording, bool replace) {
   check_lengths(recording);
-  write_whole_file(path, [&](std::ostream& out) { write_rows(out, recording); });
+  write_whole_file(
+      path, [&](std::ostream& out) { write_rows(out, recording); }, replace);
 }
 
 }  // namespace gapscope

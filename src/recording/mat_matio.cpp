@@ -107,6 +107,15 @@ std::vector<T> values_of(std::string_view bytes) {
   return values;
 }
 
+/// Whether a variable of version 7.3 is marked as empty: its numbers are then the sizes that it has not.
+bool says_empty(const std::string& path, const std::string& name) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return false;  // of version 4
+  const bool empty = H5Aexists_by_name(file, name.c_str(), "MATLAB_empty", H5P_DEFAULT) > 0;
+  H5Fclose(file);
+  return empty;
+}
+
 /// Every question is answered by a process of its own: a damaged file can end the libraries, and they are not
 /// made for threads. Answers are texts, which end with a zero where another one follows.
 class ByMatio : public MatContent {
@@ -142,6 +151,7 @@ class ByMatio : public MatContent {
   std::vector<double> numbers(const std::string& name, std::size_t count) override {
     const std::string answer = asked([&](const MatioFile& file) -> std::string {
       const Variable v = file.info(name);
+      if (says_empty(path_, name)) return {};
       if (v && Mat_VarReadDataAll(file.get(), v.get()) == 0 && v->data != nullptr &&
           v->nbytes == count * Mat_SizeOfClass(v->class_type))
         return bytes_of(numbers_of(*v, count));
@@ -192,19 +202,45 @@ bool is_version_7_3(const std::string& path) {
   return in && std::string(signature.begin(), signature.end()) == "\x89HDF\r\n\x1a\n";
 }
 
-/// matio would take a file that is cut off for an empty one.
-bool is_whole_version_7_3(const std::string& path) {
-  return is_version_7_3(path) && run_apart([&] {
-                                   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-                                   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-                                   return std::string(file >= 0 && H5Fclose(file) >= 0 ? "whole" : "");
-                                 }) == "whole";
+/// Whether a data set keeps its numbers in other files.
+bool is_elsewhere(hid_t group, const char* name) {
+  const hid_t set = H5Dopen2(group, name, H5P_DEFAULT);
+  if (set < 0) return false;  // a group
+  const hid_t made = H5Dget_create_plist(set);
+  const bool elsewhere = made < 0 || H5Pget_external_count(made) > 0 || H5Pget_layout(made) == H5D_VIRTUAL;
+  if (made >= 0) H5Pclose(made);
+  H5Dclose(set);
+  return elsewhere;
+}
+
+/// Stops at the first link that leaves the file.
+herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void*) {
+  if (link->type == H5L_TYPE_SOFT) return 0;
+  return link->type != H5L_TYPE_HARD || is_elsewhere(group, name) ? 1 : 0;
+}
+
+/// "whole", "elsewhere" or, of what is no file of HDF5, nothing. matio would take one that is cut off for an
+/// empty one, and follow links to whatever other files there are.
+std::string kind_of_version_7_3(const std::string& path) {
+  if (!is_version_7_3(path)) return "";
+  return run_apart([&]() -> std::string {
+           H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+           const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+           if (file < 0) return "";
+           const herr_t found = H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look_at_link, nullptr);
+           if (found != 0) return found > 0 ? "elsewhere" : "";
+           return H5Fclose(file) >= 0 ? "whole" : "";
+         })
+      .value_or("");
 }
 
 }  // namespace
 
 std::unique_ptr<MatContent> open_by_matio(const std::string& path) {
-  if (!is_whole_version_7_3(path) && !is_whole_version_4(path)) return nullptr;
+  const std::string kind = kind_of_version_7_3(path);
+  if (kind == "elsewhere")
+    throw ConfigError(path, "keeps data in other files, expected a .mat file that holds its own");
+  if (kind != "whole" && !is_whole_version_4(path)) return nullptr;
   return std::make_unique<ByMatio>(path);
 }
 

@@ -108,12 +108,16 @@ std::string seal_sentence(const BlindScore& s) {
 
 std::string blind_text(const BlindScore& s, const std::vector<FigureData>& figures) {
   std::string text = fmt::format(
-      "# {}\n\n{} cases were counted; {} others served to calibrate the probabilities. Recordings are made "
-      "by a plant that shares no code with the diagnosis, which saw recordings and data sheets alone. {}"
+      "# {}\n\n{} cases were counted; {} others served to calibrate the probabilities. {}, which saw "
+      "recordings and data sheets alone. {}"
       "\n\nOne and two effects are counted where the refitted "
       "nominal model leaves more than 2 floors. Named: the effect, or a group that holds it. Taken out: the "
       "first step decides again from what it had found, without the truth among its candidates.\n\n",
-      s.name, s.report_cases, s.calibration_cases, seal_sentence(s));
+      s.name, s.report_cases, s.calibration_cases,
+      s.configuration.empty()
+          ? "Recordings are those that were sealed, and the answers those of the diagnosis"
+          : "Recordings are made by a plant that shares no code with the diagnosis",
+      seal_sentence(s));
   text += count_table(s) + size_lines(s) + limits_section(s) + figure_section(figures) + slice_table(s) +
           failures(s);
   return text + fmt::format("\nSHA-256 of the manifest {}, seal of the answers {}.\n\ngapscope {}\n",

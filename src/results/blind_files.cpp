@@ -55,8 +55,8 @@ Json blind_manifest_schema() { return document_schema(kManifest, BlindManifest()
 
 }  // namespace internal
 
-void write_blind_labels(const std::string& path, const BlindLabels& labels) {
-  internal::write_document(path, internal::kLabels, labels);
+void write_blind_labels(const std::string& path, const BlindLabels& labels, bool replace) {
+  internal::write_document(path, internal::kLabels, labels, replace);
 }
 BlindLabels read_blind_labels(const std::string& path) {
   return internal::read_document<BlindLabels>(path, internal::kLabels);

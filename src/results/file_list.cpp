@@ -23,6 +23,24 @@ bool is_below(const std::string& file) {
   return !name.empty() && name != "." && name != ".." && (folder.empty() || folder == "traces");
 }
 
+/// Whether the folder of a file below another one is a link to somewhere else.
+bool has_linked_folder(const fs::path& folder, const std::string& file) {
+  std::error_code problem;
+  const fs::path parent = fs::path(file).parent_path();
+  return !parent.empty() && !fs::is_directory(fs::symlink_status(folder / parent, problem));
+}
+
+/// Wall times have no hash that they could be known by.
+bool holds_wall_times(const fs::path& path) {
+  try {
+    const Json json = load_json(path.string());
+    return json.is_object() && json.contains("model_free_s") && json.contains("reference_s") &&
+           json.size() == 2;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 template <class Archive>
@@ -41,18 +59,22 @@ bool FileList::wrote(const fs::path& folder, const std::string& file) const {
   std::error_code problem;
   const fs::path path = folder / file;
   if (!fs::is_regular_file(fs::symlink_status(path, problem))) return false;
+  if (!fs::is_directory(fs::status(folder, problem)) || has_linked_folder(folder, file)) return false;
   std::string found;
   return std::any_of(files.begin(), files.end(), [&](const FileHash& f) {
     if (f.file != file) return false;
     if (!f.sha256.empty() && found.empty()) found = sha256_of_file(path.string());
-    return f.sha256.empty() || f.sha256 == found;
+    return f.sha256.empty() ? file == "timing.json" && holds_wall_times(path) : f.sha256 == found;
   });
 }
 
 std::optional<FileList> read_file_list(const fs::path& folder) {
   std::error_code problem;
   const fs::path path = folder / kFileList;
-  if (!fs::exists(fs::symlink_status(path, problem))) return {};
+  const fs::file_status there = fs::symlink_status(path, problem);
+  if (!fs::exists(there)) return {};
+  if (!fs::is_regular_file(there))
+    throw ConfigError(path.string(), "is no regular file, expected a list of gapscope");
   FileList list = read_document<FileList>(path.string(), kSchema);
   for (const FileHash& f : list.files)
     if (!is_below(f.file))

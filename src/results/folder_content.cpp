@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
@@ -58,11 +59,19 @@ fs::directory_iterator entries_of(const fs::path& folder) {
   throw ConfigError(folder.string(), what + ", " + kExpected);
 }
 
-void require_nothing(const fs::path& folder) {
+/// A file that a process was writing aside when it was killed.
+bool is_aside(const std::string& name) {
+  const std::string_view begin = ".gapscope-";
+  return name.starts_with(begin) && name.size() > begin.size() &&
+         name.find_first_not_of("0123456789-", begin.size()) == name.npos;
+}
+
+void require_nothing(const fs::path& folder, const std::string& kind) {
   std::set<std::string> others;
   for (const fs::directory_entry& entry : entries_of(folder))
-    if (!is_left_alone(entry.path().filename().string()) && !is_of_the_system(entry))
-      others.insert(entry.path().filename().string());
+    if (const std::string name = entry.path().filename().string();
+        !is_left_alone(kind, name) && !is_of_the_system(entry) && !is_aside(name))
+      others.insert(name);
   if (!others.empty())
     refuse(folder, "holds " + gapscope::shown(*others.begin()) + " and no report of gapscope");
 }
@@ -129,16 +138,16 @@ bool is_stored(const std::string& file) {
              "timing.json", "fitted.yaml", "next_experiment.yaml", "next_experiment.csv"});
 }
 
-bool is_left_alone(const std::string& file) {
-  return is_one_of(file, {"results.sqlite", "results.sqlite-wal", "results.sqlite-shm", "cases",
-                          "labels.json", "answers.json", "answers.json.partial"});
+bool is_left_alone(const std::string& kind, const std::string& file) {
+  if (kind == "campaign") return file.starts_with("results.sqlite") && !file.ends_with(".csv");
+  return kind == "blind" && is_one_of(file, {"cases", "labels.json", "answers.json", "answers.json.partial"});
 }
 
-std::vector<std::string> files_left_alone(const fs::path& folder) {
+std::vector<std::string> files_left_alone(const fs::path& folder, const std::string& kind) {
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : entries_of(folder))
     if (const std::string name = entry.path().filename().string();
-        is_left_alone(name) && entry.is_regular_file())
+        is_left_alone(kind, name) && entry.is_regular_file())
       files.push_back(name);
   return files;
 }
@@ -153,14 +162,22 @@ void remove_left_behind(const fs::path& folder) {
   }
 }
 
-void require_own(const fs::path& folder, const std::string& kind, const FileList* list) {
-  if (list == nullptr) return require_nothing(folder);
-  if (list->kind != kind)
-    throw ConfigError(folder.string(), "holds a report of another kind (" + printable(list->kind, 20) +
+namespace {
+
+void require_kind(const fs::path& folder, const std::string& kind, const FileList& list) {
+  if (list.kind != kind)
+    throw ConfigError(folder.string(), "holds a report of another kind (" + printable(list.kind, 20) +
                                            "), expected one of its own kind (" + kind +
                                            ") or another folder");
+}
+
+}  // namespace
+
+void require_own(const fs::path& folder, const std::string& kind, const FileList* list) {
+  if (list == nullptr) return require_nothing(folder, kind);
+  require_kind(folder, kind, *list);
   for (const FileHash& f : list->files)
-    if (!is_left_alone(f.file)) require_unchanged(folder, *list, f.file);
+    if (!is_left_alone(kind, f.file)) require_unchanged(folder, *list, f.file);
   for (const fs::directory_entry& entry : entries_of(folder)) {
     const std::string name = entry.path().filename().string();
     if (is_taken(name)) require_unchanged(folder, *list, name);
@@ -172,7 +189,8 @@ void require_own(const fs::path& folder, const std::string& kind, const FileList
     require_unchanged(folder, *list, "traces/" + entry.path().filename().string());
 }
 
-void require_redrawable(const fs::path& folder, const FileList* list) {
+void require_redrawable(const fs::path& folder, const std::string& kind, const FileList* list) {
+  if (list != nullptr) require_kind(folder, kind, *list);
   const FileList none;
   if (list == nullptr) list = &none;
   require_unchanged(folder, *list, "report.md");
@@ -194,11 +212,19 @@ void require_out_of_the_way(const fs::path& folder, const FileList* list,
                             const std::vector<std::string>& files) {
   const FileList none;
   if (list == nullptr) list = &none;
-  for (const std::string& file : files)
-    if (is_there(folder / file) && !list->wrote(folder, file))
-      throw ConfigError(
-          (folder / file).string(),
-          "is in the way of the report and not what gapscope wrote there, expected it elsewhere");
+  std::error_code problem;
+  const fs::path traces = folder / "traces";
+  if (is_there(traces) && !fs::is_directory(fs::symlink_status(traces, problem)))
+    throw ConfigError(traces.string(), "is no folder of gapscope's any more, expected it as it was");
+  const auto in_the_way = [&](const std::string& file) {
+    throw ConfigError((folder / file).string(),
+                      "is in the way of the report and not what gapscope wrote there, expected it elsewhere");
+  };
+  for (const std::string& file : files) {
+    if (is_there(folder / file) && !list->wrote(folder, file)) in_the_way(file);
+    if (file == "results.sqlite")  // of another one what SQLite keeps beside it would become part of this one
+      for (const std::string& other : files_left_alone(folder, "campaign")) in_the_way(other);
+  }
 }
 
 std::string why_not_together(const fs::path& folder, const char* result, const std::string& version,
@@ -216,22 +242,45 @@ std::string why_not_together(const fs::path& folder, const char* result, const s
          " that stood in this folder was dropped, as it was made from " + what + ".";
 }
 
+namespace {
+
+/// Renames that can be taken back.
+class Moves {
+ public:
+  void move(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::create_directories(to.parent_path(), error);
+    if (!error) fs::rename(from, to, error);
+    if (error) throw std::runtime_error(from.string() + ": cannot be replaced: " + error.message());
+    done_.emplace_back(from, to);
+  }
+  void take_back() noexcept {
+    std::error_code ignored;
+    for (; !done_.empty(); done_.pop_back()) fs::rename(done_.back().second, done_.back().first, ignored);
+  }
+
+ private:
+  std::vector<std::pair<fs::path, fs::path>> done_;
+};
+
+}  // namespace
+
 void replace_files(const fs::path& from, const fs::path& to, const std::vector<std::string>& fresh,
-                   const std::vector<std::string>& stale, bool (*is_result)(const std::string&)) {
-  const auto remove = [&](const std::string& file) {
-    std::error_code error;
-    fs::remove(to / file, error);
-    if (error) throw std::runtime_error((to / file).string() + ": cannot be removed: " + error.message());
+                   const std::vector<std::string>& stale, const fs::path& aside,
+                   bool (*is_result)(const std::string&)) {
+  Moves moves;
+  const auto away = [&](const std::string& file) {
+    if (is_there(to / file)) moves.move(to / file, aside / file);
   };
-  for (const auto* files : {&fresh, &stale})
-    for (const std::string& file : *files)
-      if (is_result(file)) remove(file);
-  for (const std::string& file : stale) remove(file);
-  for (const std::string& file : fresh) {
-    std::error_code error;
-    fs::create_directories((to / file).parent_path(), error);
-    if (!error) fs::rename(from / file, to / file, error);
-    if (error) throw std::runtime_error((to / file).string() + ": cannot be written: " + error.message());
+  try {
+    for (const bool results : {true, false})
+      for (const auto* files : {&fresh, &stale})
+        for (const std::string& file : *files)
+          if (is_result(file) == results) away(file);
+    for (const std::string& file : fresh) moves.move(from / file, to / file);
+  } catch (...) {
+    moves.take_back();
+    throw;
   }
   std::error_code ignored;
   fs::remove(to / "traces", ignored);  // if it is empty

@@ -23,16 +23,18 @@ std::vector<std::string> files_below(const std::filesystem::path& folder);
 /// Whether a report is drawn from it.
 bool is_stored(const std::string& file);
 
-/// Files that others write and watch over: the store of a campaign, the labels and answers of a blind check.
-bool is_left_alone(const std::string& file);
-std::vector<std::string> files_left_alone(const std::filesystem::path& folder);  ///< that are there
+/// Files of a kind that others write and watch over: the store of a campaign, the labels and answers of a
+/// blind check.
+bool is_left_alone(const std::string& kind, const std::string& file);
+std::vector<std::string> files_left_alone(const std::filesystem::path& folder,
+                                          const std::string& kind);  ///< there are
 
 /// Removes what processes left that were killed while they wrote into the folder.
 void remove_left_behind(const std::filesystem::path& folder);
 
 // Each throws ConfigError naming what is not gapscope's own.  @param list  of the folder, or nullptr
 void require_own(const std::filesystem::path& folder, const std::string& kind, const FileList* list);
-void require_redrawable(const std::filesystem::path& folder, const FileList* list);
+void require_redrawable(const std::filesystem::path& folder, const std::string& kind, const FileList* list);
 void require_no_input(const std::filesystem::path& folder, const FileList* list,
                       const std::vector<std::string>& inputs);
 void require_out_of_the_way(const std::filesystem::path& folder, const FileList* list,
@@ -42,10 +44,11 @@ void require_out_of_the_way(const std::filesystem::path& folder, const FileList*
 std::string why_not_together(const std::filesystem::path& folder, const char* result,
                              const std::string& version, const std::vector<FileHash>& sources);
 
-/// Moves fresh files over and removes stale ones; results go first and come last, so that none is ever found
-/// beside traces of another.  @throws std::runtime_error
+/// Moves fresh files over and stale ones away; results go first and come last, so that none is ever found
+/// beside traces of another. What cannot be done is undone: the folder is then as it was.
+/// @param aside  a folder of the same file system for what is replaced  @throws std::runtime_error
 void replace_files(const std::filesystem::path& from, const std::filesystem::path& to,
                    const std::vector<std::string>& fresh, const std::vector<std::string>& stale,
-                   bool (*is_result)(const std::string&));
+                   const std::filesystem::path& aside, bool (*is_result)(const std::string&));
 
 }  // namespace gapscope::internal

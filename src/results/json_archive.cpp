@@ -28,8 +28,9 @@ std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-void save_json(const std::string& path, const Json& json) {
-  write_whole_file(path, [&](std::ostream& out) { out << text_of(json, 1) << '\n'; });
+void save_json(const std::string& path, const Json& json, bool replace) {
+  write_whole_file(
+      path, [&](std::ostream& out) { out << text_of(json, 1) << '\n'; }, replace);
 }
 
 namespace {
@@ -40,9 +41,11 @@ constexpr std::uintmax_t kMostBytes = 256u << 20;  ///< of a stored result; its 
 std::string text_of_file(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code problem;
-  const bool regular = fs::is_regular_file(path, problem);
+  const fs::file_status there = fs::status(path, problem);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw ConfigError(path, "is no regular file, expected a stored result");
   std::ifstream in(path, std::ios::binary);
-  if (!in || !regular) throw ConfigError(path, "there is no such file, expected a stored result");
+  if (!in) throw ConfigError(path, "there is no such file, expected a stored result");
   if (fs::file_size(path) > kMostBytes)
     throw ConfigError(path, "is larger than 256 MiB, expected a stored result");
   return {std::istreambuf_iterator<char>(in), {}};

@@ -34,7 +34,7 @@ std::string shown(const Json& json);
 std::string text_of(const Json& json, int indent);
 
 /// Text of a JSON document with a final newline; doubles come out shortest and read back the same.
-void save_json(const std::string& path, const Json& json);
+void save_json(const std::string& path, const Json& json, bool replace = true);
 /// @throws ConfigError where the file is missing or no JSON.
 Json load_json(const std::string& path);
 /// @param file for messages  @throws ConfigError where the text is no JSON

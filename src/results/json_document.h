@@ -8,11 +8,11 @@ namespace gapscope::internal {
 
 /// A file that is one struct after the name of its schema.
 template <class Struct>
-void write_document(const std::string& path, std::string schema, Struct value) {
+void write_document(const std::string& path, std::string schema, Struct value, bool replace = true) {
   JsonWriter writer;
   writer("schema", schema);
   fields(writer, value);
-  save_json(path, writer.json);
+  save_json(path, writer.json, replace);
 }
 
 /// @throws ConfigError for another schema or a damaged file.

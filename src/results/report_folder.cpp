@@ -63,7 +63,7 @@ ReportFolder ReportFolder::to_redraw(const std::string& folder, FolderKind kind)
 
 ReportFolder::ReportFolder(const std::string& folder, FolderKind kind, const std::vector<std::string>& inputs,
                            bool redraw)
-    : kind_(kind), final_(without_trailing_slash(folder).string()) {
+    : kind_(kind), redraw_(redraw), final_(without_trailing_slash(folder).string()) {
   try {
     make_target();
     take(inputs, redraw);
@@ -117,9 +117,10 @@ void ReportFolder::take(const std::vector<std::string>& inputs, bool redraw) {
   if (lock_->held_by_another())
     throw ConfigError(final_, "is being written by another process, expected one at a time");
   internal::remove_left_behind(final_);
+  list_hash_ = hash_of_list();
   if (auto list = internal::read_file_list(final_)) before_ = std::make_unique<FileList>(*std::move(list));
   if (redraw)
-    internal::require_redrawable(final_, before_.get());
+    internal::require_redrawable(final_, internal::word_of(kind_), before_.get());
   else
     internal::require_own(final_, internal::word_of(kind_), before_.get());
   internal::require_no_input(final_, before_.get(), inputs);
@@ -134,16 +135,22 @@ void ReportFolder::make_partial() {
   if (!mark.flush()) refuse_to_write(final_, "no room for a file");
 }
 
-/// Needs no more handles than there are: where they ran out, a folder can still be removed file by file.
+/// The mark goes last, and needs no more handles than there are: where they ran out, it still goes.
 void ReportFolder::clear() noexcept {
   lock_.reset();
   std::error_code ignored;
   if (!partial_.empty()) {
+    std::vector<fs::path> content;
+    for (const fs::directory_entry& entry : fs::directory_iterator(partial_, ignored))
+      content.push_back(entry.path());
+    for (const fs::path& path : content)
+      if (path.filename() != internal::kMark) fs::remove_all(path, ignored);
     fs::remove(partial_ + "/" + internal::kMark, ignored);
-    if (!fs::remove(partial_, ignored) || ignored) fs::remove_all(partial_, ignored);
+    rmdir(partial_.c_str());
   }
   partial_.clear();
-  for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), ignored);  // unless something is in it
+  for (; !made_.empty(); made_.pop_back())
+    rmdir(made_.back().c_str());  // a folder that is empty, nothing else
 }
 
 void ReportFolder::leave() {
@@ -182,41 +189,71 @@ void ReportFolder::keep_diagnosis(const std::string& version, const std::vector<
     keep("diagnosis.json", {"fitted.yaml", "next_experiment.yaml", "next_experiment.csv"}, true);
 }
 
-void ReportFolder::move_list(const FileList& list) {
-  internal::write_file_list(partial_, list);
-  std::error_code error;
-  fs::rename(fs::path(partial_) / internal::kFileList, fs::path(final_) / internal::kFileList, error);
-  if (error) fail(fs::path(final_) / internal::kFileList, "cannot be written: " + error.message());
+/// Of the list as it is now; empty where there is none.
+std::string ReportFolder::hash_of_list() const {
+  const std::string path = final_ + "/" + internal::kFileList;
+  std::error_code problem;
+  return fs::exists(fs::symlink_status(path, problem)) ? sha256_of_file(path) : "";
 }
 
-void ReportFolder::commit() {
-  const fs::path to = final_, from = partial_;
-  std::vector<std::string> fresh, stale;
-  for (const std::string& file : internal::files_below(from))
-    if (!kept_.contains(file) && file != internal::kMark) fresh.push_back(file);
-  std::stable_partition(fresh.begin(), fresh.end(), [](const std::string& f) { return !is_result(f); });
-  FileList after{version(), internal::word_of(kind_), dropped_, {}};
-  for (const std::string& file : fresh) after.files.push_back(listed(from, file));
-  FileList meanwhile = after;
-  if (before_) {
-    for (const FileHash& old : before_->files) {
-      meanwhile.files.push_back(old);
-      if (kept_.contains(old.file))
-        after.files.push_back(old);
-      else if (!after.holds(old.file) && !internal::is_left_alone(old.file))
-        stale.push_back(old.file);
-    }
+void ReportFolder::write_list(const char* place, const FileList& list) const {
+  const fs::path folder = fs::path(partial_) / place;
+  fs::create_directory(folder);
+  internal::write_file_list(folder, list);
+}
+
+void ReportFolder::move_list(const char* place) const {
+  std::error_code error;
+  const fs::path list = fs::path(final_) / internal::kFileList;
+  fs::rename(fs::path(partial_) / place / internal::kFileList, list, error);
+  if (error) fail(list, "cannot be written: " + error.message());
+}
+
+/// What the folder will list, and what of the earlier report goes.
+FileList ReportFolder::list_after(const std::vector<std::string>& fresh,
+                                  std::vector<std::string>& stale) const {
+  const std::string kind = internal::word_of(kind_);
+  FileList after{version(), kind, dropped_, {}};
+  for (const std::string& file : fresh) after.files.push_back(listed(partial_, file));
+  for (const FileHash& old : before_ ? before_->files : std::vector<FileHash>{}) {
+    if (after.holds(old.file) || internal::is_left_alone(kind, old.file)) continue;
+    const bool drawn = old.file == "report.md" || fs::path(old.file).extension() == ".png";
+    const bool stays = kept_.contains(old.file) || (redraw_ && !drawn);
+    if (stays)
+      after.files.push_back(old);
+    else if (before_->wrote(final_, old.file))
+      stale.push_back(old.file);
   }
-  for (const std::string& file : internal::files_left_alone(to))
+  for (const std::string& file : internal::files_left_alone(final_, kind))
     if (!after.holds(file)) after.files.push_back({file, ""});
   const auto by_name = [](const FileHash& a, const FileHash& b) { return a.file < b.file; };
   std::sort(after.files.begin(), after.files.end(), by_name);
-  internal::require_out_of_the_way(to, before_.get(), fresh);
-  std::erase_if(stale, [&](const std::string& f) { return !before_->wrote(to, f); });
-  move_list(meanwhile);  // whatever ends this process now, what is ours is known
+  return after;
+}
+
+void ReportFolder::commit() {
+  std::vector<std::string> fresh, stale;
+  for (const std::string& file : internal::files_below(partial_))
+    if (!kept_.contains(file)) fresh.push_back(file);
+  std::stable_partition(fresh.begin(), fresh.end(), [](const std::string& f) { return !is_result(f); });
+  const FileList after = list_after(fresh, stale);
+  FileList meanwhile = after;  // whatever ends this process on the way, what is ours is known
+  if (before_) meanwhile.files.insert(meanwhile.files.end(), before_->files.begin(), before_->files.end());
+  write_list(".meanwhile", meanwhile);
+  write_list(".after", after);
+  if (hash_of_list() != list_hash_)
+    throw ConfigError(final_ + "/" + internal::kFileList, "changed during the work, expected it as it was");
+  internal::require_out_of_the_way(final_, before_.get(), fresh);
+  move_list(".meanwhile");
   made_.clear();
-  internal::replace_files(from, to, fresh, stale, is_result);
-  move_list(after);
+  try {
+    internal::replace_files(partial_, final_, fresh, stale, partial_ + "/.replaced", is_result);
+  } catch (...) {
+    if (before_) write_list(".after", *before_);
+    if (before_) move_list(".after");
+    throw;
+  }
+  move_list(".after");
   clear();
 }
 

@@ -6,21 +6,46 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <memory>
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
 
 namespace gapscope {
 
+namespace {
+
+/// A hash of what comes in pieces.
+class Digest {
+ public:
+  Digest() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    require(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+  }
+  void add(std::string_view bytes) {
+    require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
+  }
+  std::string hex() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned size = 0;
+    require(EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1);
+    std::string text;
+    for (unsigned i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+    return text;
+  }
+
+ private:
+  static void require(bool done) {
+    if (!done) throw std::runtime_error("SHA-256 is not available");
+  }
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+}  // namespace
+
 std::string sha256(std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("SHA-256 is not available");
-  std::string hex;
-  for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
-  return hex;
+  Digest digest;
+  digest.add(bytes);
+  return digest.hex();
 }
 
 std::string sha256_of_file(const std::string& path) {
@@ -28,10 +53,13 @@ std::string sha256_of_file(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, problem))
     throw ConfigError(path, "is no regular file, expected one that can be read");
   std::ifstream in(path, std::ios::binary);
-  std::ostringstream bytes;
-  if (in.peek() != std::ifstream::traits_type::eof()) bytes << in.rdbuf();
-  if (!in.is_open() || in.bad() || bytes.fail()) throw ConfigError(path, "cannot be read, expected a file");
-  return sha256(bytes.str());
+  if (!in.is_open()) throw ConfigError(path, "cannot be read, expected a readable file");
+  Digest digest;
+  std::string piece(1 << 20, '\0');
+  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0)
+    digest.add(std::string_view(piece).substr(0, static_cast<std::size_t>(in.gcount())));
+  if (in.bad()) throw ConfigError(path, "cannot be read, expected a readable file");
+  return digest.hex();
 }
 
 }  // namespace gapscope

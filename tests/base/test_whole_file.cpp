@@ -46,6 +46,17 @@ TEST(WholeFile, LeavesWhatIsThereUntilItIsWhole) {
   EXPECT_EQ(std::distance(fs::directory_iterator(place.folder()), {}), 1);
 }
 
+TEST(WholeFile, LeavesWhatCameMeanwhile) {
+  const testing::TemporaryFile place("");
+  const std::string path = (place.folder() / "new").string();
+  const auto write = [&](std::ostream& out) {
+    out << "new";
+    std::ofstream(path) << "precious";
+  };
+  EXPECT_THROW(write_whole_file(path, write, false), ConfigError);
+  EXPECT_EQ(text_of(path), "precious");
+}
+
 TEST(WholeFile, ReplacesNoLink) {
   const testing::TemporaryFile place("old");
   const fs::path link = place.folder() / "link";

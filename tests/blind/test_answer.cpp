@@ -141,6 +141,34 @@ TEST(BlindAnswer, TakesNoFileOfSomebodyElse) {
   }
 }
 
+TEST(BlindAnswer, KeepsNoAnswerThatWasPutIntoItsJournal) {
+  const Answered check;
+  const BlindAnswers whole = check.answers();
+  const auto changes = std::vector<void (*)(BlindAnswer&)>{
+      [](BlindAnswer& a) { a.verdict = "effect"; }, [](BlindAnswer& a) { a.verdict = "perhaps"; },
+      [](BlindAnswer& a) { a.files[0].sha256[0] ^= 1; },
+      [](BlindAnswer& a) { a.headline.assign(200000, '1'); }};
+  for (const auto change : changes) {
+    BlindAnswer forged = whole.cases[0];
+    change(forged);
+    std::ofstream(check.path("again.json.partial"))
+        << "manifest " << whole.manifest_sha256 << ", gapscope " << whole.version << "\n"
+        << line_of(forged) << "\n";
+    EXPECT_THAT(refusal([&] { answer_blind_check(check.path("cases"), check.path("again.json"), 1); }),
+                HasSubstr("again.json.partial: "));
+  }
+}
+
+TEST(BlindAnswer, TakesNoRecordingThatWasNotSealed) {
+  const Answered check;
+  const std::string path = check.path("cases/manifest.json");
+  BlindManifest manifest = read_blind_manifest(path);
+  manifest.cases[0].files.erase(manifest.cases[0].files.begin() + 1);
+  write_blind_manifest(path, manifest);
+  EXPECT_THAT(refusal([&] { answer_blind_check(check.path("cases"), check.path("again.json"), 1); }),
+              HasSubstr("expected a recording that was sealed with it"));
+}
+
 TEST(BlindCheck, ScoresWhatNobodyChanged) { EXPECT_EQ(Answered().score(), ""); }
 
 TEST(BlindCheck, RefusesAChangedAnswer) {

@@ -231,7 +231,10 @@ TEST(Seal, TakesOwnRecordingsAndRefusesLabelsThatAreIncomplete) {
     return refusal([&] { seal_blind_check(check.folder(), check.labels()); });
   };
   labels.cases[0].seed = "", labels.cases[0].severity = kNaN, labels.cases[0].effects = {"a bent shaft"};
+  EXPECT_THAT(sealed(), HasSubstr("manifest.json: is there and seals something else"));
+  fs::remove(check.folder() + "/manifest.json");
   EXPECT_EQ(sealed(), "");
+  EXPECT_EQ(sealed(), "") << "the same once more";
   EXPECT_NO_THROW(verify_labels(check.manifest(), read_blind_labels(check.labels()), check.labels()));
   labels.cases[0].salt = "short";
   EXPECT_THAT(sealed(), HasSubstr("salt of 5 characters, expected at least 16"));

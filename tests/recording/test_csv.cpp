@@ -71,6 +71,8 @@ TEST(Csv, NumbersThatNoDriveHasAreRefusedWithTheirLine) {
   for (const char* number : {"1e300", "-1.7e308", "1e200"})
     EXPECT_THAT(refusal("t,u,x1\n" + rows(60) + "0.06,0," + number + "\n"),
                 HasSubstr("r.csv:62: x1 is '" + std::string(number) + "', expected at most 1e+15 in size"));
+  EXPECT_THAT(refusal("t,u,x1\n" + rows(60) + "0.06,0,1" + std::string(400, '0') + "e-50\n"),
+              HasSubstr("expected a finite number"));
   std::string fast = "t,u,x1\n";
   for (int i = 0; i < 60; ++i) fast += std::to_string(i) + "e-300,0,0\n";
   EXPECT_THAT(refusal(fast), HasSubstr("from row to row, expected 1e-10 to 1e+09 s"));

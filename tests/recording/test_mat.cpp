@@ -1,6 +1,7 @@
 // Recordings as .mat: the files are written by matio, those of version 5 read without it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <sys/resource.h>
 
 #include <cmath>
@@ -167,6 +168,49 @@ INSTANTIATE_TEST_SUITE_P(Mat, EveryVersion,
                                            Version{"v5_deflated", MAT_FT_MAT5, MAT_COMPRESSION_ZLIB},
                                            Version{"v7_3", MAT_FT_MAT73, MAT_COMPRESSION_ZLIB}),
                          [](const auto& version) { return std::string(version.param.name); });
+
+/// A file of version 7.3 with t, u and x1, and what is done to it.
+template <class Change>
+std::string refusal_of_changed(Change change) {
+  const testing::TemporaryFile place("", "r.mat");
+  std::vector<double> t;
+  for (int i = 0; i < 60; ++i) t.push_back(0.001 * i);
+  MatWriter(place.path(), MAT_FT_MAT73).column("t", t).column("u", t).column("x1", t);
+  const hid_t file = H5Fopen(place.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  change(file);
+  H5Fclose(file);
+  return testing::refusal([&] { read_recording(place.path()); });
+}
+
+TEST(Mat, DataInOtherFilesAreNotFollowed) {
+  EXPECT_EQ(refusal_of_changed([](hid_t) {}), "");
+  EXPECT_EQ(
+      refusal_of_changed([](hid_t file) { H5Lcreate_soft("/x1", file, "y", H5P_DEFAULT, H5P_DEFAULT); }), "");
+  EXPECT_THAT(refusal_of_changed([](hid_t file) {
+                H5Ldelete(file, "x1", H5P_DEFAULT);
+                H5Lcreate_external("/etc/passwd", "/x1", file, "x1", H5P_DEFAULT, H5P_DEFAULT);
+              }),
+              HasSubstr("keeps data in other files"));
+  EXPECT_THAT(refusal_of_changed([](hid_t file) {
+                H5Ldelete(file, "x1", H5P_DEFAULT);
+                const hsize_t size[2] = {60, 1};
+                const hid_t space = H5Screate_simple(2, size, nullptr), made = H5Pcreate(H5P_DATASET_CREATE);
+                H5Pset_external(made, "/etc/passwd", 0, 480);
+                H5Dclose(H5Dcreate2(file, "x1", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, made, H5P_DEFAULT));
+                H5Pclose(made), H5Sclose(space);
+              }),
+              HasSubstr("keeps data in other files"));
+}
+
+TEST(Mat, AVariableThatIsMarkedAsEmptyHasNoNumbers) {
+  EXPECT_THAT(refusal_of_changed([](hid_t file) {
+                const hid_t space = H5Screate(H5S_SCALAR);
+                H5Aclose(H5Acreate_by_name(file, "x1", "MATLAB_empty", H5T_NATIVE_UINT8, space, H5P_DEFAULT,
+                                           H5P_DEFAULT, H5P_DEFAULT));
+                H5Sclose(space);
+              }),
+              HasSubstr("'x1' is damaged"));
+}
 
 TEST(Mat, AFileOfAnotherKindIsNone) {
   const TemporaryFile text("t,u,x1\n0,0,0\n", "log.MAT");

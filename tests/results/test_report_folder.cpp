@@ -186,6 +186,95 @@ TEST(ReportFolder, RemovesWhatAKilledProcessLeftAndNothingThatLooksLikeIt) {
   EXPECT_TRUE(fs::exists(rig / ".gapscope-partial-backup/photo.png"));
 }
 
+TEST(ReportFolder, RemovesNothingThatCameInItsPlace) {
+  ScratchFolder scratch;
+  const fs::path target = scratch.path / "new";
+  {
+    ReportFolder folder(target.string(), FolderKind::kDrive);
+    fs::remove_all(target);
+    put(target, "precious");
+  }
+  EXPECT_EQ(text_of(target), "precious");
+}
+
+TEST(ReportFolder, RefusesAListThatChangedDuringTheWork) {
+  ScratchFolder scratch;
+  for (const bool before : {false, true}) {
+    const fs::path target = scratch.path / (before ? "old" : "new");
+    if (before) write(target, {"result.json"}, "old");
+    ReportFolder folder(target.string(), FolderKind::kDrive);
+    put(fs::path(folder.path()) / "result.json", "new");
+    put(target / "files.json", "a list of mine");
+    EXPECT_THAT(refusal([&] { folder.commit(); }), HasSubstr("files.json: changed during the work"));
+    EXPECT_EQ(text_of(target / "files.json"), "a list of mine");
+  }
+}
+
+TEST(ReportFolder, FollowsNoLinkThatWasPutDuringTheWork) {
+  ScratchFolder scratch;
+  const fs::path target = scratch.path / "rig";
+  write(target, {"result.json", "traces/1_a.csv"}, "old");
+  ReportFolder folder(target.string(), FolderKind::kDrive);
+  put(fs::path(folder.path()) / "traces/1_a.csv", "new");
+  fs::rename(target / "traces", scratch.path / "kept");
+  fs::create_directory_symlink(scratch.path / "kept", target / "traces");
+  EXPECT_THAT(refusal([&] { folder.commit(); }),
+              HasSubstr("rig/traces: is no folder of gapscope's any more"));
+  EXPECT_EQ(text_of(scratch.path / "kept/1_a.csv"), "old");
+}
+
+TEST(ReportFolder, IsAsItWasWhereAFileCannotBeReplaced) {
+  ScratchFolder scratch;
+  const fs::path target = scratch.path / "rig";
+  write(target, {"result.json", "report.md", "traces/1_a.csv"}, "old");
+  const std::string list = text_of(target / "files.json");
+  ReportFolder folder(target.string(), FolderKind::kDrive);
+  for (const char* name : {"result.json", "report.md"}) put(fs::path(folder.path()) / name, "new");
+  fs::create_directory(fs::path(folder.path()) / ".replaced");
+  put(fs::path(folder.path()) / ".replaced/traces", "in the way of what goes there");
+  EXPECT_THROW(folder.commit(), std::runtime_error);
+  for (const char* name : {"result.json", "report.md", "traces/1_a.csv"})
+    EXPECT_EQ(text_of(target / name), "old");
+  EXPECT_EQ(text_of(target / "files.json"), list);
+}
+
+TEST(ReportFolder, LeavesStoresAndChecksToTheirOwnKind) {
+  for (const char* name : {"results.sqlite", "labels.json", "answers.json", "cases/manifest.json"}) {
+    ScratchFolder scratch;
+    put(scratch.path / name, "somebody's");
+    EXPECT_THAT(refused(scratch.path), HasSubstr("and no report of gapscope")) << name;
+  }
+  ScratchFolder scratch;
+  put(scratch.path / "results.sqlite-journal", "left by a kill");
+  EXPECT_EQ(refused(scratch.path, FolderKind::kCampaign), "");
+  put(scratch.path / ".gapscope-123-456", "left by a kill");
+  EXPECT_EQ(refused(scratch.path, FolderKind::kCampaign), "");
+}
+
+TEST(ReportFolder, DrawsNoReportOfAnotherKindAgain) {
+  ScratchFolder scratch;
+  write(scratch.path, {"gap_1.csv", "truth.csv"}, "recorded", FolderKind::kDrives);
+  put(scratch.path / "result.json", "copied here");
+  EXPECT_THAT(refusal([&] { ReportFolder::to_redraw(scratch.path.string(), FolderKind::kDrive); }),
+              HasSubstr("another kind (drives)"));
+}
+
+TEST(ReportFolder, TakesNoMergeBesideTheLogOfAnotherStore) {
+  ScratchFolder scratch;
+  put(scratch.path / "results.sqlite-wal", "of another one");
+  ReportFolder folder(scratch.path.string(), FolderKind::kCampaign);
+  put(fs::path(folder.path()) / "results.sqlite", "merged");
+  EXPECT_THAT(refusal([&] { folder.commit(); }), HasSubstr("results.sqlite-wal: is in the way"));
+}
+
+TEST(ReportFolder, AnEntryWithoutAHashIsBelievedOfWallTimesOnly) {
+  ScratchFolder scratch;
+  put(scratch.path / "notes.txt", "mine");
+  put(scratch.path / "files.json",
+      R"({"schema": "gapscope.files/1", "version": "1", "kind": "drive", "dropped": "", "files": [{"file": "notes.txt", "sha256": ""}]})");
+  EXPECT_THAT(refused(scratch.path), HasSubstr("'notes.txt', which was changed"));
+}
+
 TEST(ReportFolder, IsWrittenByOneAtATime) {
   ScratchFolder scratch;
   ReportFolder first((scratch.path / "rig").string(), FolderKind::kDrive);

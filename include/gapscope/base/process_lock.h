@@ -14,6 +14,7 @@ class ProcessLock {
   ProcessLock& operator=(const ProcessLock&) = delete;
 
   bool held_by_another() const { return held_by_another_; }
+  int handle() const { return handle_; }  ///< of the file that is locked; below 0: there is none
 
  private:
   int handle_;

@@ -15,6 +15,8 @@ std::string new_file_beside(const std::string& path);
 /// pipe or a device is written as it is.
 /// @throws std::runtime_error where it cannot be written, ConfigError for a link to another file, which would
 /// be lost; nothing is left of it
-void write_whole_file(const std::string& path, const std::function<void(std::ostream&)>& write);
+/// @param replace  false: a file that is there by then stays, and is told
+void write_whole_file(const std::string& path, const std::function<void(std::ostream&)>& write,
+                      bool replace = true);
 
 }  // namespace gapscope

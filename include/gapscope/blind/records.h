@@ -34,6 +34,7 @@ struct SealedCase {
   std::string part;
   std::string label_sha256;     ///< see label_hash()
   std::vector<FileHash> files;  ///< the data sheet (YAML), then its recordings
+  bool operator==(const SealedCase&) const = default;
 };
 
 struct BlindManifest {

@@ -45,6 +45,6 @@ Recording read_recording(const std::string& path, const ReadOptions& options = {
 
 /// Writes t, u, x1 and, where known, x2 and mode, so that read_recording() returns the same numbers.
 /// @throws std::runtime_error if the file cannot be written.
-void write_csv(const std::string& path, const Recording& recording);
+void write_csv(const std::string& path, const Recording& recording, bool replace = true);
 
 }  // namespace gapscope

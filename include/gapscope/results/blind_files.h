@@ -8,7 +8,8 @@
 /// reader ConfigError for another schema or a damaged file.
 namespace gapscope {
 
-void write_blind_labels(const std::string& path, const BlindLabels& labels);
+/// @param replace  false: labels that are there stay, and are told by a ConfigError
+void write_blind_labels(const std::string& path, const BlindLabels& labels, bool replace = true);
 BlindLabels read_blind_labels(const std::string& path);
 
 void write_blind_manifest(const std::string& path, const BlindManifest& manifest);

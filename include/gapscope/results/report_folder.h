@@ -69,11 +69,16 @@ class ReportFolder {
   void make_partial();
   void keep(const char* result, const std::vector<const char*>& others, bool held_out_traces);
   void take_over(const std::string& file);
-  void move_list(const internal::FileList& list);
+  std::string hash_of_list() const;
+  void write_list(const char* place, const internal::FileList& list) const;
+  void move_list(const char* place) const;
+  internal::FileList list_after(const std::vector<std::string>& fresh, std::vector<std::string>& stale) const;
   void clear() noexcept;
 
   FolderKind kind_;
+  bool redraw_;
   std::string final_, partial_, dropped_;
+  std::string list_hash_;          ///< of files.json as it was found; empty: there was none
   std::vector<std::string> made_;  ///< folders, the outermost first
   std::set<std::string> kept_;     ///< files that stay as they are
   std::unique_ptr<internal::FileList> before_;
