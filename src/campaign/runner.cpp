@@ -123,7 +123,8 @@ CampaignProgress run_campaign(const CampaignConfig& c, CampaignStore& store, int
     const bool failed = !row.error.empty();
     if (failed) require_same_recordings(c, store);
     if (internal::state_of(recordings) != state)
-      throw std::runtime_error("a recording was touched while the campaign ran: begin it anew");
+      throw std::runtime_error(
+          "a recording changed while the campaign ran: where it is as before, the same command goes on");
     store.add(std::move(row), timing);
     const std::lock_guard lock(mutex);
     ++progress.done;

@@ -48,6 +48,11 @@ FileHash listed(const fs::path& folder, const std::string& file) {
   return {file, varies ? "" : sha256_of_file((folder / file).string())};
 }
 
+/// Whether a file is as this entry has it.
+bool is_still(const fs::path& folder, const FileHash& entry) {
+  return FileList{"", "", "", {entry}}.wrote(folder, entry.file);
+}
+
 }  // namespace
 
 ReportFolder::ReportFolder(const std::string& folder, FolderKind kind, const std::vector<std::string>& inputs)
@@ -218,10 +223,10 @@ FileList ReportFolder::list_after(const std::vector<std::string>& fresh,
   for (const FileHash& old : before_ ? before_->files : std::vector<FileHash>{}) {
     if (after.holds(old.file) || internal::is_left_alone(kind, old.file)) continue;
     const bool drawn = old.file == "report.md" || fs::path(old.file).extension() == ".png";
-    const bool stays = kept_.contains(old.file) || (redraw_ && !drawn);
-    if (stays)
+    if (!is_still(final_, old)) continue;  // nor of the two that a killed process left of one name
+    if (kept_.contains(old.file) || (redraw_ && !drawn))
       after.files.push_back(old);
-    else if (before_->wrote(final_, old.file))
+    else
       stale.push_back(old.file);
   }
   for (const std::string& file : internal::files_left_alone(final_, kind))

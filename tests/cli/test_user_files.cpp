@@ -119,7 +119,7 @@ TEST_F(UserFiles, AFileIsOnlyWrittenOverByTheCommandThatWroteIt) {
   place_.file("own/manifest.json", "{}");
   place_.file("own/labels.json",
               R"({"schema": "gapscope.blind_labels/1", "name": "k", "configuration": null, "cases": []})");
-  expect_refused("blind seal own own/labels.json", "own/manifest.json: is there and no manifest");
+  expect_refused("blind seal own own/labels.json", "own/manifest.json: is there and seals something else");
   for (int again = 0; again < 2; ++again) {
     EXPECT_EQ(place_.run("simulate c.yaml -o new.csv").status, 0);
     EXPECT_NE(place_.run("check drive.csv -o new.json").status, 2);

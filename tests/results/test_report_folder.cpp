@@ -114,6 +114,20 @@ TEST(ReportFolder, RefusesWhatTheUserPutInItsPlaceOrChanged) {
               HasSubstr("holds 'overview.png', which was changed since gapscope wrote it"));
 }
 
+TEST(ReportFolder, KnowsItsFilesAlsoWhereAKillLeftTwoHashesOfOne) {
+  ScratchFolder scratch;
+  write(scratch.path, {"result.json", "report.md"}, "old");
+  std::string list = text_of(scratch.path / "files.json");
+  const std::size_t at = list.find("  {\n   \"file\": \"report.md\"");
+  ASSERT_NE(at, list.npos);
+  list.insert(at,
+              "  {\n   \"file\": \"report.md\",\n   \"sha256\": \"" + std::string(64, '0') + "\"\n  },\n");
+  put(scratch.path / "files.json", list);
+  write(scratch.path, {"result.json", "report.md"}, "new");
+  EXPECT_EQ(text_of(scratch.path / "report.md"), "new");
+  EXPECT_EQ(refused(scratch.path), "");
+}
+
 TEST(ReportFolder, FollowsNoLinks) {
   ScratchFolder scratch;
   put(scratch.path / "elsewhere/1_a.csv", "t");
