@@ -100,7 +100,7 @@ void write_input_csv(const std::string& path, const NextExperiment& experiment) 
   for (std::size_t i = 0; i < experiment.u.size(); ++i)
     text += fmt::format("{},{}\n", static_cast<double>(i) / experiment.rate, experiment.u[i]);
   std::ofstream out(path);
-  if (!(out << text)) throw std::runtime_error(path + ": cannot be written");
+  if (!(out << text).flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace gapscope
