@@ -34,8 +34,7 @@ TEST(Blind, ThreeCommandsDoWhatOneDoes) {
   const std::string seal = answered.out.substr(answered.out.find("seal") + 12, 64);
   ASSERT_EQ(place.run("blind score cases labels.json answers.json -o held --seal " + seal).status, 0);
   EXPECT_THAT(text_of(place.folder() / "held/report.md"), HasSubstr("the one that was announced (" + seal));
-  EXPECT_THAT(text_of(place.folder() / "held/blind.json"),
-              HasSubstr("\"announced_seal_sha256\": \"" + seal));
+  EXPECT_THAT(text_of(place.folder() / "held/blind.json"), HasSubstr("\"announced_seal_sha256\": \"" + seal));
 }
 
 TEST(Blind, RefusesWhatWasChangedWithTheReasonAndWritesNothing) {
