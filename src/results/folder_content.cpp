@@ -159,6 +159,8 @@ void remove_left_behind(const fs::path& folder) {
     std::ifstream in(entry.path() / kMark);
     if (std::string(std::istreambuf_iterator<char>(in), {}) == kMarkText)
       fs::remove_all(entry.path(), ignored);
+    else
+      fs::remove(entry.path(), ignored);  // if it is empty: killed before the mark came, or after it went
   }
 }
 

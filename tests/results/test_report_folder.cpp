@@ -195,8 +195,10 @@ TEST(ReportFolder, RemovesWhatAKilledProcessLeftAndNothingThatLooksLikeIt) {
       "A report that is being written; may be removed when nobody writes it.\n");
   put(rig / ".gapscope-partial-abcdef/result.json", "half");
   put(rig / ".gapscope-partial-backup/photo.png", "mine");
+  fs::create_directory(rig / ".gapscope-partial-ghijkl");  // killed before its mark
   EXPECT_THAT(refused(rig), HasSubstr(".gapscope-partial-backup"));
   EXPECT_FALSE(fs::exists(rig / ".gapscope-partial-abcdef"));
+  EXPECT_FALSE(fs::exists(rig / ".gapscope-partial-ghijkl"));
   EXPECT_TRUE(fs::exists(rig / ".gapscope-partial-backup/photo.png"));
 }
 
