@@ -37,16 +37,16 @@ void make(const Arguments& a) {
   say("labels", a.labels + " (not to be handed out before the answers are in)");
 }
 
-void add_make(CLI::App& blind) {
+void add_make(CommandLine& blind) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = blind.add_subcommand("make", "Makes recordings and seals what they hide");
-  command->add_option("CONFIG", a->config, "of the check (YAML)")->required();
-  command->add_option("-o,--output", a->cases, "folder of the recordings, to be handed out")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--labels", a->labels, "file of the labels, to be kept")->required()->type_name("FILE");
-  add_work_options(*command, a->threads, a->quiet);
-  command->footer(
+  CommandLine command = blind.add_command("make", "Makes recordings and seals what they hide");
+  command.add_option("CONFIG", a->config, "of the check (YAML)").required();
+  command.add_option("-o,--output", a->cases, "folder of the recordings, to be handed out")
+      .required()
+      .value("DIR");
+  command.add_option("--labels", a->labels, "file of the labels, to be kept").required().value("FILE");
+  add_work_options(command, a->threads, a->quiet);
+  command.footer(
       "Keys of a check:\n"
       "  name         of the check (default: of the file)\n"
       "  report       the cases that are counted: {first_seed, known, outside, none, pairs}\n"
@@ -60,15 +60,15 @@ void add_make(CLI::App& blind) {
       "seeds:\n"
       "who shall not know the labels must not know these.\n\n"
       "Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
-  command->callback([a] { make(*a); });
+  command.action([a] { make(*a); });
 }
 
-void add_seal(CLI::App& blind) {
+void add_seal(CommandLine& blind) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = blind.add_subcommand("seal", "Seals own recordings and labels");
-  command->add_option("CASES", a->cases, "folder of sheets and recordings")->required();
-  command->add_option("LABELS", a->labels, "file of the labels (JSON)")->required();
-  command->footer(
+  CommandLine command = blind.add_command("seal", "Seals own recordings and labels");
+  command.add_option("CASES", a->cases, "folder of sheets and recordings").required();
+  command.add_option("LABELS", a->labels, "file of the labels (JSON)").required();
+  command.footer(
       "CASES holds <case>.yaml, a configuration for `gapscope diagnose`, and the recordings that it names.\n"
       "LABELS is {\"schema\": \"gapscope.blind_labels/1\", \"name\": ..., \"cases\": [...]}, of each case\n"
       "  name             \"axis_3\": letters, digits, _ and -\n"
@@ -82,7 +82,7 @@ void add_seal(CLI::App& blind) {
       "  salt             at least 16 characters that nobody guesses\n"
       "Writes CASES/manifest.json, which shows nothing of the labels but salted hashes.\n\n"
       "Example: gapscope blind seal cases labels.json");
-  command->callback([a] {
+  command.action([a] {
     const BlindManifest manifest = seal_blind_check(a->cases, a->labels);
     say("sealed", fmt::format("{} cases in {}/manifest.json", manifest.cases.size(), a->cases));
   });
@@ -95,18 +95,18 @@ void answer(const Arguments& a) {
   say("seal", answers.seal());
 }
 
-void add_answer(CLI::App& blind) {
+void add_answer(CommandLine& blind) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = blind.add_subcommand("answer", "Diagnoses sealed recordings and seals the answers");
-  command->add_option("CASES", a->cases, "folder with a manifest.json")->required();
-  command->add_option("-o,--output", a->answers, "file of the answers (JSON)")->required()->type_name("FILE");
-  add_work_options(*command, a->threads, a->quiet);
-  command->footer(
+  CommandLine command = blind.add_command("answer", "Diagnoses sealed recordings and seals the answers");
+  command.add_option("CASES", a->cases, "folder with a manifest.json").required();
+  command.add_option("-o,--output", a->answers, "file of the answers (JSON)").required().value("FILE");
+  add_work_options(command, a->threads, a->quiet);
+  command.footer(
       "Sees the sheets and recordings of CASES and nothing else. Stopped or killed, the same command goes "
       "on.\n"
       "The seal depends on every recording and every answer: tell it before the labels are opened.\n\n"
       "Example: gapscope blind answer cases -o answers.json");
-  command->callback([a] { answer(*a); });
+  command.action([a] { answer(*a); });
 }
 
 void write_score(ReportFolder& report, const std::string& folder, const BlindScore& score) {
@@ -121,22 +121,22 @@ void write_score(ReportFolder& report, const std::string& folder, const BlindSco
                100.0 * c.limits().low, 100.0 * c.limits().high);
 }
 
-void add_score(CLI::App& blind) {
+void add_score(CommandLine& blind) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = blind.add_subcommand("score", "Opens the labels and scores the answers");
-  command->add_option("CASES", a->cases, "folder with a manifest.json")->required();
-  command->add_option("LABELS", a->labels, "file of the labels")->required();
-  command->add_option("ANSWERS", a->answers, "file of the answers")->required();
-  command->add_option("-o,--output", a->folder, "folder of the report (default: reports/<name>)")
-      ->type_name("DIR");
-  command->add_option("--seal", a->seal, "that the answers were announced with")->type_name("SHA256");
-  command->footer(
+  CommandLine command = blind.add_command("score", "Opens the labels and scores the answers");
+  command.add_option("CASES", a->cases, "folder with a manifest.json").required();
+  command.add_option("LABELS", a->labels, "file of the labels").required();
+  command.add_option("ANSWERS", a->answers, "file of the answers").required();
+  command.add_option("-o,--output", a->folder, "folder of the report (default: reports/<name>)").value("DIR");
+  const Option seal =
+      command.add_option("--seal", a->seal, "that the answers were announced with").value("SHA256");
+  command.footer(
       "Refuses a recording, a label or an answer that is not the one that was sealed. Writes "
       "DIR/blind.json,\n"
       "report.md and figures (PNG). Sizes of mismatch are in floors.\n\n"
       "Example: gapscope blind score cases labels.json answers.json -o reports/check");
-  command->callback([a, command] {
-    if (command->get_option("--seal")->count() > 0 && a->seal.size() != 64)
+  command.action([a, seal] {
+    if (seal.given() && a->seal.size() != 64)
       throw ConfigError(
           fmt::format("gapscope: --seal is '{}', expected the 64 digits that `blind answer` told", a->seal));
     const BlindScore score = score_blind_check(a->cases, a->labels, a->answers, a->seal);
@@ -146,20 +146,19 @@ void add_score(CLI::App& blind) {
   });
 }
 
-void add_whole(CLI::App& blind) {
+void add_whole(CommandLine& blind) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = blind.add_subcommand("run", "Makes, answers and scores a check in one folder");
-  command->add_option("CONFIG", a->config, "of the check (YAML), see `gapscope blind make --help`")
-      ->required();
-  command->add_option("-o,--output", a->folder, "folder (default: reports/<name>)")->type_name("DIR");
-  add_work_options(*command, a->threads, a->quiet);
-  command->footer(
+  CommandLine command = blind.add_command("run", "Makes, answers and scores a check in one folder");
+  command.add_option("CONFIG", a->config, "of the check (YAML), see `gapscope blind make --help`").required();
+  command.add_option("-o,--output", a->folder, "folder (default: reports/<name>)").value("DIR");
+  add_work_options(command, a->threads, a->quiet);
+  command.footer(
       "Writes DIR/cases, labels.json, answers.json, blind.json, report.md and figures (PNG). Stopped or "
       "killed, "
       "the same\n"
       "command goes on.\n\n"
       "Example: gapscope blind run configs/07_blind.yaml -o reports/blind");
-  command->callback([a] {
+  command.action([a] {
     const BlindConfig config = load_blind_config(a->config);
     const std::string folder = a->folder.empty() ? "reports/" + config.name : a->folder;
     ReportFolder report(folder, FolderKind::kBlind, {a->config});
@@ -172,17 +171,17 @@ void add_whole(CLI::App& blind) {
 
 }  // namespace
 
-void add_blind(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("blind", "The blind check of the diagnosis, and recordings of random drives");
-  command->require_subcommand(1);
-  command->footer("Example: gapscope blind run configs/07_blind.yaml -o reports/blind");
-  add_make(*command);
-  add_seal(*command);
-  add_answer(*command);
-  add_score(*command);
-  add_whole(*command);
-  add_blind_drives(*command);
+void add_blind(CommandLine& app) {
+  CommandLine command =
+      app.add_command("blind", "The blind check of the diagnosis, and recordings of random drives");
+  command.needs_command();
+  command.footer("Example: gapscope blind run configs/07_blind.yaml -o reports/blind");
+  add_make(command);
+  add_seal(command);
+  add_answer(command);
+  add_score(command);
+  add_whole(command);
+  add_blind_drives(command);
 }
 
 }  // namespace gapscope::cli

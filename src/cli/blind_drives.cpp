@@ -51,15 +51,15 @@ void make_drives(const DrivesArguments& a) {
 
 }  // namespace
 
-void add_blind_drives(CLI::App& blind) {
+void add_blind_drives(CommandLine& blind) {
   auto arguments = std::make_shared<DrivesArguments>();
-  CLI::App* command = blind.add_subcommand("drives", "Records random drives on the independent plant");
-  command->add_option("--kind", arguments->kind, "gap: drives with backlash; gap_free: drives without")
-      ->check(CLI::IsMember({"gap", "gap_free"}));
-  command->add_option("--seeds", arguments->seeds, "FIRST..LAST, one drive a seed")->required();
-  command->add_option("-o", arguments->folder, "folder to write into")->required()->type_name("DIR");
-  command->add_flag("--quiet", arguments->quiet, "no progress");
-  command->footer(
+  CommandLine command = blind.add_command("drives", "Records random drives on the independent plant");
+  command.add_option("--kind", arguments->kind, "gap: drives with backlash; gap_free: drives without")
+      .one_of({"gap", "gap_free"});
+  command.add_option("--seeds", arguments->seeds, "FIRST..LAST, one drive a seed").required();
+  command.add_option("-o", arguments->folder, "folder to write into").required().value("DIR");
+  command.add_flag("--quiet", arguments->quiet, "no progress");
+  command.footer(
       "Writes per drive a recording (CSV: t [s], u, x1 [rad]) and a configuration whose model is a data "
       "sheet off\n"
       "by up to 20 %, and truth.csv with what the sheets do not say. Gap log-uniform 5 to 50 mrad, mass "
@@ -70,7 +70,7 @@ void add_blind_drives(CLI::App& blind) {
       "at least\n"
       "1.5 gaps, 1 to 10 kHz, 20/16/14/12 bit in equal shares, half with noise of 0.3 to 1.5 quanta.\n\n"
       "Example: gapscope blind drives --seeds 1..600 -o drives");
-  command->callback([arguments] { make_drives(*arguments); });
+  command.action([arguments] { make_drives(*arguments); });
 }
 
 }  // namespace gapscope::cli

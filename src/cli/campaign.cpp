@@ -137,20 +137,20 @@ void run(const Arguments& a) {
   report.commit();
 }
 
-void add_export(CLI::App& campaign) {
+void add_export(CommandLine& campaign) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = campaign.add_subcommand("export", "The runs of a campaign as CSV on standard output");
-  command->add_option("DIR", *folder, "folder of a campaign")->required();
-  command->footer(
+  CommandLine command = campaign.add_command("export", "The runs of a campaign as CSV on standard output");
+  command.add_option("DIR", *folder, "folder of a campaign").required();
+  command.footer(
       "One row per run, in the order of the runs, whatever order they finished in; no wall times. Gaps in "
       "rad.\n\n"
       "Example: gapscope campaign export reports/sampling_resolution > runs.csv");
-  command->callback([folder] {
+  command.action([folder] {
     export_campaign(CampaignStore(*folder), [](const std::string& text) { fmt::print("{}", text); });
   });
 }
 
-void add_merge(CLI::App& campaign) {
+void add_merge(CommandLine& campaign) {
   struct MergeArguments {
     std::vector<std::string> folders;
     std::string target;
@@ -168,15 +168,15 @@ void add_merge(CLI::App& campaign) {
                                       "without one to merge into",
                                       end));
   };
-  CLI::App* command = campaign.add_subcommand("merge", "One store from the shards of a campaign");
-  command->add_option("DIR", a->folders, "folders of the shards")->required();
-  command->add_option("-o,--output", a->target, "folder of the whole campaign")->required()->type_name("DIR");
-  command->footer(
+  CommandLine command = campaign.add_command("merge", "One store from the shards of a campaign");
+  command.add_option("DIR", a->folders, "folders of the shards").required();
+  command.add_option("-o,--output", a->target, "folder of the whole campaign").required().value("DIR");
+  command.footer(
       "Shards of another campaign or version are refused. Where runs are missing, `gapscope campaign CONFIG "
       "-o DIR`\n"
       "does them.\n\n"
       "Example: gapscope campaign merge shard_1 shard_2 shard_3 -o reports/sampling_resolution");
-  command->callback([a, require_new_store] {
+  command.action([a, require_new_store] {
     require_new_store(*a);
     ReportFolder report(a->target, FolderKind::kCampaign);
     const std::uint64_t merged = merge_campaigns(a->folders, report.path());
@@ -189,18 +189,18 @@ void add_merge(CLI::App& campaign) {
 
 }  // namespace
 
-void add_campaign(CLI::App& app) {
+void add_campaign(CommandLine& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("campaign", "Many runs of one configuration over axes of its parameters");
-  command->add_option("CONFIG", a->config, "campaign (YAML)");
-  command->add_option("-o,--output", a->folder, "folder of the campaign (default: reports/<name>)")
-      ->type_name("DIR");
-  command->add_option("--shard", a->shard, "only part K of N, into a folder of its own")->type_name("K/N");
-  command->add_flag("--dry-run", a->dry_run, "number of runs, time, and the first three configurations");
-  add_work_options(*command, a->threads, a->quiet);
-  command->require_subcommand(0, 1);
-  command->footer(
+  CommandLine command =
+      app.add_command("campaign", "Many runs of one configuration over axes of its parameters");
+  command.add_option("CONFIG", a->config, "campaign (YAML)");
+  command.add_option("-o,--output", a->folder, "folder of the campaign (default: reports/<name>)")
+      .value("DIR");
+  command.add_option("--shard", a->shard, "only part K of N, into a folder of its own").value("K/N");
+  command.add_flag("--dry-run", a->dry_run, "number of runs, time, and the first three configurations");
+  add_work_options(command, a->threads, a->quiet);
+  command.may_have_command();
+  command.footer(
       "Keys of a campaign:\n"
       "  name          of the report folder (default: of the file)\n"
       "  base          a configuration, or the file of one\n"
@@ -215,11 +215,11 @@ void add_campaign(CLI::App& app) {
       "Stopped or killed, the same command goes on.\n\n"
       "Example: gapscope campaign configs/04_sampling_resolution_campaign.yaml -o "
       "reports/sampling_resolution");
-  add_export(*command);
-  add_merge(*command);
-  command->callback([command, a] {
-    if (!command->get_subcommands().empty()) return;
-    if (a->config.empty()) throw CLI::RequiredError("CONFIG");
+  add_export(command);
+  add_merge(command);
+  command.action([command, a] {
+    if (command.has_command()) return;
+    if (a->config.empty()) throw_missing("CONFIG");
     run(*a);
   });
 }

@@ -37,19 +37,19 @@ void check_recording(const Arguments& a) {
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, replace);
   fmt::print("{}", a.json ? json : inspection.report());
-  if (inspection.spoilt()) throw CLI::RuntimeError(kSpoiltRecording);
+  if (inspection.spoilt()) throw ExitStatus{kSpoiltRecording};
 }
 
 }  // namespace
 
-void add_check(CLI::App& app) {
+void add_check(CommandLine& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("check", "What a recording is worth: look before you estimate");
-  add_recording_arguments(*command, arguments->recording);
-  command->add_option("-o,--output", arguments->output, "file to write the findings into (JSON)")
-      ->type_name("FILE");
-  command->add_flag("--json", arguments->json, "the same JSON on standard output instead of the text");
-  command->footer(
+  CommandLine command = app.add_command("check", "What a recording is worth: look before you estimate");
+  add_recording_arguments(command, arguments->recording);
+  command.add_option("-o,--output", arguments->output, "file to write the findings into (JSON)")
+      .value("FILE");
+  command.add_flag("--json", arguments->json, "the same JSON on standard output instead of the text");
+  command.footer(
       "One line for each question: fine, note (worth knowing) or spoils (the estimates will be wrong or\n"
       "refused), with the figures and, after ->, what to do. Nothing but t, u and x1 is looked at.\n"
       "  time           rows in order, none missing, uniform, t in seconds\n"
@@ -65,7 +65,7 @@ void add_check(CLI::App& app) {
       "JSON keys carry their units [s, Hz, rad, units of u].\n"
       "Exit status: 0 nothing spoils the estimates, 3 something does, else as for every command.\n\n"
       "Example: gapscope check drive.csv --input i_q --position theta -o drive_check.json");
-  command->callback([arguments] { check_recording(*arguments); });
+  command.action([arguments] { check_recording(*arguments); });
 }
 
 }  // namespace gapscope::cli

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <sstream>
 
 namespace gapscope::cli {
@@ -43,17 +44,19 @@ std::string usage(const Argument& a) {
   return a.required ? text : "[" + text + "]";
 }
 
-}  // namespace
-
-Command describe(const CLI::App& app) {
+Command describe_app(const CLI::App& app) {
   Command command{
       full_name(app), app.get_description(), app.get_footer(), {}, {}, app.get_require_subcommand_min() > 0};
   for (const bool positional : {true, false})
     for (const CLI::Option* option : app.get_options())
       if (option->get_positional() == positional) command.arguments.push_back(describe(*option));
-  for (const CLI::App* below : app.get_subcommands(nullptr)) command.commands.push_back(describe(*below));
+  for (const CLI::App* below : app.get_subcommands(nullptr)) command.commands.push_back(describe_app(*below));
   return command;
 }
+
+}  // namespace
+
+Command describe(const CommandLine& line) { return describe_app(line.app()); }
 
 std::string usage(const Command& command) {
   std::string text = command.name;

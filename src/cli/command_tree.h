@@ -1,8 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+#include "cli/command_line.h"
 
 namespace gapscope::cli {
 
@@ -27,7 +28,7 @@ struct Command {
 };
 
 /// What there is to know of a command line: the one source of usages, the manual and the completions.
-Command describe(const CLI::App& app);
+Command describe(const CommandLine& line);
 
 /// "gapscope run CONFIG [-o DIR] [--quiet]": without --help.
 std::string usage(const Command& command);

@@ -1,30 +1,30 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "gapscope/config/data_config.h"
 
 namespace gapscope::cli {
 
 // Each adds one sub-command with its options, help and action.
-void add_run(CLI::App& app);
-void add_detect(CLI::App& app);
-void add_fit(CLI::App& app);
-void add_simulate(CLI::App& app);
-void add_report(CLI::App& app);
-void add_schema(CLI::App& app);
-void add_effects(CLI::App& app);
-void add_blind(CLI::App& app);
-void add_blind_drives(CLI::App& blind);
-void add_campaign(CLI::App& app);
-void add_diagnose(CLI::App& app);
-void add_check(CLI::App& app);
-void add_compare(CLI::App& app);
-void add_init(CLI::App& app);
-void add_completion(CLI::App& app);
-void add_man(CLI::App& app);
+void add_run(CommandLine& app);
+void add_detect(CommandLine& app);
+void add_fit(CommandLine& app);
+void add_simulate(CommandLine& app);
+void add_report(CommandLine& app);
+void add_schema(CommandLine& app);
+void add_effects(CommandLine& app);
+void add_blind(CommandLine& app);
+void add_blind_drives(CommandLine& blind);
+void add_campaign(CommandLine& app);
+void add_diagnose(CommandLine& app);
+void add_check(CommandLine& app);
+void add_compare(CommandLine& app);
+void add_init(CommandLine& app);
+void add_completion(CommandLine& app);
+void add_man(CommandLine& app);
 
 /// Exit status of `check` where something will spoil the estimates.
 inline constexpr int kSpoiltRecording = 3;
@@ -46,9 +46,6 @@ void write_text(const std::string& path, const std::string& text, bool replace =
 bool require_file_name(const std::string& file, const std::vector<std::string>& sources,
                        bool (*is_own)(const std::string& file));
 
-/// For options: a number of a range, which no NaN is.
-CLI::Validator number_within(double low, double high);
-
 /// A recording that is named on the command line, and how it is to be read.
 struct RecordingArguments {
   std::string file;
@@ -63,9 +60,9 @@ struct RecordingArguments {
   EncoderConfig encoder() const;
   RecordingConfig configuration() const;  ///< @throws ConfigError naming the option
 };
-void add_recording_arguments(CLI::App& command, RecordingArguments& arguments);
+void add_recording_arguments(CommandLine& command, RecordingArguments& arguments);
 
 /// -j and --quiet.
-void add_work_options(CLI::App& command, int& threads, bool& quiet);
+void add_work_options(CommandLine& command, int& threads, bool& quiet);
 
 }  // namespace gapscope::cli

@@ -54,17 +54,17 @@ void compare(const Arguments& a) {
 
 }  // namespace
 
-void add_compare(CLI::App& app) {
+void add_compare(CommandLine& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "compare", "The same drive in several reports: over months, before and after a repair");
-  command->add_option("DIR", arguments->folders, "folders of run, detect or fit, in order of time")
-      ->required()
-      ->expected(2, 1000);
+  CommandLine command =
+      app.add_command("compare", "The same drive in several reports: over months, before and after a repair");
+  command.add_option("DIR", arguments->folders, "folders of run, detect or fit, in order of time")
+      .required()
+      .values(2, 1000);
   command
-      ->add_option("-o,--output", arguments->output, "folder of the comparison (default: nothing is written)")
-      ->type_name("DIR");
-  command->footer(
+      .add_option("-o,--output", arguments->output, "folder of the comparison (default: nothing is written)")
+      .value("DIR");
+  command.footer(
       "Reads DIR/result.json and what belongs to it: the model-free gap and every parameter that a "
       "reference\n"
       "has estimated, and sets each against the first report. The interval of a difference is that of both\n"
@@ -79,7 +79,7 @@ void add_compare(CLI::App& app) {
       "Writes compare.json (units in the keys; rad means m on a translational axis), report.md and\n"
       "gap_over_recordings.png into the folder of -o.\n\n"
       "Example: gapscope compare reports/march reports/june reports/june_repaired -o reports/2026");
-  command->callback([arguments] { compare(*arguments); });
+  command.action([arguments] { compare(*arguments); });
 }
 
 }  // namespace gapscope::cli

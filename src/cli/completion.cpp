@@ -125,14 +125,14 @@ std::string completion(const Command& command, const std::string& shell) {
 
 }  // namespace
 
-void add_completion(CLI::App& app) {
+void add_completion(CommandLine& app) {
   auto shell = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("completion", "What lets a shell complete its command line");
-  command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
-  command->footer(
+  CommandLine command = app.add_command("completion", "What lets a shell complete its command line");
+  command.add_option("SHELL", *shell, "bash or zsh").required().one_of({"bash", "zsh"});
+  command.footer(
       "The script on standard output; an installed gapscope has both where the shells look for them.\n\n"
       "Example: source <(gapscope completion bash)");
-  command->callback([&app, shell] { fmt::print("{}", completion(describe(app), *shell)); });
+  command.action([&app, shell] { fmt::print("{}", completion(describe(app), *shell)); });
 }
 
 }  // namespace gapscope::cli

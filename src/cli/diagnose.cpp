@@ -127,18 +127,18 @@ void diagnose_configuration(const Arguments& a) {
 
 }  // namespace
 
-void add_diagnose(CLI::App& app) {
+void add_diagnose(CommandLine& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("diagnose", "Why the simulated drive does not move like the real one");
-  command->add_option("CONFIG", arguments->config, kConfigHelp)->required();
-  command->add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
-      ->type_name("DIR");
-  command->add_option("--exclude", arguments->excluded, "an effect that is no candidate; may be repeated")
-      ->type_name("EFFECT")
-      ->allow_extra_args(false);
-  add_work_options(*command, arguments->threads, arguments->quiet);
-  command->footer(
+  CommandLine command =
+      app.add_command("diagnose", "Why the simulated drive does not move like the real one");
+  command.add_option("CONFIG", arguments->config, kConfigHelp).required();
+  command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
+      .value("DIR");
+  command.add_option("--exclude", arguments->excluded, "an effect that is no candidate; may be repeated")
+      .value("EFFECT")
+      .one_value_each();
+  add_work_options(command, arguments->threads, arguments->quiet);
+  command.footer(
       "Fits the model to recording: file, adds every effect of `gapscope effects` in turn, and judges on\n"
       "recording: held_out (a file or a list; without it on the last third of each file). What `gapscope "
       "check`\n"
@@ -156,7 +156,7 @@ void add_diagnose(CLI::App& app) {
       "repeats its\n"
       "motion far worse, that of its repeatability) or unknown (nothing in the catalogue explains it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance");
-  command->callback([arguments] { diagnose_configuration(*arguments); });
+  command.action([arguments] { diagnose_configuration(*arguments); });
 }
 
 }  // namespace gapscope::cli

@@ -37,22 +37,22 @@ void print_laws() {
 
 }  // namespace
 
-void add_effects(CLI::App& app) {
+void add_effects(CommandLine& app) {
   auto json = std::make_shared<bool>(false), laws = std::make_shared<bool>(false);
-  CLI::App* command =
-      app.add_subcommand("effects", "Lists the effects that a model or a simulation can have");
-  command->add_flag("--json", *json, "with side, law, parameters and units, and look-alikes");
+  CommandLine command = app.add_command("effects", "Lists the effects that a model or a simulation can have");
+  const Option as_json =
+      command.add_flag("--json", *json, "with side, law, parameters and units, and look-alikes");
   command
-      ->add_flag("--laws", *laws,
-                 "each with what it acts on (command, motor, contact, load, sensor) and its law")
-      ->excludes("--json");
-  command->footer(
+      .add_flag("--laws", *laws,
+                "each with what it acts on (command, motor, contact, load, sensor) and its law")
+      .excludes(as_json);
+  command.footer(
       "One identifier a line. In a law x1, w1 are angle and speed of the motor, x2, w2 of the load, u is the "
       "input.\n"
       "In a configuration: effects: [{cogging_torque: {amplitude_nm: 0.004,\n"
       "periods_per_turn: 24}}], under model: (known effects) or simulation: model: (the true plant).\n\n"
       "Example: gapscope effects --laws");
-  command->callback([json, laws] {
+  command.action([json, laws] {
     if (*json) return print_json();
     if (*laws) return print_laws();
     for (const EffectEntry* e : effect_table()) fmt::print("{}\n", e->name);

@@ -64,26 +64,26 @@ void estimate(const Arguments& a, const Estimators& wanted) {
   print_headline(folder, outcome.result);
 }
 
-CLI::App* add(CLI::App& app, const char* name, const char* what, const std::string& details,
-              Estimators wanted,
-              const std::shared_ptr<Arguments>& arguments = std::make_shared<Arguments>()) {
-  CLI::App* command = app.add_subcommand(name, what);
-  command->add_option("CONFIG", arguments->config, kConfigHelp)->required();
-  command->add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
-      ->type_name("DIR");
-  command->add_flag("--quiet", arguments->quiet, "no progress");
-  command->footer(details);
-  command->callback([arguments, wanted] { estimate(*arguments, wanted); });
+CommandLine add(CommandLine& app, const char* name, const char* what, const std::string& details,
+                Estimators wanted,
+                const std::shared_ptr<Arguments>& arguments = std::make_shared<Arguments>()) {
+  CommandLine command = app.add_command(name, what);
+  command.add_option("CONFIG", arguments->config, kConfigHelp).required();
+  command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
+      .value("DIR");
+  command.add_flag("--quiet", arguments->quiet, "no progress");
+  command.footer(details);
+  command.action([arguments, wanted] { estimate(*arguments, wanted); });
   return command;
 }
 
 /// `--stream` takes the place of a configuration.
-void add_streaming(CLI::App& detect, const std::shared_ptr<Arguments>& a) {
-  CLI::Option* config = detect.get_option("CONFIG")->required(false);
-  CLI::Option* stream = detect.add_flag("--stream", a->stream, "a CSV from standard input, an event a line");
-  stream->excludes(config)->excludes(detect.get_option("--output"));
+void add_streaming(CommandLine& detect, const std::shared_ptr<Arguments>& a) {
+  Option config = detect.option("CONFIG").required(false);
+  Option stream = detect.add_flag("--stream", a->stream, "a CSV from standard input, an event a line");
+  stream.excludes(config).excludes(detect.option("--output"));
   const auto column = [&](const char* name, std::string& place, const char* what) {
-    detect.add_option(name, place, what)->type_name("NAME")->needs(stream);
+    detect.add_option(name, place, what).value("NAME").needs(stream);
   };
   column("--time", a->columns.time, "of a stream: column of the time [s] (default: t)");
   column("--input", a->columns.input, "of a stream: column of the input (default: u)");
@@ -91,12 +91,12 @@ void add_streaming(CLI::App& detect, const std::shared_ptr<Arguments>& a) {
   detect
       .add_option("--quantum", a->quantum,
                   "of a stream: step of the encoder [rad; m where x1 is] (default: as it shows)")
-      ->type_name("RAD")
-      ->check(number_within(1e-15, 1e3))
-      ->needs(stream);
-  detect.callback([a, config] {
+      .value("RAD")
+      .within(1e-15, 1e3)
+      .needs(stream);
+  detect.action([a, config] {
     if (a->stream) return detect_stream(a->columns, a->quantum);
-    if (config->count() == 0) throw CLI::RequiredError("CONFIG");
+    if (!config.given()) throw_missing("CONFIG");
     estimate(*a, {true, false});
   });
 }
@@ -120,15 +120,14 @@ void write_text(const std::string& path, const std::string& text, bool replace) 
       path, [&](std::ostream& out) { out << text; }, replace);
 }
 
-void add_work_options(CLI::App& command, int& threads, bool& quiet) {
-  command
-      .add_option("-j,--threads", threads, "threads (default: all cores); the results do not depend on it")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
+void add_work_options(CommandLine& command, int& threads, bool& quiet) {
+  command.add_option("-j,--threads", threads, "threads (default: all cores); the results do not depend on it")
+      .within(1, 1024)
+      .value("N");
   command.add_flag("--quiet", quiet, "no progress");
 }
 
-void add_run(CLI::App& app) {
+void add_run(CommandLine& app) {
   add(app, "run", "Both estimators, their comparison, and a report with figures",
       "Writes DIR/result.json, report.md, figures (PNG), traces/, resolved.yaml, timing.json and "
       "files.json,\n"
@@ -138,9 +137,9 @@ void add_run(CLI::App& app) {
       {true, true});
 }
 
-void add_detect(CLI::App& app) {
+void add_detect(CommandLine& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = add(
+  CommandLine command = add(
       app, "detect", "The model-free detector alone: the gap from the motor encoder, without a model",
       "Writes the same files as run, with \"reference\": null. The bound L of the detector is detector: "
       "bound\n"
@@ -168,10 +167,10 @@ void add_detect(CLI::App& app) {
       "Example: gapscope detect configs/02_experiment.yaml -o reports/detected\n"
       "         tail -n +1 -f drive.csv | gapscope detect --stream --input i_q > events.jsonl",
       {true, false}, arguments);
-  add_streaming(*command, arguments);
+  add_streaming(command, arguments);
 }
 
-void add_fit(CLI::App& app) {
+void add_fit(CommandLine& app) {
   add(app, "fit", "The model-based reference alone: parameters of the drive, fitted to u and x1",
       fit_details(), {false, true});
 }

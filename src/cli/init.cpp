@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "cli/commands.h"
@@ -18,8 +17,14 @@ namespace fs = std::filesystem;
 struct Arguments {
   RecordingArguments recording;
   std::string output;
-  StarterModel model = StarterModel::kAsSeen;
+  std::string model;  ///< empty: as the detector sees it
 };
+
+StarterModel model_of(const std::string& word) {
+  if (word == "gap") return StarterModel::kGap;
+  if (word == "locked") return StarterModel::kLocked;
+  return word.empty() ? StarterModel::kAsSeen : StarterModel::kOneBody;
+}
 
 void write_starter(const Arguments& a) {
   const RecordingArguments& r = a.recording;
@@ -27,7 +32,7 @@ void write_starter(const Arguments& a) {
   require_file_name(output, {r.file}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
   const Starter starter = starter_configuration(r.configuration(), r.encoder(), !r.translation,
-                                                parent.empty() ? "." : parent.string(), a.model);
+                                                parent.empty() ? "." : parent.string(), model_of(a.model));
   write_text(output, starter.yaml, false);
   print_warnings(starter.spoiling);
   fmt::print(
@@ -38,22 +43,20 @@ void write_starter(const Arguments& a) {
 
 }  // namespace
 
-void add_init(CLI::App& app) {
+void add_init(CommandLine& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("init", "A first configuration from a recording");
-  add_recording_arguments(*command, arguments->recording);
+  CommandLine command = app.add_command("init", "A first configuration from a recording");
+  add_recording_arguments(command, arguments->recording);
   command
-      ->add_option("-o,--output", arguments->output,
-                   "configuration to write (default: the recording's name with .yaml, here)")
-      ->type_name("CONFIG");
-  const std::map<std::string, StarterModel> models = {
-      {"gap", StarterModel::kGap}, {"locked", StarterModel::kLocked}, {"one_body", StarterModel::kOneBody}};
+      .add_option("-o,--output", arguments->output,
+                  "configuration to write (default: the recording's name with .yaml, here)")
+      .value("CONFIG");
   command
-      ->add_option("--model", arguments->model,
-                   "gap, locked (the output does not move) or one_body (default: what the detector sees)")
-      ->type_name("KIND")
-      ->transform(CLI::CheckedTransformer(models).description(""));
-  command->footer(
+      .add_option("--model", arguments->model,
+                  "gap, locked (the output does not move) or one_body (default: what the detector sees)")
+      .value("KIND")
+      .one_of({"gap", "locked", "one_body"});
+  command.footer(
       "Reads off the recording what it tells: columns, a uniform rate where the time is not, the step of "
       "the\n"
       "encoder [rad], and whether the model needs a gap, a locked output or one body (the detector "
@@ -63,7 +66,7 @@ void add_init(CLI::App& app) {
       "does not see (inconclusive) is a GUESS too.\n"
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
-  command->callback([arguments] { write_starter(*arguments); });
+  command.action([arguments] { write_starter(*arguments); });
 }
 
 }  // namespace gapscope::cli

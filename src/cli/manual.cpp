@@ -88,11 +88,11 @@ std::string manual(const Command& command) {
 
 }  // namespace
 
-void add_man(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("man", "The manual page on standard output");
-  command->footer(
+void add_man(CommandLine& app) {
+  CommandLine command = app.add_command("man", "The manual page on standard output");
+  command.footer(
       "Everything that --help says, of every command, for man.\n\nExample: gapscope man | man -l -");
-  command->callback([&app] { fmt::print("{}", manual(describe(app))); });
+  command.action([&app] { fmt::print("{}", manual(describe(app))); });
 }
 
 }  // namespace gapscope::cli

@@ -45,56 +45,41 @@ RecordingConfig RecordingArguments::configuration() const {
 
 namespace {
 
-void add_unit_options(CLI::App& command, RecordingArguments& a) {
+void add_unit_options(CommandLine& command, RecordingArguments& a) {
   const auto unit = [&](const char* name, std::string& declared, const char* what) {
-    command.add_option(name, declared, what)->type_name("UNIT");
+    command.add_option(name, declared, what).value("UNIT");
   };
   unit("--time-unit", a.units.time, "of the time: s, ms, us, ns (default: s)");
   unit("--input-unit", a.units.input, "of the input: N m, mN m, A, mA, ... (default: as it is)");
   unit("--position-unit", a.units.position,
        "of the position: rad, mrad, deg, arcmin, arcsec, rev, counts; m, mm, um, nm (default: rad, m)");
-  command.add_option("--bits", a.bits, "of the encoder, for --position-unit counts")
-      ->type_name("N")
-      ->check(CLI::Range(1, 40).description(""));
+  command.add_option("--bits", a.bits, "of the encoder, for --position-unit counts").value("N").within(1, 40);
   command
       .add_option("--gear-ratio", a.gear.position,
                   "turns of the encoder per turn of the axis to be looked at")
-      ->type_name("RATIO")
-      ->check(CLI::Validator(
-          [](std::string& text) {
-            const double ratio = std::abs(std::strtod(text.c_str(), nullptr));
-            return ratio >= 1e-6 && ratio <= 1e6 ? "" : "expected 1e-6 to 1e6, or as much below 0";
-          },
-          ""));
+      .value("RATIO")
+      .accepts([](const std::string& text) {
+        const double ratio = std::abs(std::strtod(text.c_str(), nullptr));
+        return std::string(ratio >= 1e-6 && ratio <= 1e6 ? "" : "expected 1e-6 to 1e6, or as much below 0");
+      });
 }
 
 }  // namespace
 
-void add_recording_arguments(CLI::App& command, RecordingArguments& a) {
-  command.add_option("FILE", a.file, "recording (CSV or .mat)")->required();
-  command.add_option("--time", a.time, "column (or variable) of the time (default: t)")->type_name("NAME");
-  command.add_option("--input", a.input, "column of the input (default: u)")->type_name("NAME");
-  command.add_option("--position", a.position, "column of the position (default: x1)")->type_name("NAME");
+void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
+  command.add_option("FILE", a.file, "recording (CSV or .mat)").required();
+  command.add_option("--time", a.time, "column (or variable) of the time (default: t)").value("NAME");
+  command.add_option("--input", a.input, "column of the input (default: u)").value("NAME");
+  command.add_option("--position", a.position, "column of the position (default: x1)").value("NAME");
   command.add_option("--window", a.window, "part of the file that is used [s]")
-      ->type_name("FROM TO")
-      ->expected(2)
-      ->check(number_within(-1e15, 1e15));
+      .value("FROM TO")
+      .values(2, 2)
+      .within(-1e15, 1e15);
   command.add_option("--resample", a.resample, "rate that it is brought to [Hz]")
-      ->type_name("RATE")
-      ->check(number_within(1e-3, 1e7));
+      .value("RATE")
+      .within(1e-3, 1e7);
   add_unit_options(command, a);
   command.add_flag("--translation", a.translation, "positions in m and forces in N instead of rad and N m");
-}
-
-CLI::Validator number_within(double low, double high) {
-  return CLI::Validator(
-      [low, high](std::string& text) -> std::string {
-        double value = 0.0;
-        const bool number = CLI::detail::lexical_cast(text, value);
-        if (number && value >= low && value <= high) return "";  // NaN is in no range
-        return fmt::format("expected a number from {:g} to {:g}", low, high);
-      },
-      "");
 }
 
 bool require_file_name(const std::string& file, const std::vector<std::string>& sources,

@@ -61,20 +61,20 @@ void redraw(const std::string& folder) {
 
 }  // namespace
 
-void add_report(CLI::App& app) {
+void add_report(CommandLine& app) {
   struct Arguments {
     std::string folder;
     bool quiet = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("report", "Draws a report again from its stored results");
-  command->add_option("DIR", arguments->folder, "folder of a report")->required();
-  command->add_flag("--quiet", arguments->quiet, "no progress");
-  command->footer(
+  CommandLine command = app.add_command("report", "Draws a report again from its stored results");
+  command.add_option("DIR", arguments->folder, "folder of a report").required();
+  command.add_flag("--quiet", arguments->quiet, "no progress");
+  command.footer(
       "Reads DIR/result.json, DIR/diagnosis.json [rad, s] and DIR/traces; writes report.md and the figures "
       "(PNG).\n\n"
       "Example: gapscope report reports/02_experiment");
-  command->callback([arguments] {
+  command.action([arguments] {
     if (!std::filesystem::is_directory(arguments->folder))
       throw ConfigError(arguments->folder, "there is no such folder, expected the folder of a report");
     progress_on_terminal(arguments->quiet)("drawing " + arguments->folder);

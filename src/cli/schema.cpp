@@ -23,16 +23,16 @@ void print_schema(const std::string& name) {
 
 }  // namespace
 
-void add_schema(CLI::App& app) {
+void add_schema(CommandLine& app) {
   auto name = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("schema", "JSON schemas of what the commands write");
-  command->add_option("NAME", *name, "which one (default: lists the names)");
-  command->footer(
+  CommandLine command = app.add_command("schema", "JSON schemas of what the commands write");
+  command.add_option("NAME", *name, "which one (default: lists the names)");
+  command.footer(
       "Every stored JSON says in its key schema what it is (gapscope.result/1); NAME is the word between.\n"
       "JSON Schema, draft 2020-12; each line of a stream is a document of its own. Keys carry their "
       "units.\n\n"
       "Example: gapscope schema result > result.schema.json");
-  command->callback([name] { print_schema(*name); });
+  command.action([name] { print_schema(*name); });
 }
 
 }  // namespace gapscope::cli

@@ -78,16 +78,14 @@ std::string details() {
 
 }  // namespace
 
-void add_simulate(CLI::App& app) {
+void add_simulate(CommandLine& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("simulate", "A simulated recording as CSV");
-  command->add_option("CONFIG", arguments->config, kConfigHelp)->required();
-  command->add_option("-o,--output", arguments->file, "recording to write (CSV)")
-      ->required()
-      ->type_name("FILE");
-  command->add_flag("--quiet", arguments->quiet, "no progress");
-  command->footer(details());
-  command->callback([arguments] { simulate_to_file(*arguments); });
+  CommandLine command = app.add_command("simulate", "A simulated recording as CSV");
+  command.add_option("CONFIG", arguments->config, kConfigHelp).required();
+  command.add_option("-o,--output", arguments->file, "recording to write (CSV)").required().value("FILE");
+  command.add_flag("--quiet", arguments->quiet, "no progress");
+  command.footer(details());
+  command.action([arguments] { simulate_to_file(*arguments); });
 }
 
 }  // namespace gapscope::cli

@@ -1,0 +1,138 @@
+#include "cli/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "cli/command_tree.h"
+
+namespace gapscope::cli {
+namespace {
+
+/// Says on its own what is wrong; the help tells it in words of the option.
+template <class Check>
+CLI::Validator unnamed(const Check& check) {
+  return CLI::Validator([check](std::string& text) -> std::string { return check(text); }, "");
+}
+
+std::string command_names(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands(nullptr))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+/// "gapscope run CONFIG [-o DIR] [--quiet]" of the command that was being read, else the names of all.
+std::string expectation(CLI::App& app) {
+  CLI::App* used = &app;
+  while (!used->get_subcommands().empty()) used = used->get_subcommands()[0];
+  return used == &app ? "one of the commands " + command_names(app) : usage(describe(CommandLine(*used)));
+}
+
+bool is_unknown_command(const CLI::App& app, const std::string& word) {
+  if (!word.empty() && word[0] == '-') return false;
+  const auto commands = app.get_subcommands(nullptr);
+  return std::none_of(commands.begin(), commands.end(), [&](const auto* c) { return c->get_name() == word; });
+}
+
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
+  const bool no_command =
+      app.get_subcommands().empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  std::string what = no_command ? "there is no command" : error.what();
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  return what;
+}
+
+void tell(CLI::App& app, const std::string& what) {
+  fmt::print(stderr, "gapscope: {}, expected {}\n", what, expectation(app));
+}
+
+}  // namespace
+
+Option& Option::required(bool yes) { return option_->required(yes), *this; }
+Option& Option::value(const char* name) { return option_->type_name(name), *this; }
+Option& Option::values(int fewest, int most) { return option_->expected(fewest, most), *this; }
+Option& Option::one_value_each() { return option_->allow_extra_args(false), *this; }
+Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
+Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }
+bool Option::given() const { return option_->count() > 0; }
+
+Option& Option::one_of(const std::vector<std::string>& words) {
+  return option_->check(CLI::IsMember(words)), *this;
+}
+
+Option& Option::within(int low, int high) {
+  return option_->check(CLI::Range(low, high).description("")), *this;
+}
+
+Option& Option::within(double low, double high) {
+  return accepts([low, high](const std::string& text) {
+    double value = 0.0;
+    const bool number = CLI::detail::lexical_cast(text, value);
+    return number && value >= low && value <= high
+               ? std::string()
+               : fmt::format("expected a number from {:g} to {:g}", low, high);
+  });
+}
+
+Option& Option::accepts(const std::function<std::string(const std::string& text)>& what_is_wrong) {
+  return option_->check(unnamed(what_is_wrong)), *this;
+}
+
+CommandLine CommandLine::add_command(const char* name, const char* doc) {
+  return CommandLine(*app_->add_subcommand(name, doc));
+}
+
+Option CommandLine::add_option(const char* names, std::string& value, const char* doc) {
+  return Option(app_->add_option(names, value, doc));
+}
+Option CommandLine::add_option(const char* names, int& value, const char* doc) {
+  return Option(app_->add_option(names, value, doc));
+}
+Option CommandLine::add_option(const char* names, double& value, const char* doc) {
+  return Option(app_->add_option(names, value, doc));
+}
+Option CommandLine::add_option(const char* names, std::vector<std::string>& values, const char* doc) {
+  return Option(app_->add_option(names, values, doc));
+}
+Option CommandLine::add_option(const char* names, std::vector<double>& values, const char* doc) {
+  return Option(app_->add_option(names, values, doc));
+}
+Option CommandLine::add_flag(const char* names, bool& value, const char* doc) {
+  return Option(app_->add_flag(names, value, doc));
+}
+Option CommandLine::option(const char* name) { return Option(app_->get_option(name)); }
+
+void CommandLine::footer(const std::string& text) { app_->footer(text); }
+void CommandLine::action(const std::function<void()>& what) { app_->callback(what); }
+void CommandLine::needs_command() { app_->require_subcommand(1); }
+void CommandLine::may_have_command() { app_->require_subcommand(0, 1); }
+bool CommandLine::has_command() const { return !app_->get_subcommands().empty(); }
+
+void throw_missing(const char* name) { throw CLI::RequiredError(name); }
+
+int parse_and_run(const Program& program, int argc, char** argv, int wrong_input) {
+  CLI::App app;
+  app.name(program.name);
+  app.description(program.doc);
+  app.set_version_flag("--version", program.version);
+  app.require_subcommand(1);
+  app.footer(program.footer);
+  CommandLine line(app);
+  program.add_commands(line);
+  if (argc > 1 && is_unknown_command(app, argv[1]))
+    return tell(app, fmt::format("there is no command '{}'", argv[1])), wrong_input;
+  try {
+    app.parse(argc, argv);  // the action of the command runs in here
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const ExitStatus& answer) {
+    return answer.status;
+  } catch (const CLI::ParseError& error) {
+    return tell(app, what_is_wrong(app, error)), wrong_input;
+  }
+  return 0;
+}
+
+}  // namespace gapscope::cli
