@@ -14,10 +14,10 @@
 #include <fstream>
 #include <mutex>
 #include <new>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 
 namespace gapscope {
@@ -55,7 +55,7 @@ void limit_memory() {
 /// Whatever ends this process: what is said of it is said by the other one, and nothing is left behind.
 void be_a_trial() {
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGXCPU}) std::signal(signal, SIG_DFL);
-  constexpr rlimit kNoCore{0, 0}, kTime{kLongestS, kLongestS};
+  constexpr rlimit kNoCore{0, 0}, kTime{kLongestS, kLongestS + 1};  // SIGXCPU first, not SIGKILL
   setrlimit(RLIMIT_CORE, &kNoCore);
   setrlimit(RLIMIT_CPU, &kTime);
   limit_memory();
@@ -108,7 +108,7 @@ class Trial {
     static std::mutex one_at_a_time;  // or another one would inherit the end that is written to
     const std::lock_guard alone(one_at_a_time);
     std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe can be made, expected free file handles");
+    if (pipe(ends.data()) != 0) throw MachineError("no pipe can be made, expected free file handles");
     from_ = ends[0];
     child_ = fork();
     if (child_ == 0) {
@@ -118,7 +118,7 @@ class Trial {
     close(ends[1]);
     if (child_ > 0) return;
     close(from_);
-    throw std::runtime_error("no process can be started, expected room for one more");
+    throw MachineError("no process can be started, expected room for one more");
   }
   Trial(const Trial&) = delete;
   Trial& operator=(const Trial&) = delete;
@@ -150,6 +150,8 @@ std::optional<std::string> run_apart(const std::function<std::string()>& work) {
   std::optional<std::string> answer = trial.answer();
   if (!answer) return {};
   const std::optional<int> status = trial.wait();
+  if (status && WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL)
+    throw MachineError("the process that reads a file was killed, expected that it may end");
   if (!status || !WIFEXITED(*status)) return {};
   if (WEXITSTATUS(*status) == kNoMemory) throw std::bad_alloc();
   if (WEXITSTATUS(*status) != 0) return {};

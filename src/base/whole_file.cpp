@@ -1,10 +1,13 @@
 #include "gapscope/base/whole_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -34,20 +37,29 @@ bool is_stream(const std::string& path) {
          name.starts_with("/proc/self/fd/");
 }
 
-/// @returns false where something is there already
-bool moved_where_nothing_is(const fs::path& from, const std::string& to) {
+}  // namespace
+
+std::string identity_of(const std::string& path) {
+  struct stat s {};
+  if (stat(path.c_str(), &s) != 0) return "";
+  return fmt::format("{} {} {} {}.{} {}.{}", s.st_dev, s.st_ino, s.st_size, s.st_mtim.tv_sec,
+                     s.st_mtim.tv_nsec, s.st_ctim.tv_sec, s.st_ctim.tv_nsec);
+}
+
+bool moved_where_nothing_is(const std::string& from, const std::string& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno == EEXIST) return false;
-  if (errno != EINVAL && errno != ENOSYS) throw std::runtime_error(to + ": cannot be written");
+  const auto fail = [&]() -> std::runtime_error {
+    return std::runtime_error(to + ": cannot be replaced: " + std::strerror(errno));
+  };
+  if (errno != EINVAL && errno != ENOSYS) throw fail();
   if (link(from.c_str(), to.c_str()) != 0) {  // a file system that does not know the other way
     if (errno == EEXIST) return false;
-    throw std::runtime_error(to + ": cannot be written");
+    throw fail();
   }
   unlink(from.c_str());
   return true;
 }
-
-}  // namespace
 
 std::string new_file_beside(const std::string& path) {
   std::random_device random;
@@ -69,12 +81,15 @@ void write_whole_file(const std::string& path, const std::function<void(std::ost
     return write_file(path, path, write);
   if (fs::is_symlink(fs::symlink_status(path, problem)))
     throw ConfigError(path, "is a link to another file, expected the name of the file itself");
+  const std::string found = identity_of(path);
   const fs::path aside = new_file_beside(path);
   try {
     write_file(aside, path, write);
     if (!replace && !moved_where_nothing_is(aside, path))
       throw ConfigError(path, "came to be there meanwhile, expected that it stays free");
     problem.clear();
+    if (replace && identity_of(path) != found)
+      throw ConfigError(path, "changed meanwhile, expected it as it was");
     if (replace) fs::rename(aside, path, problem);
     if (problem) throw std::runtime_error(path + ": cannot be written: " + problem.message());
   } catch (...) {

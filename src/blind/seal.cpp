@@ -41,6 +41,14 @@ void require_sound(const BlindLabel& l, const std::string& file) {
   if (l.salt.size() < kShortestSalt)
     throw ConfigError(file, l.name + fmt::format(" has a salt of {} characters, expected at least {}",
                                                  l.salt.size(), kShortestSalt));
+  if (l.severity < 0.0 || l.severity > 1.0)  // NaN: not told
+    throw ConfigError(file,
+                      l.name + fmt::format(" has the severity {:g}, expected 0 to 1 or null", l.severity));
+  if (l.cycles_per_turn <= 0.0 || l.cycles_per_turn > 1e6)
+    throw ConfigError(file, l.name + fmt::format(" has {:g} cycles per turn, expected up to 1e6 or null",
+                                                 l.cycles_per_turn));
+  if (l.effects.size() > 2 || (l.effects.size() == 2 && l.effects[0] == l.effects[1]))
+    throw ConfigError(file, l.name + " is not of one or two different effects, expected that or [] for none");
   for (const std::string* text : {&l.rig, &l.seed, &l.salt})
     if (!is_word(*text)) throw ConfigError(file, l.name + " has a control character, expected plain text");
   for (const std::string& effect : l.effects)
@@ -51,6 +59,7 @@ void require_sound(const BlindLabel& l, const std::string& file) {
 
 void require_sound(const BlindLabels& labels, const std::string& file) {
   require_plain_name(labels.name, file);
+  if (labels.cases.empty()) throw ConfigError(file, "labels no case, expected at least one");
   std::set<std::string> names;
   for (const BlindLabel& l : labels.cases) {
     require_sound(l, file);
@@ -91,16 +100,16 @@ std::string label_hash(const BlindLabel& label) { return sha256(line_of(label));
 std::string labels_hash(const BlindLabels& labels) { return sha256(head_line_of(labels)); }
 
 BlindManifest seal_blind_check(const std::string& folder, const std::string& labels) {
+  const std::string path = folder + "/manifest.json";
+  const ConfigError another(path, "is there and seals something else, expected that it is moved away");
+  const bool there = std::filesystem::exists(std::filesystem::symlink_status(path));
+  if (there && !is_manifest_file(path)) throw another;
   const BlindLabels secret = read_blind_labels(labels);
   require_sound(secret, labels);
-  const std::string path = folder + "/manifest.json";
   BlindManifest manifest{secret.name, version(), labels_hash(secret), {}};
   for (const BlindLabel& l : secret.cases)
     manifest.cases.push_back({l.name, l.part, label_hash(l), files_of(folder, l.name)});
-  if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
-    if (!is_manifest_file(path) || read_blind_manifest(path).cases != manifest.cases)
-      throw ConfigError(path, "is there and seals something else, expected that it is moved away");
-  }
+  if (there && !(read_blind_manifest(path) == manifest)) throw another;
   write_blind_manifest(path, manifest);
   return manifest;
 }

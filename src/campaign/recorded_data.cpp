@@ -1,11 +1,11 @@
 #include "campaign/recorded_data.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <set>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/whole_file.h"
 #include "gapscope/results/sha256.h"
 
 namespace gapscope::internal {
@@ -58,12 +58,7 @@ std::vector<std::string> recorded_files(const CampaignConfig& c) {
 
 std::string state_of(const std::vector<std::string>& files) {
   std::string state;
-  for (const std::string& path : files) {
-    struct stat s {};
-    if (stat(path.c_str(), &s) != 0) s = {};
-    state += fmt::format("{} {} {} {}.{} {}.{}\n", s.st_dev, s.st_ino, s.st_size, s.st_mtim.tv_sec,
-                         s.st_mtim.tv_nsec, s.st_ctim.tv_sec, s.st_ctim.tv_nsec);
-  }
+  for (const std::string& path : files) state += identity_of(path) + "\n";
   return state;
 }
 

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <filesystem>
 #include <mutex>
+#include <new>
+#include <system_error>
 
 #include "campaign/recorded_data.h"
 #include "campaign/store_header.h"
@@ -97,6 +99,12 @@ CampaignRow run_of_campaign(const CampaignConfig& c, std::uint64_t run, Campaign
     timing.model_free_s = outcome.timing.model_free_s;
     timing.reference_s = outcome.timing.reference_s;
   } catch (const Interrupted&) {
+    throw;
+  } catch (const MachineError&) {  // no result: another time it may be one
+    throw;
+  } catch (const std::system_error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     row.error = reason_of(error, c);

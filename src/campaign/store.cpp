@@ -29,6 +29,14 @@ std::unique_ptr<ProcessLock> locked(const std::string& folder) {
   return lock;
 }
 
+/// What SQLite keeps beside a store would become part of a new one.
+void require_nothing_beside(const std::string& file) {
+  std::error_code problem;
+  for (const char* end : {"-wal", "-shm", "-journal"})
+    if (fs::exists(fs::symlink_status(file + end, problem)))
+      throw ConfigError(file + end, "is there without the store that it belongs to, expected it elsewhere");
+}
+
 std::string existing(const std::string& folder) {
   if (!fs::is_regular_file(file_in(folder)))
     throw ConfigError(file_in(folder), "there is no such file, expected the store of a campaign");
@@ -96,10 +104,15 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
   std::error_code problem;
   if (const auto there = fs::symlink_status(file, problem); fs::exists(there) && !fs::is_regular_file(there))
     throw ConfigError(file, "is no regular file, expected the store of a campaign");
+  else if (!fs::exists(there))
+    require_nothing_beside(file);
   connection_ = std::make_unique<Connection>(file, std::move(lock));
   Database& database = connection_->database;
   const bool is_new = internal::is_empty(database);
-  if (!is_new) internal::require_campaign(database, file);
+  if (!is_new) {
+    internal::require_campaign(database, file);
+    internal::read_header(database, file);  // before anything is changed in what may be another's
+  }
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
   if (is_new) internal::create_tables(database, header);

@@ -85,7 +85,9 @@ CommandLine CommandLine::add_command(const char* name, const char* doc) {
 }
 
 Option CommandLine::add_option(const char* names, std::string& value, const char* doc) {
-  return Option(app_->add_option(names, value, doc));
+  return Option(app_->add_option(names, value, doc)).accepts([](const std::string& text) {
+    return std::string(text.empty() ? "is empty" : "");
+  });
 }
 Option CommandLine::add_option(const char* names, int& value, const char* doc) {
   return Option(app_->add_option(names, value, doc));

@@ -22,6 +22,9 @@ RecordingConfig RecordingArguments::configuration() const {
         "gapscope: --position-unit is counts, expected --bits of a rotary encoder beside it, or the size of "
         "one "
         "count as a number");
+  if (time == input || time == position || input == position)
+    throw ConfigError(
+        "gapscope: --time, --input and --position name one column twice, expected three columns");
   RecordingConfig c;
   c.files = {{file, file, 0}};
   c.units = units;

@@ -38,13 +38,13 @@ void simulate_to_file(const Arguments& a) {
   const Configuration c = load_configuration(a.config);
   if (!c.simulation)
     throw ConfigError(c.file, "there is no simulation, expected simulation: to make data from");
-  const bool replace = require_file_name(a.file, source_paths(c), is_simulated);
+  require_file_name(a.file, source_paths(c), is_simulated);
   const Progress progress = progress_on_terminal(a.quiet);
   progress("simulating " + c.name);
   const Recording r = simulated_recording(c);
   stop_point();
-  write_csv(a.file, r, replace);
-  if (fs::is_regular_file(a.file))  // not into a pipe that may be standard output itself
+  write_csv(a.file, r, require_file_name(a.file, source_paths(c), is_simulated));
+  if (fs::is_regular_file(a.file) && !a.file.starts_with("/dev/"))  // which may be standard output itself
     fmt::print("{}: {} samples at {} Hz\n", a.file, r.size(), c.simulation->rate);
 }
 

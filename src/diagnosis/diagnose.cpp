@@ -11,6 +11,7 @@
 #include "diagnosis/pipeline.h"
 #include "diagnosis/repeatability.h"
 #include "diagnosis/report_back.h"
+#include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/require.h"
 #include "gapscope/diagnosis/diagnosis.h"
@@ -181,6 +182,15 @@ std::optional<Findings> look_wider(Study& study, const Findings& found) {
   return wider;
 }
 
+/// What stands still is explained by any friction.
+void require_motion(const MotorTrace& t) {
+  const auto [low, high] = std::minmax_element(t.x1.begin(), t.x1.end());
+  if (*high - *low > 2.0 * t.quantum) return;
+  throw ConfigError(
+      t.file,
+      fmt::format("x1 does not move ({:.3g} in all), expected the recording of a motion", *high - *low));
+}
+
 }  // namespace
 
 Findings investigate(Study& study) {
@@ -216,6 +226,8 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
                    const ReferenceModel& model, const DiagnosisOptions& options) {
   using namespace internal;
   GAPSCOPE_REQUIRE(!train.empty());
+  for (const auto& traces : {train, held_out})
+    for (const MotorTrace& t : traces) require_motion(t);
   Study study = make_study(train, held_out, model, options);
   const auto [found, added] = search(study);
   Diagnosis diagnosis = report_back(study, found, added);

@@ -45,7 +45,8 @@ std::string range_key(double low, double high, int decimals, const char* unit) {
 std::vector<MapShare> range_map(const std::vector<Sample>& samples, const Quantity& of, const char* unit) {
   double low = kInfinity, high = -kInfinity;
   for (const Sample& s : samples) low = std::min(low, of(s)), high = std::max(high, of(s));
-  if (!(high > low)) high = low + 1e-9;
+  constexpr double kNarrowest = 1e-9;
+  high = std::max(high, low + kNarrowest * std::max(1.0, std::abs(low)));  // a width, whatever is constant
   const double width = (high - low) / kBins;
   const int decimals = std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(width))), 0, 9);
   std::vector<MapShare> map(kBins);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/errors.h"
+#include "gapscope/recording/recording_file.h"
 #include "inspection/rules.h"
 #include "recording/resample.h"
 
@@ -46,8 +48,11 @@ double quantum_of(const std::vector<double>& x1) {
 Recording on_grid(RecordedRows rows, const ReadOptions& options) {
   const double quantum = quantum_of(rows.x1);
   Recording r = options.resample_rate        ? internal::resample(rows, *options.resample_rate)
-                : internal::is_uniform(rows) ? internal::uniform_recording(std::move(rows))
+                : internal::is_uniform(rows) ? internal::uniform_recording(RecordedRows(rows))
                                              : internal::resample(rows, grid_rate(rows));
+  if (r.size() < kFewestSamples)
+    throw ConfigError(rows.path, fmt::format("{} samples after resampling, expected at least {}", r.size(),
+                                             kFewestSamples));
   r.quantum = quantum;
   return r;
 }

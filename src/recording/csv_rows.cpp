@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -11,11 +13,13 @@ namespace {
 
 std::string whole_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
+  if (!in && (errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == EIO))
+    throw MachineError(path + ": cannot be opened: " + std::strerror(errno));
   if (!in) throw ConfigError(path, "cannot be opened, expected a readable file");
   std::string text(static_cast<std::size_t>(std::filesystem::file_size(path)), '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) throw ConfigError(path, "cannot be read, expected a readable file");
+  if (in.bad()) throw MachineError(path + ": cannot be read to its end");
   return text;
 }
 

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "gapscope/recording/recording.h"
 
@@ -7,6 +9,8 @@ namespace gapscope {
 namespace {
 
 constexpr std::size_t kFewestSteps = 20;
+constexpr std::size_t kFewPositions =
+    12;                                 ///< so few different ones are counts, however they follow each other
 constexpr double kTextRounding = 1e-6;  ///< of the range: smaller steps come from printing, not from counting
 constexpr double kCluster = 0.02;       ///< steps that differ by less than this share are the same step
 constexpr double kOnGrid = 0.1;         ///< distance from a whole number of quanta that still is one
@@ -24,6 +28,18 @@ std::vector<double> sorted_steps(std::span<const double> x1) {
     if (const double step = std::abs(x1[i] - x1[i - 1]); step > smallest) steps.push_back(step);
   std::sort(steps.begin(), steps.end());
   return steps;
+}
+
+/// The least distance between the positions of a recording that has hardly any; 0 if there are many, or one.
+double between_few_positions(std::span<const double> x1) {
+  std::set<double> positions;
+  for (std::size_t i = 0; i < x1.size() && positions.size() <= kFewPositions; ++i) positions.insert(x1[i]);
+  if (positions.size() < 2 || positions.size() > kFewPositions || x1.size() < kFewPositions * kFewPositions)
+    return 0.0;
+  double least = *positions.rbegin() - *positions.begin();
+  for (auto p = positions.begin(), next = std::next(p); next != positions.end(); p = next++)
+    least = std::min(least, *next - *p);
+  return least;
 }
 
 /// The smallest step that `times` steps come close to; 0 if none.
@@ -60,6 +76,7 @@ double grid_spacing(const std::vector<double>& steps, std::size_t standing, doub
 }  // namespace
 
 double seen_quantum(std::span<const double> x1) {
+  if (const double q = between_few_positions(x1); q > 0.0) return q;
   const std::vector<double> steps = sorted_steps(x1);
   if (steps.size() < kFewestSteps) return 0.0;
   const std::size_t standing = x1.size() - 1 - steps.size();

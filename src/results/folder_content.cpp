@@ -11,6 +11,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/base/whole_file.h"
 #include "results/file_hash_fields.h"
 #include "results/json_document.h"
 
@@ -249,11 +250,13 @@ namespace {
 /// Renames that can be taken back.
 class Moves {
  public:
+  /// Nothing may be at the new place.
   void move(const fs::path& from, const fs::path& to) {
     std::error_code error;
     fs::create_directories(to.parent_path(), error);
-    if (!error) fs::rename(from, to, error);
     if (error) throw std::runtime_error(from.string() + ": cannot be replaced: " + error.message());
+    if (!moved_where_nothing_is(from, to))
+      throw ConfigError(to.string(), "came to be there meanwhile, expected that it stays free");
     done_.emplace_back(from, to);
   }
   void take_back() noexcept {
@@ -269,10 +272,13 @@ class Moves {
 
 void replace_files(const fs::path& from, const fs::path& to, const std::vector<std::string>& fresh,
                    const std::vector<std::string>& stale, const fs::path& aside,
-                   bool (*is_result)(const std::string&)) {
+                   bool (*is_result)(const std::string&), const FileList* before) {
   Moves moves;
   const auto away = [&](const std::string& file) {
-    if (is_there(to / file)) moves.move(to / file, aside / file);
+    if (!is_there(to / file)) return;
+    moves.move(to / file, aside / file);
+    if (before == nullptr || !before->wrote(aside, file))  // it changed since the last look at it
+      throw ConfigError((to / file).string(), "changed meanwhile, expected it as it was");
   };
   try {
     for (const bool results : {true, false})

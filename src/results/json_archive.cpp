@@ -7,6 +7,8 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
@@ -51,6 +53,24 @@ std::string text_of_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// A key that an object has twice would be read as one by us and as the other by somebody else.
+class KeysOnce {
+ public:
+  explicit KeysOnce(const std::string& file) : file_(file) {}
+  bool operator()(int, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys_->emplace_back();
+    if (event == Json::parse_event_t::object_end) keys_->pop_back();
+    if (event == Json::parse_event_t::key && !keys_->back().insert(parsed.get<std::string>()).second)
+      throw ConfigError(file_, "has the key " + shown(parsed) + " twice in one object, expected it once");
+    return true;
+  }
+
+ private:
+  std::string file_;
+  std::shared_ptr<std::vector<std::set<std::string>>> keys_ =  // the parser copies its callback
+      std::make_shared<std::vector<std::set<std::string>>>();
+};
+
 /// The number that is too large for a double, as what() quotes it.
 std::string quoted_number(const Json::out_of_range& error) {
   const std::string what = error.what();
@@ -67,7 +87,7 @@ Json parsed_json(const std::string& text, const std::string& file) {
   if (const std::size_t deep = byte_of_level(text, kDeepest + 1); deep != text.npos)
     throw refusal(deep, fmt::format("is nested in more than {} levels", kDeepest));
   try {
-    return Json::parse(text);
+    return Json::parse(text, KeysOnce(file));
   } catch (const Json::parse_error& error) {
     throw refusal(error.byte > 0 ? error.byte - 1 : 0, "is no valid JSON from here on");
   } catch (const Json::out_of_range& error) {
@@ -194,8 +214,13 @@ void JsonReader::addition(const char* key, std::string& value) {
 
 void JsonReader::configuration(std::string& resolved) {
   resolved.clear();
-  if (const Json made = json_.value(kConfiguration, Json()); !made.is_null())
-    JsonReader(made, file_, place_of(kConfiguration))("resolved", resolved);
+  if (const Json made = json_.value(kConfiguration, Json()); !made.is_null()) {
+    JsonReader reader(made, file_, place_of(kConfiguration));
+    std::string hash;
+    reader("resolved", resolved);
+    reader("sha256", hash);
+    if (hash != sha256(resolved)) reader.fail("sha256", "is not that of `resolved`, expected it unchanged");
+  }
 }
 
 }  // namespace gapscope::internal

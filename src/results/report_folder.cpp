@@ -32,8 +32,9 @@ using internal::FileList;
 }
 
 fs::path without_trailing_slash(const std::string& folder) {
-  const fs::path path = fs::path(folder).lexically_normal();
-  return path.has_filename() || path == path.root_path() ? path : path.parent_path();
+  fs::path path = folder;  // ".." stays: behind a link it is not what the text says
+  while (!path.has_filename() && path != path.root_path()) path = path.parent_path();
+  return path;
 }
 
 /// A result is found when all that belongs to it is there.
@@ -252,7 +253,8 @@ void ReportFolder::commit() {
   move_list(".meanwhile");
   made_.clear();
   try {
-    internal::replace_files(partial_, final_, fresh, stale, partial_ + "/.replaced", is_result);
+    internal::replace_files(partial_, final_, fresh, stale, partial_ + "/.replaced", is_result,
+                            before_.get());
   } catch (...) {
     if (before_) write_list(".after", *before_);
     if (before_) move_list(".after");

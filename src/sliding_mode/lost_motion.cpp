@@ -188,7 +188,8 @@ void report_none(const std::vector<Level>& levels, GapEstimate& estimate) {
     estimate.reason += (&level == &levels.front() ? "" : ", ") + described(level);
 }
 
-void decide(const std::vector<Level>& levels, GapEstimate& estimate) {
+/// @param travel  of the motor in all [rad]
+void decide(const std::vector<Level>& levels, double travel, GapEstimate& estimate) {
   estimate.smallest_visible_gap = limit_of(levels);
   if (!std::isfinite(estimate.smallest_visible_gap)) estimate.smallest_visible_gap = kNaN;
   for (const Level& a : levels)
@@ -198,8 +199,14 @@ void decide(const std::vector<Level>& levels, GapEstimate& estimate) {
       std::count_if(levels.begin(), levels.end(), [](const Level& l) { return l.shows_play(); });
   if (shown == static_cast<std::ptrdiff_t>(levels.size())) return report_play(levels, estimate);
   const bool leaps = std::any_of(levels.begin(), levels.end(), [](const Level& l) { return l.leaps(); });
-  if (shown == 0 && !leaps) return report_none(levels, estimate);
+  if (shown == 0 && !leaps && estimate.smallest_visible_gap < travel) return report_none(levels, estimate);
   estimate.verdict = GapVerdict::kInconclusive;
+  if (shown == 0 && !leaps) {
+    estimate.reason = fmt::format(
+        "the motor moves by {:.3g} rad in all, and a gap would show from {:.3g} rad: ramp to a larger torque",
+        travel, estimate.smallest_visible_gap);
+    return;
+  }
   estimate.reason = leaps ? "the drive sticks and leaps within a ramp, which hides or imitates a play; ramp "
                             "the torque further beyond the friction of the motor, or add a dither"
                           : "x1 runs free at some torque levels only; ramp the torque further beyond the "
@@ -212,12 +219,15 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
   std::vector<TorqueCycles> cycles;
   std::vector<Loop> loops;
   std::vector<Branch> branches;
-  double resolution = 0.0;
+  double resolution = 0.0, travel = 0.0;
   cycles.reserve(recordings.size());  // branches point into it
   for (const MotorTrace& trace : recordings) {
     cycles.push_back(torque_cycles(trace));
     if (cycles.back().following < kFollowing) return std::nullopt;
-    resolution = std::max(resolution, read_facts(trace).noise);
+    const SignalFacts facts = read_facts(trace);
+    if (!facts.moves()) return std::nullopt;
+    resolution = std::max(resolution, facts.noise);
+    travel = std::max(travel, facts.travel);
     for (Loop& loop : loops_of(trace, cycles.back())) loops.push_back(std::move(loop));
     for (const Branch& branch : branches_of(trace, cycles.back())) branches.push_back(branch);
   }
@@ -232,7 +242,7 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
     read_branches(level, branches);
     summarise(level);
   }
-  decide(levels, estimate);
+  decide(levels, travel, estimate);
   return estimate;
 }
 

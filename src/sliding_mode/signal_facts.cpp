@@ -92,7 +92,7 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
   facts.travel = *most - *least;
   facts.centre = 0.5 * (low + high);
   facts.amplitude = 0.5 * (high - low);
-  if (!(facts.amplitude > 6.0 * facts.noise) || !(facts.amplitude > 0.0)) {
+  if (!facts.moves()) {
     facts.defect = "no motion above the encoder's noise: raise the excitation";
     return facts;
   }

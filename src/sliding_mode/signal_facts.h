@@ -22,6 +22,10 @@ struct SignalFacts {
   std::size_t half_periods = 0;
   std::vector<std::size_t> crossings;  ///< of the centre, one per half stroke
   std::string defect;                  ///< why nothing can be detected here; empty if something can
+
+  bool moves() const {
+    return amplitude > 6.0 * noise && amplitude > 0.0;
+  }  ///< beyond the noise of the encoder
 };
 
 /// @param noise  of one sample where it is known better than from the samples (a mean of periods) [rad]; the

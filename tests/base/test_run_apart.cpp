@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "gapscope/base/errors.h"
 #include "gapscope/base/run_apart.h"
 
 namespace gapscope {
@@ -22,7 +23,8 @@ TEST(RunApart, OutlivesTheEndOfTheWork) {
   EXPECT_EQ(run_apart([]() -> std::string { throw std::logic_error("no answer"); }), std::nullopt);
   EXPECT_EQ(run_apart([]() -> std::string { std::abort(); }), std::nullopt);
   EXPECT_THROW(run_apart([]() -> std::string { throw std::bad_alloc(); }), std::bad_alloc);
-  EXPECT_EQ(run_apart([] { return std::raise(SIGKILL), std::string("not reached"); }), std::nullopt);
+  EXPECT_THROW(run_apart([] { return std::raise(SIGKILL), std::string("not reached"); }), MachineError)
+      << "by somebody else: that says nothing of the work";
 }
 
 TEST(RunApart, HasSoMuchMemoryAndNoMore) {

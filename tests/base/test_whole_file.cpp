@@ -21,9 +21,12 @@ using testing::text_of;
 TEST(WholeFile, OfTwoThatWriteItOneIsWhole) {
   const testing::TemporaryFile place("");
   const auto write = [&](char letter) {
-    write_whole_file(place.path(), [&](std::ostream& out) {
-      for (int i = 0; i < 2000; ++i) out << std::string(100, letter) << std::flush;
-    });
+    try {
+      write_whole_file(place.path(), [&](std::ostream& out) {
+        for (int i = 0; i < 2000; ++i) out << std::string(100, letter) << std::flush;
+      });
+    } catch (const ConfigError&) {  // the other one was faster, which is told
+    }
   };
   for (int round = 0; round < 5; ++round) {
     std::thread other([&] { write('b'); });
@@ -72,6 +75,17 @@ TEST(Text, IsUtf8WithoutControlCharacters) {
   for (const char* bytes : {"\x01", "a\x7f", "\xff", "\xc0\xaf", "\xe2\x82", "\xc3", "\xf5\x80\x80\x80"})
     EXPECT_FALSE(is_text(bytes));
   EXPECT_FALSE(is_text(std::string("a\0b", 3)));
+}
+
+TEST(WholeFile, LeavesWhatChangedMeanwhile) {
+  const testing::TemporaryFile place("old");
+  const auto write = [&](std::ostream& out) {
+    out << "new";
+    std::ofstream(place.path()) << "precious";
+  };
+  EXPECT_THROW(write_whole_file(place.path(), write), ConfigError);
+  EXPECT_EQ(text_of(place.path()), "precious");
+  EXPECT_EQ(std::distance(fs::directory_iterator(place.folder()), {}), 1) << "nothing is left aside";
 }
 
 }  // namespace

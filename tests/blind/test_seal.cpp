@@ -246,5 +246,54 @@ TEST(Seal, TakesOwnRecordingsAndRefusesLabelsThatAreIncomplete) {
   EXPECT_THAT(sealed(), HasSubstr("case_009.yaml"));
 }
 
+TEST(Seal, TakesNoManifestsPlaceThatSealsAnotherNameOrConfiguration) {
+  for (const bool name : {true, false}) {
+    const Check check;
+    const std::string before = text_of(check.folder() + "/manifest.json");
+    BlindLabels labels = read_blind_labels(check.labels());
+    (name ? labels.name : labels.configuration) += "9";
+    write_blind_labels(check.labels(), labels);
+    EXPECT_THAT(refusal([&] { seal_blind_check(check.folder(), check.labels()); }),
+                HasSubstr("manifest.json: is there and seals something else"));
+    EXPECT_EQ(text_of(check.folder() + "/manifest.json"), before);
+  }
+}
+
+TEST(Seal, RefusesTruthsThatNobodyCouldMean) {
+  const auto changes = std::vector<void (*)(BlindLabel&)>{[](BlindLabel& l) { l.severity = 5.0; },
+                                                          [](BlindLabel& l) { l.severity = -0.1; },
+                                                          [](BlindLabel& l) { l.cycles_per_turn = -3.0; },
+                                                          [](BlindLabel& l) {
+                                                            l.effects = {"input_delay", "input_delay"};
+                                                          },
+                                                          [](BlindLabel& l) {
+                                                            l.effects = {"a", "b", "c"};
+                                                          }};
+  const Check check;
+  const BlindLabels labels = read_blind_labels(check.labels());
+  for (const auto change : changes) {
+    BlindLabels changed = labels;
+    change(changed.cases[0]);
+    write_blind_labels(check.labels(), changed);
+    fs::remove(check.folder() + "/manifest.json");
+    EXPECT_THAT(refusal([&] { seal_blind_check(check.folder(), check.labels()); }), HasSubstr(", expected "));
+  }
+  write_blind_labels(check.labels(), {labels.name, labels.configuration, {}});
+  EXPECT_THAT(refusal([&] { seal_blind_check(check.folder(), check.labels()); }),
+              HasSubstr("labels no case"));
+}
+
+TEST(BlindMake, SealsNoTruthThatItDidNotDraw) {
+  const Check check;
+  BlindLabels labels = read_blind_labels(check.labels());
+  for (BlindLabel& label : labels.cases)
+    if (label.effects.size() == 1) label.effects = {"a_bent_shaft"};
+  write_blind_labels(check.labels(), labels);
+  const std::string before = text_of(check.labels());
+  EXPECT_THAT(refusal([&] { make_blind_check(small(1, 1, 1, 1), check.folder(), check.labels(), 2); }),
+              HasSubstr("holds other labels of small"));
+  EXPECT_EQ(text_of(check.labels()), before);
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -132,5 +132,30 @@ TEST(DamagedStore, PagesThatWereOverwrittenAreToldAsDamage) {
               HasSubstr("results.sqlite: is damaged or no store"));
 }
 
+TEST(CampaignStore, LeavesTheDatabaseOfAnotherProgramAsItIs) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  std::filesystem::create_directory(small.place("store"));
+  const std::string file = small.place("store/results.sqlite");
+  execute(file, "CREATE TABLE campaign (id, title); INSERT INTO campaign VALUES (1, 'spring')");
+  const std::string before = testing::text_of(file);
+  EXPECT_NE(testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
+            "");
+  EXPECT_EQ(testing::text_of(file), before);
+}
+
+TEST(CampaignStore, TakesNothingIntoANewStoreThatLiesBesideIt) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  std::filesystem::create_directory(small.place("store"));
+  for (const char* end : {"-wal", "-shm", "-journal"}) {
+    const std::string file = small.place("store/results.sqlite") + end;
+    std::ofstream(file) << "mine";
+    EXPECT_THAT(
+        testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
+        HasSubstr("is there without the store"));
+    EXPECT_EQ(testing::text_of(file), "mine");
+    std::filesystem::remove(file);
+  }
+}
+
 }  // namespace
 }  // namespace gapscope

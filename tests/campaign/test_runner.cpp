@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +128,22 @@ TEST(Runner, AForecastMeasuresRunsFromAllOverTheCampaign) {
   const CampaignForecast f = forecast(small.config, {}, 1);
   EXPECT_EQ(f.measured, 8);
   EXPECT_NEAR(f.total_s, 9.0 * f.run_s, 1e-9);
+}
+
+TEST(Runner, WhatTheMachineFailsAtIsNoResult) {
+  const SmallCampaign simulated("axes: {simulation.seed: [1]}\n");
+  std::ofstream(simulated.place("d.csv")) << "t,u,x1\n";
+  std::ofstream(simulated.place("recorded.yaml")) << "name: r\nbase: {recording: {file: d.csv}}\naxes: "
+                                                     "{encoder.bits: [16, 18]}\nestimators: [model_free]\n";
+  const CampaignConfig recorded = load_campaign(simulated.place("recorded.yaml"));
+  CampaignTiming timing;
+  EXPECT_NE(run_of_campaign(recorded, 0, timing).error, "") << "a recording of no row";
+  rlimit handles{};
+  getrlimit(RLIMIT_NOFILE, &handles);
+  const rlimit none{0, handles.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &none);
+  EXPECT_THROW(run_of_campaign(recorded, 0, timing), MachineError);
+  setrlimit(RLIMIT_NOFILE, &handles);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "blind/plant/severity.h"
 #include "diagnosis/one_inertia.h"
 #include "diagnosis/pipeline.h"
+#include "gapscope/base/errors.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording.h"
 
@@ -275,6 +276,13 @@ TEST(TemptingAnswers, CoulombFrictionIsNotCalledBacklash) {
   const Diagnosis d = diagnosis_of(test::one_inertia(friction, 500006));
   EXPECT_EQ(d.effects, std::vector<std::string>{"motor_coulomb_friction"}) << d.sentence;
   EXPECT_FALSE(contains(d.group, "backlash"));
+}
+
+TEST(Diagnosis, RefusesWhatStandsStill) {
+  blind::BlindPair pair = blind::blind_pair("geared", "none", 0.0, 500001);
+  pair.train.x1.assign(pair.train.size(), 5.0);
+  const MotorTrace train[] = {pair.train.motor_trace()};
+  EXPECT_THROW(diagnose(train, {}, pair.sheet, {}), ConfigError);
 }
 
 }  // namespace

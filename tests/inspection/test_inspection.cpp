@@ -346,5 +346,12 @@ TEST(Inspection, TheRealRecordings) {
   }
 }
 
+TEST(Inspection, RefusesARateThatLeavesHardlyASample) {
+  ReadOptions options;
+  options.resample_rate = 0.5;
+  EXPECT_THAT(testing::refusal([&] { inspected(good(), options); }),
+              HasSubstr("after resampling, expected at least 50"));
+}
+
 }  // namespace
 }  // namespace gapscope

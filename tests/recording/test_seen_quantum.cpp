@@ -72,5 +72,12 @@ TEST(SeenQuantum, ARealEncoderIsSeenInTheRawSamplesAndKeptWhenResampled) {
   EXPECT_EQ(r.size(), 8124u);
 }
 
+TEST(SeenQuantum, SoFewPositionsAreCountsHoweverTheyFollow) {
+  std::vector<double> x1(5000, 0.0);
+  x1[3000] = 2.4e-5;  // once, which is too rare to be seen as a step that recurs
+  EXPECT_EQ(seen_quantum(x1), 2.4e-5);
+  EXPECT_NEAR(seen_quantum(counted(motion(5000, 0.09, 7.3), 0.06)), 0.06, 1e-12);
+}
+
 }  // namespace
 }  // namespace gapscope

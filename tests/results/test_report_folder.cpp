@@ -376,5 +376,15 @@ TEST(ReportFolder, AnEstimateThatIsKeptBringsNoTraceOfTheDiagnosisBefore) {
   EXPECT_EQ(refused(scratch.path), "") << "what was kept is still known as its own";
 }
 
+TEST(ReportFolder, BehindALinkIsWhereTheSystemFindsIt) {
+  ScratchFolder scratch;
+  fs::create_directories(scratch.path / "other/deep");
+  fs::create_directory(scratch.path / "work");
+  fs::create_symlink("../other/deep", scratch.path / "work/link");
+  write(scratch.path / "work/link/../out", {"result.json"}, "new");
+  EXPECT_TRUE(fs::exists(scratch.path / "other/out/result.json"));
+  EXPECT_FALSE(fs::exists(scratch.path / "work/out"));
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -225,5 +225,25 @@ TEST(Detector, TheSameRecordingGivesTheSameAnswerEveryTime) {
   EXPECT_EQ(a.brief_report(), b.brief_report());
 }
 
+/// Positions of a coarse encoder that nobody declared.
+Recording coarsely_read(double quantum, double amplitude) {
+  Recording r;
+  r.dt = 1e-3;
+  for (int i = 0; i < 8000; ++i) {
+    const double t = r.dt * i;
+    r.u.push_back(0.6 * std::sin(2.0 * kPi * t));
+    r.x1.push_back(quantum * std::nearbyint(amplitude * std::sin(2.0 * kPi * t - 1.0) / quantum));
+  }
+  return r;
+}
+
+TEST(Detector, SaysNothingOfAMotionOfTwoCounts) {
+  for (const double amplitude : {0.5, 0.9, 1.4}) {  // of a count
+    const Recording r = coarsely_read(0.06, 0.06 * amplitude);
+    const MotorTrace trace[] = {r.motor_trace()};
+    EXPECT_EQ(detect_gap(trace).verdict, GapVerdict::kInconclusive) << amplitude;
+  }
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -146,5 +146,17 @@ TEST(LostMotion, ARecordingWithoutHalfCyclesHasNoLoop) {
   EXPECT_FALSE(internal::read_lost_motion({}));
 }
 
+TEST(LostMotion, DeniesNothingWhereTheMotorHardlyMoves) {
+  blind::BlindDrive stiff = locked(0.0);
+  stiff.contact_stiffness = 1e5;  // 2 µrad of wind-up, a tenth of a count
+  EXPECT_EQ(detect({ramps(stiff)}).verdict, GapVerdict::kInconclusive);
+  Recording counts = ramps(stiff);
+  for (std::size_t i = 0; i < counts.size(); ++i)  // one count to and fro with the torque
+    counts.x1[i] = 2.4e-5 * (counts.u[i] > 0.2 ? 1.0 : counts.u[i] < -0.2 ? -1.0 : 0.0);
+  counts.quantum = 2.4e-5;
+  const GapEstimate estimate = detect({counts});
+  EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -17,6 +17,12 @@ class ConfigError : public std::runtime_error {
       : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
 };
 
+/// The machine failed, not what the user gave: the same work may succeed another time. Exit status 1.
+class MachineError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The work was asked to stop (Ctrl-C): exit status 130.
 class Interrupted : public std::runtime_error {
  public:

@@ -10,12 +10,20 @@ namespace gapscope {
 /// @throws std::runtime_error naming `path` where none can be made
 std::string new_file_beside(const std::string& path);
 
+/// Changes with whatever is done to a file or to its name; empty where there is none.
+std::string identity_of(const std::string& path);
+
+/// A rename that takes nobody's place.
+/// @returns false where something is there already  @throws std::runtime_error where it cannot be done
+bool moved_where_nothing_is(const std::string& from, const std::string& to);
+
 /// Writes a file aside, under a name of its own, and gives it its name when it is complete: nobody ever finds
 /// a part of it, what was there before stays until then, and of two that write the same file one is whole. A
 /// pipe or a device is written as it is.
 /// @throws std::runtime_error where it cannot be written, ConfigError for a link to another file, which would
 /// be lost; nothing is left of it
-/// @param replace  false: a file that is there by then stays, and is told
+/// @param replace  false: a file that is there by then stays, and is told; true: one that changed since the
+/// writing began stays, and is told
 void write_whole_file(const std::string& path, const std::function<void(std::ostream&)>& write,
                       bool replace = true);
 

@@ -42,6 +42,8 @@ struct BlindManifest {
   std::string version;        ///< of gapscope
   std::string labels_sha256;  ///< see labels_hash()
   std::vector<SealedCase> cases;
+
+  bool operator==(const BlindManifest&) const = default;
 };
 
 /// What the diagnosis says of one case.

@@ -1,0 +1,38 @@
+// What may happen to a folder between the last look at it and the moment when files change places.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "gapscope/results/sha256.h"
+#include "results/file_list.h"
+#include "results/folder_content.h"
+#include "results/scratch_folder.h"
+#include "support/reading.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::text_of;
+namespace fs = std::filesystem;
+
+TEST(FolderContent, TakesNothingAwayThatChangedInTheLastMoment) {
+  ScratchFolder scratch;
+  const fs::path from = scratch.path / "from", to = scratch.path / "to";
+  for (const fs::path& folder : {from, to}) fs::create_directory(folder);
+  std::ofstream(from / "report.md") << "new";
+  std::ofstream(to / "report.md") << "mine";
+  const internal::FileList before{"", "drive", "", {{"report.md", sha256("old")}}};
+  const auto is_result = [](const std::string&) { return false; };
+  const std::string refused = testing::refusal([&] {
+    internal::replace_files(from, to, {"report.md"}, {}, scratch.path / "aside", is_result, &before);
+  });
+  EXPECT_THAT(refused, HasSubstr("report.md: changed meanwhile"));
+  EXPECT_EQ(text_of(to / "report.md"), "mine");
+  EXPECT_EQ(text_of(from / "report.md"), "new");
+}
+
+}  // namespace
+}  // namespace gapscope
