@@ -37,6 +37,37 @@ bool is_stream(const std::string& path) {
          name.starts_with("/proc/self/fd/");
 }
 
+/// The same of what a file holds, whatever its name is; empty where there is none.
+std::string content_identity(const std::string& path) {
+  struct stat s {};
+  if (lstat(path.c_str(), &s) != 0) return "";
+  return fmt::format("{} {} {} {}.{}", s.st_dev, s.st_ino, s.st_size, s.st_mtim.tv_sec, s.st_mtim.tv_nsec);
+}
+
+/// @param found  content identity of what may be replaced; empty: nothing was there
+void take_place_of(const std::string& found, const std::string& from, const std::string& to) {
+  const ConfigError changed(to, "changed meanwhile, expected it as it was");
+  if (content_identity(to) != found) throw changed;
+  if (found.empty()) {
+    if (!moved_where_nothing_is(from, to)) throw changed;
+    return;
+  }
+  const auto exchange = [&] {
+    return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0;
+  };
+  if (!exchange()) {  // a file system that cannot: the last look was a moment ago
+    std::error_code problem;
+    fs::rename(from, to, problem);
+    if (problem) throw std::runtime_error(to + ": cannot be written: " + problem.message());
+    return;
+  }
+  if (content_identity(from) != found) {
+    exchange();
+    throw changed;
+  }
+  unlink(from.c_str());
+}
+
 }  // namespace
 
 std::string identity_of(const std::string& path) {
@@ -81,17 +112,14 @@ void write_whole_file(const std::string& path, const std::function<void(std::ost
     return write_file(path, path, write);
   if (fs::is_symlink(fs::symlink_status(path, problem)))
     throw ConfigError(path, "is a link to another file, expected the name of the file itself");
-  const std::string found = identity_of(path);
+  const std::string found = content_identity(path);
   const fs::path aside = new_file_beside(path);
   try {
     write_file(aside, path, write);
     if (!replace && !moved_where_nothing_is(aside, path))
       throw ConfigError(path, "came to be there meanwhile, expected that it stays free");
     problem.clear();
-    if (replace && identity_of(path) != found)
-      throw ConfigError(path, "changed meanwhile, expected it as it was");
-    if (replace) fs::rename(aside, path, problem);
-    if (problem) throw std::runtime_error(path + ": cannot be written: " + problem.message());
+    if (replace) take_place_of(found, aside, path);
   } catch (...) {
     fs::remove(aside, problem);
     throw;

@@ -50,7 +50,7 @@ Diagnosis diagnosis_of(const std::string& sheet, const SealedCase& sealed) {
   require_reference_model(c);
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = 1;
-  Outcome ignored;
+  RunOutcome ignored;
   const auto silent = [](const std::string&) {};
   const std::vector<Recording> train = load_recordings(c, silent, ignored);
   const std::vector<Recording> held_out = load_held_out(c, silent, ignored);

@@ -15,7 +15,7 @@ using Names = std::vector<std::string>;
 /// `backlash` has no place: every rig has a gap.
 Names effect_names(bool in_catalogue) {
   Names names;
-  for (const EffectEntry& e : effect_entries())
+  for (const DrawnEffect& e : effect_entries())
     if (e.in_catalogue == in_catalogue && e.name != "backlash") names.emplace_back(e.name);
   return names;
 }

@@ -9,10 +9,10 @@
 namespace gapscope::blind {
 namespace {
 
-using Cases = std::vector<Scored>;
+using CountedCases = std::vector<Scored>;
 using Property = std::function<bool(const Scored&)>;
 
-BlindCount count(const char* name, const Cases& cases, const Property& among, const Property& property,
+BlindCount count(const char* name, const CountedCases& cases, const Property& among, const Property& property,
                  double aim = kNaN, bool at_most = false) {
   BlindCount c{name, 0, 0, aim, at_most};
   for (const Scored& s : cases) {
@@ -33,7 +33,7 @@ bool blames_a_stranger(const Scored& s) {
   return decide_again(s.answer->evidence, truth_of(s, true)).accepted;
 }
 
-void add_known(const Cases& cases, std::vector<BlindCount>& counts) {
+void add_known(const CountedCases& cases, std::vector<BlindCount>& counts) {
   counts.push_back(count(
       "one effect: first or in the group", cases, seen_known, [](const Scored& s) { return s.in_group(); },
       0.96));
@@ -60,7 +60,7 @@ void add_known(const Cases& cases, std::vector<BlindCount>& counts) {
 
 }  // namespace
 
-std::vector<BlindCount> count_answers(const Cases& cases) {
+std::vector<BlindCount> count_answers(const CountedCases& cases) {
   std::vector<BlindCount> counts;
   add_known(cases, counts);
   const auto none = [](const Scored& s) { return s.none(); };
@@ -94,7 +94,7 @@ const char* severity_range(double severity) {
   return severity < 1.0 / 3.0 ? "0 to 1/3" : severity < 2.0 / 3.0 ? "1/3 to 2/3" : "2/3 to 1";
 }
 
-BlindSlice slice(const Cases& cases, const std::string& by, const std::string& name,
+BlindSlice slice(const CountedCases& cases, const std::string& by, const std::string& name,
                  const std::function<std::string(const Scored&)>& key) {
   BlindSlice out{by, name, 0, 0, 0, 0, 0, kNaN};
   std::vector<double> shrinks;
@@ -115,7 +115,7 @@ BlindSlice slice(const Cases& cases, const std::string& by, const std::string& n
 
 }  // namespace
 
-std::vector<BlindSlice> slice_answers(const Cases& cases) {
+std::vector<BlindSlice> slice_answers(const CountedCases& cases) {
   std::vector<BlindSlice> slices;
   const auto add = [&](const char* by, const std::function<std::string(const Scored&)>& key) {
     std::set<std::string> names;

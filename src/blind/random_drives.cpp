@@ -39,7 +39,7 @@ std::string configuration(const std::string& name, const BlindCase& c, const Bli
                           bool with_gap) {
   std::string y = fmt::format("name: {}\nrecording: {{file: {}.csv}}\nencoder: {{quantum: {:.17g}}}\n", name,
                               name, c.sensor.quantum);
-  const bool one_inertia = sheet.load == blind::LoadKind::kNone;
+  const bool one_inertia = sheet.load == blind::BlindLoad::kNone;
   const double mass_ratio = one_inertia ? 0.0 : sheet.load_inertia / sheet.motor_inertia;
   y += fmt::format("model:\n  parameters:\n    motor_inertia: {:.6g}\n    torque_constant: {:.6g}\n",
                    sheet.motor_inertia, sheet.torque_constant);
@@ -77,7 +77,7 @@ std::string truth_row(const std::string& name, const BlindCase& c, const blind::
   return fmt::format(
       "{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.4g}\n",
       name, c.kind, with_gap ? d.gap : 0.0,
-      d.load == blind::LoadKind::kNone ? 0.0 : d.load_inertia / d.motor_inertia, d.contact_stiffness,
+      d.load == blind::BlindLoad::kNone ? 0.0 : d.load_inertia / d.motor_inertia, d.contact_stiffness,
       d.contact_damping, d.motor_damping, d.load_damping, d.load_coulomb,
       d.torque_constant * c.excitation.amplitude, c.excitation.frequency, c.options.rate, c.sensor.quantum,
       c.sensor.noise, with_gap ? load_travel_share(truth) : 0.0);

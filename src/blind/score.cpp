@@ -51,7 +51,7 @@ std::size_t Scored::standing() const {
   return static_cast<std::size_t>(std::count_if(names.begin(), names.end(), [&](const std::string& name) {
     return std::none_of(names.begin(), names.end(), [&](const std::string& other) {
       const EffectEntry* later = find_effect(other);  // a stored answer may name anything
-      const EffectEntry* contained = later == nullptr ? nullptr : internal::nested_parent(*later);
+      const EffectEntry* contained = later == nullptr ? nullptr : internal::diagnosis::nested_parent(*later);
       return contained != nullptr && contained == find_effect(name);
     });
   }));

@@ -58,7 +58,7 @@ void require_sound(const BlindLabel& l, const std::string& file) {
 }
 
 void require_sound(const BlindLabels& labels, const std::string& file) {
-  require_plain_name(labels.name, file);
+  blind::require_plain_name(labels.name, file);
   if (labels.cases.empty()) throw ConfigError(file, "labels no case, expected at least one");
   std::set<std::string> names;
   for (const BlindLabel& l : labels.cases) {
@@ -75,7 +75,7 @@ std::vector<FileHash> files_of(const std::string& folder, const std::string& nam
   std::vector<FileHash> files = {{sheet, sha256_of_file(path)}};
   for (const auto* list : {&c.recording->files, &c.recording->held_out})
     for (const RecordedFile& r : *list) {
-      require_inside(r.given, path);
+      blind::require_inside(r.given, path);
       files.push_back({r.given, sha256_of_file(folder + "/" + r.given)});
     }
   return files;
@@ -83,12 +83,12 @@ std::vector<FileHash> files_of(const std::string& folder, const std::string& nam
 
 }  // namespace
 
-void require_plain_name(const std::string& name, const std::string& file) {
+void blind::require_plain_name(const std::string& name, const std::string& file) {
   if (!is_plain_name(name))
     throw ConfigError(file, "has the name " + shown(name) + ", expected a plain file name");
 }
 
-void require_inside(const std::string& name, const std::string& file) {
+void blind::require_inside(const std::string& name, const std::string& file) {
   const std::filesystem::path path(name);
   const bool leaves = std::find(path.begin(), path.end(), "..") != path.end();
   if (name.empty() || path.is_absolute() || leaves)
@@ -110,21 +110,21 @@ BlindManifest seal_blind_check(const std::string& folder, const std::string& lab
   for (const BlindLabel& l : secret.cases)
     manifest.cases.push_back({l.name, l.part, label_hash(l), files_of(folder, l.name)});
   if (there && !(read_blind_manifest(path) == manifest)) throw another;
-  write_blind_manifest(path, manifest);
+  if (!there) write_blind_manifest(path, manifest, false);
   return manifest;
 }
 
 void verify_recordings(const BlindManifest& manifest, const std::string& folder) {
-  require_plain_name(manifest.name, folder + "/manifest.json");
+  blind::require_plain_name(manifest.name, folder + "/manifest.json");
   for (const SealedCase& c : manifest.cases)
     for (const FileHash& f : c.files) {
-      require_inside(f.file, folder + "/manifest.json");
-      verify_file(folder + "/" + f.file, sha256_of_file(folder + "/" + f.file), c.name, f);
+      blind::require_inside(f.file, folder + "/manifest.json");
+      blind::verify_file(folder + "/" + f.file, sha256_of_file(folder + "/" + f.file), c.name, f);
     }
 }
 
-void verify_file(const std::string& path, const std::string& found, const std::string& name,
-                 const FileHash& sealed) {
+void blind::verify_file(const std::string& path, const std::string& found, const std::string& name,
+                        const FileHash& sealed) {
   if (found != sealed.sha256)
     throw ConfigError(path,
                       "is not the file of " + name + " that was sealed, expected SHA-256 " + sealed.sha256);

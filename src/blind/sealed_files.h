@@ -4,7 +4,7 @@
 
 #include "gapscope/blind/records.h"
 
-namespace gapscope {
+namespace gapscope::blind {
 
 /// @throws ConfigError naming `file` unless a check's name can be that of a folder.
 void require_plain_name(const std::string& name, const std::string& file);
@@ -16,4 +16,4 @@ void require_inside(const std::string& path, const std::string& file);
 void verify_file(const std::string& path, const std::string& found, const std::string& name,
                  const FileHash& sealed);
 
-}  // namespace gapscope
+}  // namespace gapscope::blind

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 namespace {
 
 using Score = EstimatorScore SummaryCell::*;
@@ -112,4 +112,4 @@ std::vector<SummaryAnswer> answers(const CampaignSummary& s) {
   return all;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

@@ -4,7 +4,7 @@
 
 #include "gapscope/campaign/summary.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 
 /// A setting is good enough for a tolerance when at least this share of all its runs (those without an answer
 /// count as bad) are within it.
@@ -18,4 +18,4 @@ std::vector<SummaryAnswer> answers(const CampaignSummary& summary);
 /// that are no numbers, and those with gaps between them, are listed.
 std::string range_in_words(const std::vector<SummaryBin>& bins, const std::vector<bool>& good);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

@@ -9,7 +9,7 @@
 #include "gapscope/base/units.h"
 #include "gapscope/plant/drive.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 namespace {
 
 const std::map<std::string, AxisName>& plain_names() {
@@ -62,4 +62,4 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.4g}{}{}{}", value, unit.empty() ? "" : " ", prefix, unit);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 
 /// What a parameter is called and measured in, for people.
 struct AxisName {
@@ -14,4 +14,4 @@ AxisName axis_name(const std::string& path, bool rotation);
 /// "2 kHz", "19 mrad", "0.3", "16 bit"
 std::string with_unit(double value, const std::string& unit);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

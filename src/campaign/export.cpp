@@ -32,7 +32,7 @@ void export_campaign(const CampaignStore& store, const std::function<void(const 
   store.each(
       [](CampaignRow&, const CampaignTiming&) {});  // what is damaged is refused before a word is written
   RowWriter header;
-  for (const std::string& name : internal::run_columns(store.header()))
+  for (const std::string& name : internal::campaign::run_columns(store.header()))
     if (name != "configuration") header.add(name);
   write(header.line + "\n");
   store.each([&](CampaignRow& row, const CampaignTiming&) {

@@ -55,7 +55,7 @@ std::uint64_t merge_campaigns(const std::vector<std::string>& folders, const std
   header.shard = {};
   for (const std::string& folder : folders) {
     const CampaignHeader other = CampaignStore(folder).header();
-    if (const std::string what = internal::difference(other, header); !what.empty())
+    if (const std::string what = internal::campaign::header_difference(other, header); !what.empty())
       throw ConfigError(folder, fmt::format("{} (as in {})", what, folders.front()));
     if (fs::exists(target) && fs::equivalent(folder, target))
       throw ConfigError(target, "is one of the folders to merge, expected another one to merge into");

@@ -83,9 +83,9 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 
 }  // namespace
 
-Outcome run_pipeline(const Configuration& c, const Estimators& wanted, const Progress& progress) {
+RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const Progress& progress) {
   if (wanted.reference) require_reference_model(c);
-  Outcome out;
+  RunOutcome out;
   RunResult& r = out.result;
   r.name = c.name;
   r.version = version();

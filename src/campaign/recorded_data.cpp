@@ -2,19 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <set>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/whole_file.h"
 #include "gapscope/results/sha256.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 namespace {
 
-std::string line_for(const RecordedFile& file) try {
-  return fmt::format("recording {}: SHA-256 {}\n", file.given, sha256_of_file(file.path));
-} catch (const ConfigError&) {
-  return fmt::format("recording {}: not there\n", file.given);
+/// Only what is sure is said: a store that begins with a passing trouble could never be gone on with.
+std::string line_for(const RecordedFile& file) {
+  std::error_code problem;
+  const auto there = std::filesystem::status(file.path, problem);
+  if (there.type() == std::filesystem::file_type::not_found)
+    return fmt::format("recording {}: not there\n", file.given);
+  if (problem) throw MachineError(file.path + ": cannot be read: " + problem.message());
+  try {
+    return fmt::format("recording {}: SHA-256 {}\n", file.given, sha256_of_file(file.path));
+  } catch (const ConfigError& error) {
+    throw MachineError(error.what());
+  }
 }
 
 /// The first run, and for every value of an axis over recordings a run that has it.
@@ -62,4 +71,4 @@ std::string state_of(const std::vector<std::string>& files) {
   return state;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

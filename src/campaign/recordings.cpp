@@ -48,9 +48,9 @@ blind::BlindDrive independent_drive(const SimulationConfig& s) {
   const DriveParameters<double>& p = s.plant.drive;
   const DriveStructure& structure = s.plant.structure;
   blind::BlindDrive d;
-  d.load = !structure.has_load                   ? blind::LoadKind::kNone
-           : structure.load == LoadKind::kLocked ? blind::LoadKind::kLocked
-                                                 : blind::LoadKind::kFree;
+  d.load = !structure.has_load                   ? blind::BlindLoad::kNone
+           : structure.load == LoadKind::kLocked ? blind::BlindLoad::kLocked
+                                                 : blind::BlindLoad::kFree;
   d.contact =
       structure.contact == ContactLaw::kRigid ? blind::ContactKind::kRigid : blind::ContactKind::kCompliant;
   d.restitution = structure.restitution;
@@ -80,7 +80,7 @@ Recording independent_recording(const Configuration& c, const std::vector<double
 }
 
 std::vector<Recording> read_all(const Configuration& c, const std::vector<RecordedFile>& files,
-                                const Progress& progress, Outcome& outcome) {
+                                const Progress& progress, RunOutcome& outcome) {
   std::vector<Recording> recordings;
   for (const RecordedFile& file : files) {
     stop_point();
@@ -138,7 +138,8 @@ Recording simulated_recording(const Configuration& c) {
   return r;
 }
 
-std::vector<Recording> load_recordings(const Configuration& c, const Progress& progress, Outcome& outcome) {
+std::vector<Recording> load_recordings(const Configuration& c, const Progress& progress,
+                                       RunOutcome& outcome) {
   if (c.simulation) {
     progress("simulating " + c.name);
     return {simulated_recording(c)};
@@ -146,7 +147,7 @@ std::vector<Recording> load_recordings(const Configuration& c, const Progress& p
   return read_all(c, c.recording->files, progress, outcome);
 }
 
-std::vector<Recording> load_held_out(const Configuration& c, const Progress& progress, Outcome& outcome) {
+std::vector<Recording> load_held_out(const Configuration& c, const Progress& progress, RunOutcome& outcome) {
   if (!c.recording) return {};
   return read_all(c, c.recording->held_out, progress, outcome);
 }

@@ -77,8 +77,16 @@ std::vector<std::uint64_t> pending(const CampaignConfig& c, const CampaignStore&
 /// A run may have failed because a recording went away since the campaign began: that is no result of it.
 void require_same_recordings(const CampaignConfig& c, const CampaignStore& store) {
   const CampaignHeader now = campaign_header(c, store.header().shard);
-  if (const std::string what = internal::difference(store.header(), now); !what.empty())
+  if (const std::string what = internal::campaign::header_difference(store.header(), now); !what.empty())
     throw std::runtime_error("a recording changed while the campaign ran: its store " + what);
+}
+
+/// Reading may fail by passing trouble, of a disk or a network: only what fails alike once more is a result.
+CampaignRow same_failure(const CampaignConfig& c, CampaignRow first, CampaignTiming& timing) {
+  CampaignRow again = run_of_campaign(c, first.run, timing);
+  if (!again.error.empty() && again.error != first.error)
+    throw MachineError("reading fails in changing ways: " + first.error + "; " + again.error);
+  return again;
 }
 
 }  // namespace
@@ -93,7 +101,7 @@ CampaignRow run_of_campaign(const CampaignConfig& c, std::uint64_t run, Campaign
     row.configuration = resolved_yaml(configuration);
     row.seed =
         fmt::format("{}", configuration.simulation ? configuration.simulation->seed : configuration.fit.seed);
-    const Outcome outcome =
+    const RunOutcome outcome =
         run_pipeline(configuration, {c.model_free, c.reference}, [](const std::string&) {});
     note_result(outcome.result, row);
     timing.model_free_s = outcome.timing.model_free_s;
@@ -116,8 +124,8 @@ CampaignRow run_of_campaign(const CampaignConfig& c, std::uint64_t run, Campaign
 CampaignProgress run_campaign(const CampaignConfig& c, CampaignStore& store, int threads,
                               const std::function<void(const CampaignProgress&)>& tell) {
   const auto begin = Clock::now();
-  const std::vector<std::string> recordings = internal::recorded_files(c);
-  const std::string state = internal::state_of(recordings);
+  const std::vector<std::string> recordings = internal::campaign::recorded_files(c);
+  const std::string state = internal::campaign::state_of(recordings);
   if (!recordings.empty()) require_same_recordings(c, store);
   const std::vector<std::uint64_t> runs = pending(c, store);
   CampaignProgress progress;
@@ -128,9 +136,12 @@ CampaignProgress run_campaign(const CampaignConfig& c, CampaignStore& store, int
     stop_point();
     CampaignTiming timing;
     CampaignRow row = run_of_campaign(c, runs[i], timing);
+    const auto unchanged = [&] { return internal::campaign::state_of(recordings) == state; };
+    if (!row.error.empty() && !recordings.empty() && unchanged())
+      row = same_failure(c, std::move(row), timing);
     const bool failed = !row.error.empty();
     if (failed) require_same_recordings(c, store);
-    if (internal::state_of(recordings) != state)
+    if (!unchanged())
       throw std::runtime_error(
           "a recording changed while the campaign ran: where it is as before, the same command goes on");
     store.add(std::move(row), timing);

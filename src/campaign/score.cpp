@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 namespace {
 
 bool is_interval(const Interval& i) { return std::isfinite(i.low) && std::isfinite(i.high); }
@@ -62,4 +62,4 @@ SummaryCell Scorer::cell() const {
   return cell;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

@@ -5,7 +5,7 @@
 #include "gapscope/campaign/row.h"
 #include "gapscope/campaign/summary.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 
 /// Takes rows one by one and says how the estimators did in all of them.
 class Scorer {
@@ -22,4 +22,4 @@ class Scorer {
   std::vector<double> model_free_errors_, reference_errors_;  ///< signed, relative
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

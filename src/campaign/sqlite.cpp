@@ -12,7 +12,7 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 namespace {
 
 constexpr int kPatience = 20000;  // for another process that writes [ms]
@@ -160,4 +160,4 @@ std::string quoted_name(const std::string& name) {
   return quoted + "\"";
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 
 /// A database file. A failure throws with the file and what SQLite says: ConfigError where the file is no
 /// store or a damaged one, else std::runtime_error.
@@ -66,4 +66,4 @@ class Statement {
 /// A name as SQL has it: in quotes.
 std::string quoted_name(const std::string& name);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <initializer_list>
 #include <mutex>
 
 #include "campaign/sqlite.h"
@@ -16,8 +19,8 @@ namespace gapscope {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::Database;
-using internal::Statement;
+using internal::campaign::Database;
+using internal::campaign::Statement;
 
 std::string file_in(const std::string& folder) { return (fs::path(folder) / "results.sqlite").string(); }
 
@@ -37,9 +40,29 @@ void require_nothing_beside(const std::string& file) {
       throw ConfigError(file + end, "is there without the store that it belongs to, expected it elsewhere");
 }
 
+/// SQLite takes what has such a name, and removes it.
+void require_own_beside(const std::string& file) {
+  const auto begins = [&](const char* end, std::initializer_list<std::string> heads) {
+    std::ifstream in(file + end, std::ios::binary);
+    std::string head(4, '\0');
+    if (!in.read(head.data(), 4)) return in.gcount() == 0;  // empty, or not there
+    return std::any_of(heads.begin(), heads.end(), [&](const std::string& h) { return head == h; });
+  };
+  const std::string zeros(4, '\0');  // of one that is no longer valid
+  if (!begins("-wal", {"\x37\x7f\x06\x82", "\x37\x7f\x06\x83", zeros}))
+    throw ConfigError(file + "-wal", "is not what SQLite keeps beside a store, expected it elsewhere");
+  if (!begins("-journal", {"\xd9\xd5\x05\xf9", zeros}))
+    throw ConfigError(file + "-journal", "is not what SQLite keeps beside a store, expected it elsewhere");
+  std::error_code problem;
+  constexpr std::uintmax_t kUnit = 32768;  // of its index of the log
+  if (const auto size = fs::file_size(file + "-shm", problem); !problem && size % kUnit != 0)
+    throw ConfigError(file + "-shm", "is not what SQLite keeps beside a store, expected it elsewhere");
+}
+
 std::string existing(const std::string& folder) {
   if (!fs::is_regular_file(file_in(folder)))
     throw ConfigError(file_in(folder), "there is no such file, expected the store of a campaign");
+  require_own_beside(file_in(folder));
   return file_in(folder);
 }
 
@@ -74,9 +97,9 @@ struct ColumnReader {
 
 std::string selection(const CampaignHeader& header, bool configurations) {
   std::vector<std::string> columns;
-  for (const std::string& name : internal::run_columns(header)) {
+  for (const std::string& name : internal::campaign::run_columns(header)) {
     const bool left_out = name == "configuration" && !configurations;
-    columns.push_back(left_out ? "''" : "runs." + internal::quoted_name(name));
+    columns.push_back(left_out ? "''" : "runs." + internal::campaign::quoted_name(name));
   }
   return fmt::format(
       "SELECT {}, model_free_s, reference_s, run_s FROM runs LEFT JOIN timing ON timing.run = runs.run ORDER "
@@ -106,31 +129,33 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
     throw ConfigError(file, "is no regular file, expected the store of a campaign");
   else if (!fs::exists(there))
     require_nothing_beside(file);
+  else
+    require_own_beside(file);
   connection_ = std::make_unique<Connection>(file, std::move(lock));
   Database& database = connection_->database;
-  const bool is_new = internal::is_empty(database);
+  const bool is_new = internal::campaign::is_empty(database);
   if (!is_new) {
-    internal::require_campaign(database, file);
-    internal::read_header(database, file);  // before anything is changed in what may be another's
+    internal::campaign::require_campaign(database, file);
+    internal::campaign::read_header(database, file);  // before anything is changed in what may be another's
   }
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
-  if (is_new) internal::create_tables(database, header);
-  const CampaignHeader stored = internal::read_header(database, file);
-  if (const std::string what = internal::difference(stored, header); !what.empty())
+  if (is_new) internal::campaign::create_tables(database, header);
+  const CampaignHeader stored = internal::campaign::read_header(database, file);
+  if (const std::string what = internal::campaign::header_difference(stored, header); !what.empty())
     throw ConfigError(file, what);
   if (to_string(stored.shard) != to_string(header.shard))
     throw ConfigError(file, fmt::format("holds shard {}, expected {} (each shard has a folder of its own)",
                                         to_string(stored.shard), to_string(header.shard)));
-  connection_->insert_run =
-      std::make_unique<Statement>(database, insertion("runs", internal::run_columns(header).size()));
+  connection_->insert_run = std::make_unique<Statement>(
+      database, insertion("runs", internal::campaign::run_columns(header).size()));
   connection_->insert_timing = std::make_unique<Statement>(database, insertion("timing", 4));
 }
 
 CampaignStore::CampaignStore(const std::string& folder)
     : connection_(std::make_unique<Connection>(existing(folder), nullptr)),
       header_((connection_->database.require_sound(),
-               internal::read_header(connection_->database, file_in(folder)))) {}
+               internal::campaign::read_header(connection_->database, file_in(folder)))) {}
 
 CampaignStore::~CampaignStore() = default;
 

@@ -19,7 +19,7 @@ CampaignHeader campaign_header(const CampaignConfig& c, const CampaignShard& sha
   CampaignHeader h;
   h.version = version();
   h.name = c.name;
-  h.identity = campaign_identity(c) + internal::recorded_data(c);
+  h.identity = campaign_identity(c) + internal::campaign::recorded_data(c);
   h.rotation = campaign_run(c, 0).rotation;
   h.model_free = c.model_free;
   h.reference = c.reference;
@@ -30,7 +30,7 @@ CampaignHeader campaign_header(const CampaignConfig& c, const CampaignShard& sha
   return h;
 }
 
-namespace internal {
+namespace internal::campaign {
 namespace {
 
 constexpr double kMostShards = 9e15;  // a double still holds it exactly
@@ -213,7 +213,7 @@ CampaignHeader read_header(Database& database, const std::string& file) {
   return h;
 }
 
-std::string difference(const CampaignHeader& stored, const CampaignHeader& wanted) {
+std::string header_difference(const CampaignHeader& stored, const CampaignHeader& wanted) {
   if (stored.version != wanted.version)
     return fmt::format("is of gapscope {}, expected {}", shown(stored.version), wanted.version);
   const auto a = lines_of(stored.identity), b = lines_of(wanted.identity);
@@ -228,5 +228,5 @@ std::string difference(const CampaignHeader& stored, const CampaignHeader& wante
   return "";
 }
 
-}  // namespace internal
+}  // namespace internal::campaign
 }  // namespace gapscope

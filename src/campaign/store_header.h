@@ -5,7 +5,7 @@
 #include "campaign/sqlite.h"
 #include "gapscope/campaign/store.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::campaign {
 
 /// Makes the tables of an empty database and writes the header, all at once.
 void create_tables(Database& database, const CampaignHeader& header);
@@ -22,6 +22,6 @@ std::vector<std::string> run_columns(const CampaignHeader& header);
 
 /// What tells two campaigns apart, "" if nothing does; the shard is not looked at.
 /// @param stored, wanted  as the sentence calls them
-std::string difference(const CampaignHeader& stored, const CampaignHeader& wanted);
+std::string header_difference(const CampaignHeader& stored, const CampaignHeader& wanted);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::campaign

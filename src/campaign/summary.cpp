@@ -17,9 +17,9 @@
 namespace gapscope {
 namespace {
 
-using internal::axis_name;
-using internal::Scorer;
-using internal::with_unit;
+using internal::campaign::axis_name;
+using internal::campaign::Scorer;
+using internal::campaign::with_unit;
 
 constexpr int kParts = 6;               // of a range without values of its own
 constexpr std::size_t kMostPairs = 10;  // with a figure each
@@ -172,7 +172,7 @@ CampaignSummary summarise(const CampaignStore& store) {
   for (const TableScorer& table : pairs) s.pairs.push_back(table.table());
   s.refusals = counted(refusals);
   s.errors = counted(errors);
-  s.answers = internal::answers(s);
+  s.answers = internal::campaign::answers(s);
   return s;
 }
 

@@ -27,7 +27,7 @@ std::string command_names(const CLI::App& app) {
 std::string expectation(CLI::App& app) {
   CLI::App* used = &app;
   while (!used->get_subcommands().empty()) used = used->get_subcommands()[0];
-  return used == &app ? "one of the commands " + command_names(app) : usage(describe(CommandLine(*used)));
+  return used == &app ? "one of the commands " + command_names(app) : usage(command_of(CommandLine(*used)));
 }
 
 bool is_unknown_command(const CLI::App& app, const std::string& word) {
@@ -46,6 +46,10 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
 
 void tell(CLI::App& app, const std::string& what) {
   fmt::print(stderr, "gapscope: {}, expected {}\n", what, expectation(app));
+}
+
+Option not_empty(Option option) {
+  return option.accepts([](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); });
 }
 
 }  // namespace
@@ -85,9 +89,7 @@ CommandLine CommandLine::add_command(const char* name, const char* doc) {
 }
 
 Option CommandLine::add_option(const char* names, std::string& value, const char* doc) {
-  return Option(app_->add_option(names, value, doc)).accepts([](const std::string& text) {
-    return std::string(text.empty() ? "is empty" : "");
-  });
+  return not_empty(Option(app_->add_option(names, value, doc)));
 }
 Option CommandLine::add_option(const char* names, int& value, const char* doc) {
   return Option(app_->add_option(names, value, doc));
@@ -96,7 +98,7 @@ Option CommandLine::add_option(const char* names, double& value, const char* doc
   return Option(app_->add_option(names, value, doc));
 }
 Option CommandLine::add_option(const char* names, std::vector<std::string>& values, const char* doc) {
-  return Option(app_->add_option(names, values, doc));
+  return not_empty(Option(app_->add_option(names, values, doc)));
 }
 Option CommandLine::add_option(const char* names, std::vector<double>& values, const char* doc) {
   return Option(app_->add_option(names, values, doc));

@@ -26,7 +26,7 @@ void read_type(const std::string& type, Argument& argument) {
   argument.limits.clear();
 }
 
-Argument describe(const CLI::Option& option) {
+Argument command_of(const CLI::Option& option) {
   Argument argument;
   for (const std::string& name : option.get_snames()) argument.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) argument.names.push_back("--" + name);
@@ -49,14 +49,14 @@ Command describe_app(const CLI::App& app) {
       full_name(app), app.get_description(), app.get_footer(), {}, {}, app.get_require_subcommand_min() > 0};
   for (const bool positional : {true, false})
     for (const CLI::Option* option : app.get_options())
-      if (option->get_positional() == positional) command.arguments.push_back(describe(*option));
+      if (option->get_positional() == positional) command.arguments.push_back(command_of(*option));
   for (const CLI::App* below : app.get_subcommands(nullptr)) command.commands.push_back(describe_app(*below));
   return command;
 }
 
 }  // namespace
 
-Command describe(const CommandLine& line) { return describe_app(line.app()); }
+Command command_of(const CommandLine& line) { return describe_app(line.app()); }
 
 std::string usage(const Command& command) {
   std::string text = command.name;

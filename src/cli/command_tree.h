@@ -28,7 +28,7 @@ struct Command {
 };
 
 /// What there is to know of a command line: the one source of usages, the manual and the completions.
-Command describe(const CommandLine& line);
+Command command_of(const CommandLine& line);
 
 /// "gapscope run CONFIG [-o DIR] [--quiet]": without --help.
 std::string usage(const Command& command);

@@ -132,7 +132,7 @@ void add_completion(CommandLine& app) {
   command.footer(
       "The script on standard output; an installed gapscope has both where the shells look for them.\n\n"
       "Example: source <(gapscope completion bash)");
-  command.action([&app, shell] { fmt::print("{}", completion(describe(app), *shell)); });
+  command.action([&app, shell] { fmt::print("{}", completion(command_of(app), *shell)); });
 }
 
 }  // namespace gapscope::cli

@@ -104,7 +104,7 @@ void diagnose_configuration(const Arguments& a) {
   options.threads = a.threads;
   options.progress = progress_on_terminal(a.quiet);
   const std::vector<FileHash> sources = sources_of(c);
-  Outcome loaded;
+  RunOutcome loaded;
   const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
   require_possible_experiment(c, train.front().dt);
   const std::vector<Recording> held_out = load_held_out(c, options.progress, loaded);

@@ -37,7 +37,7 @@ void write_fitted_model(const std::string& folder, const Configuration& c, const
 }
 
 /// The folder is replaced only when everything is in it.
-void write_outcome(ReportFolder& report, const Configuration& c, Outcome& outcome) {
+void write_outcome(ReportFolder& report, const Configuration& c, RunOutcome& outcome) {
   report.keep_diagnosis(outcome.result.version, outcome.result.sources);
   if (!report.dropped().empty()) outcome.warnings.push_back(report.dropped());
   write_run_result(report.path(), outcome.result);
@@ -55,7 +55,7 @@ void estimate(const Arguments& a, const Estimators& wanted) {
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   const Progress progress = progress_on_terminal(a.quiet);
   const std::vector<FileHash> sources = sources_of(c);
-  Outcome outcome = run_pipeline(c, wanted, progress);
+  RunOutcome outcome = run_pipeline(c, wanted, progress);
   if (sources != sources_of(c)) throw ConfigError(a.config, kSourcesChanged);
   outcome.result.sources = sources;
   progress("drawing the report");

@@ -92,7 +92,7 @@ void add_man(CommandLine& app) {
   CommandLine command = app.add_command("man", "The manual page on standard output");
   command.footer(
       "Everything that --help says, of every command, for man.\n\nExample: gapscope man | man -l -");
-  command.action([&app] { fmt::print("{}", manual(describe(app))); });
+  command.action([&app] { fmt::print("{}", manual(command_of(app))); });
 }
 
 }  // namespace gapscope::cli

@@ -18,7 +18,7 @@ AxisValue axis_value(const std::string& yaml) {
   return value;
 }
 
-namespace internal {
+namespace internal::config {
 namespace {
 
 constexpr int kDigits = 9, kLogDigits = 6;
@@ -133,5 +133,5 @@ CampaignDraw read_draw(const std::string& path, const Value& value) {
           log_uniform.has_value(), value.line()};
 }
 
-}  // namespace internal
+}  // namespace internal::config
 }  // namespace gapscope

@@ -6,7 +6,7 @@
 #include "config/yaml_value.h"
 #include "gapscope/config/campaign_config.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 
 /// Counts in a campaign end here, far above what is accepted: so that a product of them can still be told.
 constexpr std::uint64_t kMostCounted = 1000000000000000;
@@ -30,4 +30,4 @@ CampaignDraw read_draw(const std::string& path, const Value& value);
 /// says.
 AxisValue axis_number(double value, int digits);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

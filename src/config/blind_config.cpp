@@ -22,10 +22,10 @@ void BlindPartConfig::fields(FieldVisitor& v) {
 
 namespace {
 
-using internal::Section;
-using internal::Value;
+using internal::config::Section;
+using internal::config::Value;
 
-constexpr internal::Range kDurations{2.0, 100.0, "s"};
+constexpr internal::config::Range kDurations{2.0, 100.0, "s"};
 const std::vector<std::string> kRigNames = {"paper", "geared", "heavy"};
 
 std::vector<std::string> read_rigs(const Value& value) {
@@ -48,13 +48,13 @@ void require_apart(const Value& at, const BlindPartConfig& a, const BlindPartCon
 }  // namespace
 
 BlindConfig load_blind_config(const std::string& path) {
-  const Value document = internal::parse_document(internal::read_text(path), path);
+  const Value document = internal::config::parse_document(internal::config::read_text(path), path);
   const Section root(document, {"name", "calibration", "report", "rigs", "duration"});
   BlindConfig c;
-  c.name = internal::read_name(root, path);
-  if (const auto part = root.find("calibration")) internal::read_fields(*part, c.calibration);
+  c.name = internal::config::read_name(root, path);
+  if (const auto part = root.find("calibration")) internal::config::read_fields(*part, c.calibration);
   const Value report = root.require("report", "{first_seed: ..., known: ..., outside: ..., none: ...}");
-  internal::read_fields(report, c.report);
+  internal::config::read_fields(report, c.report);
   if (c.report.cases() == 0) report.fail("has no case, expected at least one");
   require_apart(report, c.calibration, c.report);
   const auto rigs = root.find("rigs");
@@ -64,19 +64,19 @@ BlindConfig load_blind_config(const std::string& path) {
 }
 
 std::string resolved_yaml(const BlindConfig& check) {
-  internal::YamlWriter out(true);
-  internal::FieldWriter fields(out);
+  internal::config::YamlWriter out(true);
+  internal::config::FieldWriter fields(out);
   const auto write_part = [&](const char* key, BlindPartConfig part) {
     out.open(key);
     part.fields(fields);
     out.close();
   };
   out.comment("The blind check of this report, every default filled in.");
-  out.entry("name", internal::yaml_text(check.name));
+  out.entry("name", internal::config::yaml_text(check.name));
   write_part("calibration", check.calibration);
   write_part("report", check.report);
   out.entry("rigs", fmt::format("[{}]", fmt::join(check.rigs, ", ")));
-  out.entry("duration", internal::yaml_number(check.duration), "s");
+  out.entry("duration", internal::config::yaml_number(check.duration), "s");
   return out.text();
 }
 

@@ -14,7 +14,7 @@
 #include "gapscope/base/errors.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::config {
 namespace {
 
 const std::vector<std::string> kKeys = {"name", "base", "axes", "drawn", "sampling", "estimators"};
@@ -150,7 +150,7 @@ std::string identity_of(const CampaignAxis& axis) {
 }
 
 }  // namespace
-}  // namespace internal
+}  // namespace internal::config
 
 std::uint64_t CampaignConfig::runs() const {
   if (hypercube) return hypercube->samples;
@@ -160,7 +160,7 @@ std::uint64_t CampaignConfig::runs() const {
 }
 
 CampaignConfig load_campaign(const std::string& path) {
-  return internal::read_campaign(internal::read_text(path), path);
+  return internal::config::read_campaign(internal::config::read_text(path), path);
 }
 
 std::string campaign_identity(const CampaignConfig& c) {
@@ -170,7 +170,7 @@ std::string campaign_identity(const CampaignConfig& c) {
   text += c.hypercube ? fmt::format("sampling: latin_hypercube of {} samples, seed {}\n",
                                     c.hypercube->samples, c.hypercube->seed)
                       : std::string("sampling: full_factorial\n");
-  for (const CampaignAxis& axis : c.axes) text += internal::identity_of(axis);
+  for (const CampaignAxis& axis : c.axes) text += internal::config::identity_of(axis);
   for (const CampaignDraw& draw : c.draws)
     text += fmt::format("drawn {}: {} {} to {}\n", draw.path, draw.logarithmic ? "log_uniform" : "uniform",
                         draw.range.low, draw.range.high);

@@ -13,7 +13,7 @@
 #include "gapscope/base/require.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::config {
 namespace {
 
 constexpr int kDrawnDigits = 9;
@@ -103,7 +103,7 @@ std::uint64_t permuted(std::uint64_t index, std::uint64_t size, std::uint64_t ke
 
 void base_configuration(const CampaignConfig& c) { read_configuration(base_document(c)); }
 
-}  // namespace internal
+}  // namespace internal::config
 
 std::vector<AxisValue> campaign_point(const CampaignConfig& c, std::uint64_t index) {
   GAPSCOPE_REQUIRE(index < c.runs());
@@ -112,26 +112,26 @@ std::vector<AxisValue> campaign_point(const CampaignConfig& c, std::uint64_t ind
   for (std::size_t i = c.axes.size(); i-- > 0;) {
     const CampaignAxis& axis = c.axes[i];
     if (c.hypercube) {
-      point[i] = internal::hypercube_value(*c.hypercube, axis, index);
+      point[i] = internal::config::hypercube_value(*c.hypercube, axis, index);
       continue;
     }
     point[i] = axis.values[rest % axis.values.size()];
     rest /= axis.values.size();
   }
   for (const CampaignDraw& draw : c.draws)
-    point.push_back(
-        internal::at_share(draw.range, draw.logarithmic, internal::drawn_share(1, draw.path, index)));
+    point.push_back(internal::config::at_share(draw.range, draw.logarithmic,
+                                               internal::config::drawn_share(1, draw.path, index)));
   return point;
 }
 
 Configuration campaign_run(const CampaignConfig& c, std::uint64_t index) {
-  const internal::Value document = internal::base_document(c);
+  const internal::config::Value document = internal::config::base_document(c);
   const std::vector<AxisValue> point = campaign_point(c, index);
   for (std::size_t i = 0; i < point.size(); ++i) {
     const std::string& path = i < c.axes.size() ? c.axes[i].path : c.draws[i - c.axes.size()].path;
-    internal::write_at(document.node(), path, path, YAML::Load(point[i].yaml));
+    internal::config::write_at(document.node(), path, path, YAML::Load(point[i].yaml));
   }
-  Configuration run = internal::read_configuration(document);
+  Configuration run = internal::config::read_configuration(document);
   run.name = fmt::format("{}_run_{}", c.name, index + 1);
   return run;
 }

@@ -16,7 +16,7 @@
 #include "gapscope/base/require.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::config {
 namespace {
 
 constexpr const char* kNameForm =
@@ -92,8 +92,8 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
         fmt::format("stands beside recording (line {}), expected only one of both", recording->line()));
   if (!recording && !simulation) root.require("recording", "either recording or simulation");
   if (recording) {
-    c.recording = read_recording(*recording, std::filesystem::path(c.file).parent_path().string(), c.encoder,
-                                 c.rotation);
+    c.recording = read_recording_block(*recording, std::filesystem::path(c.file).parent_path().string(),
+                                       c.encoder, c.rotation);
     return;
   }
   c.simulation = read_simulation(*simulation, std::filesystem::path(c.file).parent_path().string());
@@ -148,18 +148,18 @@ Configuration read_configuration(const Value& document) {
   return c;
 }
 
-}  // namespace internal
+}  // namespace internal::config
 
 double Configuration::position_quantum() const {
   return encoder.quantum / (recording ? std::abs(recording->gear.position) : 1.0);
 }
 
 Configuration parse_configuration(const std::string& text, const std::string& file) {
-  return internal::read_configuration(internal::parse_document(text, file));
+  return internal::config::read_configuration(internal::config::parse_document(text, file));
 }
 
 Configuration load_configuration(const std::string& path) {
-  return parse_configuration(internal::read_text(path), path);
+  return parse_configuration(internal::config::read_text(path), path);
 }
 
 void require_reference_model(const Configuration& c) {

@@ -24,7 +24,7 @@ std::size_t SimulationConfig::samples() const {
   return static_cast<std::size_t>(std::llround(rate * duration));
 }
 
-namespace internal {
+namespace internal::config {
 namespace {
 
 const std::vector<std::string> kSimulationKeys = {"rate",    "duration", "seed",  "excitation",
@@ -96,8 +96,8 @@ void require_sensible_size(const SimulationConfig& s, const Section& section) {
 
 }  // namespace
 
-RecordingConfig read_recording(const Value& value, const std::string& folder, const EncoderConfig& encoder,
-                               bool rotation) {
+RecordingConfig read_recording_block(const Value& value, const std::string& folder,
+                                     const EncoderConfig& encoder, bool rotation) {
   const Section section(value, {"file", "held_out", "columns", "units", "gear_ratio", "window", "resample"});
   RecordingConfig recording;
   std::set<std::string> seen;
@@ -153,5 +153,5 @@ std::optional<Value> simulated_model(const Value& value) {
   return Section(value, kSimulationKeys).find("model");
 }
 
-}  // namespace internal
+}  // namespace internal::config
 }  // namespace gapscope

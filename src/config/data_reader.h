@@ -3,11 +3,11 @@
 #include "config/yaml_value.h"
 #include "gapscope/config/data_config.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 
 /// @param folder  of the configuration, to which paths are relative
-RecordingConfig read_recording(const Value& value, const std::string& folder, const EncoderConfig& encoder,
-                               bool rotation);
+RecordingConfig read_recording_block(const Value& value, const std::string& folder,
+                                     const EncoderConfig& encoder, bool rotation);
 
 EncoderConfig read_encoder(const Value& value, bool rotation);
 
@@ -15,4 +15,4 @@ EncoderConfig read_encoder(const Value& value, bool rotation);
 SimulationConfig read_simulation(const Value& value, const std::string& folder);
 std::optional<Value> simulated_model(const Value& value);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

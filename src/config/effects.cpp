@@ -24,14 +24,18 @@ PlantModel<double> SimulatedPlant::plant_model() const {
   return plant;
 }
 
-namespace internal {
+namespace internal::config {
 namespace {
+
+constexpr double kMost = 1e15;          ///< as of any number that is read
+constexpr double kLongestDelay = 10.0;  ///< [s]
 
 /// What a parameter can be at all. Bounds that scale with the drive keep their sign here; their size is the
 /// fit's concern, who knows the recording.
 Range possible(const EffectParameterSpec& spec) {
   if (spec.scale == Scale::kOne) return {spec.low, spec.high, spec.unit};
-  return {spec.low >= 0.0 ? 0.0 : -kInfinity, kInfinity, spec.unit};
+  const double most = spec.scale == Scale::kSample ? kLongestDelay : kMost;
+  return {spec.low >= 0.0 ? 0.0 : -most, most, spec.unit};
 }
 
 /// A value that needs no recording to be neutral; NaN where there is none.
@@ -91,5 +95,5 @@ EffectConfig read_effect(const Value& value) {
   return effect;
 }
 
-}  // namespace internal
+}  // namespace internal::config
 }  // namespace gapscope

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 namespace {
 
 Range range_of(const FieldSpec& s) { return {s.low, s.high, s.unit}; }
@@ -45,4 +45,4 @@ void FieldReader::visit(const FieldSpec& s, FieldRef field) {
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

@@ -6,7 +6,7 @@
 #include "config/yaml_value.h"
 #include "gapscope/base/fields.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 
 /// Collects the keys of a list of fields.
 class FieldKeys : public FieldVisitor {
@@ -37,4 +37,4 @@ void read_fields(const Value& value, Struct& object) {
   object.fields(reader);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 namespace {
 
 /// What each number can be at all, in the order of kDriveParameters.
@@ -99,4 +99,4 @@ WrittenModel overlaid(const WrittenModel& base, const WrittenModel& changes) {
   return both;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

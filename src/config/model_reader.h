@@ -8,7 +8,7 @@
 #include "config/yaml_value.h"
 #include "gapscope/config/model_config.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 
 /// A parameter as it is written; what is not written is absent.
 struct WrittenParameter {
@@ -47,4 +47,4 @@ const EffectEntry& effect_named(const std::string& name, const Value& value);
 /// `{name: {key: number, key: {value, estimate, bounds}}}` of a known effect.
 EffectConfig read_effect(const Value& value);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

@@ -21,7 +21,7 @@ int drive_parameter_index(const std::string& key) {
   return static_cast<int>(found - std::begin(kDriveParameters));
 }
 
-namespace internal {
+namespace internal::config {
 namespace {
 
 DriveStructure structure_of(const WrittenModel& written) {
@@ -138,5 +138,5 @@ SimulatedPlant simulated_plant(const WrittenModel& written, const Value& simulat
   return plant;
 }
 
-}  // namespace internal
+}  // namespace internal::config
 }  // namespace gapscope

@@ -10,10 +10,10 @@
 namespace gapscope {
 namespace {
 
-using internal::FieldWriter;
-using internal::yaml_number;
-using internal::yaml_text;
-using internal::YamlWriter;
+using internal::config::FieldWriter;
+using internal::config::yaml_number;
+using internal::config::yaml_text;
+using internal::config::YamlWriter;
 
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& parts) {
@@ -42,7 +42,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
     out.comment("load_position: " + yaml_text(columns.load_position) + " where there is one");
   }
   out.close();
-  internal::write_units(out, recording);
+  internal::config::write_units(out, recording);
   if (const auto& window = recording.reading.window)
     out.entry("window", fmt::format("[{}, {}]", window->first, window->second), "s");
   if (const auto& rate = recording.reading.resample_rate)

@@ -17,9 +17,9 @@
 namespace gapscope {
 namespace {
 
-using internal::yaml_number;
-using internal::yaml_text;
-using internal::YamlWriter;
+using internal::config::yaml_number;
+using internal::config::yaml_text;
+using internal::config::YamlWriter;
 
 struct Choice {
   StarterModel structure = StarterModel::kGap;
@@ -89,7 +89,7 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
   const RecordingColumns& c = options.columns;
   out.entry("columns", fmt::format("{{time: {}, input: {}, position: {}}}", yaml_text(c.time),
                                    yaml_text(c.input), yaml_text(c.position)));
-  internal::write_units(out, recording);
+  internal::config::write_units(out, recording);
   if (options.window)
     out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second), "s");
   if (options.resample_rate)

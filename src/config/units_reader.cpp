@@ -54,7 +54,7 @@ ColumnScales declared_scales(
   return scales;
 }
 
-namespace internal {
+namespace internal::config {
 
 void read_units(const Section& section, const EncoderConfig& encoder, bool rotation,
                 RecordingConfig& recording) {
@@ -92,5 +92,5 @@ void write_units(YamlWriter& out, const RecordingConfig& recording) {
               "turns of the recorded axis per turn of the model's");
 }
 
-}  // namespace internal
+}  // namespace internal::config
 }  // namespace gapscope

@@ -4,7 +4,7 @@
 #include "config/yaml_writer.h"
 #include "gapscope/config/data_config.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 
 /// `units` and `gear_ratio` of a recording, and the scales that follow.
 void read_units(const Section& section, const EncoderConfig& encoder, bool rotation,
@@ -13,4 +13,4 @@ void read_units(const Section& section, const EncoderConfig& encoder, bool rotat
 /// The same keys, as far as something was declared.
 void write_units(YamlWriter& out, const RecordingConfig& recording);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

@@ -13,7 +13,7 @@
 
 #include "gapscope/base/errors.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 1u << 20;
@@ -21,9 +21,9 @@ constexpr int kMostNodes = 20000;
 constexpr std::size_t kDeepest = 32;
 
 /// Walks the text and refuses what no configuration looks like. An alias counts as all that it stands for.
-class Guard : public YAML::EventHandler {
+class DepthGuard : public YAML::EventHandler {
  public:
-  explicit Guard(const std::string& file) : file_(file) {}
+  explicit DepthGuard(const std::string& file) : file_(file) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1) fail(mark, "a second document begins, expected one document in a file");
@@ -110,7 +110,7 @@ Value parse_document(const std::string& text, const std::string& file) {
   try {
     std::istringstream in(text);
     YAML::Parser parser(in);
-    Guard guard(*name);
+    DepthGuard guard(*name);
     while (parser.HandleNextDocument(guard)) {
     }
     const YAML::Node root = YAML::Load(text);
@@ -126,4 +126,4 @@ Value parse_document(const std::string& text, const std::string& file) {
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

@@ -4,7 +4,7 @@
 
 #include "config/yaml_value.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 
 /// The text of a file of at most 1 MiB.  @throws ConfigError
 std::string read_text(const std::string& path);
@@ -12,4 +12,4 @@ std::string read_text(const std::string& path);
 /// The one document in the text: syntax checked, neither too deep nor too large.  @throws ConfigError
 Value parse_document(const std::string& text, const std::string& file);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

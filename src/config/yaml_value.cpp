@@ -10,7 +10,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 namespace {
 
 /// The whole text as a number of type T; nothing if it is none or does not fit.
@@ -204,4 +204,4 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

@@ -12,7 +12,7 @@
 
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 
 /// The range that a number may have; infinite ends are open.
 struct Range {
@@ -85,4 +85,4 @@ class Section {
 /// Edit distance of two keys: letters put in, left out or changed.
 std::size_t distance(const std::string& a, const std::string& b);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

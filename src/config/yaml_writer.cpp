@@ -8,7 +8,7 @@
 
 #include "gapscope/base/units.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 namespace {
 
 using Written = std::optional<std::string>;  ///< nothing where a field is left out
@@ -69,4 +69,4 @@ void FieldWriter::visit(const FieldSpec& s, FieldRef field) {
   if (text) out_.quantity(s.key, *text, s.unit);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

@@ -4,7 +4,7 @@
 
 #include "gapscope/base/fields.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::config {
 
 /// Text of a number that reads back as the same number.
 std::string yaml_number(double value);
@@ -41,4 +41,4 @@ class FieldWriter : public FieldVisitor {
   YamlWriter& out_;
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::config

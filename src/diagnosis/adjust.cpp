@@ -6,7 +6,7 @@
 #include "gapscope/base/interrupt.h"
 #include "reference/recording_cost.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -16,8 +16,9 @@ constexpr double kBorrowedDamping = 0.01;  ///< of derivatives that were taken e
 constexpr double kWorthwhile = 0.97;       ///< of the cost: below it a further step is made
 
 /// Residuals of one recording at a point; empty if the motion diverges.
-Vector residuals_at(const FitProblem& problem, const Solution& at, std::size_t r, double hz) {
-  const RecordingCost cost(problem, r, at.starts[r], hz);
+Vector residuals_at(const reference::FitProblem& problem, const reference::Solution& at, std::size_t r,
+                    double hz) {
+  const reference::RecordingCost cost(problem, r, at.starts[r], hz);
   std::vector<double> q = at.q;
   for (const int s : cost.states()) q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
   Vector residuals(static_cast<Eigen::Index>(problem.recordings[r].size()));
@@ -27,20 +28,20 @@ Vector residuals_at(const FitProblem& problem, const Solution& at, std::size_t r
 /// Gauss–Newton of the first numbers with borrowed derivatives.
 class Adjustment {
  public:
-  Adjustment(const FitProblem& problem, std::span<const Linear> borrowed, double hz)
+  Adjustment(const reference::FitProblem& problem, std::span<const Linear> borrowed, double hz)
       : problem_(problem), borrowed_(borrowed), hz_(hz), moving_(borrowed.front().derivatives.cols()) {
     normal_ = Eigen::MatrixXd::Zero(moving_, moving_);
     for (const Linear& l : borrowed) normal_ += l.derivatives.transpose() * l.derivatives;
     normal_.diagonal() *= 1.0 + kBorrowedDamping;
   }
 
-  Solution run(const Solution& from, int steps) {
-    Solution best = from;
+  reference::Solution run(const reference::Solution& from, int steps) {
+    reference::Solution best = from;
     best.mean_square = evaluate(from);
     if (!best.usable() || moving_ == 0) return best;
     for (int i = 0; i < steps; ++i) {
       stop_point();
-      Solution next = best;
+      reference::Solution next = best;
       const Vector dq = normal_.ldlt().solve(-gradient_);
       for (Eigen::Index k = 0; k < moving_; ++k) move(next.q[static_cast<std::size_t>(k)], k, dq[k]);
       next.mean_square = evaluate(next);
@@ -52,11 +53,11 @@ class Adjustment {
 
  private:
   void move(double& q, Eigen::Index k, double step) const {
-    const Parameter& p = problem_.free_parameter(static_cast<std::size_t>(k));
+    const reference::Parameter& p = problem_.free_parameter(static_cast<std::size_t>(k));
     q = std::clamp(q + step, p.coordinate.solver(p.low), p.coordinate.solver(p.high));
   }
 
-  double evaluate(const Solution& at) {
+  double evaluate(const reference::Solution& at) {
     gradient_ = Vector::Zero(moving_);
     double sum = 0.0, count = 0.0;
     for (std::size_t r = 0; r < at.starts.size(); ++r) {
@@ -69,7 +70,7 @@ class Adjustment {
     return std::isfinite(sum) ? sum / count : kInfinity;
   }
 
-  const FitProblem& problem_;
+  const reference::FitProblem& problem_;
   std::span<const Linear> borrowed_;
   double hz_;
   Eigen::Index moving_;
@@ -79,11 +80,12 @@ class Adjustment {
 
 }  // namespace
 
-std::vector<Linear> linearise(const FitProblem& problem, const Solution& at, double hz) {
+std::vector<Linear> linearise(const reference::FitProblem& problem, const reference::Solution& at,
+                              double hz) {
   std::vector<Linear> all;
   const auto shared = static_cast<Eigen::Index>(problem.free_count());
   for (std::size_t r = 0; r < at.starts.size(); ++r) {
-    const RecordingCost cost(problem, r, at.starts[r], hz);
+    const reference::RecordingCost cost(problem, r, at.starts[r], hz);
     std::vector<double> q = at.q;
     for (const int s : cost.states()) q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
     const auto samples = static_cast<Eigen::Index>(problem.recordings[r].size());
@@ -96,12 +98,12 @@ std::vector<Linear> linearise(const FitProblem& problem, const Solution& at, dou
   return all;
 }
 
-Solution adjust(const FitProblem& problem, const Solution& from, std::span<const Linear> borrowed, double hz,
-                int steps) {
+reference::Solution adjust(const reference::FitProblem& problem, const reference::Solution& from,
+                           std::span<const Linear> borrowed, double hz, int steps) {
   return Adjustment(problem, borrowed, hz).run(from, steps);
 }
 
-std::optional<SineStart> sine_start(const FitProblem& problem, const Solution& at,
+std::optional<SineStart> sine_start(const reference::FitProblem& problem, const reference::Solution& at,
                                     std::span<const Linear> borrowed, double small, double hz) {
   const std::size_t amplitude = at.q.size() - 2, phase = at.q.size() - 1;
   const Eigen::Index shared = borrowed.front().derivatives.cols();
@@ -111,7 +113,7 @@ std::optional<SineStart> sine_start(const FitProblem& problem, const Solution& a
     Eigen::MatrixXd columns(borrowed[r].residuals.size(), shared + 2);
     columns.leftCols(shared) = borrowed[r].derivatives;
     for (const Eigen::Index quarter : {0, 1}) {
-      Solution point = at;
+      reference::Solution point = at;
       point.q[amplitude] = problem.free_parameter(amplitude).coordinate.solver(small);
       point.q[phase] = problem.free_parameter(phase).coordinate.solver(0.5 * kPi * double(quarter));
       const Vector with = residuals_at(problem, point, r, hz);
@@ -127,4 +129,4 @@ std::optional<SineStart> sine_start(const FitProblem& problem, const Solution& a
   return SineStart{std::hypot(step[shared], step[shared + 1]), std::atan2(step[shared + 1], step[shared])};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -7,7 +7,7 @@
 #include "reference/search.h"
 #include "reference/starts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr int kRaceSteps = 2;           ///< to tell which start is worth more
@@ -30,19 +30,20 @@ ParameterSetting& setting(ReferenceModel& model, int number) {
       .parameters[static_cast<std::size_t>(rest % kMostEffectParameters)];
 }
 
-FittedModel with_values(ReferenceModel model, const FitProblem& problem, const Solution& at) {
-  const ModelNumbers<double> numbers = problem.numbers(at.q.data());
-  for (const Parameter& p : problem.parameters)
+FittedModel with_values(ReferenceModel model, const reference::FitProblem& problem,
+                        const reference::Solution& at) {
+  const reference::ModelNumbers<double> numbers = problem.numbers(at.q.data());
+  for (const reference::Parameter& p : problem.parameters)
     setting(model, p.number).value = numbers[static_cast<std::size_t>(p.number)];
   return model;
 }
 
 /// The solver's vector of a model's own values, as far as it has them; else where the problem starts.
-std::vector<double> point_of(const FitProblem& problem, ReferenceModel values) {
+std::vector<double> point_of(const reference::FitProblem& problem, ReferenceModel values) {
   std::vector<double> q;
   const std::size_t known = kDriveParameterCount + values.effects.size() * kMostEffectParameters;
   for (std::size_t i = 0; i < problem.free_count(); ++i) {
-    const Parameter& p = problem.free_parameter(i);
+    const reference::Parameter& p = problem.free_parameter(i);
     const bool has = static_cast<std::size_t>(p.number) < known;
     const double value = has ? setting(values, p.number).value : p.start;
     q.push_back(p.coordinate.solver(std::clamp(std::isnan(value) ? p.start : value, p.low, p.high)));
@@ -51,19 +52,20 @@ std::vector<double> point_of(const FitProblem& problem, ReferenceModel values) {
 }
 
 /// Keys of the last effect's parameters that have ended at a bound.
-std::vector<std::string> at_bounds(const ReferenceModel& model, const FitProblem& problem,
-                                   const Solution& at) {
+std::vector<std::string> at_bounds(const ReferenceModel& model, const reference::FitProblem& problem,
+                                   const reference::Solution& at) {
   std::vector<std::string> keys;
   if (model.effects.empty()) return keys;
   const EffectEntry& last = *model.effects.back().entry;
   const int first = kDriveParameterCount + static_cast<int>(model.effects.size() - 1) * kMostEffectParameters;
   for (std::size_t i = 0; i < problem.free_count(); ++i)
-    if (const Parameter& p = problem.free_parameter(i); p.number >= first && p.at_bound(at.q[i]))
+    if (const reference::Parameter& p = problem.free_parameter(i); p.number >= first && p.at_bound(at.q[i]))
       keys.emplace_back(last.parameters[static_cast<std::size_t>(p.number - first)].key);
   return keys;
 }
 
-Fitted fitted_of(const ReferenceModel& model, const FitProblem& problem, const Solution& best) {
+Fitted fitted_of(const ReferenceModel& model, const reference::FitProblem& problem,
+                 const reference::Solution& best) {
   const auto is_number = [](double q) { return std::isfinite(q); };
   if (!best.usable() || !std::all_of(best.q.begin(), best.q.end(), is_number))
     return {model, {}, kInfinity, {}};
@@ -71,42 +73,45 @@ Fitted fitted_of(const ReferenceModel& model, const FitProblem& problem, const S
 }
 
 /// Refined, with the loads' places at the beginning of the recordings chosen before and after.
-Solution descend(const FitProblem& problem, Solution point, double hz, const Work& work = kNominal) {
-  choose_variants(problem, point, hz);
-  Solution found = refine(problem, point, hz, work);
-  if (!found.usable() || !choose_variants(problem, found, hz)) return found;
-  const Solution again = refine(problem, found, hz, work);
+reference::Solution descend(const reference::FitProblem& problem, reference::Solution point, double hz,
+                            const Work& work = kNominal) {
+  reference::choose_variants(problem, point, hz);
+  reference::Solution found = refine(problem, point, hz, work);
+  if (!found.usable() || !reference::choose_variants(problem, found, hz)) return found;
+  const reference::Solution again = refine(problem, found, hz, work);
   return again.mean_square < found.mean_square ? again : found;
 }
 
 /// A point after the race, and the values that it set out from.
 struct Raced {
-  Solution at;
+  reference::Solution at;
   std::size_t origin = 0;
 };
 
 /// A refinement that goes on only while it promises to beat the model without the effect.
-Solution follow(const FitProblem& problem, const Solution& from, double hz, double without) {
-  const Solution light = refine(problem, from, hz, kLight);
+reference::Solution follow(const reference::FitProblem& problem, const reference::Solution& from, double hz,
+                           double without) {
+  const reference::Solution light = refine(problem, from, hz, kLight);
   if (!light.usable()) return from;
   if (!(light.mean_square < kPromising * without)) return light;
-  const Solution found = refine(problem, light, hz, kThorough);
+  const reference::Solution found = refine(problem, light, hz, kThorough);
   return found.mean_square < light.mean_square ? found : light;
 }
 
 /// Follows the best of the race, then the best from elsewhere.
 /// @param without mean square of the model without the effect
-Solution best_of(const FitProblem& problem, std::vector<Raced> raced, double hz, double without) {
+reference::Solution best_of(const reference::FitProblem& problem, std::vector<Raced> raced, double hz,
+                            double without) {
   std::stable_sort(raced.begin(), raced.end(),
                    [](const Raced& a, const Raced& b) { return a.at.mean_square < b.at.mean_square; });
   if (raced.empty()) return {};  // nothing to start from
   const Raced* first = &raced.front();
   if (!first->at.usable()) return first->at;
-  Solution best = follow(problem, first->at, hz, without);
+  reference::Solution best = follow(problem, first->at, hz, without);
   for (const Raced& other : raced) {
     if (best.mean_square < kFloorSquare) break;
     if (other.origin == first->origin || other.at.mean_square > kClose * first->at.mean_square) continue;
-    const Solution found = follow(problem, other.at, hz, without);
+    const reference::Solution found = follow(problem, other.at, hz, without);
     if (found.mean_square < best.mean_square) best = found;
     break;
   }
@@ -114,21 +119,21 @@ Solution best_of(const FitProblem& problem, std::vector<Raced> raced, double hz,
 }
 
 /// Physical values of an effect's start.
-std::vector<double> effect_values(const FitProblem& problem, const EffectEntry& entry,
+std::vector<double> effect_values(const reference::FitProblem& problem, const EffectEntry& entry,
                                   const EffectStart& start) {
   std::vector<double> values;
   const std::size_t first = problem.parameters.size() - entry.parameters.size();
   for (std::size_t i = 0; i < entry.parameters.size(); ++i) {
-    const Parameter& p = problem.parameters[first + i];
+    const reference::Parameter& p = problem.parameters[first + i];
     values.push_back(std::clamp(start[i] * p.high / entry.parameters[i].high, p.low, p.high));
   }
   return values;
 }
 
 /// Parameter i nearer to where the effect is absent.
-double weaker(const FitProblem& problem, const EffectEntry& entry, std::size_t i, double value) {
+double weaker(const reference::FitProblem& problem, const EffectEntry& entry, std::size_t i, double value) {
   const EffectParameterSpec& spec = entry.parameters[i];
-  const Parameter& p = problem.parameters[problem.parameters.size() - entry.parameters.size() + i];
+  const reference::Parameter& p = problem.parameters[problem.parameters.size() - entry.parameters.size() + i];
   const double absent = spec.absent * p.high / spec.high;
   return std::isfinite(absent) ? absent + kWeaker * (value - absent) : std::min(value / kWeaker, p.high);
 }
@@ -169,8 +174,8 @@ ReferenceModel from_parent(const ReferenceModel& extended, const Fitted& parent,
 
 /// A fitted model once more with more work, from where it stands.
 Fitted refined(std::span<const MotorTrace> train, const Fitted& from, const FitOptions& options, double hz) {
-  const FitProblem problem = make_problem(train, from.model, options);
-  const Solution point{point_of(problem, from.model), from.starts, kInfinity, false};
+  const reference::FitProblem problem = reference::make_problem(train, from.model, options);
+  const reference::Solution point{point_of(problem, from.model), from.starts, kInfinity, false};
   return fitted_of(from.model, problem, refine(problem, point, hz, kRetry));
 }
 
@@ -178,20 +183,20 @@ Fitted refined(std::span<const MotorTrace> train, const Fitted& from, const FitO
 
 Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
                    double hz) {
-  const FitProblem problem = make_problem(train, model, options);
-  Solution best;
-  if (values_are_given(problem)) best = descend(problem, given_point(problem), hz);
+  const reference::FitProblem problem = reference::make_problem(train, model, options);
+  reference::Solution best;
+  if (reference::values_are_given(problem)) best = descend(problem, reference::given_point(problem), hz);
   if (!(best.mean_square <= kFloorSquare))
-    if (const Solution found = search(problem).best(); found.usable())
-      if (const Solution other = descend(problem, found, hz); other.mean_square < best.mean_square)
+    if (const reference::Solution found = reference::find_minima(problem).best(); found.usable())
+      if (const reference::Solution other = descend(problem, found, hz); other.mean_square < best.mean_square)
         best = other;
   return fitted_of(model, problem, best);
 }
 
 Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
                 double hz, const Work& work) {
-  const FitProblem problem = make_problem(recordings, from, options);
-  Solution point = given_point(problem);
+  const reference::FitProblem problem = reference::make_problem(recordings, from, options);
+  reference::Solution point = reference::given_point(problem);
   point.starts =
       settled_starts(recordings, from, hz);  // else the numbers would move for the load's first place
   return fitted_of(from, problem, descend(problem, point, hz, work));
@@ -199,7 +204,7 @@ Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from,
 
 std::vector<Base> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,
                            const ReferenceModel& sheet, const FitOptions& options, double hz) {
-  const FitProblem problem = make_problem(train, nominal.model, options);
+  const reference::FitProblem problem = reference::make_problem(train, nominal.model, options);
   std::vector<Base> bases;
   for (const ReferenceModel& values : {nominal.model, with_drive(nominal.model, sheet)}) {
     Base base{point_of(problem, values), {}};
@@ -213,11 +218,11 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
                      const EffectEntry& entry, std::span<const EffectStart> starts, const Fitted* parent,
                      const FitOptions& options, double hz) {
   const ReferenceModel extended = with_effect(nominal.model, entry);
-  const FitProblem problem = make_problem(train, extended, options);
+  const reference::FitProblem problem = reference::make_problem(train, extended, options);
   const std::size_t shrinking = replaces_last(nominal.model, entry) ? 1 : 0;  // the base has the first one
   std::vector<Raced> raced;
   const auto race = [&](const ReferenceModel& values, const Base* base) {
-    Solution point{point_of(problem, values), nominal.starts, kInfinity, false};
+    reference::Solution point{point_of(problem, values), nominal.starts, kInfinity, false};
     if (base != nullptr) std::copy(base->q.begin(), base->q.end(), point.q.begin());
     const Base& borrowed = base != nullptr ? *base : bases.front();
     const std::size_t origin = base != nullptr ? static_cast<std::size_t>(base - bases.data()) : bases.size();
@@ -231,7 +236,7 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
   for (const Base& base : bases) {
     if (!is_sine(entry) || starts.empty()) break;
     std::vector<double> values = effect_values(problem, entry, starts.front());
-    Solution point{point_of(problem, extended), nominal.starts, kInfinity, false};
+    reference::Solution point{point_of(problem, extended), nominal.starts, kInfinity, false};
     std::copy(base.q.begin(), base.q.end(), point.q.begin());
     const auto sine = sine_start(problem, point, base.recordings, kSmallSine * values[0], hz);
     if (sine) race_effect({sine->amplitude, sine->phase}, base);
@@ -269,7 +274,7 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
   if (nested_parent(*others) == mine || nested_parent(*mine) == others)
     moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
   // By the numbers of the model without the effect the load may have seemed to start elsewhere.
-  const std::vector<RecordingStart> settled = settled_starts(train, candidate.model, hz);
+  const std::vector<reference::RecordingStart> settled = settled_starts(train, candidate.model, hz);
   Fitted best = candidate;
   const auto take = [&](Fitted found) {
     if (found.mean_square < kFurther * best.mean_square) best = std::move(found);
@@ -299,4 +304,4 @@ bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
   return true;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -8,12 +8,12 @@
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/held_out.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// A model fitted to the training recordings, and the state that each of them begins with.
 struct Fitted {
   FittedModel model;
-  std::vector<RecordingStart> starts;
+  std::vector<reference::RecordingStart> starts;
   double mean_square = kInfinity;     ///< of the innovations [floor²]
   std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
 };
@@ -67,4 +67,4 @@ bool is_candidate(const EffectEntry& entry, const ReferenceModel& model);
 /// Whether the effect is a coarser count of the encoder, which no fit of a motion shows.
 inline bool reads_counts(const EffectEntry& entry) { return entry.hooks_double->quantum != nullptr; }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -18,7 +18,7 @@
 #include "reference/rough_drive.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::diagnosis {
 namespace {
 
 constexpr double kBadRepetition = 10.0;  ///< floors of the encoder
@@ -212,7 +212,7 @@ Search search(Study& study) {
   return {std::move(found), std::move(added)};
 }
 
-}  // namespace internal
+}  // namespace internal::diagnosis
 
 void DiagnosisKnowledge::fields(FieldVisitor& v) {
   v.field({"periods_per_turn", "1/rev", "of a torque: pole pairs, slots, teeth", 1e-3, 1e7},
@@ -224,7 +224,7 @@ void DiagnosisKnowledge::fields(FieldVisitor& v) {
 
 Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                    const ReferenceModel& model, const DiagnosisOptions& options) {
-  using namespace internal;
+  using namespace internal::diagnosis;
   GAPSCOPE_REQUIRE(!train.empty());
   for (const auto& traces : {train, held_out})
     for (const MotorTrace& t : traces) require_motion(t);

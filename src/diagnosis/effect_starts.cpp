@@ -7,7 +7,7 @@
 
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 using Starts = std::vector<EffectStart>;
@@ -76,4 +76,4 @@ bool law_is_fixed(const EffectEntry& entry) {
   return std::find(std::begin(kFixed), std::end(kFixed), entry.name) != std::end(kFixed);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

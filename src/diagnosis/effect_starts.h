@@ -5,7 +5,7 @@
 
 #include "gapscope/plant/effect.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// Parameters of an effect at which its search begins, in units of their scales; NaN: found from the residual
 /// torque.
@@ -22,4 +22,4 @@ const EffectEntry* nested_parent(const EffectEntry& entry);
 /// it leaves nothing.
 bool law_is_fixed(const EffectEntry& entry);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -6,7 +6,7 @@
 #include "diagnosis/mismatch_size.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::diagnosis {
 namespace {
 
 ModelEvidence evidence_of(const Judged& model, const Judged& before) {
@@ -44,14 +44,14 @@ StepEvidence evidence_of(const Study& study, const Findings& found) {
   return e;
 }
 
-}  // namespace internal
+}  // namespace internal::diagnosis
 
 double StepEvidence::before() const {
   return std::isfinite(alone) ? alone : std::max(nominal.median_free, nominal.median_innovation);
 }
 
 StepOutcome decide_again(const StepEvidence& evidence, const std::vector<std::string>& excluded) {
-  using namespace internal;
+  using namespace internal::diagnosis;
   const Judged before = judged_by(evidence.nominal);
   std::vector<Judged> candidates, parents;
   for (const ModelEvidence& e : evidence.candidates)

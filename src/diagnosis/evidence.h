@@ -3,8 +3,8 @@
 #include "diagnosis/pipeline.h"
 #include "gapscope/diagnosis/evidence.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 StepEvidence evidence_of(const Study& study, const Findings& found);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace gapscope {
-namespace internal {
+namespace internal::diagnosis {
 namespace {
 
 constexpr double kSmall = 0.4;    ///< of the largest input
@@ -65,7 +65,7 @@ Excitation scaled(Excitation e, double share) {
   return e;
 }
 
-}  // namespace internal
+}  // namespace internal::diagnosis
 
 void ExperimentLimits::fields(FieldVisitor& v) {
   v.field({"input", "unit of u", "largest |u|", 1e-12, 1e12}, input);

@@ -4,7 +4,7 @@
 
 #include "gapscope/diagnosis/next_experiment.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// Shapes, amplitudes, frequencies, dwells and offsets that a drive can be asked for within its limits.
 /// @param peak largest |u|
@@ -13,4 +13,4 @@ std::vector<Excitation> experiment_library(const ExperimentLimits& limits, doubl
 /// The same with all of its input a share of what it was.
 Excitation scaled(Excitation excitation, double share);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -6,7 +6,7 @@
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/probability.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr std::size_t kMostEffects = 4;
@@ -243,4 +243,4 @@ Additions add_further(const Study& study, const Findings& found) {
   return best;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

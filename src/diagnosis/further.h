@@ -5,7 +5,7 @@
 
 #include "diagnosis/pipeline.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// A step after the first: every candidate on top of what was added before it.
 struct FurtherStep {
@@ -82,4 +82,4 @@ bool borne_out(const Judged& nominal, const Additions& additions);
 /// Whether the effect is in the model.
 bool contains(const FittedModel& model, const EffectEntry* entry);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr std::size_t kBins = 2048;
@@ -123,4 +123,4 @@ std::vector<EffectStart> line_starts(const EffectEntry& entry, std::span<const H
   return starts;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -6,7 +6,7 @@
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/held_out.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// A torque that repeats with the motor angle: w(x1) (a sin N x1 + b cos N x1), w = 1 or the drive's torque.
 struct Harmonic {
@@ -38,4 +38,4 @@ std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
 std::vector<EffectStart> line_starts(const EffectEntry& entry, std::span<const Harmonic> lines,
                                      double peak_torque, double travel);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

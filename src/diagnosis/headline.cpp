@@ -7,7 +7,7 @@
 
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr double kWorthNaming = 0.25;  ///< strength of a pattern
@@ -117,4 +117,4 @@ std::string headline_of(const MismatchPlace& place, const std::vector<PatternStr
   return text;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -5,7 +5,7 @@
 
 #include "gapscope/diagnosis/diagnosis.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// A way in which a residual torque can be ordered, and how far it is.
 enum class Pattern { kAngle, kDirection, kSpeed, kInput, kTime, kInputSteps, kCounts, kMode };
@@ -28,4 +28,4 @@ double cycles_of(const ModelEffect& effect);
 std::string headline_of(const MismatchPlace& place, const std::vector<PatternStrength>& patterns,
                         const ModelEffect* effect, bool rotation);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

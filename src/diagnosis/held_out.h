@@ -6,7 +6,7 @@
 #include "diagnosis/refine.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// Poles of the two observers [Hz]: slow drifts show at the lower gain, ripple at the higher one.
 constexpr double kSlowHz = 3.0, kFastHz = 30.0;
@@ -53,8 +53,8 @@ struct Windows {
 };
 
 /// Initial states of recordings that suit a model whose numbers are all known.
-std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings, const FittedModel& model,
-                                           double observer_hz);
+std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
+                                                      const FittedModel& model, double observer_hz);
 
 /// The simulator of a model whose numbers are all known.
 /// @param like recordings that its scales are taken from
@@ -77,4 +77,4 @@ constexpr double kScorePerParameter = 0.04;
 /// √ of the median of mean squares.
 double median_size(const std::vector<double>& mean_squares);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

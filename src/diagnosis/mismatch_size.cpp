@@ -7,7 +7,7 @@
 
 #include "reference/rollout.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr double kLeastRatio = 1.3;   ///< a gap smaller than this many floors has no shrink
@@ -126,4 +126,4 @@ double weight_of(const Judged& candidate, const Judged& best) {
              : 0.0;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -2,7 +2,7 @@
 
 #include "diagnosis/pipeline.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// Encoder floor of all held-out recordings together [rad].
 double pooled_floor(const HeldOut& held_out);
@@ -23,4 +23,4 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
 /// Weight of a candidate against the best one: exp(−ΔS/T).
 double weight_of(const Judged& candidate, const Judged& best);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -15,7 +15,7 @@
 #include "reference/rollout.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::diagnosis {
 namespace {
 
 constexpr Work kScreening{4, 16, 1e-3};
@@ -140,15 +140,17 @@ std::string sentence_of(const TriedInput& best, double duration) {
 }
 
 }  // namespace
-}  // namespace internal
+}  // namespace internal::diagnosis
 
-bool NextExperiment::separates() const { return proposes() && tried.front().worst >= internal::kSeparated; }
+bool NextExperiment::separates() const {
+  return proposes() && tried.front().worst >= internal::diagnosis::kSeparated;
+}
 
 NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& like,
                                const ExperimentLimits& limits, double observer_hz, int threads) {
-  using namespace internal;
+  using namespace internal::diagnosis;
   GAPSCOPE_REQUIRE(rivals.size() >= 2);
-  const double floor = encoder_floor(like), counts = like.quantum / std::sqrt(12.0);
+  const double floor = internal::reference::encoder_floor(like), counts = like.quantum / std::sqrt(12.0);
   const auto samples = static_cast<std::size_t>(limits.duration / like.dt);
   const Bench bench{rivals, like, std::sqrt(std::max(0.0, floor * floor - counts * counts)), observer_hz,
                     samples};

@@ -5,10 +5,10 @@
 
 #include "reference/rollout.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
-using Series = std::vector<double>;
+using Values = std::vector<double>;
 
 constexpr double kSpike = 3.0;          ///< robust standard deviations at which a torque is cut
 constexpr double kStandsOut = 20.0;     ///< times the median of the neighbours' shares
@@ -39,7 +39,7 @@ class Passed {
 };
 
 struct Waves {
-  Series sine, cosine;
+  Values sine, cosine;
 };
 
 Waves waves_of(const MotorTrace& trace, double periods) {
@@ -56,7 +56,7 @@ Waves waves_of(const MotorTrace& trace, double periods) {
 /// Sums of a torque against both waves.
 class Regression {
  public:
-  void add(const Waves& w, const Series& torque, std::size_t from, std::size_t to) {
+  void add(const Waves& w, const Values& torque, std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const double s = w.sine[i], c = w.cosine[i], t = torque[i];
       ss_ += s * s, sc_ += s * c, cc_ += c * c;
@@ -78,7 +78,7 @@ class Regression {
   double ss_ = 0.0, sc_ = 0.0, cc_ = 0.0, ts_ = 0.0, tc_ = 0.0, square_ = 0.0;
 };
 
-bool improves(const Harmonic& line, const Waves& w, const Series& torque, std::size_t from, std::size_t to) {
+bool improves(const Harmonic& line, const Waves& w, const Values& torque, std::size_t from, std::size_t to) {
   double before = 0.0, after = 0.0;
   for (std::size_t i = from; i < to; ++i) {
     const double left = torque[i] - line.sine * w.sine[i] - line.cosine * w.cosine[i];
@@ -87,7 +87,7 @@ bool improves(const Harmonic& line, const Waves& w, const Series& torque, std::s
   return after < before;
 }
 
-void take_out(const Harmonic& line, std::span<const MotorTrace> traces, std::vector<Series>& torque) {
+void take_out(const Harmonic& line, std::span<const MotorTrace> traces, std::vector<Values>& torque) {
   for (std::size_t r = 0; r < traces.size(); ++r) {
     const Waves w = waves_of(traces[r], line.periods);
     for (std::size_t i = 0; i < torque[r].size(); ++i)
@@ -96,11 +96,11 @@ void take_out(const Harmonic& line, std::span<const MotorTrace> traces, std::vec
 }
 
 /// Share of each line over the median of its neighbours'.
-Series standing_of(const std::vector<Harmonic>& spectrum, double per_cycle) {
-  Series over;
+Values standing_of(const std::vector<Harmonic>& spectrum, double per_cycle) {
+  Values over;
   for (const Harmonic& line : spectrum) {
     const double apart = std::max(line.periods * (kNeighbours - 1.0), kFewestCycles * per_cycle);
-    Series around;
+    Values around;
     for (const Harmonic& other : spectrum)
       if (const double distance = std::abs(other.periods - line.periods);
           distance > kOwn * per_cycle && distance < apart)
@@ -110,7 +110,7 @@ Series standing_of(const std::vector<Harmonic>& spectrum, double per_cycle) {
   return over;
 }
 
-Harmonic refined(std::span<const Series> torque, std::span<const MotorTrace> traces, double periods) {
+Harmonic refined(std::span<const Values> torque, std::span<const MotorTrace> traces, double periods) {
   Harmonic best{periods};
   for (int i = -kFineSteps; i <= kFineSteps; ++i) {
     const Harmonic line = fitted_line(torque, traces, periods + i * kFine * one_cycle(traces)).line;
@@ -121,8 +121,8 @@ Harmonic refined(std::span<const Series> torque, std::span<const MotorTrace> tra
 
 }  // namespace
 
-std::vector<Series> ripples_of(const std::vector<Playback>& playbacks) {
-  std::vector<Series> torque;
+std::vector<Values> ripples_of(const std::vector<Playback>& playbacks) {
+  std::vector<Values> torque;
   for (const Playback& p : playbacks) {
     const double most = kSpike * robust_std(p.ripple);
     torque.push_back(p.ripple);
@@ -131,19 +131,19 @@ std::vector<Series> ripples_of(const std::vector<Playback>& playbacks) {
   return torque;
 }
 
-TorqueLine fitted_line(std::span<const Series> torque, std::span<const MotorTrace> traces, double periods) {
+TorqueLine fitted_line(std::span<const Values> torque, std::span<const MotorTrace> traces, double periods) {
   Regression sums;
   for (std::size_t r = 0; r < traces.size(); ++r)
     sums.add(waves_of(traces[r], periods), torque[r], 0, torque[r].size());
   return {sums.line(periods), kNaN};
 }
 
-std::vector<TorqueLine> standing_lines(std::vector<Series> torque, std::span<const MotorTrace> traces) {
+std::vector<TorqueLine> standing_lines(std::vector<Values> torque, std::span<const MotorTrace> traces) {
   std::vector<TorqueLine> lines;
   if (torque.size() != traces.size()) return lines;
   while (lines.size() < kMostLines) {
     const std::vector<Harmonic> spectrum = angle_spectrum(torque, traces, 0.0);
-    const Series over = standing_of(spectrum, one_cycle(traces));
+    const Values over = standing_of(spectrum, one_cycle(traces));
     const auto best = std::max_element(over.begin(), over.end());
     if (best == over.end() || !(*best > kStandsOut)) break;
     const Harmonic& found = spectrum[static_cast<std::size_t>(best - over.begin())];
@@ -159,7 +159,7 @@ bool LineCheck::holds() const {
   return windows > 0 && better - 0.5 * windows > kSure * 0.5 * std::sqrt(static_cast<double>(windows));
 }
 
-LineCheck check_line(double periods, std::span<const Series> torque, const HeldOut& held_out) {
+LineCheck check_line(double periods, std::span<const Values> torque, const HeldOut& held_out) {
   LineCheck check;
   for (std::size_t r = 0; r < torque.size(); ++r) {
     const Waves w = waves_of(held_out.traces[r], periods);
@@ -186,8 +186,8 @@ std::vector<double> given_periods(const DiagnosisKnowledge& known) {
 
 std::vector<PeriodicTorque> periodic_torques(const Study& study, const FittedModel& model,
                                              const std::vector<Playback>& held_out) {
-  const std::vector<Series> fitted = ripples_of(play_on_train(study, model));
-  const std::vector<Series> held = ripples_of(held_out);
+  const std::vector<Values> fitted = ripples_of(play_on_train(study, model));
+  const std::vector<Values> held = ripples_of(held_out);
   if (fitted.empty() || held.empty()) return {};
   std::vector<PeriodicTorque> found;
   const auto tell = [&](const TorqueLine& line, bool given) {
@@ -207,4 +207,4 @@ std::vector<PeriodicTorque> periodic_torques(const Study& study, const FittedMod
   return found;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -6,7 +6,7 @@
 #include "diagnosis/harmonics.h"
 #include "diagnosis/pipeline.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// The lines of a model's residual torque over the motor angle: those whose period was given, and those that
 /// stand out where the model was fitted and hold on what is held out.
@@ -46,4 +46,4 @@ struct LineCheck {
 };
 LineCheck check_line(double periods, std::span<const std::vector<double>> torque, const HeldOut& held_out);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

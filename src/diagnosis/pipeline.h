@@ -4,7 +4,7 @@
 
 #include "diagnosis/ranking.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// What all steps of a diagnosis share.
 struct Study {
@@ -57,4 +57,4 @@ struct Findings {
 /// what is held out is then fitted with them, and only the second half judges.
 Findings investigate(Study& study);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -5,7 +5,7 @@
 
 #include "diagnosis/mismatch_size.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 /// Constant, share of the log distance, log margin, log gain. `learn_probability` learns them again.
@@ -59,4 +59,4 @@ Shares probability_shares(const std::vector<Judged>& ranked, const Decision& dec
   return shares;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -2,7 +2,7 @@
 
 #include "diagnosis/ranking.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// Probability that the first group of a step holds what is missing, where the catalogue has it in half of
 /// all cases: a logistic map of the share of the log distance that it closes, of its margin and of its gain.
@@ -23,4 +23,4 @@ struct Shares {
 /// @param outside how likely the catalogue lacks what is missing before any recording; in (0, 1)
 Shares probability_shares(const std::vector<Judged>& ranked, const Decision& decision, double outside);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

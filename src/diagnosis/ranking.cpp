@@ -6,7 +6,7 @@
 
 #include "diagnosis/probability.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate,
@@ -157,4 +157,4 @@ Decision decide_alone(const std::vector<Judged>& ranked, const Judged& before, b
   return d;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -7,7 +7,7 @@
 
 #include "diagnosis/candidates.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// A fitted model with what it does on held-out data.
 struct Judged {
@@ -70,4 +70,4 @@ double relative_gain(const Judged& before, const Judged& after);
 /// Of the free runs above the floor; of the innovations where none is.
 double share_of_windows_better(const Judged& before, const Judged& after);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

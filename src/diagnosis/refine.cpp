@@ -8,7 +8,7 @@
 #include "gapscope/base/interrupt.h"
 #include "reference/recording_cost.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -21,7 +21,7 @@ constexpr double kMostDamping = 1e8;
 
 /// One recording: its residuals and their derivatives by the shared numbers and its own initial ones.
 struct Block {
-  std::unique_ptr<RecordingCost> cost;
+  std::unique_ptr<reference::RecordingCost> cost;
   Eigen::Index first_state = 0;  ///< place of its own numbers in the whole vector
   Eigen::Index states = 0;
   Vector residuals;
@@ -30,12 +30,13 @@ struct Block {
 
 class Descent {
  public:
-  Descent(const FitProblem& problem, const Solution& from, double hz) : problem_(problem), from_(from) {
+  Descent(const reference::FitProblem& problem, const reference::Solution& from, double hz)
+      : problem_(problem), from_(from) {
     shared_ = static_cast<Eigen::Index>(problem.free_count());
     std::vector<double> x = from.q;
     for (std::size_t r = 0; r < from.starts.size(); ++r) {
       Block block;
-      block.cost = std::make_unique<RecordingCost>(problem, r, from.starts[r], hz);
+      block.cost = std::make_unique<reference::RecordingCost>(problem, r, from.starts[r], hz);
       block.first_state = static_cast<Eigen::Index>(x.size());
       block.states = static_cast<Eigen::Index>(block.cost->states().size());
       for (const int s : block.cost->states()) x.push_back(from.starts[r].q[static_cast<std::size_t>(s)]);
@@ -49,8 +50,8 @@ class Descent {
     set_bounds();
   }
 
-  Solution run(const Work& work) {
-    Solution to = from_;
+  reference::Solution run(const Work& work) {
+    reference::Solution to = from_;
     to.mean_square = kInfinity;
     to.converged = false;
     if (!differentiate()) return to;
@@ -65,7 +66,7 @@ class Descent {
     low_ = Vector::Constant(x_.size(), -kInfinity);
     high_ = Vector::Constant(x_.size(), kInfinity);
     for (Eigen::Index i = 0; i < shared_; ++i) {
-      const Parameter& p = problem_.free_parameter(static_cast<std::size_t>(i));
+      const reference::Parameter& p = problem_.free_parameter(static_cast<std::size_t>(i));
       low_[i] = p.coordinate.solver(p.low), high_[i] = p.coordinate.solver(p.high);
     }
     x_ = x_.cwiseMax(low_).cwiseMin(high_);
@@ -79,16 +80,16 @@ class Descent {
 
   /// Residual of what is known beforehand of a shared number; 0 where nothing is.
   double prior_residual(Eigen::Index i, double q) const {
-    const Parameter& p = problem_.free_parameter(static_cast<std::size_t>(i));
+    const reference::Parameter& p = problem_.free_parameter(static_cast<std::size_t>(i));
     return p.prior ? (p.coordinate.physical(q) - p.prior->value) / p.prior->std : 0.0;
   }
   double prior_slope(Eigen::Index i, double q) const {
-    const Parameter& p = problem_.free_parameter(static_cast<std::size_t>(i));
+    const reference::Parameter& p = problem_.free_parameter(static_cast<std::size_t>(i));
     return p.prior ? p.coordinate.slope(q) / p.prior->std : 0.0;
   }
 
   double beside(const Vector& x) const {
-    double sum = x.tail(x.size() - shared_).squaredNorm() / (kStateWidth * kStateWidth);
+    double sum = x.tail(x.size() - shared_).squaredNorm() / (reference::kStateWidth * reference::kStateWidth);
     for (Eigen::Index i = 0; i < shared_; ++i) sum += std::pow(prior_residual(i, x[i]), 2);
     return sum;
   }
@@ -122,8 +123,8 @@ class Descent {
       gradient_.segment(f, b.states) += slope.tail(b.states);
     }
     for (Eigen::Index i = 0; i < x_.size(); ++i) {
-      const double slope = i < shared_ ? prior_slope(i, x_[i]) : 1.0 / kStateWidth;
-      const double residual = i < shared_ ? prior_residual(i, x_[i]) : x_[i] / kStateWidth;
+      const double slope = i < shared_ ? prior_slope(i, x_[i]) : 1.0 / reference::kStateWidth;
+      const double residual = i < shared_ ? prior_residual(i, x_[i]) : x_[i] / reference::kStateWidth;
       normal_(i, i) += slope * slope;
       gradient_[i] += slope * residual;
     }
@@ -209,7 +210,7 @@ class Descent {
     return false;
   }
 
-  void read_back(Solution& to) const {
+  void read_back(reference::Solution& to) const {
     for (Eigen::Index i = 0; i < shared_; ++i) to.q[static_cast<std::size_t>(i)] = x_[i];
     for (std::size_t r = 0; r < blocks_.size(); ++r) {
       const std::vector<int>& states = blocks_[r].cost->states();
@@ -219,8 +220,8 @@ class Descent {
     }
   }
 
-  const FitProblem& problem_;
-  const Solution& from_;
+  const reference::FitProblem& problem_;
+  const reference::Solution& from_;
   std::vector<Block> blocks_;
   Eigen::Index shared_ = 0;
   Vector x_, low_, high_, gradient_;
@@ -232,8 +233,9 @@ class Descent {
 
 }  // namespace
 
-Solution refine(const FitProblem& problem, const Solution& from, double observer_hz, const Work& work) {
+reference::Solution refine(const reference::FitProblem& problem, const reference::Solution& from,
+                           double observer_hz, const Work& work) {
   return Descent(problem, from, observer_hz).run(work);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -2,7 +2,7 @@
 
 #include "reference/solve.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// How far a refinement goes.
 struct Work {
@@ -15,6 +15,7 @@ struct Work {
 /// first and wherever the model of the cost fails; in between they follow the motion by Broyden's rank-one
 /// formula, since a Jet run costs five to twenty plain ones. Residuals are those of the reference fit: the
 /// innovations of the model run as an observer at the given gain.
-Solution refine(const FitProblem& problem, const Solution& from, double observer_hz, const Work& work);
+reference::Solution refine(const reference::FitProblem& problem, const reference::Solution& from,
+                           double observer_hz, const Work& work);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr double kFlatters = 0.15;  ///< change of a log mean that counts
@@ -29,4 +29,4 @@ std::string remark_on(const Judged& c, const Judged& before) {
                      fmt::join(c.fitted.at_bound, ", "));
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

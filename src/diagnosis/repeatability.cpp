@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr std::size_t kThinned = 1500;  ///< samples in which a period is looked for
@@ -42,7 +42,7 @@ struct Pooled {
 
 }  // namespace
 
-std::size_t input_period(const MotorTrace& trace) {
+std::size_t repeated_after(const MotorTrace& trace) {
   const std::size_t step = std::max<std::size_t>(1, trace.size() / kThinned);
   const std::vector<double> u = thinned(trace.u, step);
   const double size = spread(u);
@@ -88,4 +88,4 @@ Repeatability repeatability_of(const std::vector<Playback>& playbacks, const Hel
   return found;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -5,10 +5,10 @@
 
 #include "diagnosis/held_out.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// Samples from one period of the input to the next; 0 if it does not repeat at least twice.
-std::size_t input_period(const MotorTrace& trace);
+std::size_t repeated_after(const MotorTrace& trace);
 
 /// What a drive that is driven alike leaves of an error that a model could explain: its rms difference from
 /// one period to the next, over √2 (the model's own error, however large, is the same in both).
@@ -21,4 +21,4 @@ struct Repeatability {
 /// @param playbacks of one model; restarts are those of held_out
 Repeatability repeatability_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -13,7 +13,7 @@
 #include "diagnosis/where.h"
 #include "diagnosis/words.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr double kClearMargin = 0.6;  ///< S to the best other group: the evidence is not weak
@@ -203,4 +203,4 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   return d;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

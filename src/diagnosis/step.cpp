@@ -15,7 +15,7 @@
 #include "reference/rough_drive.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::diagnosis {
 namespace {
 
 constexpr std::size_t kSecondRound = 4;
@@ -47,7 +47,7 @@ std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judge
                                                  std::span<const EffectEntry* const> entries) {
   const std::vector<Playback> playbacks = play_on_train(study, before.fitted.model);
   const std::vector<TorqueLine> standing = standing_lines(ripples_of(playbacks), study.train);
-  const RoughDrive rough = rough_drive(study.train);
+  const reference::RoughDrive rough = reference::rough_drive(study.train);
   const double km = before.fitted.model.parameters[place::kTorqueConstant].value;
   std::vector<std::vector<EffectStart>> starts;
   for (const EffectEntry* entry : entries) {
@@ -189,5 +189,5 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
   return judged;
 }
 
-}  // namespace internal
+}  // namespace internal::diagnosis
 }  // namespace gapscope

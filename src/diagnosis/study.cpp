@@ -5,7 +5,7 @@
 #include "diagnosis/repeatability.h"
 #include "gapscope/base/require.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr double kTrainShare = 2.0 / 3.0;  ///< of each file, where nothing else is held out
@@ -46,7 +46,7 @@ double coarser_quantum(const std::vector<MotorTrace>& traces) {
 /// Of a recording whose counts are coarser than the sheet's the floor is the sheet's: they are what is
 /// missing.
 double floor_of(const MotorTrace& t, bool coarser) {
-  return coarser ? t.quantum / std::sqrt(12.0) : encoder_floor(t);
+  return coarser ? t.quantum / std::sqrt(12.0) : reference::encoder_floor(t);
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
   study.seen_quantum = coarser_quantum(study.held_out.traces);
   for (const MotorTrace& t : study.held_out.traces)
     study.held_out.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
-  for (const MotorTrace& t : study.held_out.traces) study.held_out.periods.push_back(input_period(t));
+  for (const MotorTrace& t : study.held_out.traces) study.held_out.periods.push_back(repeated_after(t));
   for (const std::string& name : options.excluded) GAPSCOPE_REQUIRE(find_effect(name) != nullptr);
   for (const EffectEntry* entry : effect_table())
     if (std::find(options.excluded.begin(), options.excluded.end(), entry->name) == options.excluded.end())
@@ -100,9 +100,9 @@ HeldOut fitted_as_held_out(const Study& study) {
   all.scored_from.assign(all.traces.size(), 0);
   for (const MotorTrace& t : all.traces) {
     all.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
-    all.periods.push_back(input_period(t));
+    all.periods.push_back(repeated_after(t));
   }
   return all;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -10,7 +10,7 @@
 #include "diagnosis/harmonics.h"
 #include "diagnosis/headline.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr int kBins = 8;
@@ -35,14 +35,14 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
   return samples;
 }
 
-using Quantity = std::function<double(const Sample&)>;
+using SampleValue = std::function<double(const Sample&)>;
 
 std::string range_key(double low, double high, int decimals, const char* unit) {
   return fmt::format("{:.{}f}..{:.{}f} {}", low, decimals, high, decimals, unit);
 }
 
 /// Bins of equal width between the extremes.
-std::vector<MapShare> range_map(const std::vector<Sample>& samples, const Quantity& of, const char* unit) {
+std::vector<MapShare> range_map(const std::vector<Sample>& samples, const SampleValue& of, const char* unit) {
   double low = kInfinity, high = -kInfinity;
   for (const Sample& s : samples) low = std::min(low, of(s)), high = std::max(high, of(s));
   constexpr double kNarrowest = 1e-9;
@@ -131,7 +131,7 @@ void fill_maps(const std::vector<Sample>& samples, bool rotation, MismatchPlace&
 }
 
 /// Share of the squared residual torque that its means over bins of a quantity explain.
-double explained(const std::vector<Sample>& samples, const Quantity& of, int bins) {
+double explained(const std::vector<Sample>& samples, const SampleValue& of, int bins) {
   double low = kInfinity, high = -kInfinity, square = 0.0;
   for (const Sample& s : samples) low = std::min(low, of(s)), high = std::max(high, of(s));
   std::vector<double> sum(static_cast<std::size_t>(bins)), count(sum.size());
@@ -185,4 +185,4 @@ MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& he
   return place;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -5,7 +5,7 @@
 
 #include "diagnosis/held_out.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// Spreads the residual torque of a model over mode, direction, speed, angle, input, frequency and time, and
 /// puts into words what stands out against an error that is everywhere alike.
@@ -13,4 +13,4 @@ namespace gapscope::internal {
 MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& held_out,
                        double torque_constant, bool rotation, const ModelEffect* effect);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

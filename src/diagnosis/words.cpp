@@ -9,7 +9,7 @@
 #include "diagnosis/effect_starts.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::diagnosis {
 namespace {
 
 std::string readable(std::string name) {
@@ -88,7 +88,7 @@ std::string sentence_of(const Diagnosis& d, bool) {
   return d.sentence;
 }
 
-}  // namespace internal
+}  // namespace internal::diagnosis
 
 std::string Diagnosis::brief_report() const { return sentence; }
 

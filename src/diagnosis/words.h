@@ -4,9 +4,9 @@
 
 #include "gapscope/diagnosis/diagnosis.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 
 /// The answer in one sentence.
 std::string sentence_of(const Diagnosis& diagnosis, bool rotation);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -10,7 +10,7 @@
 
 #include "inspection/rules.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::inspection {
 namespace {
 
 using Samples = std::span<const double>;
@@ -156,7 +156,7 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
   const Samples u = m.rows.u;
   const auto [low, high] = extremes(u);
   facts.input_peak = std::max(std::abs(low), std::abs(high));
-  facts.input_noise = noise_from_differences(u);
+  facts.input_noise = sliding_mode::noise_from_differences(u);
   if (low == high)
     return {"input", Severity::kSpoils, fmt::format("u is {:.4g} all the time", low),
             "record what drives the motor while it moves"};
@@ -212,4 +212,4 @@ Finding check_spectrum(const Material& m, RecordingFacts& facts) {
           ""};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::inspection

@@ -14,24 +14,27 @@
 namespace gapscope {
 namespace {
 
-using internal::Material;
-using internal::RecordedRows;
+using internal::inspection::Material;
+using internal::recording::RecordedRows;
 
 using Rule = Finding (*)(const Material&, RecordingFacts&);
 
 /// In the order in which they are told: what the others rest on comes first.
-constexpr Rule kRules[] = {
-    internal::check_time, internal::check_position_unit, internal::check_encoder,  internal::check_jumps,
-    internal::check_hold, internal::check_travel,        internal::check_periods,  internal::check_speed,
-    internal::check_rest, internal::check_input,         internal::check_clipping, internal::check_spectrum,
-    internal::check_sign, internal::check_scale,         internal::check_feedback, internal::check_repeats};
+constexpr Rule kRules[] = {internal::inspection::check_time,     internal::inspection::check_position_unit,
+                           internal::inspection::check_encoder,  internal::inspection::check_jumps,
+                           internal::inspection::check_hold,     internal::inspection::check_travel,
+                           internal::inspection::check_periods,  internal::inspection::check_speed,
+                           internal::inspection::check_rest,     internal::inspection::check_input,
+                           internal::inspection::check_clipping, internal::inspection::check_spectrum,
+                           internal::inspection::check_sign,     internal::inspection::check_scale,
+                           internal::inspection::check_feedback, internal::inspection::check_repeats};
 
 /// A grid at the median step, but never many times finer than the rows: one row far off must not fill the
 /// memory.
 double grid_rate(const RecordedRows& rows) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(rows.t[i] - rows.t[i - 1]);
-  return std::min(1.0 / median(std::move(steps)), 4.0 / internal::mean_step(rows));
+  return std::min(1.0 / median(std::move(steps)), 4.0 / internal::recording::mean_step(rows));
 }
 
 /// The step of the encoder; where it is seen too rarely to be counted, the smallest one there is.
@@ -47,9 +50,10 @@ double quantum_of(const std::vector<double>& x1) {
 
 Recording on_grid(RecordedRows rows, const ReadOptions& options) {
   const double quantum = quantum_of(rows.x1);
-  Recording r = options.resample_rate        ? internal::resample(rows, *options.resample_rate)
-                : internal::is_uniform(rows) ? internal::uniform_recording(RecordedRows(rows))
-                                             : internal::resample(rows, grid_rate(rows));
+  Recording r = options.resample_rate ? internal::recording::resample(rows, *options.resample_rate)
+                : internal::recording::is_uniform(rows)
+                    ? internal::recording::uniform_recording(RecordedRows(rows))
+                    : internal::recording::resample(rows, grid_rate(rows));
   if (r.size() < kFewestSamples)
     throw ConfigError(rows.path, fmt::format("{} samples after resampling, expected at least {}", r.size(),
                                              kFewestSamples));
@@ -111,11 +115,11 @@ std::string Inspection::report() const {
 
 Inspection inspect(const std::string& path, const ReadOptions& options, bool rotation) {
   Material m;
-  m.rows = internal::read_window(path, options, internal::EarlierRow::kSkipped);
+  m.rows = internal::recording::read_window(path, options, internal::recording::EarlierRow::kSkipped);
   m.recording = on_grid(m.rows, options);
   m.resampled = options.resample_rate.has_value();
   m.rotation = rotation;
-  m.signal = internal::read_facts(m.recording.motor_trace());
+  m.signal = internal::sliding_mode::read_facts(m.recording.motor_trace());
   Inspection inspection;
   inspection.file = path;
   inspection.rotation = rotation;

@@ -8,7 +8,7 @@
 #include "inspection/rules.h"
 #include "sliding_mode/folding.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::inspection {
 namespace {
 
 using Samples = std::span<const double>;
@@ -69,7 +69,7 @@ Finding check_travel(const Material& m, RecordingFacts& facts) {
 }
 
 Finding check_periods(const Material& m, RecordingFacts& facts) {
-  const SignalFacts& s = m.signal;
+  const sliding_mode::SignalFacts& s = m.signal;
   facts.half_periods = static_cast<int>(s.half_periods);
   if (s.half_periods > 0) facts.period = 2.0 * s.half_period;
   if (!s.defect.empty())
@@ -111,7 +111,7 @@ Finding check_rest(const Material& m, RecordingFacts& facts) {
 }
 
 Finding check_repeats(const Material& m, RecordingFacts& facts) {
-  const double period = input_period(m.recording.motor_trace(), kFewestRepeats);
+  const double period = sliding_mode::input_period(m.recording.motor_trace(), kFewestRepeats);
   if (period > 0.0) facts.input_period = period;
   const double third = m.recording.duration() / 3.0;
   if (third < kShortHeldOut)
@@ -130,4 +130,4 @@ Finding check_repeats(const Material& m, RecordingFacts& facts) {
       "record three periods of one input, or the same input again for recording: held_out"};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::inspection

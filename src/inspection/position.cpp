@@ -10,7 +10,7 @@
 #include "gapscope/sliding_mode/gap_estimate.h"
 #include "inspection/rules.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::inspection {
 namespace {
 
 using Samples = std::span<const double>;
@@ -79,11 +79,11 @@ std::vector<std::size_t> jumps(const Material& m) {
 }
 
 /// Share of the samples of fast motion in which x1 stands still, and how many come between two that move.
-struct Held {
+struct HeldSamples {
   double share = 0.0, every = 1.0;
 };
 
-Held held(const Material& m) {
+HeldSamples held(const Material& m) {
   constexpr std::size_t kReach = 8;
   const Samples x = m.recording.x1;
   const double least = kFastStep * m.recording.quantum;
@@ -162,7 +162,7 @@ Finding check_jumps(const Material& m, RecordingFacts&) {
 }
 
 Finding check_hold(const Material& m, RecordingFacts&) {
-  const Held h = held(m);
+  const HeldSamples h = held(m);
   if (h.share < kMostHeld) return {"fresh samples", Severity::kFine, "x1 is read anew for every row", ""};
   const double rate = 1.0 / (m.recording.dt * h.every);
   return {"fresh samples", Severity::kSpoils,
@@ -171,4 +171,4 @@ Finding check_hold(const Material& m, RecordingFacts&) {
           fmt::format("record at the rate of the encoder, or recording: resample: {{rate: {:.4g}}}", rate)};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::inspection

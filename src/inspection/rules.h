@@ -10,14 +10,14 @@
 #include "recording/recorded_rows.h"
 #include "sliding_mode/signal_facts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::inspection {
 
 /// A recording as it is looked at.
 struct Material {
-  RecordedRows rows;       ///< as they stand in the file
-  Recording recording;     ///< the same on a uniform grid
-  SignalFacts signal;      ///< of its x1
-  bool resampled = false;  ///< on request: irregular time is taken care of
+  recording::RecordedRows rows;      ///< as they stand in the file
+  Recording recording;               ///< the same on a uniform grid
+  sliding_mode::SignalFacts signal;  ///< of its x1
+  bool resampled = false;            ///< on request: irregular time is taken care of
   bool rotation = true;
   const char* unit() const { return rotation ? "rad" : "m"; }
   bool moves() const { return signal.speed_rms > 0.0; }
@@ -45,4 +45,4 @@ Finding check_scale(const Material& m, RecordingFacts& facts);
 Finding check_feedback(const Material& m, RecordingFacts& facts);
 Finding check_repeats(const Material& m, RecordingFacts& facts);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::inspection

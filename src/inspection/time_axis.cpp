@@ -6,7 +6,7 @@
 
 #include "inspection/rules.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::inspection {
 namespace {
 
 constexpr double kPause = 1.5;    ///< steps longer than this many median steps have lost a sample
@@ -19,7 +19,7 @@ struct Steps {
   double missing = 0.0;
 };
 
-Steps steps_of(const RecordedRows& rows) {
+Steps steps_of(const recording::RecordedRows& rows) {
   std::vector<double> all;
   for (std::size_t i = 1; i < rows.size(); ++i) all.push_back(rows.t[i] - rows.t[i - 1]);
   Steps s;
@@ -73,7 +73,7 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
   const Steps s = steps_of(m.rows);
   facts.samples = static_cast<int>(m.rows.size());
   facts.skipped_rows = static_cast<int>(m.rows.skipped.size());
-  facts.uniform = is_uniform(m.rows) && m.rows.skipped.empty();
+  facts.uniform = recording::is_uniform(m.rows) && m.rows.skipped.empty();
   facts.missing_samples = static_cast<int>(std::min(s.missing, 2e9));
   facts.start = m.rows.t.front();
   facts.duration = m.rows.t.back() - m.rows.t.front() + s.median;
@@ -99,4 +99,4 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
       ""};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::inspection

@@ -9,7 +9,7 @@
 #include "reference/rough_drive.h"
 #include "sliding_mode/torque_cycles.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::inspection {
 namespace {
 
 using Samples = std::span<const double>;
@@ -94,10 +94,10 @@ Finding check_sign(const Material& m, RecordingFacts& facts) {
 Finding check_scale(const Material& m, RecordingFacts& facts) {
   const MotorTrace trace = m.recording.motor_trace();
   if (!m.moves()) return {"scale of u", Severity::kNote, "cannot be told without motion", "see travel"};
-  if (torque_cycles(trace).following > kFollows)
+  if (sliding_mode::torque_cycles(trace).following > kFollows)
     return {"scale of u", Severity::kFine,
             "x1 goes with u, as against a locked output: it says nothing about the inertia", ""};
-  const RoughDrive rough = rough_drive(std::span(&trace, 1));
+  const reference::RoughDrive rough = reference::rough_drive(std::span(&trace, 1));
   facts.inertia = rough.inertia, facts.damping = rough.damping, facts.friction = rough.friction;
   const char* const units = m.rotation ? "kg m^2, N m s, N m" : "kg, N s/m, N";
   const std::string inertia =
@@ -134,4 +134,4 @@ Finding check_feedback(const Material& m, RecordingFacts& facts) {
       "more than in an open loop"};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::inspection

@@ -7,15 +7,15 @@
 
 namespace gapscope {
 
-namespace internal {
+namespace internal::plant {
 #define GAPSCOPE_EFFECT(identifier) extern const EffectEntry effect_##identifier;
 #include "plant/effects/effects.inc"
 #undef GAPSCOPE_EFFECT
-}  // namespace internal
+}  // namespace internal::plant
 
 std::span<const EffectEntry* const> effect_table() {
   static constexpr const EffectEntry* kTable[] = {
-#define GAPSCOPE_EFFECT(identifier) &internal::effect_##identifier,
+#define GAPSCOPE_EFFECT(identifier) &internal::plant::effect_##identifier,
 #include "plant/effects/effects.inc"
 #undef GAPSCOPE_EFFECT
   };

@@ -12,7 +12,7 @@
 #include "gapscope/base/shown.h"
 #include "recording/limits.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -131,4 +131,4 @@ double CsvRow::number(int place, const std::string& column, const UnitScale& sca
                    too_large ? fmt::format("at most {:g} in size", kLargestNumber) : "a finite number"));
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

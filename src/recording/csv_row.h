@@ -7,7 +7,7 @@
 
 #include "gapscope/recording/recording_file.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 
 /// The lines of a CSV one after the other: the header first, then rows of which any column may be asked for.
 class CsvRow {
@@ -50,4 +50,4 @@ class CsvRow {
   bool has_header_ = false;
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

@@ -8,7 +8,7 @@
 #include "recording/csv_row.h"
 #include "recording/recorded_rows.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 namespace {
 
 std::string whole_file(const std::string& path) {
@@ -50,4 +50,4 @@ RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, 
   return table;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

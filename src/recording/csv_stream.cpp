@@ -14,8 +14,8 @@ namespace gapscope {
 
 struct CsvStream::State {
   std::string name, line;  // the line that has not ended yet
-  internal::CsvRow row;
-  internal::RecordedRows first;  // rows until the clock is known
+  internal::recording::CsvRow row;
+  internal::recording::RecordedRows first;  // rows until the clock is known
   double start = 0.0, dt = 0.0, last = 0.0;
   std::vector<Sample> samples;
 
@@ -33,7 +33,7 @@ struct CsvStream::State {
 
   void set_clock() {
     const std::vector<double> t = first.t;
-    const Recording r = internal::uniform_recording(std::move(first));
+    const Recording r = internal::recording::uniform_recording(std::move(first));
     start = r.start, dt = r.dt, last = t.back();
     for (std::size_t i = 0; i < t.size(); ++i) samples.push_back({t[i], r.u[i], r.x1[i]});
     first = {};
@@ -41,7 +41,7 @@ struct CsvStream::State {
 
   void go_on(const Sample& s) {
     const double step = s.t - last;
-    if (!(std::abs(step - dt) <= internal::kUniformTolerance * dt))
+    if (!(std::abs(step - dt) <= internal::recording::kUniformTolerance * dt))
       row.fail(
           fmt::format("time is not uniform: a step of {:.6g} ms, expected {:.6g} ms as before, within 0.1 %",
                       1e3 * step, 1e3 * dt));

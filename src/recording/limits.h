@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 
 /// More rows or samples than this are refused: a mistyped rate must not eat the machine.
 constexpr std::size_t kMostSamples = 20'000'000;
@@ -20,4 +20,4 @@ constexpr double kShortestStep = 1e-10, kLongestStep = 1e9;
 /// Largest deviation of a step from the mean step that still counts as uniform [-].
 constexpr double kUniformTolerance = 1e-3;
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

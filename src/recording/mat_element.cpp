@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 
 std::uint32_t swapped(std::uint32_t x) {
   return (x >> 24) | ((x >> 8) & 0xff00u) | ((x << 8) & 0xff0000u) | (x << 24);
@@ -99,4 +99,4 @@ void MatElement::refill() {
   zip_.avail_in = static_cast<uInt>(packed_.size());
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

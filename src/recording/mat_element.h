@@ -7,7 +7,7 @@
 #include <fstream>
 #include <vector>
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 
 /// A variable of a .mat file of version 5 that does not hold what it says. Whoever reads it knows which.
 struct DamagedVariable {};
@@ -55,4 +55,4 @@ class MatElement {
 /// A number of four bytes with these in the other order.
 std::uint32_t swapped(std::uint32_t x);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

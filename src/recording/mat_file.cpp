@@ -12,7 +12,7 @@
 #include "gapscope/base/shown.h"
 #include "recording/limits.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 namespace {
 
 std::string listed(const std::vector<std::string>& names) {
@@ -63,4 +63,4 @@ std::vector<double> vector_of(MatContent& content, const std::string& path, cons
   return content.numbers(name, *length);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

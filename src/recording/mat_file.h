@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 
 /// What a .mat file says of a variable before its numbers are read.
 struct MatVariable {
@@ -42,4 +42,4 @@ std::vector<double> vector_of(MatContent& content, const std::string& path, cons
 /// @throws ConfigError unless it is a whole .mat file
 std::unique_ptr<MatContent> open_mat(const std::string& path);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

@@ -17,7 +17,7 @@
 #include "recording/mat_element.h"
 #include "recording/mat_file.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 namespace {
 
 using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
@@ -244,4 +244,4 @@ std::unique_ptr<MatContent> open_by_matio(const std::string& path) {
   return std::make_unique<ByMatio>(path);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

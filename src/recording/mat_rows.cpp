@@ -7,7 +7,7 @@
 #include "recording/mat_file.h"
 #include "recording/recorded_rows.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 namespace {
 
 struct Column {
@@ -71,4 +71,4 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   return rows;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

@@ -13,7 +13,7 @@
 #include "recording/mat_element.h"
 #include "recording/mat_file.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 namespace {
 
 using Bytes = std::uintmax_t;
@@ -185,4 +185,4 @@ std::unique_ptr<MatContent> open_version_5(const std::string& path) {
   return std::make_unique<Version5>(path);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

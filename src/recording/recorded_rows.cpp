@@ -9,7 +9,7 @@
 #include "gapscope/base/errors.h"
 #include "recording/limits.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 namespace {
 
 template <class T>
@@ -74,4 +74,4 @@ void require_recording_file(const std::string& path) {
                                         static_cast<double>(bytes), static_cast<double>(kMostBytes)));
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

@@ -6,7 +6,7 @@
 
 #include "gapscope/recording/recording_file.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 
 /// What becomes of a row whose time is not later than that of the row before.
 enum class EarlierRow { kRefused, kSkipped };
@@ -60,4 +60,4 @@ bool is_uniform(const RecordedRows& table);
 /// The columns as they stand.  @throws ConfigError unless they are uniform
 Recording uniform_recording(RecordedRows&& table);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

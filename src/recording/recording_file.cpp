@@ -15,7 +15,7 @@
 namespace gapscope {
 namespace {
 
-using internal::RecordedRows;
+using internal::recording::RecordedRows;
 
 void require_samples(const RecordedRows& table, std::size_t count, const std::string& where) {
   if (count < kFewestSamples)
@@ -33,13 +33,13 @@ void cut_to_window(RecordedRows& table, const std::pair<double, double>& window)
 }
 
 void require_uniform(const RecordedRows& table) {
-  const double mean = internal::mean_step(table);
-  if (mean < internal::kShortestStep || mean > internal::kLongestStep)
+  const double mean = internal::recording::mean_step(table);
+  if (mean < internal::recording::kShortestStep || mean > internal::recording::kLongestStep)
     table.fail(table.line.back(),
                fmt::format("time goes on by {:.3g} s from row to row, expected {:g} to {:g} s", mean,
-                           internal::kShortestStep, internal::kLongestStep));
-  if (internal::is_uniform(table)) return;
-  const std::size_t worst = internal::worst_step(table);
+                           internal::recording::kShortestStep, internal::recording::kLongestStep));
+  if (internal::recording::is_uniform(table)) return;
+  const std::size_t worst = internal::recording::worst_step(table);
   const double step = table.t[worst] - table.t[worst - 1];
   table.fail(
       table.line[worst],
@@ -59,7 +59,7 @@ bool reproduces_times(const RecordedRows& table, double dt) {
 /// of the file exactly, one over a whole rate first, so that a recording that was written reads back the
 /// same.
 double sampling_interval(const RecordedRows& table) {
-  const double mean = internal::mean_step(table);
+  const double mean = internal::recording::mean_step(table);
   double below = mean, above = mean;
   std::vector<double> candidates = {1.0 / std::round(1.0 / mean), mean};
   for (int ulp = 0; ulp < 3; ++ulp) {
@@ -73,7 +73,7 @@ double sampling_interval(const RecordedRows& table) {
 
 }  // namespace
 
-namespace internal {
+namespace internal::recording {
 
 RecordedRows read_window(const std::string& path, const ReadOptions& options, EarlierRow earlier) {
   RecordedRows table = read_rows(path, options.columns, earlier);
@@ -112,14 +112,14 @@ Recording uniform_recording(RecordedRows&& table) {
   return r;
 }
 
-}  // namespace internal
+}  // namespace internal::recording
 
 Recording read_recording(const std::string& path, const ReadOptions& options) {
-  RecordedRows table = internal::read_window(path, options);
+  RecordedRows table = internal::recording::read_window(path, options);
   const bool open_end = table.open_end;
   const double quantum = seen_quantum(table.x1);  // of the raw samples: resampling hides it
-  Recording r = options.resample_rate ? internal::resample(table, *options.resample_rate)
-                                      : internal::uniform_recording(std::move(table));
+  Recording r = options.resample_rate ? internal::recording::resample(table, *options.resample_rate)
+                                      : internal::recording::uniform_recording(std::move(table));
   if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
   r.file = std::filesystem::path(path).filename().string();
   r.open_end = open_end;

@@ -9,7 +9,7 @@
 #include "gapscope/base/require.h"
 #include "recording/limits.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 namespace {
 
 /// Number of grid points that fit between the first and the last row.
@@ -84,4 +84,4 @@ Recording resample(const RecordedRows& table, double rate) {
   return r;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

@@ -3,7 +3,7 @@
 #include "gapscope/recording/recording.h"
 #include "recording/recorded_rows.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::recording {
 
 /// The table on a uniform grid from its first row on: x1 and x2 linearly between rows, u as the mean of the
 /// held input over each new interval, so that its impulse is kept. The last interval may reach beyond the
@@ -11,4 +11,4 @@ namespace gapscope::internal {
 /// @param rate [Hz], > 0
 Recording resample(const RecordedRows& table, double rate);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::recording

@@ -5,7 +5,7 @@
 
 #include "gapscope/plant/scalar.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// How a physical number p is presented to the solver as q.
 ///   positive numbers:  p = 2 s sinh q — logarithmic above the small scale s, linear below it, so that ratios
@@ -30,4 +30,4 @@ struct Coordinate {
   double slope(double q) const { return positive ? 2.0 * scale * std::cosh(q) : scale; }
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -5,7 +5,7 @@
 
 #include "reference/fit_problem.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// The same problem on a part of the recordings. What is simulated is counted on the whole problem, in its
 /// length.
@@ -58,4 +58,4 @@ class Excerpt {
   FitProblem part_;
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -13,7 +13,7 @@
 #include "reference/search.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::reference {
 namespace {
 
 constexpr double kWorseThanStill = 1.3;  ///< free-run error over that of a motor that stood still
@@ -31,7 +31,7 @@ FittedParameter fitted(const Parameter& p, const Determined& determined, double 
   return f;
 }
 
-void report_parameters(const FitProblem& problem, const Outcome& outcome, FitSummary& summary) {
+void report_parameters(const FitProblem& problem, const FitOutcome& outcome, FitSummary& summary) {
   Determined determined = determine(problem, outcome.solution, outcome.information, outcome.shift());
   judge_changes(problem, outcome, determined);
   std::size_t i = 0;
@@ -63,7 +63,7 @@ double pooled_floor(const FitProblem& problem) {
   return std::sqrt(sum / count);
 }
 
-void report_motion(const FitProblem& problem, const Outcome& outcome, FitSummary& summary) {
+void report_motion(const FitProblem& problem, const FitOutcome& outcome, FitSummary& summary) {
   summary.observer_hz = problem.options.observer_hz;
   summary.objective_hz = outcome.objective_hz;
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
@@ -97,21 +97,21 @@ void report_failure(const FitProblem& problem, FitSummary& summary) {
 }
 
 }  // namespace
-}  // namespace internal
+}  // namespace internal::reference
 
 FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& model,
                const FitOptions& options) {
-  using namespace internal;
+  using namespace internal::reference;
   const FitProblem problem = make_problem(recordings, model, options);
   FitSummary summary;
   summary.floor = pooled_floor(problem);
-  const SearchResult found = search(problem);
+  const SearchResult found = find_minima(problem);
   summary.starts = static_cast<int>(found.ends.size());
   summary.start_costs = found.costs();
   if (!found.best().usable()) {
     report_failure(problem, summary);
   } else {
-    const Outcome outcome = outcome_of(problem, found);
+    const FitOutcome outcome = outcome_of(problem, found);
     summary.status = outcome.solution.converged ? FitStatus::kConverged : FitStatus::kNotConverged;
     summary.message = outcome.solution.converged ? "" : "the iterations ran out before the cost settled.";
     summary.warnings = outcome.warnings;

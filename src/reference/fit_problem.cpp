@@ -5,7 +5,7 @@
 
 #include "gapscope/base/require.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 using namespace place;
@@ -229,4 +229,4 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   return problem;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -10,7 +10,7 @@
 #include "reference/coordinate.h"
 #include "reference/rough_drive.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// Every number of the model: the drive's parameters, then kMostEffectParameters for each effect.
 template <class T>
@@ -121,4 +121,4 @@ struct FitProblem {
 FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceModel& model,
                         const FitOptions& options);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

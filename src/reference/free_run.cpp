@@ -6,7 +6,7 @@
 #include "gapscope/base/statistics.h"
 #include "reference/rollout.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr std::size_t kParts = 100;  ///< of a recording, in which the way is compared
@@ -97,4 +97,4 @@ std::vector<ModeError> errors_by_mode(const FitProblem& problem, const std::vect
   return errors;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -5,7 +5,7 @@
 #include "gapscope/reference/fit_summary.h"
 #include "reference/solve.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// State of a solution at the first sample of recording r.
 DriveState<double> start_state(const FitProblem& problem, const Solution& at, std::size_t r);
@@ -25,4 +25,4 @@ double error_over_stillness(const FitProblem& problem, const std::vector<FitTrac
 /// Free-run error in each mode of the fitted model that occurs.
 std::vector<ModeError> errors_by_mode(const FitProblem& problem, const std::vector<FitTrace>& traces);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

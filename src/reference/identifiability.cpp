@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr double kShareInCombination = 0.05;  ///< of the largest change, for a parameter to be named
@@ -225,4 +225,4 @@ Determined determine(const FitProblem& problem, const Solution& at, const Inform
   return determined;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

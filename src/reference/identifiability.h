@@ -5,7 +5,7 @@
 
 #include "reference/information.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// What could be determined of each free parameter, in the order of FitProblem::free.
 struct Determined {
@@ -32,4 +32,4 @@ Determined determine(const FitProblem& problem, const Solution& at, const Inform
 /// The excitation that would determine a parameter, as half a sentence.
 std::string excitation_for(const std::string& key);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -5,7 +5,7 @@
 
 #include "reference/recording_cost.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr int kWindows = 24;  ///< the recordings are cut into about so many, for the scatter of scores
@@ -189,4 +189,4 @@ Information information_at(const FitProblem& problem, const Solution& at, double
   return information;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

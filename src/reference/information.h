@@ -4,7 +4,7 @@
 
 #include "reference/solve.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// Autocorrelation of the residual at one sample [-]: as it is, and as much as the quantiser explains on this
 /// motion.
@@ -33,4 +33,4 @@ Correlation correlation_at(const FitProblem& problem, const Solution& at, double
 
 Information information_at(const FitProblem& problem, const Solution& at, double observer_hz);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -9,7 +9,7 @@
 #include "reference/polish.h"
 #include "reference/starts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr Effort kRejected{1e-6, 1.0};      ///< of a model that is not the drive
@@ -29,14 +29,14 @@ std::vector<double> values_of(const FitProblem& problem, const Solution& s) {
   return values;
 }
 
-void take(const FitProblem& problem, const Solution& solution, double hz, Outcome& outcome) {
+void take(const FitProblem& problem, const Solution& solution, double hz, FitOutcome& outcome) {
   outcome.solution = solution;
   outcome.objective_hz = hz;
   outcome.information = information_at(problem, solution, hz);
 }
 
 /// Minima side by side are all possible, each with the likelihood of its cost.
-void spread_over_minima(const FitProblem& problem, const std::vector<Solution>& others, Outcome& outcome) {
+void spread_over_minima(const FitProblem& problem, const std::vector<Solution>& others, FitOutcome& outcome) {
   double samples = 0.0, weights = 1.0;
   for (const MotorTrace& r : problem.recordings) samples += static_cast<double>(r.size());
   const double unit = 2.0 * outcome.information.variance * outcome.information.inflation / samples;
@@ -54,7 +54,7 @@ void spread_over_minima(const FitProblem& problem, const std::vector<Solution>& 
 
 /// Values at one gain, their change to another one as an error.
 void take_two_gains(const FitProblem& problem, const Solution& from, double hz, double other_hz,
-                    Outcome& outcome) {
+                    FitOutcome& outcome) {
   const Solution found = solve(problem, from, hz, kRejected);
   take(problem, found.usable() ? found : from, found.usable() ? hz : problem.options.observer_hz, outcome);
   const Solution other = solve(problem, outcome.solution, other_hz, kOther);
@@ -99,7 +99,7 @@ Solution best_at(const FitProblem& problem, const std::vector<Solution>& ends, d
 /// Free parameters on one part alone, sought anew: from the values of the whole a part that shows nothing of
 /// a parameter would only return them. Empty where that fails.
 std::vector<double> values_on(const Excerpt& part, const Solution& from, double hz) {
-  std::vector<Solution> ends = search(part.problem()).ends;
+  std::vector<Solution> ends = find_minima(part.problem()).ends;
   ends.push_back(start_point(part.problem(), from.q));
   choose_variants(part.problem(), ends.back(), hz);
   const Solution found = best_at(part.problem(), ends, hz);
@@ -107,7 +107,7 @@ std::vector<double> values_on(const Excerpt& part, const Solution& from, double 
 }
 
 /// The first two recordings, or the two parts of the only one, each by itself.
-void compare_parts(const FitProblem& problem, Outcome& outcome) {
+void compare_parts(const FitProblem& problem, FitOutcome& outcome) {
   const bool several = problem.recordings.size() > 1;
   const MotorTrace& first = problem.recordings[0];
   const std::size_t split = change_of_level(first);
@@ -124,7 +124,7 @@ void compare_parts(const FitProblem& problem, Outcome& outcome) {
   outcome.changes.push_back({where, from, to, 0.5, true});
 }
 
-void take_rejected(const FitProblem& problem, const SearchResult& found, Outcome& outcome) {
+void take_rejected(const FitProblem& problem, const SearchResult& found, FitOutcome& outcome) {
   const FitOptions& o = problem.options;
   outcome.warnings.push_back(
       fmt::format("the model does not explain the recordings: its prediction error is {:.3g} times the "
@@ -138,7 +138,7 @@ void take_rejected(const FitProblem& problem, const SearchResult& found, Outcome
   if (o.compare_parts) compare_parts(problem, outcome);
 }
 
-void warn_of_pattern(const Correlation& correlation, Outcome& outcome) {
+void warn_of_pattern(const Correlation& correlation, FitOutcome& outcome) {
   if (correlation.excess() <= kWhite) return;
   outcome.warnings.push_back(fmt::format(
       "the residual is within the encoder's size but not random (lag-1 autocorrelation {:.2f}, the "
@@ -149,9 +149,9 @@ void warn_of_pattern(const Correlation& correlation, Outcome& outcome) {
 
 }  // namespace
 
-std::vector<double> Outcome::shift() const {
+std::vector<double> FitOutcome::shift() const {
   std::vector<double> sum = spread;
-  for (const Change& c : changes) {
+  for (const ValueChange& c : changes) {
     sum.resize(c.from.size(), 0.0);
     for (std::size_t i = 0; i < sum.size(); ++i)
       sum[i] = std::hypot(sum[i], c.weight * (c.to[i] - c.from[i]));
@@ -159,10 +159,10 @@ std::vector<double> Outcome::shift() const {
   return sum;
 }
 
-Outcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
+FitOutcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
   const FitOptions& o = problem.options;
   const Solution found = ends.best();
-  Outcome outcome;
+  FitOutcome outcome;
   if (std::sqrt(found.mean_square) > o.rejected_ratio) {
     take_rejected(problem, ends, outcome);
     return outcome;
@@ -182,8 +182,8 @@ Outcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
   return outcome;
 }
 
-void judge_changes(const FitProblem& problem, const Outcome& outcome, Determined& determined) {
-  for (const Change& c : outcome.changes) {
+void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determined& determined) {
+  for (const ValueChange& c : outcome.changes) {
     std::string moved;
     for (std::size_t i = 0; i < c.from.size(); ++i) {
       const double difference = std::abs(c.to[i] - c.from[i]);
@@ -208,4 +208,4 @@ void judge_changes(const FitProblem& problem, const Outcome& outcome, Determined
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

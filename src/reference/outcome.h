@@ -6,10 +6,10 @@
 #include "reference/identifiability.h"
 #include "reference/search.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// How far the free parameters move when they are fitted in another way.
-struct Change {
+struct ValueChange {
   std::string where;             ///< "at 10 Hz instead of 30 Hz", "between ..."
   std::vector<double> from, to;  ///< [units of the parameters]
   double weight = 1.0;           ///< of the difference as a standard error
@@ -17,11 +17,11 @@ struct Change {
 };
 
 /// The values that are reported, and how they were had.
-struct Outcome {
+struct FitOutcome {
   Solution solution;
   double objective_hz = 0.0;  ///< poles of the observer; 0: the free run
   Information information;
-  std::vector<Change> changes;
+  std::vector<ValueChange> changes;
   std::vector<double> spread;  ///< of the free parameters over minima that are nearly as good; may be empty
   std::vector<std::string> warnings;
 
@@ -32,10 +32,10 @@ struct Outcome {
 /// Takes the end of the search to the values that are reported, see fit(): the free run where the predictions
 /// reach the encoder's floor, else the end that predicts best at a higher gain, compared with another gain
 /// and between parts of the recordings.
-Outcome outcome_of(const FitProblem& problem, const SearchResult& found);
+FitOutcome outcome_of(const FitProblem& problem, const SearchResult& found);
 
 /// Names the parameters that change by more than their own intervals. A gap that is another one on another
 /// part of the recordings is no gap: it is not identifiable.
-void judge_changes(const FitProblem& problem, const Outcome& outcome, Determined& determined);
+void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determined& determined);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -8,7 +8,7 @@
 #include "reference/information.h"
 #include "reference/starts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr Effort kFinal{1e-8, 2.0};  ///< far below what moves a value by its standard error
@@ -130,4 +130,4 @@ Polished polish(const FitProblem& problem, const Solution& found) {
   return polished;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -4,7 +4,7 @@
 
 #include "reference/solve.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// A minimum of the free run, and the others that were met beside it.
 struct Polished {
@@ -18,4 +18,4 @@ struct Polished {
 /// @param found  end of the search; its mean_square is that of the predictions
 Polished polish(const FitProblem& problem, const Solution& found);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -5,7 +5,7 @@
 
 #include "gapscope/base/interrupt.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr double kQuantile = 1.96;
@@ -14,11 +14,11 @@ constexpr int kMostSteps = 12;
 constexpr double kCloseEnough = 0.02;  ///< of the rise, as a root
 
 /// The problem with one parameter held.
-struct Held {
+struct HeldParameter {
   FitProblem problem;
   int parameter;
 
-  Held(const FitProblem& whole, std::size_t i) : problem(whole), parameter(whole.free[i]) {
+  HeldParameter(const FitProblem& whole, std::size_t i) : problem(whole), parameter(whole.free[i]) {
     problem.parameters[static_cast<std::size_t>(parameter)].estimated = false;
     problem.free.erase(problem.free.begin() + static_cast<std::ptrdiff_t>(i));
     problem.simulations = 0.0;
@@ -26,9 +26,9 @@ struct Held {
 };
 
 /// Walks to one side until the root of the cost's rise is the wanted one.
-class Walk {
+class ProfileWalk {
  public:
-  Walk(const FitProblem& whole, const Solution& at, double hz, std::size_t i)
+  ProfileWalk(const FitProblem& whole, const Solution& at, double hz, std::size_t i)
       : held_(whole, i), hz_(hz), at_(at) {
     at_.q.erase(at_.q.begin() + static_cast<std::ptrdiff_t>(i));
     for (const MotorTrace& r : whole.recordings) samples_ += static_cast<double>(r.size());
@@ -70,7 +70,7 @@ class Walk {
     return std::sqrt(std::max(0.0, (found.mean_square - at_.mean_square) * samples_));
   }
 
-  Held held_;
+  HeldParameter held_;
   double hz_;
   Solution at_;
   double samples_ = 0.0;
@@ -86,10 +86,10 @@ Interval profile_interval(const FitProblem& problem, const Solution& at, double 
   if (!(step > 0.0) || !std::isfinite(wanted)) return {};
   Solution from = at;
   from.mean_square = mean_square(problem, at, observer_hz);
-  Walk walk(problem, from, observer_hz, i);
+  ProfileWalk walk(problem, from, observer_hz, i);
   const Interval found{walk.end(value, -step, p.low, wanted), walk.end(value, step, p.high, wanted)};
   problem.simulations += walk.simulations();
   return found;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -2,7 +2,7 @@
 
 #include "reference/solve.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// Standard errors of one parameter [its unit]: as reported, and that of white residuals of one floor.
 struct ParameterError {
@@ -16,4 +16,4 @@ struct ParameterError {
 Interval profile_interval(const FitProblem& problem, const Solution& at, double observer_hz, std::size_t i,
                           const ParameterError& error);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

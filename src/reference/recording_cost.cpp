@@ -5,7 +5,7 @@
 
 #include "gapscope/base/interrupt.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 /// Cost of a Jet run in plain runs, as measured on one core; constants, so that the count is a function of
@@ -119,4 +119,4 @@ bool RecordingCost::Evaluate(double const* const* blocks, double* residuals, dou
   return true;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

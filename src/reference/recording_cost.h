@@ -5,7 +5,7 @@
 #include "reference/fit_problem.h"
 #include "reference/rollout.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// Residuals of one recording, in units of its floor: innovations (measured − predicted) of the model run as
 /// an observer; the free run at zero gain. Blocks: the free parameters (left out if there are none), then the
@@ -41,4 +41,4 @@ class RecordingCost final : public ceres::CostFunction {
   double floor_;
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr int kMostLags = 40;
@@ -97,4 +97,4 @@ void test_residuals(const FitProblem& problem, bool free_run, FitSummary& summar
         judged(with_input, lags, band * std::sqrt(std::max(1.0, bartlett)), pairs.front().dt);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

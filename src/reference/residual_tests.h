@@ -4,7 +4,7 @@
 
 #include "reference/fit_problem.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// Correlations of what the fit leaves, at lags spaced geometrically up to a tenth of the recordings, each
 /// against the band that holds 95 % of the lags where nothing is left:
@@ -14,4 +14,4 @@ namespace gapscope::internal {
 /// @param free_run  of the free run, else of the one-step predictions
 void test_residuals(const FitProblem& problem, bool free_run, FitSummary& summary);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

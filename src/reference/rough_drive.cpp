@@ -8,7 +8,7 @@
 
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr double kSpeedWindow = 0.02;  ///< over which the slope of x1 is taken as the speed [s]
@@ -149,4 +149,4 @@ double encoder_floor(const MotorTrace& r) {
   return std::max({quantised, robust_std(fourth), 1e-9 * (*high - *low), 1e-15});
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -4,7 +4,7 @@
 
 #include "gapscope/recording/recording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// What the recordings show at first sight, as one body: the momentum balance
 ///   M w + D x + F ∫sign(w) dt + B t + C = ∫ u dt
@@ -31,4 +31,4 @@ LocalMotion local_motion(const MotorTrace& recording, double floor);
 /// What the encoder alone leaves: quantum/√12, or what the fourth differences show if that is larger [rad].
 double encoder_floor(const MotorTrace& recording);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -7,7 +7,7 @@
 #include "reference/information.h"
 #include "reference/starts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr double kShares[] = {0.125, 0.25, 0.5};  ///< of the recordings, one after the other
@@ -95,7 +95,7 @@ std::vector<double> SearchResult::costs() const {
   return costs;
 }
 
-SearchResult search(const FitProblem& problem) {
+SearchResult find_minima(const FitProblem& problem) {
   SearchResult result;
   auto starts = static_cast<std::size_t>(std::max(1, problem.options.starts));
   std::vector<Solution> points = {given_point(problem)};
@@ -113,4 +113,4 @@ SearchResult search(const FitProblem& problem) {
   return result;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -4,7 +4,7 @@
 
 #include "reference/solve.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// Innovations within this many floors, and
 constexpr double kAtFloor = 1.3;
@@ -23,6 +23,6 @@ struct SearchResult {
 /// first part of the recordings, which has few events and so few minima, before it sees all of them. The
 /// given values go first; unless they end at the encoder's floor, draws compete on short parts and the
 /// survivors follow.
-SearchResult search(const FitProblem& problem);
+SearchResult find_minima(const FitProblem& problem);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -10,7 +10,7 @@
 #include "gapscope/base/interrupt.h"
 #include "reference/recording_cost.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 /// (p − prior)/std of one free parameter.
@@ -52,9 +52,9 @@ class StateWidthCost final : public ceres::CostFunction {
 };
 
 /// The blocks of one search. Ceres takes over the cost functions.
-class Search {
+class Solver {
  public:
-  Search(const FitProblem& problem, const Solution& from, double observer_hz)
+  Solver(const FitProblem& problem, const Solution& from, double observer_hz)
       : problem_(problem), shared_(from.q), states_(from.starts.size()) {
     if (!shared_.empty()) add_parameters();
     for (std::size_t r = 0; r < from.starts.size(); ++r) add_recording(r, from.starts[r], observer_hz);
@@ -168,7 +168,7 @@ Solution solve(const FitProblem& problem, const Solution& from, double observer_
   to.mean_square = kInfinity;
   to.converged = false;
   silence_ceres();
-  Search search(problem, from, observer_hz);
+  Solver search(problem, from, observer_hz);
   const ceres::Solver::Summary summary = search.run(solver_options(problem.options, effort));
   stop_point();  // once asked to stop, no evaluation succeeds
   if (summary.termination_type == ceres::FAILURE || !summary.IsSolutionUsable()) return to;
@@ -178,4 +178,4 @@ Solution solve(const FitProblem& problem, const Solution& from, double observer_
   return to;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

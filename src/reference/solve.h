@@ -4,7 +4,7 @@
 
 #include "reference/fit_problem.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// Initial numbers are held within about ten of their scales, unless the data says otherwise.
 constexpr double kStateWidth = 10.0;
@@ -36,4 +36,4 @@ struct Effort {
 /// Levenberg–Marquardt within the bounds from a point, at the given observer gain (0: the free run).
 Solution solve(const FitProblem& problem, const Solution& from, double observer_hz, const Effort& effort);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

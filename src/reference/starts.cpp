@@ -6,7 +6,7 @@
 #include "gapscope/base/random.h"
 #include "reference/excerpt.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 constexpr std::size_t kDrawsPerPoint = 3;  ///< looked at by plain runs
@@ -119,4 +119,4 @@ std::vector<Solution> drawn_points(const FitProblem& problem, std::size_t count)
   return points;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

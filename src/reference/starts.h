@@ -4,7 +4,7 @@
 
 #include "reference/solve.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 
 /// Where the load may have been when a recording began.
 std::vector<InitialVariant> initial_variants(const FitProblem& problem, const RecordingStart& start);
@@ -26,4 +26,4 @@ Solution given_point(const FitProblem& problem);
 /// of several each, the ones that fit the first part of the recordings best. They depend on the seed alone.
 std::vector<Solution> drawn_points(const FitProblem& problem, std::size_t count);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

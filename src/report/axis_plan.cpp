@@ -2,7 +2,7 @@
 
 #include "report/panel_plan.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 void widen(Interval& range, double value) {
@@ -90,8 +90,8 @@ AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
     name_places(axis, length, upright, typesetter, plan);
     return plan;
   }
-  const UnitScale scale =
-      unit_scale(axis.unit, std::max(std::abs(plan.range.low), std::abs(plan.range.high)));
+  const AxisScale scale =
+      axis_scale(axis.unit, std::max(std::abs(plan.range.low), std::abs(plan.range.high)));
   plan.factor = scale.factor;
   plan.label = axis.name + (scale.unit.empty() ? "" : " (" + scale.unit + ")");
   const auto ticks = [&](int most) {
@@ -127,4 +127,4 @@ Margins side_margins(const Panel& panel, const Typesetter& typesetter) {
   return margins;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

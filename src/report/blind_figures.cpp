@@ -8,7 +8,7 @@
 
 #include "report/rich_text.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr Colour kRight{205, 225, 240};
@@ -199,4 +199,4 @@ std::vector<FigureData> blind_figures(const BlindScore& s) {
           slice_figure(s, "effect", "One effect, by effect")};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

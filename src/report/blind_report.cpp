@@ -10,7 +10,7 @@
 #include "report/report_files.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::report {
 namespace {
 
 constexpr double kOftenNamed = 0.8;
@@ -125,12 +125,12 @@ std::string blind_text(const BlindScore& s, const std::vector<FigureData>& figur
 }
 
 }  // namespace
-}  // namespace internal
+}  // namespace internal::report
 
 void write_blind_report(const std::string& folder) {
   const BlindScore score = read_blind_score(folder);
-  const std::vector<internal::FigureData> figures = internal::blind_figures(score);
-  internal::write_report_files(folder, figures, internal::blind_text(score, figures));
+  const std::vector<internal::report::FigureData> figures = internal::report::blind_figures(score);
+  internal::report::write_report_files(folder, figures, internal::report::blind_text(score, figures));
 }
 
 }  // namespace gapscope

@@ -8,7 +8,7 @@
 #include "report/ticks.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr double kTopDecade = 2.5;  ///< of |e_x|/floor on the colour scale
@@ -170,4 +170,4 @@ FigureData bound_time_map(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

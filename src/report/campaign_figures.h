@@ -6,7 +6,7 @@
 #include "gapscope/results/campaign_summary.h"
 #include "report/figure_data.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// Error, bias, coverage and refusals of both estimators along one axis.
 FigureData campaign_line(const CampaignSummary& summary, const SummaryTable& table);
@@ -31,4 +31,4 @@ std::vector<CampaignEstimator> estimators_of(const CampaignSummary& summary);
 /// "0.83 %", "12 %", "0.0021 %": a share for people; "–" for NaN.
 std::string percent(double share);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

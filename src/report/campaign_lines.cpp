@@ -7,7 +7,7 @@
 #include "report/campaign_figures.h"
 #include "report/rich_text.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr double kAside = 0.04;
@@ -134,4 +134,4 @@ FigureData campaign_line(const CampaignSummary& s, const SummaryTable& table) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

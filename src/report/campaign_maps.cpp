@@ -7,7 +7,7 @@
 #include "report/campaign_figures.h"
 #include "report/rich_text.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// What a map shows of a cell, and how bad that is from 0 (white) to 1 (dark); NaN where there is nothing to
@@ -136,4 +136,4 @@ FigureData campaign_map(const CampaignSummary& s, const SummaryTable& table) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

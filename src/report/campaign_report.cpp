@@ -9,7 +9,7 @@
 #include "report/report_files.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::report {
 namespace {
 
 std::string score_row(const char* name, const EstimatorScore& e) {
@@ -92,12 +92,12 @@ std::string campaign_text(const CampaignSummary& s, const std::vector<FigureData
   return text + fmt::format("\ngapscope {}\n", s.version);
 }
 
-}  // namespace internal
+}  // namespace internal::report
 
 void write_campaign_report(const std::string& folder) {
   const CampaignSummary summary = read_campaign_summary(folder);
-  const std::vector<internal::FigureData> figures = internal::campaign_figures(summary);
-  internal::write_report_files(folder, figures, internal::campaign_text(summary, figures));
+  const std::vector<internal::report::FigureData> figures = internal::report::campaign_figures(summary);
+  internal::report::write_report_files(folder, figures, internal::report::campaign_text(summary, figures));
 }
 
 }  // namespace gapscope

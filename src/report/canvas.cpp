@@ -3,7 +3,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr double kFine = 2.0;  // drawn at this size, averaged down
@@ -137,4 +137,4 @@ cv::Mat Canvas::image() const {
   return small;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -9,7 +9,7 @@
 #include "report/palette.h"
 #include "report/typesetter.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 enum class Align { kLeft, kCentre, kRight };
 
@@ -50,4 +50,4 @@ class Canvas {
   std::vector<DrawnText> texts_;
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

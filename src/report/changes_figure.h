@@ -3,9 +3,9 @@
 #include "gapscope/results/drive_changes.h"
 #include "report/figure_data.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// Both estimators' gap, report by report.
 FigureData gap_over_recordings(const DriveChanges& changes);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

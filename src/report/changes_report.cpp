@@ -15,7 +15,7 @@
 #include "report/wording.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::report {
 namespace {
 
 constexpr double kAside = 0.06;  ///< so that no mark hides the other
@@ -157,29 +157,29 @@ std::string comparison_text(const DriveChanges& all, const std::vector<FigureDat
 }
 
 }  // namespace
-}  // namespace internal
+}  // namespace internal::report
 
 std::string changes_text(const DriveChanges& all) {
   std::size_t widest = 0;
   for (const std::string& report : all.reports) widest = std::max(widest, report.size());
   std::string text;
   for (const DriveQuantity& q : all.quantities) {
-    const std::string unit = internal::unit_of(all, q);
-    text += fmt::format("{} ({})\n", q.key, internal::estimator(q));
+    const std::string unit = internal::report::unit_of(all, q);
+    text += fmt::format("{} ({})\n", q.key, internal::report::estimator(q));
     for (std::size_t i = 0; i < q.observed.size(); ++i) {
-      const std::string value = internal::observed_text(q.observed[i], unit);
+      const std::string value = internal::report::observed_text(q.observed[i], unit);
       text += i == 0 ? fmt::format("  {:<{}}  {}\n", all.reports[i], widest, value)
                      : fmt::format("  {:<{}}  {:<28}  {}\n", all.reports[i], widest, value,
-                                   internal::change_text(q.changes[i - 1], unit));
+                                   internal::report::change_text(q.changes[i - 1], unit));
     }
   }
-  return text + internal::summary_line(all) + "\n";
+  return text + internal::report::summary_line(all) + "\n";
 }
 
 void write_changes_report(const std::string& folder) {
   const DriveChanges all = read_drive_changes(folder);
-  const std::vector<internal::FigureData> figures = {internal::gap_over_recordings(all)};
-  internal::write_report_files(folder, figures, internal::comparison_text(all, figures));
+  const std::vector<internal::report::FigureData> figures = {internal::report::gap_over_recordings(all)};
+  internal::report::write_report_files(folder, figures, internal::report::comparison_text(all, figures));
 }
 
 }  // namespace gapscope

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// Adds first, extremes and last of the samples [begin, end) in order, each once.
@@ -51,4 +51,4 @@ Polyline thin_out(const Polyline& line, double distance) {
   return kept;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

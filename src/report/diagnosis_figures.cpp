@@ -10,7 +10,7 @@
 #include "report/ticks.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr std::size_t kShownCandidates = 12;
@@ -288,4 +288,4 @@ std::vector<FigureData> diagnosis_figures(const DiagnosisResult& r) {
   return figures;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

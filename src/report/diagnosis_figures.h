@@ -6,7 +6,7 @@
 #include "gapscope/results/diagnosis_result.h"
 #include "report/figure_data.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// The figures of a diagnosis, the overview sheet first.
 std::vector<FigureData> diagnosis_figures(const DiagnosisResult& result);
@@ -19,4 +19,4 @@ FigureData diagnosis_torque_map(const DiagnosisResult& result);  ///< residual t
 /// Heading, sentence, tables and figures of a diagnosis.
 std::string diagnosis_text(const DiagnosisResult& result, const std::vector<FigureData>& figures);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

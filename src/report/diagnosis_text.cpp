@@ -8,7 +8,7 @@
 #include "report/markdown.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 std::string measures_table(const DiagnosisResult& r) {
@@ -169,4 +169,4 @@ std::string diagnosis_text(const DiagnosisResult& r, const std::vector<FigureDat
   return text + fmt::format("\ngapscope {}\n", r.version);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

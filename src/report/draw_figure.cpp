@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr double kBetween = 34.0;  // rows, and columns
@@ -122,4 +122,4 @@ Drawing draw_with_notes(const FigureData& figure) {
 
 cv::Mat draw(const FigureData& figure) { return draw_with_notes(figure).image; }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -6,7 +6,7 @@
 #include "report/figure_data.h"
 #include "report/panel_plan.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// An image and what a test wants to know of it.
 struct Drawing {
@@ -24,4 +24,4 @@ cv::Mat draw(const FigureData& figure);
 void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, const std::string& title,
                 Point corner, double left_margin, const Typesetter& typesetter);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -2,7 +2,7 @@
 
 #include "report/draw_figure.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr double kMarkerSize = 22.0;
@@ -233,4 +233,4 @@ void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, const
   painter.dimensions();
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

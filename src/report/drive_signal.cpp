@@ -6,14 +6,14 @@
 #include "report/signals.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 DriveSignal drive_signal(const ReportView& view) {
   const FittedParameter* constant = parameter(view.run, "torque_constant");
   if (constant == nullptr || !std::isfinite(constant->value))
     return {view.recording->u, {"input $u$", "units of $u$", {}, {}, {}}, "input"};
   const std::string name = view.run.rotation ? "torque" : "force";
-  return {scaled(view.recording->u, constant->value),
+  return {times(view.recording->u, constant->value),
           {name + " $K_m u$", torque_unit(view.run), {}, {}, {}},
           name};
 }
@@ -26,4 +26,4 @@ std::vector<double> without_noise(const ReportView& view, const std::vector<doub
   return moving_mean(values, static_cast<std::size_t>(0.005 * view.half_period / view.recording->dt) + 1);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

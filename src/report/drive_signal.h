@@ -5,7 +5,7 @@
 
 #include "report/report_view.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// The motor torque (force) where the torque constant is known, else the input itself.
 struct DriveSignal {
@@ -19,4 +19,4 @@ DriveSignal drive_signal(const ReportView& view);
 /// sample to sample show such noise (more than 0.5 % of the range in the median), else the signal itself.
 std::vector<double> without_noise(const ReportView& view, const std::vector<double>& values);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

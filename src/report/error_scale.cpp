@@ -4,7 +4,7 @@
 
 #include "report/signals.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 double error_factor(const ReportView& view, const Interval& interval, double target) {
   const double peak = largest_magnitude(view.over_time("", {}, view.error->error, interval).y);
@@ -18,7 +18,7 @@ Series scaled_error(const ReportView& view, const Interval& interval, double tar
   const std::string label = factor == 1.0 ? "$e_x$" : fmt::format("${:g} × e_x$", factor);
   LineStyle style = model_free_style();
   style.width = 3.5;  // it may chatter
-  return view.over_time(label, style, scaled(view.error->error, factor), interval);
+  return view.over_time(label, style, times(view.error->error, factor), interval);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -6,7 +6,7 @@
 #include "report/figures.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr Interval kNone{};
@@ -185,4 +185,4 @@ FigureData estimates(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -5,7 +5,7 @@
 #include "report/signals.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 Panel over_time(const ReportView& view, const std::string& title, const Axis& y, const LineStyle& style,
@@ -75,4 +75,4 @@ FigureData fig2_input_and_displacement(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -4,7 +4,7 @@
 #include "report/signals.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 Panel map(const ReportView& view, const std::string& title, const std::vector<double>& y, const Axis& axis) {
@@ -67,4 +67,4 @@ FigureData fig3_backlash_map(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -8,7 +8,7 @@
 #include "report/signals.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// Where the input turns: its passages through zero, or through its middle where it does not change sign.
@@ -106,4 +106,4 @@ FigureData fig4_backlash_state_and_input(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -8,7 +8,7 @@
 #include "report/ticks.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// What is taken off x1 so that it can share an axis with e_x, a round number; 0 where zero is within its
@@ -88,4 +88,4 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -9,7 +9,7 @@
 #include "report/signals.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// The accepted passage whose estimate is nearest to the median, the earliest of equals.
@@ -134,4 +134,4 @@ FigureData fig6_one_period(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

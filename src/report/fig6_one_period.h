@@ -4,7 +4,7 @@
 
 #include "report/report_view.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// The passage that Fig. 6 zooms in on.
 struct OnePassage {
@@ -20,4 +20,4 @@ double quiet_since(const ReportView& view, const GapEvent& event);
 /// The accepted passage nearest to the median estimate; none without accepted passages.
 std::optional<OnePassage> typical_passage(const ReportView& view);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

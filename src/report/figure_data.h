@@ -8,7 +8,7 @@
 
 /// A figure as data, in SI units: everything is computed before anything is drawn. Texts are markup
 /// (rich_text.h).
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 enum class Marker { kNone, kDisc, kCircle, kTriangleUp, kTriangleDown, kCross };
 
@@ -100,4 +100,4 @@ inline FigureData missing_figure(std::string file, std::string title, std::strin
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

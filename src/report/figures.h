@@ -7,7 +7,7 @@
 
 /// One function a figure, each in a file of its name: the data of the figure and a line of reading, or why
 /// this result has no such figure. Figures 2 to 6 are those of the source paper, for this recording.
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 FigureData fig2_input_and_displacement(const ReportView& view);
 FigureData fig3_backlash_map(const ReportView& view);
@@ -26,4 +26,4 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
 /// All of them in the order of the report, the overview first.
 std::vector<FigureData> all_figures(const ReportView& view);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

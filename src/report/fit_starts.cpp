@@ -7,7 +7,7 @@
 #include "report/ticks.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 FigureData fit_starts(const ReportView& view) {
   FigureData figure;
@@ -50,4 +50,4 @@ FigureData fit_starts(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

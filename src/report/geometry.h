@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// A point of the image [px], y downwards.
 struct Point {
@@ -29,4 +29,4 @@ inline bool overlap(const Box& a, const Box& b) {
 
 using Polyline = std::vector<Point>;
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

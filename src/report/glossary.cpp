@@ -4,7 +4,7 @@
 
 #include "report/markdown.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 struct Word {
@@ -78,4 +78,4 @@ std::string glossary_section(const std::string& text) {
   return bullet_section("Words", lines);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -7,7 +7,7 @@
 #include "report/signals.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// Where x1 stands as the input passes zero on its way up or down: a loop with rising x1 starts on the branch
@@ -56,4 +56,4 @@ FigureData lost_motion_loop(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -9,7 +9,7 @@
 #include "report/rich_text.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// With a full stop and a blank, ready for the next one; nothing for nothing.
@@ -178,4 +178,4 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
   return text + fmt::format("\ngapscope {}\n", run.version);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

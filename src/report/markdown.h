@@ -6,7 +6,7 @@
 #include "gapscope/results/run_result.h"
 #include "report/figure_data.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// The figures in order, each with its reading; what there is none of, with the reason.
 std::string figure_section(const std::vector<FigureData>& figures);
@@ -18,4 +18,4 @@ std::string bullet_section(const char* title, const std::vector<std::string>& li
 /// warnings.
 std::string report_text(const RunResult& run, const Timing& timing, const std::vector<FigureData>& figures);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -4,7 +4,7 @@
 #include "report/rich_text.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// A panel of another figure, under a title of its own where one is given.
@@ -60,4 +60,4 @@ std::vector<FigureData> all_figures(const ReportView& view) {
   return figures;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 struct Colour {
   int red = 0, green = 0, blue = 0;
@@ -35,4 +35,4 @@ inline LineStyle reference_style() { return {kBlue, 4.5, {16, 9}}; }
 inline LineStyle input_style() { return {kGreen, 4.5, {}}; }
 inline LineStyle guide_style() { return {kFrame, 2.5, {4, 8}}; }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

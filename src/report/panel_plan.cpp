@@ -4,7 +4,7 @@
 
 #include "report/decimate.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr double kRow = 1.32 * kTextSize;  // of a legend
@@ -105,4 +105,4 @@ PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
   return plan;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -9,7 +9,7 @@
 #include "report/ticks.h"
 #include "report/typesetter.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 // Sizes of a figure [px at a width of 1600].
 inline constexpr double kTitleSize = 46.0;
@@ -84,4 +84,4 @@ PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
 /// The pieces of a series between its undefined points, decimated for a frame of this plan.
 std::vector<Polyline> polylines_of(const Series& series, const PanelPlan& plan);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

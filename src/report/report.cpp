@@ -13,23 +13,24 @@
 namespace gapscope {
 namespace {
 
-void append(std::vector<internal::FigureData>& all, const std::vector<internal::FigureData>& more) {
+void append(std::vector<internal::report::FigureData>& all,
+            const std::vector<internal::report::FigureData>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-std::string report_run(const std::string& folder, std::vector<internal::FigureData>& all) {
+std::string report_run(const std::string& folder, std::vector<internal::report::FigureData>& all) {
   const RunResult run = read_run_result(folder);
-  const internal::ReportView view(run);
-  const std::vector<internal::FigureData> figures = internal::all_figures(view);
+  const internal::report::ReportView view(run);
+  const std::vector<internal::report::FigureData> figures = internal::report::all_figures(view);
   append(all, figures);
-  return internal::report_text(run, read_timing(folder), figures);
+  return internal::report::report_text(run, read_timing(folder), figures);
 }
 
-std::string report_diagnosis(const std::string& folder, std::vector<internal::FigureData>& all) {
+std::string report_diagnosis(const std::string& folder, std::vector<internal::report::FigureData>& all) {
   const DiagnosisResult result = read_diagnosis_result(folder);
-  const std::vector<internal::FigureData> figures = internal::diagnosis_figures(result);
+  const std::vector<internal::report::FigureData> figures = internal::report::diagnosis_figures(result);
   append(all, figures);
-  return internal::diagnosis_text(result, figures);
+  return internal::report::diagnosis_text(result, figures);
 }
 
 /// Below the title.
@@ -45,11 +46,12 @@ void write_report(const std::string& folder, const std::string& note) {
   const auto stored = [&](const char* name) {
     return std::filesystem::exists(std::filesystem::path(folder) / name);
   };
-  std::vector<internal::FigureData> figures;
+  std::vector<internal::report::FigureData> figures;
   std::string text;
   if (stored("result.json") || !stored("diagnosis.json")) text = report_run(folder, figures);
   if (stored("diagnosis.json")) text += (text.empty() ? "" : "\n") + report_diagnosis(folder, figures);
-  internal::write_report_files(folder, figures, with_note(text, note) + internal::glossary_section(text));
+  internal::report::write_report_files(folder, figures,
+                                       with_note(text, note) + internal::report::glossary_section(text));
 }
 
 }  // namespace gapscope

@@ -9,7 +9,7 @@
 #include "gapscope/base/whole_file.h"
 #include "report/draw_figure.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,4 +45,4 @@ void write_report_files(const std::string& folder, const std::vector<FigureData>
   write_whole_file(folder + "/report.md", [&](std::ostream& out) { out << text; });
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

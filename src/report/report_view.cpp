@@ -6,7 +6,7 @@
 #include "report/signals.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr std::size_t kMostHalfPeriods = 14;  // that a column can show apart
@@ -50,10 +50,10 @@ void find_traces(ReportView& view) {
 void find_state(ReportView& view) {
   if (!view.recording->x2.empty()) {
     view.source = StateSource::kRecorded;
-    view.state = difference(view.recording->x1, view.recording->x2);
+    view.state = difference_of(view.recording->x1, view.recording->x2);
   } else if (view.fit && !view.fit->x2.empty()) {
     view.source = StateSource::kFitted;
-    view.state = difference(view.fit->x1, view.fit->x2);
+    view.state = difference_of(view.fit->x1, view.fit->x2);
   }
   if (view.state.empty()) return;
   const double middle = robust_middle(view.state);
@@ -133,4 +133,4 @@ std::string ReportView::state_name() const {
   return source == StateSource::kFitted ? "$x_1 − x_2$, fitted" : "$x_1 − x_2$";
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

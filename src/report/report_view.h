@@ -6,7 +6,7 @@
 #include "gapscope/results/run_result.h"
 #include "report/figure_data.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 enum class StateSource { kNone, kRecorded, kFitted };
 
@@ -41,4 +41,4 @@ struct ReportView {
   std::string state_name() const;  ///< "backlash state $x_1 − x_2$", fitted where it is
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

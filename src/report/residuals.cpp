@@ -7,7 +7,7 @@
 #include "report/signals.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// Stretches of the gap mode of the fitted model within an interval.
@@ -114,7 +114,7 @@ FigureData residuals(const ReportView& view) {
     return missing_figure(figure.file, figure.title,
                           view.run.reference ? "the fit left no free run of the recording"
                                              : "the model-based reference was not asked for");
-  const std::vector<double> residual = difference(view.recording->x1, view.fit->x1);
+  const std::vector<double> residual = difference_of(view.recording->x1, view.fit->x1);
   const std::vector<double> r = autocorrelation(residual, lags_of(view, residual.size()));
   const Interval all{view.time.front(), view.time.back()};
   if (!view.whole) figure.panels.push_back(over_time(view, residual, all, false));
@@ -124,4 +124,4 @@ FigureData residuals(const ReportView& view) {
   return figure;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -2,7 +2,7 @@
 
 #include "gapscope/base/require.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 using Level = TextRun::Level;
@@ -99,4 +99,4 @@ std::string plain_text(const std::string& markup) {
   return text;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// A piece of text of one look.
 struct TextRun {
@@ -27,4 +27,4 @@ std::string literal(const std::string& text);
 /// The text alone, for Markdown and messages: "2β̂ = 18.7 mrad", "x_1".
 std::string plain_text(const std::string& markup);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

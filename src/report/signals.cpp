@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
-std::vector<double> difference(std::span<const double> a, std::span<const double> b) {
+std::vector<double> difference_of(std::span<const double> a, std::span<const double> b) {
   std::vector<double> result;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) result.push_back(a[i] - b[i]);
   return result;
 }
 
-std::vector<double> scaled(std::span<const double> a, double factor) {
+std::vector<double> times(std::span<const double> a, double factor) {
   std::vector<double> result;
   for (const double v : a) result.push_back(factor * v);
   return result;
@@ -88,4 +88,4 @@ std::vector<double> autocorrelation(std::span<const double> values, std::size_t 
   return r;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

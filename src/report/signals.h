@@ -6,10 +6,10 @@
 #include "gapscope/base/statistics.h"
 
 /// What the figures compute from stored traces.
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
-std::vector<double> difference(std::span<const double> a, std::span<const double> b);  ///< a − b
-std::vector<double> scaled(std::span<const double> a, double factor);
+std::vector<double> difference_of(std::span<const double> a, std::span<const double> b);  ///< a − b
+std::vector<double> times(std::span<const double> a, double factor);
 
 /// Mean over each sample and up to `reach` neighbours on either side, as many on both.
 std::vector<double> moving_mean(const std::vector<double>& values, std::size_t reach);
@@ -32,4 +32,4 @@ double round_factor(double size, double target);
 /// White noise of n samples keeps 95 % of r_1, r_2, ... within ±1.96/√n.
 std::vector<double> autocorrelation(std::span<const double> values, std::size_t lags);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

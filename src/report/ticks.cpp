@@ -7,7 +7,7 @@
 
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 Ticks ticks_of_step(double low, double high, double step, int power) {
@@ -50,7 +50,7 @@ std::string tick_label(double value, int decimals) {
   return (value < 0.0 && !is_zero ? "−" : "") + text;
 }
 
-UnitScale unit_scale(const std::string& unit, double magnitude) {
+AxisScale axis_scale(const std::string& unit, double magnitude) {
   static constexpr const char* kScaled[] = {"rad", "m", "s", "N·m", "N", "rad/s", "m/s"};
   const bool scaled = std::find(std::begin(kScaled), std::end(kScaled), unit) != std::end(kScaled);
   if (!scaled || !(magnitude > 0.0) || magnitude >= 1.0) return {1.0, unit};
@@ -59,4 +59,4 @@ UnitScale unit_scale(const std::string& unit, double magnitude) {
   return {std::pow(10.0, -3 * thousands), kPrefixes[thousands - 1] + unit};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -6,7 +6,7 @@
 
 #include "report/figure_data.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// Round places on an axis: multiples of 1, 2 or 5 times a power of ten.
 struct Ticks {
@@ -26,13 +26,13 @@ std::vector<Place> log_places(const Interval& range, std::initializer_list<doubl
 std::string tick_label(double value, int decimals);
 
 /// Values are divided by `factor` and shown in `unit`.
-struct UnitScale {
+struct AxisScale {
   double factor = 1.0;
   std::string unit;
 };
 
 /// rad → mrad, µrad, nrad for magnitudes below 1, so that the numbers on the axis stay between 1 and 1000;
 /// the same for m, s and torques and forces. Other units stay as they are.
-UnitScale unit_scale(const std::string& unit, double magnitude);
+AxisScale axis_scale(const std::string& unit, double magnitude);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 using Level = TextRun::Level;
@@ -115,4 +115,4 @@ void Typesetter::draw_hat(cv::Mat& image, cv::Point2d at, const PlacedRun& p, Co
   cv::polylines(image, hat, false, bgr(colour), pixels((bold ? 0.10 : 0.065) * p.size), cv::LINE_AA, kShift);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -7,7 +7,7 @@
 #include "report/palette.h"
 #include "report/rich_text.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// What a line of text needs beside its baseline [px].
 struct TextMetrics {
@@ -50,4 +50,4 @@ class Typesetter {
   mutable cv::Ptr<cv::freetype::FreeType2> upright_, italic_, bold_, bold_italic_;
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

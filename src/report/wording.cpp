@@ -9,7 +9,7 @@
 
 #include "report/ticks.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 /// Decimals that show `digits` significant digits of the given size.
@@ -114,7 +114,7 @@ std::string rounded(double value, int digits) {
 std::string quantity(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "unknown";
   if (value == 0.0) return "0" + unit_after(unit);
-  const UnitScale scale = unit_scale(unit, std::abs(value));
+  const AxisScale scale = axis_scale(unit, std::abs(value));
   const double shown = value / scale.factor;
   if (std::abs(shown) < 1e-2 || std::abs(shown) >= 1e5) return scientific(shown, 3) + unit_after(scale.unit);
   return tick_label(shown, decimals_for(std::abs(shown), 3)) + unit_after(scale.unit);
@@ -122,7 +122,7 @@ std::string quantity(double value, const std::string& unit) {
 
 std::string with_interval(double value, const Interval& ci95, const std::string& unit) {
   if (!std::isfinite(value) || !known(ci95)) return quantity(value, unit);
-  const UnitScale scale = unit_scale(unit, std::max(std::abs(value), std::abs(ci95.high)));
+  const AxisScale scale = axis_scale(unit, std::max(std::abs(value), std::abs(ci95.high)));
   const int decimals = decimals_for((ci95.high - ci95.low) / 2 / scale.factor, 2);
   const auto text = [&](double v) { return tick_label(v / scale.factor, decimals); };
   return text(value) + unit_after(scale.unit) + " (95 %: " + text(ci95.low) + " to " + text(ci95.high) + ")";
@@ -130,7 +130,7 @@ std::string with_interval(double value, const Interval& ci95, const std::string&
 
 std::string interval_text(const Interval& ci95, const std::string& unit) {
   if (!known(ci95)) return "";
-  const UnitScale scale = unit_scale(unit, std::max(std::abs(ci95.low), std::abs(ci95.high)));
+  const AxisScale scale = axis_scale(unit, std::max(std::abs(ci95.low), std::abs(ci95.high)));
   const int decimals = decimals_for((ci95.high - ci95.low) / 2 / scale.factor, 2);
   return tick_label(ci95.low / scale.factor, decimals) + " to " +
          tick_label(ci95.high / scale.factor, decimals) + unit_after(scale.unit);
@@ -140,7 +140,7 @@ std::string plus_minus(double value, const Interval& ci95, const std::string& un
   if (!std::isfinite(value) || !known(ci95)) return quantity(value, unit);
   const double half = (ci95.high - ci95.low) / 2;
   if (std::abs(ci95.low + half - value) > 0.1 * half) return with_interval(value, ci95, unit);
-  const UnitScale scale = unit_scale(unit, std::max(std::abs(value), half));
+  const AxisScale scale = axis_scale(unit, std::max(std::abs(value), half));
   if (std::max(std::abs(value), half) / scale.factor < 1e-2)
     return scientific(value, 4) + " ± " + scientific(half, 2) + unit_after(unit);
   const int decimals = decimals_for(half / scale.factor, 2);
@@ -193,4 +193,4 @@ std::string headline(const RunResult& run) {
   return text.empty() ? "Nothing was estimated." : text;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -5,7 +5,7 @@
 #include "gapscope/results/run_result.h"
 
 /// How numbers and findings are put into words. Plain Unicode text, fit for Markdown and figures alike.
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// A number, or a text with numbers, as it is printed: "-1.2e-05" reads "−1.2·10⁻⁵".
 std::string typeset(const std::string& text);
@@ -47,4 +47,4 @@ std::string fit_quality(const RunResult& run);
 /// The verdict and the estimates of a run in one or two sentences.
 std::string headline(const RunResult& run);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -5,7 +5,7 @@
 #include "results/json_schema.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::results {
 
 template <class Archive>
 void fields(Archive& archive, ModelEvidence& e) {
@@ -67,14 +67,14 @@ constexpr const char* kAnswers = "gapscope.blind_answers/2";
 
 Json blind_answers_schema() { return document_schema(kAnswers, BlindAnswers()); }
 
-}  // namespace internal
+}  // namespace internal::results
 
 void write_blind_answers(const std::string& path, const BlindAnswers& answers) {
-  internal::write_document(path, internal::kAnswers, answers);
+  internal::results::write_document(path, internal::results::kAnswers, answers);
 }
 
 BlindAnswers read_blind_answers(const std::string& path) {
-  return internal::read_document<BlindAnswers>(path, internal::kAnswers);
+  return internal::results::read_document<BlindAnswers>(path, internal::results::kAnswers);
 }
 
 bool is_answers_file(const std::string& path, const std::string& manifest_sha256) {
@@ -87,23 +87,23 @@ bool is_answers_file(const std::string& path, const std::string& manifest_sha256
 
 std::string line_of(const BlindAnswer& answer) {
   BlindAnswer copy = answer;
-  internal::JsonWriter writer;
-  internal::answer_fields(writer, copy);
-  return internal::text_of(writer.json, -1);
+  internal::results::JsonWriter writer;
+  internal::results::answer_fields(writer, copy);
+  return internal::results::text_of(writer.json, -1);
 }
 
 std::string head_line_of(const BlindAnswers& all) {
   BlindAnswers copy{all.name, all.version, all.manifest_sha256, {}};
-  internal::JsonWriter writer;
-  internal::head_fields(writer, copy);
-  return internal::text_of(writer.json, -1);
+  internal::results::JsonWriter writer;
+  internal::results::head_fields(writer, copy);
+  return internal::results::text_of(writer.json, -1);
 }
 
 BlindAnswer blind_answer_of(const std::string& line, const std::string& file) {
-  const internal::Json json = internal::parsed_json(line, file);
-  internal::JsonReader reader(json, file, "");
+  const internal::results::Json json = internal::results::parsed_json(line, file);
+  internal::results::JsonReader reader(json, file, "");
   BlindAnswer answer;
-  internal::answer_fields(reader, answer);
+  internal::results::answer_fields(reader, answer);
   return answer;
 }
 

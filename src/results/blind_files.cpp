@@ -6,7 +6,7 @@
 #include "results/json_schema.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::results {
 
 template <class Archive>
 void fields(Archive& archive, BlindLabel& l) {
@@ -53,20 +53,20 @@ constexpr const char* kManifest = "gapscope.blind_manifest/2";
 Json blind_labels_schema() { return document_schema(kLabels, BlindLabels()); }
 Json blind_manifest_schema() { return document_schema(kManifest, BlindManifest()); }
 
-}  // namespace internal
+}  // namespace internal::results
 
 void write_blind_labels(const std::string& path, const BlindLabels& labels, bool replace) {
-  internal::write_document(path, internal::kLabels, labels, replace);
+  internal::results::write_document(path, internal::results::kLabels, labels, replace);
 }
 BlindLabels read_blind_labels(const std::string& path) {
-  return internal::read_document<BlindLabels>(path, internal::kLabels);
+  return internal::results::read_document<BlindLabels>(path, internal::results::kLabels);
 }
 
-void write_blind_manifest(const std::string& path, const BlindManifest& manifest) {
-  internal::write_document(path, internal::kManifest, manifest);
+void write_blind_manifest(const std::string& path, const BlindManifest& manifest, bool replace) {
+  internal::results::write_document(path, internal::results::kManifest, manifest, replace);
 }
 BlindManifest read_blind_manifest(const std::string& path) {
-  return internal::read_document<BlindManifest>(path, internal::kManifest);
+  return internal::results::read_document<BlindManifest>(path, internal::results::kManifest);
 }
 
 bool is_labels_file(const std::string& path, const std::string& name, const std::string& configuration) {
@@ -89,17 +89,17 @@ bool is_manifest_file(const std::string& path) {
 
 std::string line_of(const BlindLabel& label) {
   BlindLabel copy = label;
-  internal::JsonWriter writer;
-  internal::fields(writer, copy);
-  return internal::text_of(writer.json, -1);
+  internal::results::JsonWriter writer;
+  internal::results::fields(writer, copy);
+  return internal::results::text_of(writer.json, -1);
 }
 
 std::string head_line_of(const BlindLabels& all) {
-  internal::Json head;
+  internal::results::Json head;
   head["name"] = all.name;
   head["configuration"] = all.configuration;
   for (const BlindLabel& label : all.cases) head["salts"].push_back(label.salt);
-  return internal::text_of(head, -1);
+  return internal::results::text_of(head, -1);
 }
 
 }  // namespace gapscope

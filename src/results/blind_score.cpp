@@ -6,7 +6,7 @@
 #include "results/json_schema.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::results {
 
 template <class Archive>
 void fields(Archive& archive, BlindCount& c) {
@@ -110,14 +110,14 @@ constexpr const char* kScore = "gapscope.blind/1";
 
 Json blind_schema() { return document_schema(kScore, BlindScore()); }
 
-}  // namespace internal
+}  // namespace internal::results
 
 void write_blind_score(const std::string& folder, const BlindScore& score) {
-  internal::write_document(folder + "/blind.json", internal::kScore, score);
+  internal::results::write_document(folder + "/blind.json", internal::results::kScore, score);
 }
 
 BlindScore read_blind_score(const std::string& folder) {
-  return internal::read_document<BlindScore>(folder + "/blind.json", internal::kScore);
+  return internal::results::read_document<BlindScore>(folder + "/blind.json", internal::results::kScore);
 }
 
 bool has_blind_score(const std::string& folder) { return std::filesystem::exists(folder + "/blind.json"); }

@@ -7,7 +7,7 @@
 #include "gapscope/base/shown.h"
 #include "results/traces.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 void write_bound_map(const std::string& path, const BoundMap& map) {
   std::string text;
@@ -45,4 +45,4 @@ void read_bound_map(const std::string& path, BoundMap& map) {
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

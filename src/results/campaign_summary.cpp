@@ -8,7 +8,7 @@
 #include "results/json_schema.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::results {
 
 constexpr const char* kCampaignSchema = "gapscope.campaign/1";
 
@@ -94,14 +94,15 @@ void fields(Archive& archive, CampaignSummary& s) {
 
 Json campaign_schema() { return document_schema(kCampaignSchema, CampaignSummary()); }
 
-}  // namespace internal
+}  // namespace internal::results
 
 namespace {
 
 std::string file_in(const std::string& folder) { return folder + "/campaign.json"; }
 
 /// A place in a list of this size; where there is no list, -1.
-void require_place(const internal::JsonReader& reader, const std::string& key, int place, std::size_t size) {
+void require_place(const internal::results::JsonReader& reader, const std::string& key, int place,
+                   std::size_t size) {
   const int last = static_cast<int>(size) - 1;
   if (place < std::min(0, last) || place > last)
     reader.fail_at(key, "is " + std::to_string(place) + ", expected " +
@@ -109,8 +110,8 @@ void require_place(const internal::JsonReader& reader, const std::string& key, i
 }
 
 /// Every table names its axes by their places, and every cell its bins.
-void require_places(const internal::JsonReader& reader, const CampaignSummary& s, const std::string& key,
-                    const std::vector<SummaryTable>& tables, bool pairs) {
+void require_places(const internal::results::JsonReader& reader, const CampaignSummary& s,
+                    const std::string& key, const std::vector<SummaryTable>& tables, bool pairs) {
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const SummaryTable& t = tables[i];
     const std::string table = key + "[" + std::to_string(i) + "]";
@@ -128,20 +129,20 @@ void require_places(const internal::JsonReader& reader, const CampaignSummary& s
 
 void write_campaign_summary(const std::string& folder, const CampaignSummary& summary) {
   CampaignSummary copy = summary;
-  internal::JsonWriter writer;
-  std::string schema = internal::kCampaignSchema;
+  internal::results::JsonWriter writer;
+  std::string schema = internal::results::kCampaignSchema;
   writer("schema", schema);
-  internal::fields(writer, copy);
-  internal::save_json(file_in(folder), writer.json);
+  internal::results::fields(writer, copy);
+  internal::results::save_json(file_in(folder), writer.json);
 }
 
 CampaignSummary read_campaign_summary(const std::string& folder) {
   const std::string path = file_in(folder);
-  const internal::Json json = internal::load_json(path);
-  internal::JsonReader reader(json, path, "");
-  reader.schema(internal::kCampaignSchema);
+  const internal::results::Json json = internal::results::load_json(path);
+  internal::results::JsonReader reader(json, path, "");
+  reader.schema(internal::results::kCampaignSchema);
   CampaignSummary summary;
-  internal::fields(reader, summary);
+  internal::results::fields(reader, summary);
   require_places(reader, summary, "along_axes", summary.lines, false);
   require_places(reader, summary, "over_pairs", summary.pairs, true);
   return summary;

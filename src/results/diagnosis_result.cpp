@@ -15,11 +15,11 @@
 namespace gapscope {
 namespace {
 
-using internal::DiagnosisDocument;
-using internal::JsonReader;
-using internal::JsonWriter;
-using internal::StoredMismatch;
-using internal::TraceSet;
+using internal::results::DiagnosisDocument;
+using internal::results::JsonReader;
+using internal::results::JsonWriter;
+using internal::results::StoredMismatch;
+using internal::results::TraceSet;
 
 /// What the contract of the file promises; another state is a bug of the caller.
 void require_consistent(const Diagnosis& d) {
@@ -39,14 +39,14 @@ StoredMismatch store(const std::string& folder, std::size_t index, const Mismatc
   stored.samples = static_cast<int>(m.x1.size());
   stored.scored_from = static_cast<int>(m.scored_from);
   stored.mismatch.file = m.file, stored.mismatch.start = m.start, stored.mismatch.dt = m.dt;
-  internal::write_trace(folder + "/" + stored.trace, set_of(m));
+  internal::results::write_trace(folder + "/" + stored.trace, set_of(m));
   return stored;
 }
 
 MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
-  const std::string path = internal::trace_path(folder, stored.trace);
+  const std::string path = internal::results::trace_path(folder, stored.trace);
   TraceSet set;
-  internal::read_trace(path, set);
+  internal::results::read_trace(path, set);
   if (static_cast<int>(set.recording.size()) != stored.samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
                                 std::to_string(stored.samples));
@@ -61,11 +61,11 @@ MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
 
 }  // namespace
 
-namespace internal {
+namespace internal::results {
 
 Json diagnosis_schema() { return document_schema(kDiagnosisSchema, DiagnosisDocument()); }
 
-}  // namespace internal
+}  // namespace internal::results
 
 std::string held_out_trace_name(std::size_t index, const std::string& recording_file) {
   return trace_name(index, recording_file).insert(7, "held_out_");  // after "traces/"
@@ -80,15 +80,15 @@ void write_diagnosis_result(const std::string& folder, const DiagnosisResult& re
     document.held_out.push_back(store(folder, i, result.diagnosis.traces[i]));
   JsonWriter writer;
   fields(writer, document);
-  internal::save_json(folder + "/diagnosis.json", writer.json);
+  internal::results::save_json(folder + "/diagnosis.json", writer.json);
 }
 
 DiagnosisResult read_diagnosis_result(const std::string& folder) {
   const std::string path = folder + "/diagnosis.json";
-  const internal::Json json = internal::load_json(path);
+  const internal::results::Json json = internal::results::load_json(path);
   JsonReader reader(json, path, "");
   DiagnosisDocument document;
-  reader.schema(internal::kDiagnosisSchema);
+  reader.schema(internal::results::kDiagnosisSchema);
   fields(reader, document);
   for (const StoredMismatch& stored : document.held_out)
     document.result.diagnosis.traces.push_back(load(folder, stored));

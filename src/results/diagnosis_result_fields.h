@@ -8,7 +8,7 @@
 #include "results/json_archive.h"
 
 /// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 inline constexpr const char* kDiagnosisSchema = "gapscope.diagnosis/1";
 
@@ -199,4 +199,4 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.list("held_out", d.held_out);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -180,7 +180,7 @@ DriveChanges changes(std::span<const DriveReport> reports) {
     add(all, std::move(q));
   }
   judge(all);
-  all.warnings = internal::differences_of_making(reports);
+  all.warnings = internal::results::differences_of_making(reports);
   return all;
 }
 

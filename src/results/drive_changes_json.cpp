@@ -8,7 +8,7 @@
 #include "results/json_schema.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::results {
 namespace {
 
 constexpr const char* kCompareSchema = "gapscope.compare/1";
@@ -104,30 +104,30 @@ Json compare_schema() {
   return writer.schema();
 }
 
-}  // namespace internal
+}  // namespace internal::results
 
 void write_drive_changes(const std::string& folder, const DriveChanges& changes) {
   DriveChanges copy = changes;
-  internal::JsonWriter writer;
-  std::string schema = internal::kCompareSchema;
+  internal::results::JsonWriter writer;
+  std::string schema = internal::results::kCompareSchema;
   writer("schema", schema);
-  internal::document(writer, copy);
-  internal::save_json(internal::file_in(folder), writer.json);
+  internal::results::document(writer, copy);
+  internal::results::save_json(internal::results::file_in(folder), writer.json);
 }
 
 DriveChanges read_drive_changes(const std::string& folder) {
-  const std::string path = internal::file_in(folder);
-  const internal::Json json = internal::load_json(path);
-  internal::JsonReader reader(json, path, "");
-  reader.schema(internal::kCompareSchema);
+  const std::string path = internal::results::file_in(folder);
+  const internal::results::Json json = internal::results::load_json(path);
+  internal::results::JsonReader reader(json, path, "");
+  reader.schema(internal::results::kCompareSchema);
   DriveChanges changes;
-  internal::document(reader, changes);
-  internal::require_whole(changes, path);
+  internal::results::document(reader, changes);
+  internal::results::require_whole(changes, path);
   return changes;
 }
 
 bool has_drive_changes(const std::string& folder) {
-  return std::filesystem::exists(internal::file_in(folder));
+  return std::filesystem::exists(internal::results::file_in(folder));
 }
 
 }  // namespace gapscope

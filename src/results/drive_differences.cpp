@@ -8,7 +8,7 @@
 
 #include "gapscope/base/units.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 namespace {
 
 constexpr double kUnexplained = 3.0;  ///< prediction error over the floor: the model is not the drive
@@ -124,4 +124,4 @@ Lines differences_of_making(std::span<const DriveReport> reports) {
   return lines;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

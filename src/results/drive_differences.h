@@ -6,10 +6,10 @@
 
 #include "gapscope/results/drive_changes.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 /// Why the numbers of these reports may differ although the drive does not: other numbers were given, other
 /// recordings made, another method read, a model that does not explain what it was fitted to.
 std::vector<std::string> differences_of_making(std::span<const DriveReport> reports);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -2,7 +2,7 @@
 
 #include "gapscope/base/file_hash.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 template <class Archive>
 void fields(Archive& archive, FileHash& f) {
@@ -10,4 +10,4 @@ void fields(Archive& archive, FileHash& f) {
   archive("sha256", f.sha256);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

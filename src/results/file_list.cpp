@@ -9,7 +9,7 @@
 #include "results/json_document.h"
 #include "results/json_schema.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ void write_file_list(const fs::path& folder, const FileList& list) {
 
 Json files_schema() { return document_schema(kSchema, FileList()); }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -7,7 +7,7 @@
 
 #include "gapscope/base/file_hash.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 inline constexpr const char* kFileList = "files.json";
 
@@ -27,4 +27,4 @@ struct FileList {
 std::optional<FileList> read_file_list(const std::filesystem::path& folder);
 void write_file_list(const std::filesystem::path& folder, const FileList& list);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

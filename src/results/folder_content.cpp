@@ -15,7 +15,7 @@
 #include "results/file_hash_fields.h"
 #include "results/json_document.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,7 +98,7 @@ Half read_half(const fs::path& path) {
   return half;
 }
 
-std::string difference(const Half& a, const Half& b) {
+std::string half_difference(const Half& a, const Half& b) {
   if (a.version != b.version) return "another version of gapscope";
   const auto is_in = [](const FileHash& s, const std::vector<FileHash>& all) {
     return std::find(all.begin(), all.end(), s) != all.end();
@@ -235,7 +235,7 @@ std::string why_not_together(const fs::path& folder, const char* result, const s
   if (!is_there(folder / result)) return "";
   std::string what;
   try {
-    what = difference(read_half(folder / result), {version, sources});
+    what = half_difference(read_half(folder / result), {version, sources});
   } catch (const ConfigError&) {
     what = "a file that cannot be read";
   }
@@ -260,8 +260,10 @@ class Moves {
     done_.emplace_back(from, to);
   }
   void take_back() noexcept {
-    std::error_code ignored;
-    for (; !done_.empty(); done_.pop_back()) fs::rename(done_.back().second, done_.back().first, ignored);
+    for (; !done_.empty(); done_.pop_back()) try {
+        moved_where_nothing_is(done_.back().second, done_.back().first);  // what came meanwhile stays
+      } catch (const std::runtime_error&) {
+      }
   }
 
  private:
@@ -294,4 +296,4 @@ void replace_files(const fs::path& from, const fs::path& to, const std::vector<s
   fs::remove(to / "traces", ignored);  // if it is empty
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -8,7 +8,7 @@
 #include "results/file_list.h"
 
 /// What is in a folder that a report goes to: what is gapscope's own there, and what is somebody else's.
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 inline constexpr const char* kPartial = ".gapscope-partial-";  ///< begins the name of a folder being written
 inline constexpr const char* kMark = ".made-by-gapscope";      ///< a file in it
@@ -54,4 +54,4 @@ void replace_files(const std::filesystem::path& from, const std::filesystem::pat
                    const std::filesystem::path& aside, bool (*is_result)(const std::string&),
                    const FileList* before);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -6,7 +6,7 @@
 #include "results/json_schema.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::results {
 
 template <class Archive>
 void fields(Archive& archive, Finding& f) {
@@ -73,12 +73,12 @@ constexpr const char* kCheckSchema = "gapscope.check/1";
 
 Json check_schema() { return document_schema(kCheckSchema, InspectionDocument()); }
 
-}  // namespace internal
+}  // namespace internal::results
 
 bool is_inspection_file(const std::string& path) {
   try {
-    const internal::Json json = internal::load_json(path);
-    internal::JsonReader(json, path, "").schema(internal::kCheckSchema);
+    const internal::results::Json json = internal::results::load_json(path);
+    internal::results::JsonReader(json, path, "").schema(internal::results::kCheckSchema);
     return true;
   } catch (const ConfigError&) {
     return false;
@@ -86,12 +86,12 @@ bool is_inspection_file(const std::string& path) {
 }
 
 std::string inspection_json(const Inspection& inspection, const std::string& configuration) {
-  internal::InspectionDocument document{inspection, version(), configuration};
-  std::string schema = internal::kCheckSchema;
-  internal::JsonWriter writer;
+  internal::results::InspectionDocument document{inspection, version(), configuration};
+  std::string schema = internal::results::kCheckSchema;
+  internal::results::JsonWriter writer;
   writer("schema", schema);
   fields(writer, document);
-  return internal::text_of(writer.json, 1) + "\n";
+  return internal::results::text_of(writer.json, 1) + "\n";
 }
 
 }  // namespace gapscope

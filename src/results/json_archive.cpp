@@ -16,9 +16,9 @@
 #include "gapscope/results/sha256.h"
 #include "results/json_place.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
-std::string shown(const Json& json) {
+std::string shown_json(const Json& json) {
   constexpr std::size_t kMost = 40;
   const std::string text = json.dump(-1, ' ', true);
   return text.size() > kMost ? text.substr(0, kMost) + "..." : text;
@@ -61,7 +61,8 @@ class KeysOnce {
     if (event == Json::parse_event_t::object_start) keys_->emplace_back();
     if (event == Json::parse_event_t::object_end) keys_->pop_back();
     if (event == Json::parse_event_t::key && !keys_->back().insert(parsed.get<std::string>()).second)
-      throw ConfigError(file_, "has the key " + shown(parsed) + " twice in one object, expected it once");
+      throw ConfigError(file_,
+                        "has the key " + shown_json(parsed) + " twice in one object, expected it once");
     return true;
   }
 
@@ -123,7 +124,7 @@ void JsonWriter::configuration(std::string& resolved) {
 
 JsonReader::JsonReader(const Json& json, std::string file, std::string place)
     : json_(json), file_(std::move(file)), place_(std::move(place)) {
-  if (!json_.is_object()) fail_at(place_, "is " + shown(json_) + ", expected an object");
+  if (!json_.is_object()) fail_at(place_, "is " + shown_json(json_) + ", expected an object");
 }
 
 const Json& JsonReader::at(const char* key) const {
@@ -148,7 +149,7 @@ void JsonReader::schema(const std::string& expected) {
 
 double JsonReader::number(const Json& json, const char* key) const {
   if (json.is_null()) return kNaN;
-  if (!json.is_number()) fail(key, "is " + shown(json) + ", expected a number or null");
+  if (!json.is_number()) fail(key, "is " + shown_json(json) + ", expected a number or null");
   return json.get<double>();
 }
 
@@ -158,17 +159,17 @@ void JsonReader::operator()(const char* key, int& value) {
   const Json& json = at(key);
   constexpr double kMost = std::numeric_limits<int>::max();
   if (!json.is_number_integer() || std::abs(json.get<double>()) > kMost)
-    fail(key, "is " + shown(json) + ", expected a whole number");
+    fail(key, "is " + shown_json(json) + ", expected a whole number");
   value = json.get<int>();
 }
 
 void JsonReader::operator()(const char* key, bool& value) {
-  if (!at(key).is_boolean()) fail(key, "is " + shown(at(key)) + ", expected true or false");
+  if (!at(key).is_boolean()) fail(key, "is " + shown_json(at(key)) + ", expected true or false");
   value = at(key).get<bool>();
 }
 
 void JsonReader::operator()(const char* key, std::string& value) {
-  if (!at(key).is_string()) fail(key, "is " + shown(at(key)) + ", expected text");
+  if (!at(key).is_string()) fail(key, "is " + shown_json(at(key)) + ", expected text");
   value = at(key).get<std::string>();
 }
 
@@ -181,23 +182,24 @@ void JsonReader::operator()(const char* key, Interval& value) {
   value = {};
   const Json& pair = at(key);
   if (pair.is_null()) return;
-  if (!pair.is_array() || pair.size() != 2) fail(key, "is " + shown(pair) + ", expected [low, high] or null");
+  if (!pair.is_array() || pair.size() != 2)
+    fail(key, "is " + shown_json(pair) + ", expected [low, high] or null");
   value = {number(pair[0], key), number(pair[1], key)};
 }
 
 void JsonReader::operator()(const char* key, std::vector<std::string>& values) {
   const Json& array = at(key);
-  if (!array.is_array()) fail(key, "is " + shown(array) + ", expected a list");
+  if (!array.is_array()) fail(key, "is " + shown_json(array) + ", expected a list");
   values.clear();
   for (const Json& item : array) {
-    if (!item.is_string()) fail(key, "holds " + shown(item) + ", expected text");
+    if (!item.is_string()) fail(key, "holds " + shown_json(item) + ", expected text");
     values.push_back(item.get<std::string>());
   }
 }
 
 void JsonReader::operator()(const char* key, std::vector<double>& values) {
   const Json& array = at(key);
-  if (!array.is_array()) fail(key, "is " + shown(array) + ", expected a list");
+  if (!array.is_array()) fail(key, "is " + shown_json(array) + ", expected a list");
   values.clear();
   for (const Json& item : array) values.push_back(number(item, key));
 }
@@ -223,4 +225,4 @@ void JsonReader::configuration(std::string& resolved) {
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -12,7 +12,7 @@
 /// Two archives that meet the same list of fields: one writes it as JSON, the other reads it back. A struct
 /// names its fields once, in `template <class Archive> void fields(Archive&, Struct&)`, so what is written is
 /// what is read.
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 using Json = nlohmann::ordered_json;
 
@@ -27,7 +27,7 @@ Json to_json(double value);
 inline Json to_json(const std::string& text) { return text; }
 
 /// What a message shows of a value: its first characters.
-std::string shown(const Json& json);
+std::string shown_json(const Json& json);
 
 /// The document as text: indented, or on one line (-1). What is no UTF-8, as a file may be named, is
 /// replaced.
@@ -142,12 +142,12 @@ class JsonReader {
       if (word == text) return void(value = meaning);
       all += (all.empty() ? "" : ", ") + std::string(text);
     }
-    fail(key, "is " + shown(word) + ", expected one of " + all);
+    fail(key, "is " + shown_json(word) + ", expected one of " + all);
   }
   template <class Struct>
   void list(const char* key, std::vector<Struct>& values) {
     const Json& array = at(key);
-    if (!array.is_array()) fail(key, "is " + shown(array) + ", expected a list");
+    if (!array.is_array()) fail(key, "is " + shown_json(array) + ", expected a list");
     values.clear();
     for (const Json& item : array) {
       const std::string place = place_of(key) + "[" + std::to_string(values.size()) + "]";
@@ -162,7 +162,7 @@ class JsonReader {
   template <class Struct>
   void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {
     const Json& object = at(key);
-    if (!object.is_object()) fail(key, "is " + shown(object) + ", expected an object");
+    if (!object.is_object()) fail(key, "is " + shown_json(object) + ", expected an object");
     values.clear();
     for (const auto& [item, json] : object.items()) {
       read(json, place_of(key) + "." + item, values.emplace_back());
@@ -174,7 +174,7 @@ class JsonReader {
   void named_members(const char* key, std::vector<Struct>& values, std::string Struct::*name,
                      Member Struct::*member) {
     const Json& object = at(key);
-    if (!object.is_object()) fail(key, "is " + shown(object) + ", expected an object");
+    if (!object.is_object()) fail(key, "is " + shown_json(object) + ", expected an object");
     values.resize(object.size());
     JsonReader inner(object, file_, place_of(key));
     std::size_t i = 0;
@@ -210,4 +210,4 @@ class JsonReader {
   std::string place_;
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -4,7 +4,7 @@
 
 #include "results/json_archive.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 /// A file that is one struct after the name of its schema.
 template <class Struct>
@@ -26,4 +26,4 @@ Struct read_document(const std::string& path, const std::string& expected) {
   return value;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

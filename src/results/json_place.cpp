@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 namespace {
 
 constexpr int kDeepest = 64;  ///< levels that are followed; no stored result has as many
 
 /// Walks a valid JSON text until it stands before the value of one place.
-class Walk {
+class JsonWalk {
  public:
-  Walk(std::string_view text, const std::string& place) : text_(text), wanted_(place) {}
+  JsonWalk(std::string_view text, const std::string& place) : text_(text), wanted_(place) {}
 
   /// Place of the value in the text; npos if it is not there.
   std::size_t find() {
@@ -83,7 +83,7 @@ std::size_t byte_of_level(std::string_view text, std::size_t level) {
 
 int line_of_place(std::string_view text, std::string place) {
   for (;;) {
-    const std::size_t at = Walk(text, place).find();
+    const std::size_t at = JsonWalk(text, place).find();
     if (at != std::string_view::npos && at < text.size()) return line_of_byte(text, at);
     const std::size_t last = place.find_last_of(".[");
     if (place.empty()) return 1;
@@ -91,4 +91,4 @@ int line_of_place(std::string_view text, std::string place) {
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -3,7 +3,7 @@
 #include "gapscope/results/json_schemas.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::results {
 
 void SchemaWriter::operator()(const char* key, Interval&) {
   add(key, {{"type", {"array", "null"}}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}});
@@ -42,10 +42,10 @@ std::string text_of(const char* title, const Json& schema) {
 }
 
 }  // namespace
-}  // namespace internal
+}  // namespace internal::results
 
 std::vector<JsonSchema> json_schemas() {
-  using namespace internal;
+  using namespace internal::results;
   return {
       {"blind", text_of("blind.json of gapscope blind score and run", blind_schema())},
       {"blind_answers", text_of("The answers of gapscope blind answer", blind_answers_schema())},

@@ -4,7 +4,7 @@
 
 #include "results/json_archive.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 /// The third archive: of a list of fields it makes the JSON schema of what JsonWriter writes. Every key but
 /// the configuration and additions is required; further ones are allowed, as later versions may add some.
@@ -104,4 +104,4 @@ Json blind_answers_schema();
 Json stream_schema();
 Json files_schema();
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

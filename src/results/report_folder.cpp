@@ -20,7 +20,7 @@ namespace gapscope {
 namespace fs = std::filesystem;
 namespace {
 
-using internal::FileList;
+using internal::results::FileList;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
@@ -61,8 +61,8 @@ ReportFolder::ReportFolder(const std::string& folder, FolderKind kind, const std
 
 ReportFolder ReportFolder::to_redraw(const std::string& folder, FolderKind kind) {
   ReportFolder redrawn(folder, kind, {}, true);
-  for (const std::string& file : internal::files_below(redrawn.final_))
-    if (internal::is_stored(file)) redrawn.take_over(file);
+  for (const std::string& file : internal::results::files_below(redrawn.final_))
+    if (internal::results::is_stored(file)) redrawn.take_over(file);
   if (redrawn.before_) redrawn.dropped_ = redrawn.before_->dropped;
   return redrawn;
 }
@@ -85,7 +85,7 @@ ReportFolder::ReportFolder(ReportFolder&& other) noexcept = default;
 ReportFolder::~ReportFolder() { clear(); }
 
 std::string in_its_folder(std::string message) {
-  const std::string hidden = std::string("/") + internal::kPartial;
+  const std::string hidden = std::string("/") + internal::results::kPartial;
   constexpr std::size_t kRandom = 6;
   for (auto at = message.find(hidden); at != message.npos; at = message.find(hidden, at))
     message.erase(at, hidden.size() + kRandom);
@@ -122,22 +122,23 @@ void ReportFolder::take(const std::vector<std::string>& inputs, bool redraw) {
   lock_ = std::make_unique<ProcessLock>(final_);
   if (lock_->held_by_another())
     throw ConfigError(final_, "is being written by another process, expected one at a time");
-  internal::remove_left_behind(final_);
+  internal::results::remove_left_behind(final_);
   list_hash_ = hash_of_list();
-  if (auto list = internal::read_file_list(final_)) before_ = std::make_unique<FileList>(*std::move(list));
+  if (auto list = internal::results::read_file_list(final_))
+    before_ = std::make_unique<FileList>(*std::move(list));
   if (redraw)
-    internal::require_redrawable(final_, internal::word_of(kind_), before_.get());
+    internal::results::require_redrawable(final_, internal::results::word_of(kind_), before_.get());
   else
-    internal::require_own(final_, internal::word_of(kind_), before_.get());
-  internal::require_no_input(final_, before_.get(), inputs);
+    internal::results::require_own(final_, internal::results::word_of(kind_), before_.get());
+  internal::results::require_no_input(final_, before_.get(), inputs);
 }
 
 void ReportFolder::make_partial() {
-  std::string name = final_ + "/" + internal::kPartial + "XXXXXX";
+  std::string name = final_ + "/" + internal::results::kPartial + "XXXXXX";
   if (mkdtemp(name.data()) == nullptr) refuse_to_write(final_, std::strerror(errno));
   partial_ = name;
-  std::ofstream mark(partial_ + "/" + internal::kMark);
-  mark << internal::kMarkText;
+  std::ofstream mark(partial_ + "/" + internal::results::kMark);
+  mark << internal::results::kMarkText;
   if (!mark.flush()) refuse_to_write(final_, "no room for a file");
 }
 
@@ -150,8 +151,8 @@ void ReportFolder::clear() noexcept {
     for (const fs::directory_entry& entry : fs::directory_iterator(partial_, ignored))
       content.push_back(entry.path());
     for (const fs::path& path : content)
-      if (path.filename() != internal::kMark) fs::remove_all(path, ignored);
-    fs::remove(partial_ + "/" + internal::kMark, ignored);
+      if (path.filename() != internal::results::kMark) fs::remove_all(path, ignored);
+    fs::remove(partial_ + "/" + internal::results::kMark, ignored);
     rmdir(partial_.c_str());
   }
   partial_.clear();
@@ -178,26 +179,26 @@ void ReportFolder::keep(const char* result, const std::vector<const char*>& othe
   take_over(result);
   for (const char* other : others)
     if (fs::exists(from / other)) take_over(other);
-  for (const std::string& file : internal::files_below(from))
+  for (const std::string& file : internal::results::files_below(from))
     if (file.starts_with("traces/") && file.starts_with("traces/held_out_") == held_out_traces)
       take_over(file);
 }
 
 void ReportFolder::keep_estimate(const std::string& version, const std::vector<FileHash>& sources) {
-  dropped_ = internal::why_not_together(final_, "result.json", version, sources);
+  dropped_ = internal::results::why_not_together(final_, "result.json", version, sources);
   if (dropped_.empty() && fs::exists(fs::path(final_) / "result.json"))
     keep("result.json", {"timing.json"}, false);
 }
 
 void ReportFolder::keep_diagnosis(const std::string& version, const std::vector<FileHash>& sources) {
-  dropped_ = internal::why_not_together(final_, "diagnosis.json", version, sources);
+  dropped_ = internal::results::why_not_together(final_, "diagnosis.json", version, sources);
   if (dropped_.empty() && fs::exists(fs::path(final_) / "diagnosis.json"))
     keep("diagnosis.json", {"fitted.yaml", "next_experiment.yaml", "next_experiment.csv"}, true);
 }
 
 /// Of the list as it is now; empty where there is none.
 std::string ReportFolder::hash_of_list() const {
-  const std::string path = final_ + "/" + internal::kFileList;
+  const std::string path = final_ + "/" + internal::results::kFileList;
   std::error_code problem;
   return fs::exists(fs::symlink_status(path, problem)) ? sha256_of_file(path) : "";
 }
@@ -205,24 +206,24 @@ std::string ReportFolder::hash_of_list() const {
 void ReportFolder::write_list(const char* place, const FileList& list) const {
   const fs::path folder = fs::path(partial_) / place;
   fs::create_directory(folder);
-  internal::write_file_list(folder, list);
+  internal::results::write_file_list(folder, list);
 }
 
 void ReportFolder::move_list(const char* place) const {
   std::error_code error;
-  const fs::path list = fs::path(final_) / internal::kFileList;
-  fs::rename(fs::path(partial_) / place / internal::kFileList, list, error);
+  const fs::path list = fs::path(final_) / internal::results::kFileList;
+  fs::rename(fs::path(partial_) / place / internal::results::kFileList, list, error);
   if (error) fail(list, "cannot be written: " + error.message());
 }
 
 /// What the folder will list, and what of the earlier report goes.
 FileList ReportFolder::list_after(const std::vector<std::string>& fresh,
                                   std::vector<std::string>& stale) const {
-  const std::string kind = internal::word_of(kind_);
+  const std::string kind = internal::results::word_of(kind_);
   FileList after{version(), kind, dropped_, {}};
   for (const std::string& file : fresh) after.files.push_back(listed(partial_, file));
   for (const FileHash& old : before_ ? before_->files : std::vector<FileHash>{}) {
-    if (after.holds(old.file) || internal::is_left_alone(kind, old.file)) continue;
+    if (after.holds(old.file) || internal::results::is_left_alone(kind, old.file)) continue;
     const bool drawn = old.file == "report.md" || fs::path(old.file).extension() == ".png";
     if (!is_still(final_, old)) continue;  // nor of the two that a killed process left of one name
     if (kept_.contains(old.file) || (redraw_ && !drawn))
@@ -230,7 +231,7 @@ FileList ReportFolder::list_after(const std::vector<std::string>& fresh,
     else
       stale.push_back(old.file);
   }
-  for (const std::string& file : internal::files_left_alone(final_, kind))
+  for (const std::string& file : internal::results::files_left_alone(final_, kind))
     if (!after.holds(file)) after.files.push_back({file, ""});
   const auto by_name = [](const FileHash& a, const FileHash& b) { return a.file < b.file; };
   std::sort(after.files.begin(), after.files.end(), by_name);
@@ -239,7 +240,7 @@ FileList ReportFolder::list_after(const std::vector<std::string>& fresh,
 
 void ReportFolder::commit() {
   std::vector<std::string> fresh, stale;
-  for (const std::string& file : internal::files_below(partial_))
+  for (const std::string& file : internal::results::files_below(partial_))
     if (!kept_.contains(file)) fresh.push_back(file);
   std::stable_partition(fresh.begin(), fresh.end(), [](const std::string& f) { return !is_result(f); });
   const FileList after = list_after(fresh, stale);
@@ -248,13 +249,14 @@ void ReportFolder::commit() {
   write_list(".meanwhile", meanwhile);
   write_list(".after", after);
   if (hash_of_list() != list_hash_)
-    throw ConfigError(final_ + "/" + internal::kFileList, "changed during the work, expected it as it was");
-  internal::require_out_of_the_way(final_, before_.get(), fresh);
+    throw ConfigError(final_ + "/" + internal::results::kFileList,
+                      "changed during the work, expected it as it was");
+  internal::results::require_out_of_the_way(final_, before_.get(), fresh);
   move_list(".meanwhile");
   made_.clear();
   try {
-    internal::replace_files(partial_, final_, fresh, stale, partial_ + "/.replaced", is_result,
-                            before_.get());
+    internal::results::replace_files(partial_, final_, fresh, stale, partial_ + "/.replaced", is_result,
+                                     before_.get());
   } catch (...) {
     if (before_) write_list(".after", *before_);
     if (before_) move_list(".after");

@@ -16,11 +16,11 @@ namespace gapscope {
 namespace fs = std::filesystem;
 namespace {
 
-using internal::Document;
-using internal::JsonReader;
-using internal::JsonWriter;
-using internal::kSchema;
-using internal::StoredRecording;
+using internal::results::Document;
+using internal::results::JsonReader;
+using internal::results::JsonWriter;
+using internal::results::kSchema;
+using internal::results::StoredRecording;
 
 /// What the contract of the file promises; another state is a bug of the caller.
 void require_consistent(const GapEstimate& g) {
@@ -47,7 +47,7 @@ auto traces_by_recording(const std::vector<Recording>& recordings, const std::op
   return found;
 }
 
-void save(const std::string& path, JsonWriter& writer) { internal::save_json(path, writer.json); }
+void save(const std::string& path, JsonWriter& writer) { internal::results::save_json(path, writer.json); }
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -64,16 +64,16 @@ StoredRecording store_recording(const std::string& folder, std::size_t index, co
   stored.has_fit = fit != nullptr;
   stored.recording = {recording.file,    recording.start,     recording.dt, {}, {}, {}, {},
                       recording.quantum, recording.resampling};
-  internal::write_trace(folder + "/" + stored.trace, recording, error, fit);
+  internal::results::write_trace(folder + "/" + stored.trace, recording, error, fit);
   return stored;
 }
 
 void load_recording(const std::string& folder, const StoredRecording& stored, RunResult& run) {
-  const std::string path = internal::trace_path(folder, stored.trace);
-  internal::TraceSet set;
+  const std::string path = internal::results::trace_path(folder, stored.trace);
+  internal::results::TraceSet set;
   set.recording = stored.recording;
   set.error.file = set.fit.file = stored.recording.file;
-  internal::read_trace(path, set);
+  internal::results::read_trace(path, set);
   if (static_cast<int>(set.recording.size()) != stored.samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
                                 std::to_string(stored.samples));
@@ -122,7 +122,8 @@ void write_run_result(const std::string& folder, const RunResult& result) {
   for (std::size_t i = 0; i < result.recordings.size(); ++i)
     document.recordings.push_back(store_recording(folder, i, result.recordings[i], errors[i], fits[i]));
   if (result.model_free && result.model_free->map && !result.recordings.empty())
-    internal::write_bound_map(folder + "/traces/" + internal::kBoundMapName, *result.model_free->map);
+    internal::results::write_bound_map(folder + "/traces/" + internal::results::kBoundMapName,
+                                       *result.model_free->map);
   JsonWriter writer;
   fields(writer, document);
   save(folder + "/result.json", writer);
@@ -130,7 +131,7 @@ void write_run_result(const std::string& folder, const RunResult& result) {
 
 RunResult read_run_result(const std::string& folder) {
   const std::string path = folder + "/result.json";
-  const internal::Json json = internal::load_json(path);
+  const internal::results::Json json = internal::results::load_json(path);
   JsonReader reader(json, path, "");
   Document document;
   reader.schema(kSchema);
@@ -140,11 +141,12 @@ RunResult read_run_result(const std::string& folder) {
   require_events(reader, document);
   for (const StoredRecording& stored : document.recordings) load_recording(folder, stored, run);
   if (run.model_free && run.model_free->map && !run.recordings.empty())
-    internal::read_bound_map(folder + "/traces/" + internal::kBoundMapName, *run.model_free->map);
+    internal::results::read_bound_map(folder + "/traces/" + internal::results::kBoundMapName,
+                                      *run.model_free->map);
   return std::move(run);
 }
 
-namespace internal {
+namespace internal::results {
 
 Json result_schema() { return document_schema(kSchema, Document()); }
 
@@ -153,7 +155,7 @@ Json timing_schema() {
   return SchemaWriter::schema_of(timing);
 }
 
-}  // namespace internal
+}  // namespace internal::results
 
 void write_timing(const std::string& folder, const Timing& timing) {
   Timing copy = timing;
@@ -166,7 +168,7 @@ Timing read_timing(const std::string& folder) {
   const std::string path = folder + "/timing.json";
   Timing timing;
   if (!fs::exists(path)) return timing;
-  const internal::Json json = internal::load_json(path);
+  const internal::results::Json json = internal::results::load_json(path);
   JsonReader reader(json, path, "");
   fields(reader, timing);
   return timing;

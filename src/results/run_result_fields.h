@@ -9,7 +9,7 @@
 
 /// The fields of a stored result, each named once. The first ones of every list are those that readers
 /// outside the project rely on; the rest is what a report needs beside them.
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 inline constexpr const char* kSchema = "gapscope.result/1";
 
@@ -192,4 +192,4 @@ void fields(Archive& archive, Timing& t) {
   archive("reference_s", t.reference_s);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -7,7 +7,7 @@
 #include "results/run_result_fields.h"
 
 namespace gapscope {
-namespace internal {
+namespace internal::results {
 
 template <class Archive>
 void fields(Archive& archive, LearntFacts& l) {
@@ -66,15 +66,15 @@ Json stream_schema() {
   return {{"oneOf", {settings_schema(), learnt.schema(), event.schema(), summary_schema()}}};
 }
 
-}  // namespace internal
+}  // namespace internal::results
 
 namespace {
 
-using internal::JsonWriter;
+using internal::results::JsonWriter;
 
 JsonWriter line_of(std::string kind) {
   JsonWriter writer;
-  std::string schema = internal::kStreamSchema;
+  std::string schema = internal::results::kStreamSchema;
   writer("schema", schema);
   writer("kind", kind);
   return writer;
@@ -87,13 +87,13 @@ std::string settings_line(const std::string& configuration) {
   JsonWriter writer = line_of("settings");
   writer("version", program);
   writer.configuration(resolved);
-  return internal::text_of(writer.json, -1) + "\n";
+  return internal::results::text_of(writer.json, -1) + "\n";
 }
 
 std::string learnt_line(const LearntFacts& learnt) {
   LearntFacts l = learnt;
   JsonWriter writer = line_of("learnt");
-  internal::fields(writer, l);
+  internal::results::fields(writer, l);
   return writer.json.dump() + "\n";
 }
 
@@ -101,7 +101,7 @@ std::string event_line(const GapEvent& event) {
   GapEvent e = event;
   JsonWriter writer = line_of("event");
   fields(writer, e);
-  writer.json.erase(internal::kNotInEvents);
+  writer.json.erase(internal::results::kNotInEvents);
   return writer.json.dump() + "\n";
 }
 
@@ -114,7 +114,7 @@ std::string summary_line(const GapEstimate& estimate, const StreamProgress& prog
   writer.json["passages"] = progress.passages;
   writer.json["passages_judged"] = std::min(progress.passages, StreamDetector::kMostJudged);
   fields(writer, g);
-  for (const char* of_a_report : internal::kNotInSummaries) writer.json.erase(of_a_report);
+  for (const char* of_a_report : internal::results::kNotInSummaries) writer.json.erase(of_a_report);
   return writer.json.dump() + "\n";
 }
 

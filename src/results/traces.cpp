@@ -22,7 +22,7 @@ std::string trace_name(std::size_t index, const std::string& recording_file) {
   return "traces/" + std::to_string(index + 1) + "_" + (stem.empty() ? "recording" : stem) + ".csv";
 }
 
-namespace internal {
+namespace internal::results {
 namespace {
 
 constexpr std::uintmax_t kLargestTable = std::uintmax_t{16} << 30;  ///< of the longest recording that is read
@@ -216,5 +216,5 @@ void read_trace(const std::string& path, TraceSet& set) {
   }
 }
 
-}  // namespace internal
+}  // namespace internal::results
 }  // namespace gapscope

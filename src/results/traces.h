@@ -5,7 +5,7 @@
 
 #include "gapscope/results/run_result.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::results {
 
 /// What the columns of a trace file come from and go to: one recording, and what the estimators said about
 /// it.
@@ -41,4 +41,4 @@ void write_bound_map(const std::string& path, const BoundMap& map);
 /// Fills the levels of a map whose bounds are known.  @throws ConfigError for a damaged file.
 void read_bound_map(const std::string& path, BoundMap& map);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::results

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 namespace {
 
 /// p(s)/s^zeros, which is positive at s = 0 unless the guard's event is due at once.
@@ -79,7 +79,7 @@ double first_root(const Deflated& g, double h) {
 
 }  // namespace
 
-Guard& GuardSet::add(Event event, int side, int zeros) {
+Guard& GuardSet::add(GuardEvent event, int side, int zeros) {
   Guard& guard = guards[static_cast<std::size_t>(count++)];
   guard.event = event;
   guard.side = side;
@@ -97,4 +97,4 @@ FirstEvent first_event(const GuardSet& set, double h) {
   return first;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

@@ -4,9 +4,9 @@
 
 #include "simulation/series.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 
-enum class Event {
+enum class GuardEvent {
   kNone,
   kOpen,    ///< contact torque falls to zero
   kClose,   ///< the contact closes on the guard's side
@@ -19,7 +19,7 @@ enum class Event {
 
 /// A polynomial that is positive as long as the mode lasts.
 struct Guard {
-  Event event = Event::kNone;
+  GuardEvent event = GuardEvent::kNone;
   int side = 0;
   int order = kSeriesOrder;
   int zeros = 0;  ///< leading coefficients that are zero by construction (just after the guard's own event)
@@ -30,7 +30,7 @@ struct Guard {
 struct GuardSet {
   std::array<Guard, 6> guards;
   int count = 0;
-  Guard& add(Event event, int side, int zeros);
+  Guard& add(GuardEvent event, int side, int zeros);
 };
 
 struct FirstEvent {
@@ -43,4 +43,4 @@ struct FirstEvent {
 /// reach.
 FirstEvent first_event(const GuardSet& set, double h);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

@@ -3,7 +3,7 @@
 #include "gapscope/plant/scalar.h"
 #include "gapscope/simulation/stepper.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 
 /// Time since the start of a step at which the flow is told by its Taylor series, per unit of 1/rate; with
 /// rate · h below this the truncated terms of order 15 are below 1e-14 of the state.
@@ -44,7 +44,7 @@ inline int series_order(double rate_times_h) {
 
 /// The exact flow of one mode as Taylor polynomials in the time since its start.
 template <class T>
-struct Series {
+struct PowerSeries {
   int order = kSeriesOrder;
   T x1[kSeriesOrder + 1], w1[kSeriesOrder + 1], x2[kSeriesOrder + 1], w2[kSeriesOrder + 1];
   T torque[kSeriesOrder +
@@ -77,7 +77,7 @@ class MotorTorque {
 
 /// Contact torque k(δ − sβ) + c δ̇, term by term; zero on no side.
 template <class T>
-T torque_term(const FlowConstants<T>& f, const Series<T>& z, int n, int side, const Forcing<T>& on) {
+T torque_term(const FlowConstants<T>& f, const PowerSeries<T>& z, int n, int side, const Forcing<T>& on) {
   T delta = z.x1[n] - z.x2[n];
   if (n < 3) delta -= static_cast<double>(side) * on.half_gap[n];
   return f.k * delta + f.c * (z.w1[n] - z.w2[n]);
@@ -87,7 +87,7 @@ T torque_term(const FlowConstants<T>& f, const Series<T>& z, int n, int side, co
 /// stick.
 template <class T>
 void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const DriveState<T>& start,
-                      const Forcing<T>& on, Series<T>& z) {
+                      const Forcing<T>& on, PowerSeries<T>& z) {
   const T& d1 = mode.motor < 0 ? f.d1_minus : f.d1_plus;
   const T inverse_m1 = 1.0 / f.m1;
   const T inverse_m2 = 1.0 / f.m2;
@@ -110,7 +110,7 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
 /// The same for a closed rigid contact: both bodies move as one, the torque is what holds them together.
 template <class T>
 void rigid_series(const FlowConstants<T>& f, const ContactMode& mode, const DriveState<T>& start,
-                  const Forcing<T>& on, Series<T>& z) {
+                  const Forcing<T>& on, PowerSeries<T>& z) {
   const T& d1 = mode.motor < 0 ? f.d1_minus : f.d1_plus;
   const T inverse_m = 1.0 / (f.m1 + f.m2);
   const bool moves = mode.load != 0 && mode.motor != 0;
@@ -131,7 +131,7 @@ void rigid_series(const FlowConstants<T>& f, const ContactMode& mode, const Driv
 
 template <class T>
 void flow_series(const FlowConstants<T>& f, const ContactMode& mode, const DriveState<T>& start,
-                 const Forcing<T>& on, Series<T>& z) {
+                 const Forcing<T>& on, PowerSeries<T>& z) {
   if (f.rigid && mode.contact != 0)
     rigid_series(f, mode, start, on, z);
   else
@@ -146,9 +146,9 @@ T evaluate(const T (&coefficients)[kSeriesOrder + 1], int order, const T& s) {
 }
 
 template <class T>
-DriveState<T> evaluate(const Series<T>& z, const T& s) {
+DriveState<T> evaluate(const PowerSeries<T>& z, const T& s) {
   return {evaluate(z.x1, z.order, s), evaluate(z.w1, z.order, s), evaluate(z.x2, z.order, s),
           evaluate(z.w2, z.order, s)};
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

@@ -9,7 +9,7 @@ namespace gapscope {
 
 template <class T>
 DriveStepper<T>::DriveStepper(const StepperModel<T>& model, double dt)
-    : impl_(std::make_unique<internal::StepperImpl<T>>(model, dt)) {}
+    : impl_(std::make_unique<internal::simulation::StepperImpl<T>>(model, dt)) {}
 template <class T>
 DriveStepper<T>::~DriveStepper() = default;
 template <class T>
@@ -18,7 +18,7 @@ template <class T>
 DriveStepper<T>& DriveStepper<T>::operator=(DriveStepper&&) noexcept = default;
 template <class T>
 DriveStepper<T>::DriveStepper(const DriveStepper& other)
-    : impl_(std::make_unique<internal::StepperImpl<T>>(*other.impl_)) {}
+    : impl_(std::make_unique<internal::simulation::StepperImpl<T>>(*other.impl_)) {}
 template <class T>
 DriveStepper<T>& DriveStepper<T>::operator=(const DriveStepper& other) {
   *impl_ = *other.impl_;

@@ -2,11 +2,11 @@
 
 #include "simulation/stepper_impl.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 
 template <class T>
 EffectPoint<T> StepperImpl<T>::point(const DriveState<T>& state, const T& time, std::size_t effect) const {
-  const int direction = motor_friction ? mode.motor : sign_of(value_of(state.w1));
+  const int direction = motor_friction ? mode.motor : direction_of(value_of(state.w1));
   return {state, time, torque, direction, model, memory.data() + effect * kMostEffectMemory};
 }
 
@@ -128,7 +128,7 @@ void StepperImpl<T>::set_inertia() {
   inverse_m1 = 1.0 / value_of(f.m1), inverse_m2 = 1.0 / value_of(f.m2);
   for (auto& of_segment : transitions)
     for (auto& of_mode : of_segment)
-      for (Transition<T>& t : of_mode) t.ready = false;
+      for (StateTransition<T>& t : of_mode) t.ready = false;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

@@ -2,31 +2,32 @@
 
 #include "simulation/stepper_sample.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 
 template <class T>
-void StepperImpl<T>::collect(const Series<T>& series, const Forcing<T>& on, GuardSet& set) const {
+void StepperImpl<T>::collect(const PowerSeries<T>& series, const Forcing<T>& on, GuardSet& set) const {
   if (has_load) {
     if (mode.contact != 0) {
-      set.add(Event::kOpen, mode.contact, contact_zeros);
+      set.add(GuardEvent::kOpen, mode.contact, contact_zeros);
     } else if (mode.outside != 0) {
-      set.add(Event::kInside, mode.outside, 0);
-      set.add(Event::kClose, mode.outside, contact_zeros);
+      set.add(GuardEvent::kInside, mode.outside, 0);
+      set.add(GuardEvent::kClose, mode.outside, contact_zeros);
     } else {
-      for (const int side : {1, -1}) set.add(Event::kClose, side, side == touching_side ? contact_zeros : 0);
+      for (const int side : {1, -1})
+        set.add(GuardEvent::kClose, side, side == touching_side ? contact_zeros : 0);
     }
   }
   if (load_friction) {
     if (mode.load != 0)
-      set.add(Event::kLoadStops, mode.load, load_zeros);
+      set.add(GuardEvent::kLoadStops, mode.load, load_zeros);
     else if (mode.contact != 0 || smooth)
-      for (const int side : {1, -1}) set.add(Event::kLoadBreaks, side, 0);
+      for (const int side : {1, -1}) set.add(GuardEvent::kLoadBreaks, side, 0);
   }
   if (motor_friction) {
     if (mode.motor != 0)
-      set.add(Event::kMotorStops, mode.motor, motor_zeros);
+      set.add(GuardEvent::kMotorStops, mode.motor, motor_zeros);
     else if (mode.contact != 0 || smooth || decaying >= 0)
-      for (const int side : {1, -1}) set.add(Event::kMotorBreaks, side, 0);
+      for (const int side : {1, -1}) set.add(GuardEvent::kMotorBreaks, side, 0);
   }
   for (int i = 0; i < set.count; ++i) {
     Guard& guard = set.guards[static_cast<std::size_t>(i)];
@@ -50,33 +51,33 @@ T StepperImpl<T>::motor_coefficient(const Forcing<T>& on, int n) const {
 /// Hands the coefficients of a guard's polynomial, as a function of n, to `use`.
 template <class T>
 template <class Use>
-void StepperImpl<T>::with_terms(const Guard& guard, const Series<T>& flow, const Forcing<T>& on,
+void StepperImpl<T>::with_terms(const Guard& guard, const PowerSeries<T>& flow, const Forcing<T>& on,
                                 const Use& use) const {
   const double side = guard.side;
   const bool touching = mode.contact != 0;
   const auto constant = [](const T& value, int n) { return n == 0 ? value : T(0.0); };
   const auto contact = [&](int n) { return touching ? flow.torque[n] : T(0.0); };
   switch (guard.event) {
-    case Event::kOpen:
+    case GuardEvent::kOpen:
       return use([&](int n) { return constant(model.adhesion, n) + side * flow.torque[n]; });
-    case Event::kClose:
+    case GuardEvent::kClose:
       if (mode.outside != 0) return use([&](int n) { return -side * flow.torque[n]; });
       return use([&](int n) { return coefficient(on.half_gap, n) - side * (flow.x1[n] - flow.x2[n]); });
-    case Event::kInside:
+    case GuardEvent::kInside:
       return use([&](int n) { return side * (flow.x1[n] - flow.x2[n]) - coefficient(on.half_gap, n); });
-    case Event::kLoadStops:
+    case GuardEvent::kLoadStops:
       return use([&](int n) { return side * flow.w2[n]; });
-    case Event::kLoadBreaks:
+    case GuardEvent::kLoadBreaks:
       return use([&](int n) {
         return constant(model.drive.load_coulomb_friction, n) - side * (coefficient(on.load, n) + contact(n));
       });
-    case Event::kMotorStops:
+    case GuardEvent::kMotorStops:
       return use([&](int n) { return side * flow.w1[n]; });
-    case Event::kMotorBreaks:
+    case GuardEvent::kMotorBreaks:
       return use([&](int n) {
         return constant(motor_level(guard.side), n) - side * (motor_coefficient(on, n) - contact(n));
       });
-    case Event::kNone:
+    case GuardEvent::kNone:
       break;
   }
 }
@@ -84,7 +85,7 @@ void StepperImpl<T>::with_terms(const Guard& guard, const Series<T>& flow, const
 /// The time of an event as a function of everything that it depends on: one Newton step in Jet arithmetic
 /// from the located value (the implicit function theorem).
 template <class T>
-T StepperImpl<T>::polished(const Guard& guard, const Series<T>& series, const Forcing<T>& on,
+T StepperImpl<T>::polished(const Guard& guard, const PowerSeries<T>& series, const Forcing<T>& on,
                            double time) const {
   if constexpr (!kIsJet<T>) {
     return time;
@@ -107,34 +108,34 @@ T StepperImpl<T>::polished(const Guard& guard, const Series<T>& series, const Fo
 template <class T>
 void StepperImpl<T>::cross(const Guard& guard) {
   switch (guard.event) {
-    case Event::kOpen:
+    case GuardEvent::kOpen:
       open(guard.side);
       break;
-    case Event::kClose:
+    case GuardEvent::kClose:
       close(guard.side);
       break;
-    case Event::kInside:
+    case GuardEvent::kInside:
       mode.outside = 0;
       touching_side = guard.side;
       contact_zeros = 1;
       break;
-    case Event::kLoadStops:
+    case GuardEvent::kLoadStops:
       z.w2 = T(0.0);
       resolve_load();
       break;
-    case Event::kLoadBreaks:
+    case GuardEvent::kLoadBreaks:
       mode.load = guard.side;
       load_zeros = 2;  // both speed and acceleration start at zero
       break;
-    case Event::kMotorStops:
+    case GuardEvent::kMotorStops:
       z.w1 = T(0.0);
       resolve_motor();
       break;
-    case Event::kMotorBreaks:
+    case GuardEvent::kMotorBreaks:
       mode.motor = guard.side;
       motor_zeros = 2;
       break;
-    case Event::kNone:
+    case GuardEvent::kNone:
       break;
   }
 }
@@ -171,8 +172,8 @@ void StepperImpl<T>::bounce(int side) {
     const auto [w1, w2] = speeds_after_impact(z.w1, z.w2, p.mass_ratio, e);
     z.w1 = w1, z.w2 = w2;
   }
-  if (load_friction) mode.load = sign_of(value_of(z.w2));
-  if (motor_friction) mode.motor = sign_of(value_of(z.w1));
+  if (load_friction) mode.load = direction_of(value_of(z.w2));
+  if (motor_friction) mode.motor = direction_of(value_of(z.w1));
   touching_side = side;
   contact_zeros = 1;
   const Outlook next = outlook(*this, z, acting_at(*this, forcing_now(), 0.0));
@@ -224,7 +225,7 @@ void StepperImpl<T>::resolve_load() {
   if (locked) return;
   mode.load = 0;
   const double applied = value_of(acting_torque()) + value_of(forcing_now().load[0]);
-  if (std::abs(applied) > value_of(model.drive.load_coulomb_friction)) mode.load = sign_of(applied);
+  if (std::abs(applied) > value_of(model.drive.load_coulomb_friction)) mode.load = direction_of(applied);
   load_zeros = 1;
 }
 
@@ -250,9 +251,9 @@ void StepperImpl<T>::resolve_as_one() {
   const double applied = value_of(motor_coefficient(on, 0)) + value_of(on.load[0]);
   double level = load_friction ? value_of(model.drive.load_coulomb_friction) : 0.0;
   if (motor_friction) level += value_of(motor_level(applied < 0.0 ? -1 : 1));
-  const int direction = std::abs(applied) > level ? sign_of(applied) : 0;
+  const int direction = std::abs(applied) > level ? direction_of(applied) : 0;
   mode.load = load_friction ? direction : load_before;
   if (motor_friction) mode.motor = direction;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

@@ -8,7 +8,7 @@
 #include "simulation/guards.h"
 #include "simulation/transition.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 
 constexpr int kMostEventsPerSample = 2000;
 
@@ -70,7 +70,7 @@ struct StepperImpl {
   bool healthy = true;
   long events = 0;
   /// Of each segment of a sample (two with a delay), each mode, and how often its pieces are halved.
-  Transition<T> transitions[2][12][kMostHalvings + 1];
+  StateTransition<T> transitions[2][12][kMostHalvings + 1];
 
   StepperImpl(const StepperModel<T>& m, double step);
 
@@ -105,23 +105,23 @@ struct StepperImpl {
   // ------------------------------------------------------------------------------
   void step(double u);
   void segment(const T& span, double u, int index);
-  Transition<T>& transition(const T& span, int index, int times_halved);
+  StateTransition<T>& transition(const T& span, int index, int times_halved);
   int halvings(double h) const;
-  void respond(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
-  void respond_to_slopes(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
-  void advance_smoothly(const Transition<T>& step, Forcing<T>& on, DriveState<T>& next) const;
+  void respond(const StateTransition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
+  void respond_to_slopes(const StateTransition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
+  void advance_smoothly(const StateTransition<T>& step, Forcing<T>& on, DriveState<T>& next) const;
   bool may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end, double h) const;
   void accept(const DriveState<T>& next, const T& h);
   void advance(T span);
-  void build_series(const T& h, Series<T>& series, Forcing<T>& on) const;
+  void build_series(const T& h, PowerSeries<T>& series, Forcing<T>& on) const;
 
   // --- events: stepper_events.h
   // ----------------------------------------------------------------------------------
-  void collect(const Series<T>& series, const Forcing<T>& on, GuardSet& set) const;
+  void collect(const PowerSeries<T>& series, const Forcing<T>& on, GuardSet& set) const;
   template <class Use>
-  void with_terms(const Guard& guard, const Series<T>& flow, const Forcing<T>& on, const Use& use) const;
+  void with_terms(const Guard& guard, const PowerSeries<T>& flow, const Forcing<T>& on, const Use& use) const;
   T motor_coefficient(const Forcing<T>& on, int n) const;
-  T polished(const Guard& guard, const Series<T>& series, const Forcing<T>& on, double time) const;
+  T polished(const Guard& guard, const PowerSeries<T>& series, const Forcing<T>& on, double time) const;
   void cross(const Guard& guard);
   void open(int side);
   void close(int side);
@@ -134,6 +134,6 @@ struct StepperImpl {
   void forget_zeros() { contact_zeros = load_zeros = motor_zeros = touching_side = 0; }
 };
 
-inline int sign_of(double v) { return v > 0.0 ? 1 : v < 0.0 ? -1 : 0; }
+inline int direction_of(double v) { return v > 0.0 ? 1 : v < 0.0 ? -1 : 0; }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

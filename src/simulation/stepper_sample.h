@@ -2,12 +2,12 @@
 
 #include "simulation/stepper_impl.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 
 template <class T>
-Transition<T>& StepperImpl<T>::transition(const T& span, int index, int times_halved) {
+StateTransition<T>& StepperImpl<T>::transition(const T& span, int index, int times_halved) {
   const int row = (mode.contact != 0 ? 6 : 0) + (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
-  Transition<T>& found = transitions[index][row][times_halved];
+  StateTransition<T>& found = transitions[index][row][times_halved];
   if (!found.ready) prepare(f, mode, has_load, span, smooth, times_halved, found);
   return found;
 }
@@ -23,7 +23,8 @@ int StepperImpl<T>::halvings(double h) const {
 }
 
 template <class T>
-void StepperImpl<T>::respond(const Transition<T>& step, const Forcing<T>& on, DriveState<T>& next) const {
+void StepperImpl<T>::respond(const StateTransition<T>& step, const Forcing<T>& on,
+                             DriveState<T>& next) const {
   const auto& r = step.response;
   if (mode.contact == 0) {
     next.x1 = z.x1 + r[1][0] * z.w1 + r[3][0] * on.motor[0];
@@ -52,7 +53,7 @@ void StepperImpl<T>::respond(const Transition<T>& step, const Forcing<T>& on, Dr
 /// Adds what the slopes and curvatures of the torques do. A gap that opens under a closed contact pushes on
 /// both bodies like a pair of torques k s β.
 template <class T>
-void StepperImpl<T>::respond_to_slopes(const Transition<T>& step, const Forcing<T>& on,
+void StepperImpl<T>::respond_to_slopes(const StateTransition<T>& step, const Forcing<T>& on,
                                        DriveState<T>& next) const {
   const auto& r = step.response;
   if (mode.contact == 0) {
@@ -88,7 +89,8 @@ DriveState<T> middle_between(const DriveState<T>& a, const DriveState<T>& b, con
 /// A whole piece with smooth effects: constant torques predict the motion, their quadratic along it corrects
 /// it.
 template <class T>
-void StepperImpl<T>::advance_smoothly(const Transition<T>& step, Forcing<T>& on, DriveState<T>& next) const {
+void StepperImpl<T>::advance_smoothly(const StateTransition<T>& step, Forcing<T>& on,
+                                      DriveState<T>& next) const {
   const Extra<T> start = extra_at(z, now);
   add_constant(on, start);
   respond(step, on, next);
@@ -235,7 +237,7 @@ template <class T>
 void StepperImpl<T>::segment(const T& span, double u, int index) {
   set_input(u);
   resolve_at_input_change();
-  const Transition<T>* whole = &transition(span, index, 0);
+  const StateTransition<T>* whole = &transition(span, index, 0);
   if (smooth) whole = &transition(span, index, halvings(value_of(whole->h)));
   DriveState<T> next;
   Forcing<T> on = forcing_without_effects();
@@ -264,7 +266,7 @@ void StepperImpl<T>::segment(const T& span, double u, int index) {
 
 /// The flow over h as a series, smooth effects as the quadratic along it.
 template <class T>
-void StepperImpl<T>::build_series(const T& h, Series<T>& series, Forcing<T>& on) const {
+void StepperImpl<T>::build_series(const T& h, PowerSeries<T>& series, Forcing<T>& on) const {
   on = forcing_without_effects();
   if (!smooth) return flow_series(f, mode, z, on, series);
   const Extra<T> start = extra_at(z, now);
@@ -283,7 +285,7 @@ void StepperImpl<T>::build_series(const T& h, Series<T>& series, Forcing<T>& on)
 template <class T>
 void StepperImpl<T>::advance(T span) {
   const double least = 1e-13 * dt;
-  Series<T> series;
+  PowerSeries<T> series;
   Forcing<T> on;
   for (int count = 0;; ++count) {
     if (count > kMostEventsPerSample) {
@@ -322,4 +324,4 @@ void StepperImpl<T>::advance(T span) {
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

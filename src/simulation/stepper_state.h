@@ -2,7 +2,7 @@
 
 #include "simulation/stepper_impl.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 
 template <class T>
 StepperImpl<T>::StepperImpl(const StepperModel<T>& m, double step) : model(m), dt(step) {
@@ -68,8 +68,8 @@ void StepperImpl<T>::reset(const DriveState<T>& state) {
   events = 0;
   forget_zeros();
   if (locked) z.w2 = T(0.0);
-  if (motor_friction) mode.motor = sign_of(value_of(z.w1));
-  if (locked || load_friction) mode.load = sign_of(value_of(z.w2));
+  if (motor_friction) mode.motor = direction_of(value_of(z.w1));
+  if (locked || load_friction) mode.load = direction_of(value_of(z.w2));
   remember_start();
   if (!f.rigid) resolve_contact();
   if (load_friction && mode.load == 0) resolve_load();
@@ -112,4 +112,4 @@ T StepperImpl<T>::contact_torque(int side) const {
   return motor - f.m1 * ((motor + on.load[0] - f.d2 * z.w1) / (f.m1 + f.m2));
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

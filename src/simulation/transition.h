@@ -5,7 +5,7 @@
 
 #include "simulation/series.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::simulation {
 
 constexpr int kColumns = 10;
 
@@ -18,7 +18,7 @@ constexpr double kSmoothReach = 0.4;
 ///   Δx1, w1⁺, Δx2, w2⁺  =  response · (δ̃, w1, w2, M₀, L₀, M₁, L₁, M₂, L₂, D)
 /// with D the amplitude of a dying torque on the motor.
 template <class T>
-struct Transition {
+struct StateTransition {
   bool ready = false;
   int pieces = 1;           ///< per segment, so that a piece lies within the series' reach
   T h{};                    ///< length of a piece [s]
@@ -42,14 +42,14 @@ double flow_rate(const FlowConstants<T>& f, bool closed, bool has_load) {
 /// Column of the response: the flow that starts from one unit of the given quantity and nothing else.
 template <class T>
 void response_column(const FlowConstants<T>& f, const ContactMode& mode, int column,
-                     Transition<T>& transition) {
+                     StateTransition<T>& transition) {
   DriveState<T> start;
   Forcing<T> on;
   T* const units[kColumns] = {&start.x1,    &start.w1,   &start.w2,    &on.motor[0], &on.load[0],
                               &on.motor[1], &on.load[1], &on.motor[2], &on.load[2],  &on.decaying};
   *units[column] = T(1.0);
   if (f.rigid && mode.contact != 0 && column == 2) return;  // one body: the load's speed is the motor's
-  Series<T> z;
+  PowerSeries<T> z;
   flow_series(f, mode, start, on, z);
   const DriveState<T> end = evaluate(z, transition.h);
   transition.response[column][0] = end.x1 - start.x1;
@@ -61,11 +61,11 @@ void response_column(const FlowConstants<T>& f, const ContactMode& mode, int col
 /// What a dying torque does over a piece that is long against it: several short pieces, put together.
 template <class T>
 void dying_column(const FlowConstants<T>& f, const ContactMode& mode, bool has_load,
-                  Transition<T>& transition) {
+                  StateTransition<T>& transition) {
   const double rate = std::max(flow_rate(f, mode.contact != 0, has_load), value_of(f.decay_rate));
   const double count = std::ceil(rate * value_of(transition.h) / kSeriesReach);
   if (count <= 1.0) return response_column(f, mode, 9, transition);
-  Transition<T> part;
+  StateTransition<T> part;
   part.h = transition.h / count;
   for (auto& responses : part.response)
     for (T& r : responses) r = T(0.0);
@@ -89,7 +89,7 @@ void dying_column(const FlowConstants<T>& f, const ContactMode& mode, bool has_l
 /// @param halvings how often the pieces are halved beyond what the flow itself needs
 template <class T>
 void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, const T& span, bool smooth,
-             int halvings, Transition<T>& transition) {
+             int halvings, StateTransition<T>& transition) {
   const double rate = flow_rate(f, mode.contact != 0, has_load);
   transition.pieces = std::max(
       1, static_cast<int>(std::ceil(rate * value_of(span) / (smooth ? kSmoothReach : kSeriesReach))));
@@ -103,4 +103,4 @@ void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, 
   transition.ready = true;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::simulation

@@ -6,7 +6,7 @@
 #include "gapscope/base/random.h"
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr std::size_t kBounds = 24;
@@ -132,7 +132,7 @@ std::vector<Excursion> find_excursions(const BankRun& run, std::size_t bound) {
 
 namespace {
 
-void join(Event& event, const Excursion& x, double k2) {
+void join(BankEvent& event, const Excursion& x, double k2) {
   event.last = x.bound;
   ++event.seen;
   if (event.seen <= 4 && x.peak > event.start) event.latency = std::max(event.latency, x.peak - event.start);
@@ -141,20 +141,21 @@ void join(Event& event, const Excursion& x, double k2) {
 
 }  // namespace
 
-std::vector<Event> link_events(const BankRun& run, const std::vector<std::vector<Excursion>>& excursions,
-                               std::size_t tolerance) {
-  std::vector<Event> events;
+std::vector<BankEvent> link_events(const BankRun& run, const std::vector<std::vector<Excursion>>& excursions,
+                                   std::size_t tolerance) {
+  std::vector<BankEvent> events;
   for (std::size_t j = excursions.size(); j-- > 0;) {
-    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.start < b.start; });
+    std::sort(events.begin(), events.end(),
+              [](const BankEvent& a, const BankEvent& b) { return a.start < b.start; });
     const std::size_t known = events.size();
     const double k2 = SuperTwistingGains::from_bound(run.bounds[j]).k2;
     for (const Excursion& x : excursions[j]) {
       bool joined = false;
       const auto first =
           std::partition_point(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(known),
-                               [&](const Event& e) { return e.start + tolerance < x.start; });
+                               [&](const BankEvent& e) { return e.start + tolerance < x.start; });
       for (auto e = first - events.begin(); e < static_cast<std::ptrdiff_t>(known); ++e) {
-        Event& event = events[static_cast<std::size_t>(e)];
+        BankEvent& event = events[static_cast<std::size_t>(e)];
         if (event.start >= x.end) break;
         if (event.sign != x.sign) continue;
         if (event.last != j) join(event, x, k2);
@@ -165,9 +166,10 @@ std::vector<Event> link_events(const BankRun& run, const std::vector<std::vector
       join(events.back(), x, k2);
     }
   }
-  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.start < b.start; });
-  for (Event& event : events) event.step = median(event.steps);
+  std::sort(events.begin(), events.end(),
+            [](const BankEvent& a, const BankEvent& b) { return a.start < b.start; });
+  for (BankEvent& event : events) event.step = median(event.steps);
   return events;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

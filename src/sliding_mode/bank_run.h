@@ -7,7 +7,7 @@
 #include "gapscope/sliding_mode/bound_bank.h"
 #include "sliding_mode/signal_facts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// The error signals of all bounds over one recording, with the chatter floor of each.
 struct BankRun {
@@ -46,7 +46,7 @@ std::vector<Excursion> find_excursions(const BankRun& run, std::size_t bound);
 
 /// Excursions of one sign, linked over the bounds from the highest down: one thing that happened to the
 /// motor.
-struct Event {
+struct BankEvent {
   int sign = 0;
   std::size_t start = 0;  ///< at the highest bound: least latency
   std::size_t peak = 0;   ///< at the highest bound
@@ -58,7 +58,7 @@ struct Event {
   std::size_t latency = 0;    ///< longest from start to peak among the top four [samples]
 };
 
-std::vector<Event> link_events(const BankRun& run, const std::vector<std::vector<Excursion>>& excursions,
-                               std::size_t tolerance);
+std::vector<BankEvent> link_events(const BankRun& run, const std::vector<std::vector<Excursion>>& excursions,
+                                   std::size_t tolerance);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

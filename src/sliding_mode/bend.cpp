@@ -7,7 +7,7 @@
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/kink_fit.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr std::size_t kFewestSamples = 8;
@@ -68,4 +68,4 @@ std::optional<double> bend_at_release(const BankRun& run, const Excursion& ramp,
   return fit.time;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -5,7 +5,7 @@
 
 #include "sliding_mode/bank_run.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// Steps S3 and S4 on one error signal e_x where its instants do not lie at a sample: e_x follows ÿ smoothly,
 /// so a jump in the course of ÿ bends it, and the kink of a local fit is the instant. All in samples.
@@ -19,4 +19,4 @@ double bend_before_peak(const BankRun& run, const Excursion& ramp, double since)
 /// zero there.
 std::optional<double> bend_at_release(const BankRun& run, const Excursion& ramp, std::size_t turn);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

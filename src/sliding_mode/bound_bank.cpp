@@ -9,7 +9,7 @@
 namespace gapscope {
 namespace {
 
-using internal::BankLanes;
+using internal::sliding_mode::BankLanes;
 
 /// Runs of all bounds over all samples, row by row into `errors` where there is room for them.
 template <Discretisation D>
@@ -25,8 +25,8 @@ GAPSCOPE_INLINE void advance_all(const BankLanes& lanes, std::span<const double>
   double* __restrict e = lanes.e;
   for (const double sample : y) {
     for (std::size_t j = 0; j < lanes.size; ++j) {
-      const internal::StepState s =
-          internal::advance<D>({x[j], w[j], e[j]}, {k1[j], k2[j], root1[j], root2[j]}, sample, dt);
+      const internal::sliding_mode::StepState s = internal::sliding_mode::advance<D>(
+          {x[j], w[j], e[j]}, {k1[j], k2[j], root1[j], root2[j]}, sample, dt);
       x[j] = s.x;
       w[j] = s.w;
       e[j] = s.e;
@@ -49,17 +49,17 @@ template <Discretisation D>
 }
 
 template <Discretisation D>
-internal::BankLoop loop_for() {
+internal::sliding_mode::BankLoop loop_for() {
   return __builtin_cpu_supports("avx2") ? wide<D> : plain<D>;
 }
 #else
 template <Discretisation D>
-internal::BankLoop loop_for() {
+internal::sliding_mode::BankLoop loop_for() {
   return plain<D>;
 }
 #endif
 
-internal::BankLoop loop_for(Discretisation discretisation) {
+internal::sliding_mode::BankLoop loop_for(Discretisation discretisation) {
   switch (discretisation) {
     case Discretisation::kForwardEuler:
       return loop_for<Discretisation::kForwardEuler>();
@@ -80,7 +80,7 @@ BoundBank::BoundBank(std::span<const double> bounds, Discretisation discretisati
   for (const double L : bounds) {
     if (!(L > 0.0) || !std::isfinite(L))
       throw std::invalid_argument("BoundBank: every bound must be positive and finite");
-    const internal::StepGains gains = internal::step_gains(L);
+    const internal::sliding_mode::StepGains gains = internal::sliding_mode::step_gains(L);
     k1_.push_back(gains.k1);
     k2_.push_back(gains.k2);
     root1_.push_back(gains.root1);
@@ -95,7 +95,7 @@ void BoundBank::start(double position, double velocity) noexcept {
   started_ = true;
 }
 
-internal::BankLanes BoundBank::lanes() noexcept {
+internal::sliding_mode::BankLanes BoundBank::lanes() noexcept {
   return {k1_.data(), k2_.data(), root1_.data(), root2_.data(), x_.data(), w_.data(), e_.data(), size()};
 }
 

@@ -6,7 +6,7 @@
 #include "sliding_mode/bank_run.h"
 #include "sliding_mode/signal_facts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr std::size_t kRows = 48;      ///< bounds
@@ -62,4 +62,4 @@ std::optional<BoundMap> bound_map(const MotorTrace& trace, const GapEstimate& es
   return map;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -5,11 +5,11 @@
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// The map of |e_x| over bound and time around the passage nearest to the estimate (the middle of the
 /// recording where there is none), three half periods long: the picture from which t1 and t2 can be read with
 /// each bound. Nothing where the recording has no periodic motion.
 std::optional<BoundMap> bound_map(const MotorTrace& trace, const GapEstimate& estimate);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

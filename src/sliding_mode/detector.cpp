@@ -15,21 +15,21 @@
 namespace gapscope {
 namespace {
 
-using internal::ImpactAnalysis;
-using internal::PaperReading;
+using internal::sliding_mode::ImpactAnalysis;
+using internal::sliding_mode::PaperReading;
 
 std::vector<PaperReading> read_all(std::span<const MotorTrace> recordings,
                                    std::span<const ImpactAnalysis> analyses, double bound) {
   std::vector<PaperReading> readings;
   for (std::size_t i = 0; i < recordings.size(); ++i)
-    readings.push_back(internal::read_with_bound(recordings[i], analyses[i], bound));
+    readings.push_back(internal::sliding_mode::read_with_bound(recordings[i], analyses[i], bound));
   return readings;
 }
 
 GapEstimate decide_paper(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
                          double bound) {
   GapEstimate estimate;
-  internal::decide_with_bound(analyses, read_all(recordings, analyses, bound), estimate);
+  internal::sliding_mode::decide_with_bound(analyses, read_all(recordings, analyses, bound), estimate);
   return estimate;
 }
 
@@ -135,7 +135,7 @@ void keep_map(std::span<const MotorTrace> recordings, const DetectorOptions& opt
                       [&](const GapEvent& e) { return e.accepted && e.file == recordings[i].file; });
     if (accepted > most) most = accepted, shown = i;
   }
-  if (!recordings.empty()) estimate.map = internal::bound_map(recordings[shown], estimate);
+  if (!recordings.empty()) estimate.map = internal::sliding_mode::bound_map(recordings[shown], estimate);
 }
 
 void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
@@ -154,13 +154,13 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
   std::vector<ImpactAnalysis> means;
   std::vector<double> intervals;
   for (const MotorTrace& recording : recordings) {
-    const internal::FoldedMotion folded = internal::fold(recording);
+    const internal::sliding_mode::FoldedMotion folded = internal::sliding_mode::fold(recording);
     if (folded.periods == 0) continue;
-    means.push_back(internal::analyse_mean(folded, recording));
+    means.push_back(internal::sliding_mode::analyse_mean(folded, recording));
     intervals.push_back(folded.dt);
   }
   GapEstimate reading;
-  if (!means.empty()) internal::decide(means, intervals, reading);
+  if (!means.empty()) internal::sliding_mode::decide_gap(means, intervals, reading);
   if (reading.verdict != GapVerdict::kBacklash &&
       (reading.verdict != GapVerdict::kNone || estimate.verdict == GapVerdict::kNone))
     return;
@@ -175,10 +175,10 @@ GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const Detector
   std::vector<ImpactAnalysis> analyses;
   std::vector<double> intervals;
   for (const MotorTrace& recording : recordings) {
-    analyses.push_back(internal::analyse_frozen(recording));
+    analyses.push_back(internal::sliding_mode::analyse_frozen(recording));
     intervals.push_back(recording.dt);
   }
-  internal::decide(analyses, intervals, estimate);
+  internal::sliding_mode::decide_gap(analyses, intervals, estimate);
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
   estimate.bound_t1 = typical_bound(analyses, &ImpactAnalysis::sliding);
   keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
@@ -194,7 +194,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   std::vector<ImpactAnalysis> analyses;
   std::vector<double> intervals;
   for (const MotorTrace& recording : recordings) {
-    analyses.push_back(internal::analyse(recording));
+    analyses.push_back(internal::sliding_mode::analyse(recording));
     intervals.push_back(recording.dt);
   }
   if (options.bound > 0.0) {
@@ -205,10 +205,10 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
     keep_map(recordings, options, estimate);
     return estimate;
   }
-  internal::decide(analyses, intervals, estimate);
+  internal::sliding_mode::decide_gap(analyses, intervals, estimate);
   if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
   if (estimate.verdict != GapVerdict::kBacklash)
-    if (auto quasi_static = internal::read_lost_motion(recordings)) return *quasi_static;
+    if (auto quasi_static = internal::sliding_mode::read_lost_motion(recordings)) return *quasi_static;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
   estimate.bound_t1 =
       bound_that_shows(recordings, analyses, estimate, typical_bound(analyses, &ImpactAnalysis::sliding));

@@ -5,7 +5,7 @@
 
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kRepeats = 1e-3;      ///< share of the variance by which one period may differ from the next
@@ -207,4 +207,4 @@ FoldedMotion fold(const MotorTrace& trace) {
   return f;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

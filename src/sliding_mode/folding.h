@@ -5,7 +5,7 @@
 
 #include "gapscope/recording/recording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// The mean period of a periodic recording, and the same laid end to end a few times.
 struct FoldedMotion {
@@ -30,4 +30,4 @@ double input_period(const MotorTrace& trace, double fewest);
 /// period: every sample is carried to the middle of its bin along the local slope.
 FoldedMotion fold(const MotorTrace& trace);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr std::size_t kRows = 400;          ///< at most so many samples of a window are fitted
@@ -184,4 +184,4 @@ FreeFlight FlightLaw::find_release(std::size_t core) const {
   return flight;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

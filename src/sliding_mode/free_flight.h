@@ -7,7 +7,7 @@
 
 #include "gapscope/recording/recording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// A stretch of the recording in which the motor crosses the gap.
 struct FlightWindow {
@@ -84,4 +84,4 @@ class FlightLaw {
   std::vector<double> input2_, friction2_, position_;  // ∬u, ∬sign, ∫x1
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -10,7 +10,7 @@
 #include "sliding_mode/passages.h"
 #include "sliding_mode/visible_gap.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr std::size_t kFirstTry = 200;          ///< samples
@@ -127,7 +127,7 @@ void FrozenSearch::read_core(std::size_t end) {
   const MotorTrace trace = window();
   const TransitionContext context{trace, frozen_.facts, run_};
   const double half_period = frozen_.facts.half_period / dt_;
-  const std::vector<Event> events =
+  const std::vector<BankEvent> events =
       main_events(all_events(run_, half_period), run_, frozen_.least, half_period);
   for (std::size_t i = 0; i < events.size(); ++i) {
     const std::size_t start = offset_ + events[i].start;
@@ -179,4 +179,4 @@ ImpactAnalysis analyse_frozen(const MotorTrace& trace) {
   return search.summary();
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -8,7 +8,7 @@
 #include "gapscope/sliding_mode/bound_bank.h"
 #include "sliding_mode/impact_method.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// Counts turns of a motion that may wander: y has come back from its last extreme by more than a threshold.
 class TurnCounter {
@@ -99,4 +99,4 @@ class FrozenSearch {
 /// The same for a whole recording: what a stream of it would have told.
 ImpactAnalysis analyse_frozen(const MotorTrace& trace);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

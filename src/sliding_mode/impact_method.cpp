@@ -7,10 +7,10 @@
 #include "sliding_mode/passages.h"
 #include "sliding_mode/visible_gap.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
-void read_passages(const MotorTrace& trace, const std::vector<Event>& events, ImpactAnalysis& a) {
+void read_passages(const MotorTrace& trace, const std::vector<BankEvent>& events, ImpactAnalysis& a) {
   const TransitionContext context{trace, a.facts, a.run};
   for (std::size_t i = 1; i < events.size(); ++i)
     if (events[i].sign != events[i - 1].sign)
@@ -22,13 +22,13 @@ void search(const MotorTrace& trace, ImpactAnalysis& a) {
   a.run = run_bank(trace, a.facts, bound_grid(a.facts, trace.dt), Discretisation::kMatched);
   a.sliding = smallest_sliding(a.run);
   const double half_period = a.facts.half_period / trace.dt;
-  const std::vector<Event> all = all_events(a.run, half_period);
-  std::vector<Event> events;
+  const std::vector<BankEvent> all = all_events(a.run, half_period);
+  std::vector<BankEvent> events;
   if (const auto least = least_top(all, a.run, a.facts.half_periods))
     events = main_events(all, a.run, *least, half_period);
   a.marks = events.size();
   std::vector<std::size_t> tops(a.run.bounds.size());
-  for (const Event& e : events) ++tops[e.top];
+  for (const BankEvent& e : events) ++tops[e.top];
   a.deciding = top_bound(tops, kMiddle, a.sliding);
   const std::size_t above = top_bound(tops, kMostTops, a.sliding) + 1;
   a.smallest_visible_gap =
@@ -58,4 +58,4 @@ ImpactAnalysis analyse_mean(const FoldedMotion& mean, const MotorTrace& whole) {
   return a;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -7,7 +7,7 @@
 #include "sliding_mode/folding.h"
 #include "sliding_mode/transition.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// Everything that the bank of bounds found in one recording.
 struct ImpactAnalysis {
@@ -31,7 +31,7 @@ ImpactAnalysis analyse_mean(const FoldedMotion& mean, const MotorTrace& whole);
 GapEvent event_of(const Transition& passage);
 
 /// Verdict and estimate from all recordings together. Median per direction, mean of both.
-void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
-            GapEstimate& estimate);
+void decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
+                GapEstimate& estimate);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

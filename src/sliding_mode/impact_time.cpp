@@ -8,7 +8,7 @@
 #include "sliding_mode/free_flight.h"
 #include "sliding_mode/kink_fit.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kReaches[] = {2.4, 1.4, 0.8};  ///< after the impact, in times from start to peak of e
@@ -65,8 +65,8 @@ double left_over(const MotorTrace& trace, const FlightLaw& law, const Kink& kink
   return sum / static_cast<double>(last - from + 1);
 }
 
-Kink find_kink(const TransitionContext& context, const Event& impact, const FlightLaw& law, std::size_t first,
-               std::size_t after) {
+Kink find_kink(const TransitionContext& context, const BankEvent& impact, const FlightLaw& law,
+               std::size_t first, std::size_t after) {
   Kink kink;
   const std::size_t last = std::min({impact.start + after, law.last(), context.trace.size() - 1});
   const std::size_t back = std::min(3 * impact.latency + 5, (impact.start - first) / 2);
@@ -102,7 +102,7 @@ Kink find_kink(const TransitionContext& context, const Event& impact, const Flig
 
 /// Over the longest stretch after the impact that one contact explains, and over the least: they err in other
 /// ways (where a load sticks, rings or meets the motor again; by noise), so the middle of both is taken.
-Kink find_kinks(const TransitionContext& context, const Event& impact, const FlightLaw& law,
+Kink find_kinks(const TransitionContext& context, const BankEvent& impact, const FlightLaw& law,
                 std::size_t first) {
   const auto within = [&](double reach) {
     const auto after = static_cast<std::size_t>(std::lround(reach * static_cast<double>(impact.latency)));
@@ -124,7 +124,7 @@ Kink find_kinks(const TransitionContext& context, const Event& impact, const Fli
 
 }  // namespace
 
-ImpactTime refine_impact(const TransitionContext& context, const Event& impact, const Reversal& reversal,
+ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impact, const Reversal& reversal,
                          const FlightLaw& law) {
   ImpactTime result;
   const std::size_t flight = impact.start - std::min(reversal.last, impact.start);
@@ -148,4 +148,4 @@ ImpactTime refine_impact(const TransitionContext& context, const Event& impact, 
   return result;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

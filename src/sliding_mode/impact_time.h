@@ -3,7 +3,7 @@
 #include "sliding_mode/release.h"
 #include "sliding_mode/transition.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// The instant of an impact, by local fits.
 struct ImpactTime {
@@ -21,7 +21,7 @@ struct ImpactTime {
 /// Where x1 leaves the law of the free motor behind: kinks (t − t2)₊^p, p = 1 (rigid), or the stroke of an
 /// elastic contact, in what the law of the flight leaves over. The window after the impact is tied to the
 /// excursion, because a light load rings within a millisecond.
-ImpactTime refine_impact(const TransitionContext& context, const Event& impact, const Reversal& reversal,
+ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impact, const Reversal& reversal,
                          const FlightLaw& law);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

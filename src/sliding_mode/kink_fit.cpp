@@ -8,7 +8,7 @@
 #include "gapscope/base/require.h"
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 double KinkShape::operator()(double x) const {
   if (power == 1) return x;
   if (power == 2) return x * x;
@@ -112,4 +112,4 @@ void KinkScan::widen(const KinkShape& shape, double from, double to, double step
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// What begins at a kink, as a function of the samples x ≥ 0 since. A power x^p, or the stroke of an elastic
 /// contact:
@@ -61,4 +61,4 @@ class KinkScan {
   double smooth_sse_ = 0.0;
 };
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

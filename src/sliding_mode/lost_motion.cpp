@@ -9,7 +9,7 @@
 #include "sliding_mode/signal_facts.h"
 #include "sliding_mode/torque_cycles.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kFollowing = 0.9;  ///< least share of the travel that goes with the change of u
@@ -36,7 +36,7 @@ struct Branch {
 };
 
 /// What the loops of one torque amplitude say.
-struct Level {
+struct TorqueLevel {
   double amplitude = 0.0;             ///< [unit of u]
   std::vector<double> plays, widths;  ///< of the loops [rad]
   double play = kNaN, std = kNaN;     ///< P and its standard error [rad]
@@ -81,10 +81,10 @@ std::vector<Branch> branches_of(const MotorTrace& trace, const TorqueCycles& cyc
 bool within(double amplitude, double level) { return amplitude >= level && amplitude <= kSameLevel * level; }
 
 /// Loops by amplitude, the smallest first; loops that are alone at theirs are left out.
-std::vector<Level> levels_of(std::vector<Loop>& loops) {
+std::vector<TorqueLevel> levels_of(std::vector<Loop>& loops) {
   std::sort(loops.begin(), loops.end(),
             [](const Loop& a, const Loop& b) { return a.amplitude < b.amplitude; });
-  std::vector<Level> levels;
+  std::vector<TorqueLevel> levels;
   for (const Loop& loop : loops) {
     if (levels.empty() || !within(loop.amplitude, levels.back().amplitude)) {
       levels.emplace_back();
@@ -93,11 +93,11 @@ std::vector<Level> levels_of(std::vector<Loop>& loops) {
     levels.back().plays.push_back(loop.event.gap);
     levels.back().widths.push_back(loop.event.std);
   }
-  std::erase_if(levels, [](const Level& level) { return level.plays.size() < kFewestLoops; });
+  std::erase_if(levels, [](const TorqueLevel& level) { return level.plays.size() < kFewestLoops; });
   return levels;
 }
 
-void read_branches(Level& level, const std::vector<Branch>& branches) {
+void read_branches(TorqueLevel& level, const std::vector<Branch>& branches) {
   std::vector<std::vector<double>> steps;  // travel within each bin, along the branch
   std::vector<double> flanks;              // the same of the last one: the loaded flank
   for (const Branch& b : branches) {
@@ -120,7 +120,7 @@ void read_branches(Level& level, const std::vector<Branch>& branches) {
   level.visible = std::max(2.0 * least, kFinest * level.resolution);  // a gap may end in the next bin
 }
 
-void summarise(Level& level) {
+void summarise(TorqueLevel& level) {
   const double n = static_cast<double>(level.plays.size());
   level.play = median(level.plays);
   // The median absolute deviation of few loops is often zero by chance: half their range is not.
@@ -130,38 +130,38 @@ void summarise(Level& level) {
                         2.0 * level.resolution * level.resolution);
 }
 
-std::string described(const Level& level) {
+std::string described(const TorqueLevel& level) {
   return fmt::format("{:.3g} rad at |u| = {:.3g} ({} loops)", level.play, level.amplitude,
                      level.plays.size());
 }
 
-bool disagree(const Level& a, const Level& b) {
+bool disagree(const TorqueLevel& a, const TorqueLevel& b) {
   return std::abs(a.play - b.play) > 2.0 * std::hypot(a.std, b.std);
 }
 
 /// Limit on a gap: it cannot exceed the play at any level, and would have stood out where nothing runs free.
-double limit_of(const std::vector<Level>& levels) {
+double limit_of(const std::vector<TorqueLevel>& levels) {
   double limit = kInfinity;
-  for (const Level& level : levels) {
+  for (const TorqueLevel& level : levels) {
     const double most = std::max(level.play + 1.96 * level.std, kFinest * level.resolution);
     limit = std::min(limit, level.shows_play() ? most : std::min(most, level.visible));
   }
   return limit;
 }
 
-void report_disagreement(const std::vector<Level>& levels, GapEstimate& estimate) {
+void report_disagreement(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) {
   estimate.verdict = GapVerdict::kInconclusive;
   estimate.reason = "the play at zero torque depends on the torque level:";
-  for (const Level& level : levels)
+  for (const TorqueLevel& level : levels)
     estimate.reason += (&level == &levels.front() ? " " : ", ") + described(level);
   estimate.reason +=
       "; friction or compliance makes up the difference and no gap is larger than the smallest; ramp to "
       "small torques just above the friction, or free the output and use the impacts";
 }
 
-void report_play(const std::vector<Level>& levels, GapEstimate& estimate) {
+void report_play(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) {
   double sum = 0.0, variance = 0.0;
-  for (const Level& level : levels) {
+  for (const TorqueLevel& level : levels) {
     sum += level.play / static_cast<double>(levels.size());
     variance = std::max(variance, level.std * level.std);
   }
@@ -175,30 +175,31 @@ void report_play(const std::vector<Level>& levels, GapEstimate& estimate) {
         "the play at zero torque was read at one torque level only; ramp to another amplitude as well: a "
         "play that depends on it is friction or compliance");
   estimate.reason = "branches of the lost-motion loop: ";
-  for (const Level& level : levels)
+  for (const TorqueLevel& level : levels)
     estimate.reason += (&level == &levels.front() ? "" : ", ") + described(level);
   estimate.reason += fmt::format("; on each ramp x1 runs free over {:.3g} rad", levels.front().free_run);
 }
 
 /// No play at any level, but hysteresis.
-void report_none(const std::vector<Level>& levels, GapEstimate& estimate) {
+void report_none(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) {
   estimate.verdict = GapVerdict::kNone;
   estimate.reason = "quasi-static loop without a free run: hysteresis of friction and compliance, ";
-  for (const Level& level : levels)
+  for (const TorqueLevel& level : levels)
     estimate.reason += (&level == &levels.front() ? "" : ", ") + described(level);
 }
 
 /// @param travel  of the motor in all [rad]
-void decide(const std::vector<Level>& levels, double travel, GapEstimate& estimate) {
+void decide_gap(const std::vector<TorqueLevel>& levels, double travel, GapEstimate& estimate) {
   estimate.smallest_visible_gap = limit_of(levels);
   if (!std::isfinite(estimate.smallest_visible_gap)) estimate.smallest_visible_gap = kNaN;
-  for (const Level& a : levels)
-    for (const Level& b : levels)
+  for (const TorqueLevel& a : levels)
+    for (const TorqueLevel& b : levels)
       if (disagree(a, b)) return report_disagreement(levels, estimate);
   const auto shown =
-      std::count_if(levels.begin(), levels.end(), [](const Level& l) { return l.shows_play(); });
+      std::count_if(levels.begin(), levels.end(), [](const TorqueLevel& l) { return l.shows_play(); });
   if (shown == static_cast<std::ptrdiff_t>(levels.size())) return report_play(levels, estimate);
-  const bool leaps = std::any_of(levels.begin(), levels.end(), [](const Level& l) { return l.leaps(); });
+  const bool leaps =
+      std::any_of(levels.begin(), levels.end(), [](const TorqueLevel& l) { return l.leaps(); });
   if (shown == 0 && !leaps && estimate.smallest_visible_gap < travel) return report_none(levels, estimate);
   estimate.verdict = GapVerdict::kInconclusive;
   if (shown == 0 && !leaps) {
@@ -235,15 +236,15 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
   estimate.method = GapMethod::kLostMotion;
   estimate.quantity = GapQuantity::kPlayAtZeroTorque;
   for (const Loop& loop : loops) estimate.events.push_back(loop.event);
-  std::vector<Level> levels = levels_of(loops);
+  std::vector<TorqueLevel> levels = levels_of(loops);
   if (levels.empty()) return std::nullopt;
-  for (Level& level : levels) {
+  for (TorqueLevel& level : levels) {
     level.resolution = resolution;
     read_branches(level, branches);
     summarise(level);
   }
-  decide(levels, travel, estimate);
+  decide_gap(levels, travel, estimate);
   return estimate;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -6,7 +6,7 @@
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// The lost-motion loop of gear testing: x1 against the input of a quasi-static recording (locked or very
 /// heavy load, slow torque ramps), where no impact is to be seen.
@@ -27,4 +27,4 @@ namespace gapscope::internal {
 /// Nothing if a recording is not quasi-static, or has fewer than two loops at any level.
 std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordings);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

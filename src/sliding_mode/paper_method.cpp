@@ -8,7 +8,7 @@
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/bend.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 /// S2: a stretch of rest that long, as a share of the half period, is an interval in which e_x has converged.
@@ -218,4 +218,4 @@ void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const
   if (estimate.reason.empty()) fill_estimate(pool, estimate);
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -7,7 +7,7 @@
 #include "gapscope/sliding_mode/gap_estimate.h"
 #include "sliding_mode/impact_method.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// What one error signal e_x (one bound; forward Euler is the source's practice) shows of steps S2 to S4.
 struct PaperReading {
@@ -27,4 +27,4 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
 void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const PaperReading> readings,
                        GapEstimate& estimate);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

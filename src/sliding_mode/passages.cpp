@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kContrast = 1.6;  ///< ρ
@@ -16,7 +16,7 @@ constexpr std::size_t kSameSignSteps = 4;
 constexpr std::size_t kPersistent = 3;  ///< bounds that show what happened to the motor
 /// Recoil, ringing and overshoot follow an impact with the opposite sign, sometimes more abruptly than it;
 /// what precedes an impact with the opposite sign (the motor speeding up in the gap) is far less abrupt.
-bool dominates(const Event& strong, const Event& weak, const BankRun& run) {
+bool dominates(const BankEvent& strong, const BankEvent& weak, const BankRun& run) {
   if (strong.sign == weak.sign) return strong.top >= weak.top + kSameSignSteps;
   const double ratio = run.bounds[strong.top] / run.bounds[weak.top];
   return strong.start <= weak.start ? ratio >= 1.0 / kEcho : ratio > kEcho;
@@ -33,7 +33,7 @@ double bound_needed_before(const BankRun& run, std::size_t from, std::size_t to)
 
 /// Contact that was lost soon after an impact was lost in the rebound from it, with different speeds of motor
 /// and load. (A mark of the release itself is far less abrupt than the impact that follows it.)
-bool thrown_off(const TransitionContext& context, const Event& before, const Event& impact,
+bool thrown_off(const TransitionContext& context, const BankEvent& before, const BankEvent& impact,
                 const Transition& t) {
   const double since = t.event.t1 - context.trace.time(before.start);
   return since >= 0.0 && since < kRebound * (t.event.t2 - t.event.t1) &&
@@ -42,28 +42,29 @@ bool thrown_off(const TransitionContext& context, const Event& before, const Eve
 
 }  // namespace
 
-std::vector<Event> all_events(const BankRun& run, double half_period) {
+std::vector<BankEvent> all_events(const BankRun& run, double half_period) {
   std::vector<std::vector<Excursion>> excursions;
   for (std::size_t j = 0; j < run.bounds.size(); ++j) excursions.push_back(find_excursions(run, j));
   return link_events(run, excursions, static_cast<std::size_t>(std::max(4.0, 0.01 * half_period)));
 }
 
-std::optional<double> least_top(std::span<const Event> events, const BankRun& run, std::size_t half_periods) {
+std::optional<double> least_top(std::span<const BankEvent> events, const BankRun& run,
+                                std::size_t half_periods) {
   std::vector<double> tops;
-  for (const Event& e : events)
+  for (const BankEvent& e : events)
     if (e.seen >= kPersistent) tops.push_back(run.bounds[e.top]);
   if (tops.size() < kFewestHalfPeriods) return {};
   std::sort(tops.rbegin(), tops.rend());
   return tops[std::min(half_periods, tops.size()) - 1] / 6.0;
 }
 
-std::vector<Event> main_events(std::span<const Event> events, const BankRun& run, double least,
-                               double half_period) {
+std::vector<BankEvent> main_events(std::span<const BankEvent> events, const BankRun& run, double least,
+                                   double half_period) {
   const auto reach = static_cast<std::size_t>(kEchoReach * half_period);
-  std::vector<Event> found;
-  for (const Event& e : events) {
+  std::vector<BankEvent> found;
+  for (const BankEvent& e : events) {
     if (e.seen < kPersistent || run.bounds[e.top] < least) continue;
-    const bool echo = std::any_of(events.begin(), events.end(), [&](const Event& other) {
+    const bool echo = std::any_of(events.begin(), events.end(), [&](const BankEvent& other) {
       const std::size_t distance = other.start > e.start ? other.start - e.start : e.start - other.start;
       return other.seen >= kPersistent && distance <= reach && dominates(other, e, run);
     });
@@ -86,7 +87,7 @@ std::size_t top_bound(std::span<const std::size_t> tops, double share, std::size
   return static_cast<std::size_t>(low + (place - static_cast<double>(below)) * (high - low));
 }
 
-Transition read_passage(const TransitionContext& context, const Event& before, const Event& impact,
+Transition read_passage(const TransitionContext& context, const BankEvent& before, const BankEvent& impact,
                         double sliding) {
   const BankRun& run = context.run;
   const std::size_t from = before.start, to = impact.start;
@@ -102,4 +103,4 @@ Transition read_passage(const TransitionContext& context, const Event& before, c
   return t;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -8,22 +8,23 @@
 #include "sliding_mode/bank_run.h"
 #include "sliding_mode/transition.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 constexpr double kMiddle = 0.5;     ///< of the main events: the bound that decides t2
 constexpr double kMostTops = 0.95;  ///< … what an impact at every reversal would stand out of
 
 /// Everything that a bank of bounds saw happen to the motor.  @param half_period  [samples]
-std::vector<Event> all_events(const BankRun& run, double half_period);
+std::vector<BankEvent> all_events(const BankRun& run, double half_period);
 
 /// How abrupt a main event must be at least, as a bound [rad/s²]: a sixth of the weakest of the strongest,
 /// one for each half period. Nothing where fewer than kFewestHalfPeriods events are persistent.
-std::optional<double> least_top(std::span<const Event> events, const BankRun& run, std::size_t half_periods);
+std::optional<double> least_top(std::span<const BankEvent> events, const BankRun& run,
+                                std::size_t half_periods);
 
 /// Events that reach that bound, and are not the echo of another near by. Ranked by the top bound, never by
 /// Δv: for an acceleration step the latter is meaningless.  @param half_period  [samples]
-std::vector<Event> main_events(std::span<const Event> events, const BankRun& run, double least,
-                               double half_period);
+std::vector<BankEvent> main_events(std::span<const BankEvent> events, const BankRun& run, double least,
+                                   double half_period);
 
 /// Index of the bound that so many of the main events do not exceed.
 /// @param tops  how many of them have each bound of the grid as their top   @param none  where there are none
@@ -32,7 +33,7 @@ std::size_t top_bound(std::span<const std::size_t> tops, double share, std::size
 /// The passage that ends in `impact`, the first main event after a change of sign, with all that speaks
 /// against it.
 /// @param sliding  L_acc, the smallest bound that slides 80 % of the time [rad/s²]
-Transition read_passage(const TransitionContext& context, const Event& before, const Event& impact,
+Transition read_passage(const TransitionContext& context, const BankEvent& before, const BankEvent& impact,
                         double sliding);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

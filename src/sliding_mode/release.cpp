@@ -9,7 +9,7 @@
 #include "sliding_mode/kink_fit.h"
 #include "sliding_mode/transition.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr std::size_t kFewestInContact = 12;  ///< samples
@@ -76,4 +76,4 @@ Release find_release(const TransitionContext& context, const FlightLaw& law, con
   return release;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

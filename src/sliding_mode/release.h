@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 struct TransitionContext;
 struct ImpactTime;
@@ -36,4 +36,4 @@ struct Release {
 /// D.
 Release find_release(const TransitionContext& context, const FlightLaw& law, const ImpactTime& impact);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -9,7 +9,7 @@
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/folding.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kFastest = 1e60;  ///< beyond it squares of accelerations leave the range of a double [rad/s]
@@ -110,4 +110,4 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
   return facts;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

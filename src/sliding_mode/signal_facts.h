@@ -7,7 +7,7 @@
 
 #include "gapscope/recording/recording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// What the samples say about themselves, before any detection.
 struct SignalFacts {
@@ -38,4 +38,4 @@ double noise_from_differences(std::span<const double> y);
 /// Fewest half periods that make a motion periodic.
 constexpr std::size_t kFewestHalfPeriods = 4;
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -7,7 +7,7 @@ namespace gapscope {
 
 struct StreamDetector::State {
   double start, dt;
-  internal::FrozenSearch search;
+  internal::sliding_mode::FrozenSearch search;
 };
 
 StreamDetector::StreamDetector(double start, double dt, double quantum) {
@@ -27,7 +27,7 @@ std::size_t StreamDetector::passages() const { return state_->search.passages();
 LearntFacts StreamDetector::learnt() const {
   LearntFacts l;
   if (!has_learnt()) return l;
-  const internal::Frozen& f = state_->search.frozen();
+  const internal::sliding_mode::Frozen& f = state_->search.frozen();
   l.until = state_->start + state_->dt * static_cast<double>(f.samples - 1);
   l.half_period = f.facts.half_period;
   l.quantum = f.facts.quantum;
@@ -42,14 +42,15 @@ LearntFacts StreamDetector::learnt() const {
 
 std::vector<GapEvent> StreamDetector::take() {
   std::vector<GapEvent> events;
-  for (const internal::Transition& t : state_->search.take()) events.push_back(internal::event_of(t));
+  for (const internal::sliding_mode::Transition& t : state_->search.take())
+    events.push_back(internal::sliding_mode::event_of(t));
   return events;
 }
 
 GapEstimate StreamDetector::estimate() const {
-  const internal::ImpactAnalysis analysis = state_->search.summary();
+  const internal::sliding_mode::ImpactAnalysis analysis = state_->search.summary();
   GapEstimate estimate;
-  internal::decide({&analysis, 1}, {&state_->dt, 1}, estimate);
+  internal::sliding_mode::decide_gap({&analysis, 1}, {&state_->dt, 1}, estimate);
   if (has_learnt()) estimate.bound = analysis.run.bounds[analysis.deciding];
   estimate.events.clear();
   return estimate;

@@ -26,7 +26,7 @@ SuperTwistingGains SuperTwistingGains::from_bound(double L) {
   return {2.028 * std::sqrt(k2), k2};
 }
 
-namespace internal {
+namespace internal::sliding_mode {
 
 StepGains step_gains(double L) {
   const SuperTwistingGains gains = SuperTwistingGains::from_bound(L);
@@ -37,13 +37,13 @@ StepGains step_gains(double L) {
   return {gains.k1, gains.k2, (1.014 - spread) * scale, (1.014 + spread) * scale};
 }
 
-}  // namespace internal
+}  // namespace internal::sliding_mode
 
 SuperTwistingDifferentiator::SuperTwistingDifferentiator(double L, Discretisation discretisation)
     : gains_(SuperTwistingGains::from_bound(L)), discretisation_(discretisation) {
   if (!(L > 0.0) || !std::isfinite(L))
     throw std::invalid_argument("SuperTwistingDifferentiator: the bound L must be positive and finite");
-  const internal::StepGains gains = internal::step_gains(L);
+  const internal::sliding_mode::StepGains gains = internal::sliding_mode::step_gains(L);
   root1_ = gains.root1;
   root2_ = gains.root2;
 }
@@ -58,20 +58,20 @@ SuperTwistingDifferentiator::Estimate SuperTwistingDifferentiator::step(double y
     start(y, 0.0);
     return state_;
   }
-  const internal::StepGains gains{gains_.k1, gains_.k2, root1_, root2_};
-  internal::StepState s{state_.position, state_.velocity, state_.error};
+  const internal::sliding_mode::StepGains gains{gains_.k1, gains_.k2, root1_, root2_};
+  internal::sliding_mode::StepState s{state_.position, state_.velocity, state_.error};
   switch (discretisation_) {
     case Discretisation::kForwardEuler:
-      s = internal::advance<Discretisation::kForwardEuler>(s, gains, y, dt);
+      s = internal::sliding_mode::advance<Discretisation::kForwardEuler>(s, gains, y, dt);
       break;
     case Discretisation::kSemiImplicit:
-      s = internal::advance<Discretisation::kSemiImplicit>(s, gains, y, dt);
+      s = internal::sliding_mode::advance<Discretisation::kSemiImplicit>(s, gains, y, dt);
       break;
     case Discretisation::kImplicit:
-      s = internal::advance<Discretisation::kImplicit>(s, gains, y, dt);
+      s = internal::sliding_mode::advance<Discretisation::kImplicit>(s, gains, y, dt);
       break;
     case Discretisation::kMatched:
-      s = internal::advance<Discretisation::kMatched>(s, gains, y, dt);
+      s = internal::sliding_mode::advance<Discretisation::kMatched>(s, gains, y, dt);
       break;
   }
   state_ = {s.x, s.w, s.e};

@@ -12,7 +12,7 @@
 #define GAPSCOPE_INLINE inline
 #endif
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// The constants of one differentiator.
 struct StepGains {
@@ -89,4 +89,4 @@ GAPSCOPE_INLINE StepState advance(StepState s, const StepGains& g, double y, dou
 
 StepGains step_gains(double L);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

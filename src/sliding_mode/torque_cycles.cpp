@@ -6,7 +6,7 @@
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/signal_facts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 using Samples = std::span<const double>;
@@ -124,4 +124,4 @@ std::vector<double> branch_positions(const MotorTrace& trace, const TorqueCycles
   return positions;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

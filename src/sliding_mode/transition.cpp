@@ -8,9 +8,9 @@
 #include "sliding_mode/impact_time.h"
 #include "sliding_mode/release.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
-const char* describe(Refusal refusal) {
+const char* refusal_text(Refusal refusal) {
   switch (refusal) {
     case Refusal::kNone:
       return "";
@@ -84,7 +84,7 @@ Reversal find_reversal(const TransitionContext& context, int direction, std::siz
   return r;
 }
 
-FlightWindow flight_window(const TransitionContext& context, const Event& impact, const Reversal& r) {
+FlightWindow flight_window(const TransitionContext& context, const BankEvent& impact, const Reversal& r) {
   const auto reach = static_cast<std::size_t>(kReach * context.facts.half_period / context.trace.dt);
   const std::size_t first = impact.start - std::min(impact.start, reach);
   const std::size_t after = (impact.start - r.last) / 4 + 3 * impact.latency + 2;
@@ -126,7 +126,7 @@ void read_release(Transition& t, const TransitionContext& context, const FlightL
 
 }  // namespace
 
-Transition read_transition(const TransitionContext& context, const Event& impact, std::size_t from) {
+Transition read_transition(const TransitionContext& context, const BankEvent& impact, std::size_t from) {
   Transition t;
   const auto& trace = context.trace;
   t.event.file = trace.file;
@@ -159,4 +159,4 @@ Transition read_transition(const TransitionContext& context, const Event& impact
   return t;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -8,7 +8,7 @@
 #include "sliding_mode/bank_run.h"
 #include "sliding_mode/signal_facts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// Why a passage of the gap was not used, in the order in which it is tested.
 enum class Refusal {
@@ -23,8 +23,8 @@ enum class Refusal {
   kThrownOff,    ///< the impact before threw the bodies apart: they do not share a speed at t1
 };
 
-const char* describe(Refusal refusal);  ///< for the remark of an event
-std::string advice(Refusal refusal);    ///< what to change where it is the commonest
+const char* refusal_text(Refusal refusal);  ///< for the remark of an event
+std::string advice(Refusal refusal);        ///< what to change where it is the commonest
 
 /// One candidate passage: an impact, and the release before it.
 struct Transition {
@@ -47,6 +47,6 @@ struct TransitionContext {
 };
 
 /// The passage that ends in `impact` and began after sample `from`.
-Transition read_transition(const TransitionContext& context, const Event& impact, std::size_t from);
+Transition read_transition(const TransitionContext& context, const BankEvent& impact, std::size_t from);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

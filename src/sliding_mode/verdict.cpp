@@ -8,7 +8,7 @@
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/visible_gap.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kVisible =
@@ -235,12 +235,12 @@ GapEvent event_of(const Transition& t) {
   GapEvent event = t.event;
   event.std = t.half_width;
   event.accepted = t.refusal == Refusal::kNone;
-  if (!event.accepted) event.remark = describe(t.refusal);
+  if (!event.accepted) event.remark = refusal_text(t.refusal);
   return event;
 }
 
-void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
-            GapEstimate& estimate) {
+void decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
+                GapEstimate& estimate) {
   estimate.method = GapMethod::kImpact;
   for (const ImpactAnalysis& a : analyses)
     for (const Transition& t : a.passages) estimate.events.push_back(event_of(t));
@@ -264,4 +264,4 @@ void decide(std::span<const ImpactAnalysis> analyses, std::span<const double> in
   estimate.reason = too_slow(pool) ? slow_motion(pool) : against;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -5,7 +5,7 @@
 
 #include "gapscope/base/statistics.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kRestitution = 0.4;  ///< the least that is expected of a contact
@@ -53,4 +53,4 @@ double smallest_visible_gap(const MotorTrace& trace, const SignalFacts& facts, c
   return gap < 2.0 * facts.amplitude ? gap : kInfinity;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -4,7 +4,7 @@
 #include "sliding_mode/bank_run.h"
 #include "sliding_mode/signal_facts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 
 /// Smallest mass ratio of load and motor for which a gap is said to be visible: lighter loads leave a weaker
 /// impact.
@@ -19,4 +19,4 @@ constexpr double kSmallestMassRatio = 0.3;
 double smallest_visible_gap(const MotorTrace& trace, const SignalFacts& facts, const BankRun& run,
                             std::size_t hiding);
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -88,5 +88,19 @@ TEST(WholeFile, LeavesWhatChangedMeanwhile) {
   EXPECT_EQ(std::distance(fs::directory_iterator(place.folder()), {}), 1) << "nothing is left aside";
 }
 
+TEST(WholeFile, TakesThePlaceOfWhatItFoundAlone) {
+  const testing::TemporaryFile place("old");
+  write_whole_file(place.path(), [](std::ostream& out) { out << "new"; });
+  EXPECT_EQ(text_of(place.path()), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(place.folder()), {}), 1) << "nothing is left aside";
+  const auto moved_over = [&](std::ostream& out) {
+    out << "newer";
+    std::ofstream(place.folder() / "other") << "mine";
+    fs::rename(place.folder() / "other", place.path());
+  };
+  EXPECT_THROW(write_whole_file(place.path(), moved_over), ConfigError);
+  EXPECT_EQ(text_of(place.path()), "mine");
+}
+
 }  // namespace
 }  // namespace gapscope

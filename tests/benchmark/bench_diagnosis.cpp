@@ -63,7 +63,8 @@ void measure(const char* effect) {
   options.threads = 1;
   Diagnosis d;
   const double whole = seconds_of([&] { fit(train, drive.sheet, options.fit); });
-  const double descent = seconds_of([&] { internal::fit_nominal(train, drive.sheet, options.fit, 3.0); });
+  const double descent =
+      seconds_of([&] { internal::diagnosis::fit_nominal(train, drive.sheet, options.fit, 3.0); });
   const double diagnosis = seconds_of([&] { d = diagnose(train, held_out, drive.sheet, options); });
   fmt::print("{:<24} {:>8.2f} s = {:6.1f} fits of {:.3f} s = {:6.1f} descents of {:.3f} s   {}\n", effect,
              diagnosis, diagnosis / whole, whole, diagnosis / descent, descent, d.sentence);

@@ -157,5 +157,18 @@ TEST(CampaignStore, TakesNothingIntoANewStoreThatLiesBesideIt) {
   }
 }
 
+TEST(CampaignStore, LeavesAUsersFileBesideItAlone) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  { CampaignStore(small.place("store"), campaign_header(small.config, {})); }
+  for (const char* end : {"-wal", "-shm", "-journal"}) {
+    const std::string file = small.place("store/results.sqlite") + end;
+    std::ofstream(file) << "notes of mine";
+    EXPECT_THAT(testing::refusal([&] { CampaignStore(small.place("store")); }),
+                HasSubstr("is not what SQLite keeps beside a store"));
+    EXPECT_EQ(testing::text_of(file), "notes of mine");
+    std::filesystem::remove(file);
+  }
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -33,7 +33,7 @@ TEST(Runner, ARowIsWhatTheCommandGivesForItsResolvedConfiguration) {
   const CampaignRow row = run_of_campaign(small.config, 8, timing);
   EXPECT_EQ(row.error, "");
   EXPECT_EQ(row.seed, "3");
-  const Outcome again =
+  const RunOutcome again =
       run_pipeline(parse_configuration(row.configuration, "resolved.yaml"), {}, [](const std::string&) {});
   EXPECT_EQ(row.reference_gap, again.result.reference->find("gap")->value);
   EXPECT_EQ(row.verdict, to_string(again.result.model_free->verdict));

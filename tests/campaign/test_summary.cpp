@@ -12,11 +12,11 @@
 namespace gapscope {
 namespace {
 
-using internal::answers;
-using internal::axis_name;
-using internal::range_in_words;
-using internal::Scorer;
-using internal::with_unit;
+using internal::campaign::answers;
+using internal::campaign::axis_name;
+using internal::campaign::range_in_words;
+using internal::campaign::Scorer;
+using internal::campaign::with_unit;
 using testing::SmallCampaign;
 
 /// A run on a drive of 2β = 10 mrad in which both answered.

@@ -133,7 +133,7 @@ TEST(CampaignConfig, AHypercubeMeetsEveryStratumOfEveryAxisOnce) {
 TEST(CampaignConfig, ThePermutationOfAHypercubeIsOneForEverySize) {
   for (const std::uint64_t size : {1u, 2u, 3u, 17u, 64u, 1000u}) {
     std::set<std::uint64_t> seen;
-    for (std::uint64_t i = 0; i < size; ++i) seen.insert(internal::permuted(i, size, 99));
+    for (std::uint64_t i = 0; i < size; ++i) seen.insert(internal::config::permuted(i, size, 99));
     EXPECT_EQ(seen.size(), size);
     EXPECT_EQ(*seen.rbegin(), size - 1);
   }

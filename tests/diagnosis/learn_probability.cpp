@@ -27,7 +27,7 @@ StepOutcome outcome_after(const std::string& details, const std::string& mark) {
       std::sscanf(details.c_str() + from, " rel %lf margin %lf gain %lf", &o.rel, &o.margin, &o.gain) != 3)
     return {};
   o.ranking = {"first"};  // there was a candidate
-  o.probability = internal::group_probability(o.rel, o.margin, o.gain);
+  o.probability = internal::diagnosis::group_probability(o.rel, o.margin, o.gain);
   return o;
 }
 
@@ -39,7 +39,7 @@ std::vector<Judgement> later_judgements_of(const char* file) {
          at = row.details.find("{later ", at + 1)) {
       StepOutcome o = outcome_after(row.details.substr(at), "{later ");
       if (!(o.gain > 0.0)) continue;
-      o.probability = internal::later_probability(o.rel, o.margin, o.gain);
+      o.probability = internal::diagnosis::later_probability(o.rel, o.margin, o.gain);
       all.push_back({o, row.details.compare(at, 12, "{later right") == 0});
     }
   return all;

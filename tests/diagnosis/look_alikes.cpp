@@ -8,7 +8,7 @@
 namespace gapscope::test {
 namespace {
 
-using namespace gapscope::internal;
+using namespace gapscope::internal::diagnosis;
 
 constexpr double kHz = 3.0;
 constexpr double kSeverity = 0.6;

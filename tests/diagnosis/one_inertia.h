@@ -8,7 +8,7 @@ namespace gapscope::test {
 /// under a sine, held out under steps, its sheet 20 % off.
 inline blind::BlindPair one_inertia(const blind::MotorEffects& effects, std::uint64_t seed) {
   blind::BlindCase c;
-  c.drive.load = blind::LoadKind::kNone;
+  c.drive.load = blind::BlindLoad::kNone;
   c.drive.motor_inertia *= 2.0;
   c.drive.effects.motor = effects;
   c.options = {1000.0, 5.0, seed, blind::kFastTolerance};

@@ -17,7 +17,7 @@
 namespace gapscope::test {
 namespace {
 
-using namespace gapscope::internal;
+using namespace gapscope::internal::diagnosis;
 using Names = std::vector<std::string>;
 
 const std::vector<Names>& families() {

@@ -27,7 +27,7 @@
 namespace {
 
 using namespace gapscope;
-using namespace gapscope::internal;
+using namespace gapscope::internal::diagnosis;
 using test::StudyRow;
 
 std::vector<std::string> effects_of(const std::string& kind) {
@@ -39,7 +39,7 @@ std::vector<std::string> effects_of(const std::string& kind) {
     return pairs;
   }
   std::vector<std::string> names;
-  for (const blind::EffectEntry& e : blind::effect_entries())
+  for (const blind::DrawnEffect& e : blind::effect_entries())
     if (e.in_catalogue == (kind == "known" || kind == "one") && e.name != "backlash")
       names.emplace_back(e.name);
   return names;

@@ -63,7 +63,7 @@ TEST(Diagnosis, TakesASteadySpeedForNoCoarserEncoder) {
   const blind::BlindPair pair = blind::blind_pair("paper", "shaft_compliance", 0.336, 420016);
   const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
   ASSERT_GT(seen_quantum(held_out[0].x1), 1.5 * held_out[0].quantum);  // its steps alone look like counts
-  EXPECT_EQ(internal::make_study(train, held_out, pair.sheet, {}).seen_quantum, 0.0);
+  EXPECT_EQ(internal::diagnosis::make_study(train, held_out, pair.sheet, {}).seen_quantum, 0.0);
 }
 
 const Diagnosis& of_motor_friction() {
@@ -179,11 +179,11 @@ TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
   give_effect(truth, "encoder_eccentricity", 0.5, 400012);
   const blind::BlindPair pair = blind::blind_pair("paper", "encoder_eccentricity", 0.5, 400012);
   const MotorTrace train[] = {pair.train.motor_trace()};
-  const internal::Fitted nominal = internal::fit_nominal(train, pair.sheet, {}, 3.0);
-  const internal::EffectStart far{0.02, 0.0};
-  const internal::Fitted found =
-      internal::fit_candidate(train, nominal, internal::bases_of(train, nominal, pair.sheet, {}, 3.0),
-                              *find_effect("encoder_eccentricity"), {&far, 1}, nullptr, {}, 3.0);
+  const internal::diagnosis::Fitted nominal = internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
+  const internal::diagnosis::EffectStart far{0.02, 0.0};
+  const internal::diagnosis::Fitted found = internal::diagnosis::fit_candidate(
+      train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0),
+      *find_effect("encoder_eccentricity"), {&far, 1}, nullptr, {}, 3.0);
   const auto& values = found.model.effects.back().parameters;
   EXPECT_NEAR(values[0].value / truth.drive.effects.sensor.eccentricity_rad, 1.0, 0.02);
   EXPECT_NEAR(std::remainder(values[1].value - truth.drive.effects.sensor.eccentricity_phase_rad, 2.0 * kPi),
@@ -214,14 +214,15 @@ TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
 TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
   const blind::BlindPair pair = blind::blind_pair("geared", "none", 0.0, 500001);
   const MotorTrace train[] = {pair.train.motor_trace()};
-  const internal::Fitted nominal = internal::fit_nominal(train, pair.sheet, {}, 3.0);
+  const internal::diagnosis::Fitted nominal = internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectEntry* cogging = find_effect("cogging_torque");
-  const internal::Fitted without_a_line =
-      internal::fit_candidate(train, nominal, internal::bases_of(train, nominal, pair.sheet, {}, 3.0),
-                              *cogging, {}, nullptr, {}, 3.0);
+  const internal::diagnosis::Fitted without_a_line = internal::diagnosis::fit_candidate(
+      train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0), *cogging, {},
+      nullptr, {}, 3.0);
   EXPECT_EQ(without_a_line.mean_square, kInfinity);
-  const internal::EffectStart start{0.05, 2.0, 0.0};
-  EXPECT_EQ(internal::fit_candidate(train, nominal, {}, *cogging, {&start, 1}, &nominal, {}, 3.0).mean_square,
+  const internal::diagnosis::EffectStart start{0.05, 2.0, 0.0};
+  EXPECT_EQ(internal::diagnosis::fit_candidate(train, nominal, {}, *cogging, {&start, 1}, &nominal, {}, 3.0)
+                .mean_square,
             kInfinity);
 }
 

@@ -3,7 +3,7 @@
 
 #include "diagnosis/further.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 Judged model(double score, double median, double mean_square) {
@@ -103,4 +103,4 @@ TEST(FurtherSteps, CountFarFromTheFloorOnlyWhereTheyAreClearInEveryRespect) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -10,7 +10,7 @@
 namespace gapscope {
 namespace {
 
-using namespace internal;
+using namespace internal::diagnosis;
 
 constexpr double kCycles = 13.7;  // no whole number of cycles per turn
 

@@ -6,7 +6,7 @@
 
 #include "diagnosis/probability.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 /// Two candidates that the data hardly tells apart, and a third one far behind.
@@ -60,4 +60,4 @@ TEST(Probability, GrowsWithTheMarginAndIsNoneWithoutGain) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

@@ -2,7 +2,7 @@
 
 #include "diagnosis/remark.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::diagnosis {
 namespace {
 
 Judged model(double innovation, double free) {
@@ -33,4 +33,4 @@ TEST(Remark, NamesParametersAtABound) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::diagnosis

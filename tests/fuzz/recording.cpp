@@ -39,7 +39,8 @@ int read_recording(std::string_view bytes) {
   options.window = {0.01, 0.5};
   options.resample_rate = 700.0;
   taken += attempt([&] { require_sound(gapscope::read_recording(file.path(), options)); });
-  taken += attempt([&] { internal::read_window(file.path(), {}, internal::EarlierRow::kSkipped); });
+  taken += attempt(
+      [&] { internal::recording::read_window(file.path(), {}, internal::recording::EarlierRow::kSkipped); });
   return taken + attempt([&] { read_in_pieces(bytes); });
 }
 

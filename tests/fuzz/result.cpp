@@ -43,9 +43,9 @@ int read_json(const Report& report) {
   taken += attempt([&] { read_blind_score(folder); });
   taken += attempt([&] { read_drive_changes(folder); });
   taken += attempt([&] { read_timing(folder); });
-  static const GivenFile list(internal::kFileList);  // which may be no link
+  static const GivenFile list(internal::results::kFileList);  // which may be no link
   list.fill(testing::text_of(path));
-  taken += attempt([&] { internal::read_file_list(list.folder()); });
+  taken += attempt([&] { internal::results::read_file_list(list.folder()); });
   taken += attempt([&] { read_blind_labels(path); });
   taken += attempt([&] { read_blind_manifest(path); });
   return taken + attempt([&] { read_blind_answers(path); });
@@ -64,13 +64,13 @@ int read_result(std::string_view bytes) {
   report.file.fill(bytes);
   if (bytes.starts_with('{')) return read_json(report) + attempt([&] { read_line(std::string(bytes)); });
   const int taken = attempt([&] {
-    internal::TraceSet set;
-    internal::read_trace(report.file.path(), set);
+    internal::results::TraceSet set;
+    internal::results::read_trace(report.file.path(), set);
   });
   return taken + attempt([&] {
            BoundMap map;
            map.bounds = {1.0, 2.0};
-           internal::read_bound_map(report.file.path(), map);
+           internal::results::read_bound_map(report.file.path(), map);
          });
 }
 

@@ -164,6 +164,55 @@ TEST(Layout, CeresIsSeenOnlyByTheFitAndItsJetsOnlyByTheScalarHeader) {
   }
 }
 
+/// Types, and functions at the beginning of a line; not what stands in a nameless namespace.
+Names names_defined_in(const fs::path& file) {
+  static const std::regex type(R"rx(^(?:enum )?(?:class|struct|enum) (?:\[\[\w+\]\] )?(\w+)[^;()]*\{)rx");
+  static const std::regex function(
+      R"rx(^(?!return|using|namespace|template|else|#|//|typedef|\s)[\w:<>,&* \[\]]*?[\w>&*] [&*]?(\w+)\()rx");
+  Names names;
+  std::ifstream in(file);
+  std::smatch match;
+  for (std::string line; std::getline(in, line);)
+    if (std::regex_search(line, match, type) || std::regex_search(line, match, function))
+      names.insert(match[1]);
+  return names;
+}
+
+TEST(Layout, NoNameIsDefinedInTwoModules) {
+  // Answers that a type of each module gives to the same question; which one is meant, its argument says.
+  const Names shared = {"to_string", "fields"};
+  std::map<std::string, std::map<std::string, std::string>> defined;  // name, module, file
+  for (const char* top : {"include/gapscope", "src"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+      if (entry.path().extension() != ".h") continue;
+      const fs::path relative = fs::relative(entry.path(), kRoot);
+      for (const std::string& name : names_defined_in(entry.path()))
+        defined[name][module_of(relative)] = relative.string();
+    }
+  ASSERT_GT(defined.size(), 500u);
+  for (const auto& [name, modules] : defined) {
+    if (shared.contains(name)) continue;
+    EXPECT_EQ(modules.size(), 1u) << name << " is in " << modules.begin()->second << " and "
+                                  << modules.rbegin()->second;
+  }
+}
+
+TEST(Layout, WhatIsPrivateIsInTheNamespaceOfItsModule) {
+  const std::regex opened(R"rx(^\s*namespace (gapscope[\w:]*) \{)rx");
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "src")) {
+    if (entry.path().extension() != ".h") continue;
+    const fs::path relative = fs::relative(entry.path(), kRoot);
+    const std::string module = module_of(relative);
+    const Names own = {"gapscope::internal::" + module, "gapscope::" + module.substr(0, module.find('/'))};
+    std::ifstream in(entry.path());
+    std::smatch match;
+    for (std::string line; std::getline(in, line);)
+      if (std::regex_search(line, match, opened)) {
+        EXPECT_TRUE(own.contains(match[1])) << relative << " opens " << match[1];
+      }
+  }
+}
+
 TEST(Layout, TopLevelHoldsNothingThatWasNotAgreed) {
   const Names agreed = {"CMakeLists.txt", "src",     "include",   "configs", "docs",
                         "tests",          "reports", "README.md", "LICENSE"};

@@ -12,9 +12,9 @@ namespace gapscope {
 namespace {
 
 /// Rows at irregular times (steps of 2 to 4 ms) of a straight line and a random input.
-internal::RecordedRows irregular(int count) {
+internal::recording::RecordedRows irregular(int count) {
   auto draw = random_stream(3, "resample");
-  internal::RecordedRows table;
+  internal::recording::RecordedRows table;
   double t = 0.25;
   for (int i = 0; i < count; ++i) {
     table.t.push_back(t);
@@ -29,7 +29,7 @@ internal::RecordedRows irregular(int count) {
 
 TEST(Resample, PositionsAreLinearBetweenRows) {
   const auto table = irregular(500);
-  const Recording r = internal::resample(table, 400.0);
+  const Recording r = internal::recording::resample(table, 400.0);
   ASSERT_EQ(r.x1.size(), r.x2.size());
   for (std::size_t i = 0; i < r.size(); ++i) {  // a straight line is kept but for rounding, some 1e-15
     EXPECT_NEAR(r.x1[i], 2.0 + 3.0 * r.time(i), 1e-13);
@@ -40,7 +40,7 @@ TEST(Resample, PositionsAreLinearBetweenRows) {
 TEST(Resample, TheImpulseOfTheInputIsKept) {
   const auto table = irregular(500);
   for (const double rate : {50.0, 400.0, 5000.0}) {
-    const Recording r = internal::resample(table, rate);
+    const Recording r = internal::recording::resample(table, rate);
     double kept = 0.0, held = 0.0;
     for (const double u : r.u) kept += u * r.dt;
     const double end = r.time(r.size());
@@ -53,14 +53,14 @@ TEST(Resample, TheImpulseOfTheInputIsKept) {
 }
 
 TEST(Resample, AUniformTableAtItsOwnRateIsUnchanged) {
-  internal::RecordedRows table;
+  internal::recording::RecordedRows table;
   for (int i = 0; i < 100; ++i) {
     table.t.push_back(i / 1000.0);
     table.u.push_back(std::sin(i));
     table.x1.push_back(std::cos(i));
     table.line.push_back(i);
   }
-  const Recording r = internal::resample(table, 1000.0);
+  const Recording r = internal::recording::resample(table, 1000.0);
   ASSERT_EQ(r.size(), table.size());
   for (std::size_t i = 0; i < r.size(); ++i) {
     // Rounding of t (1e-17 of 1e-3 s) times the largest step (2 per sample) stays below 1e-12.
@@ -70,13 +70,13 @@ TEST(Resample, AUniformTableAtItsOwnRateIsUnchanged) {
 }
 
 TEST(Resample, TheNoteTellsWhatWasDone) {
-  const Recording r = internal::resample(irregular(500), 400.0);
+  const Recording r = internal::recording::resample(irregular(500), 400.0);
   EXPECT_THAT(r.resampling, ::testing::HasSubstr("to 400 Hz"));
   EXPECT_THAT(r.resampling, ::testing::HasSubstr("steps of 2"));
 }
 
 TEST(Resample, ARateBeyondReasonIsRefused) {
-  EXPECT_THROW(internal::resample(irregular(500), 1e9), ConfigError);
+  EXPECT_THROW(internal::recording::resample(irregular(500), 1e9), ConfigError);
 }
 
 }  // namespace

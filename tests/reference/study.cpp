@@ -86,7 +86,7 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   return c;
 }
 
-struct Outcome {
+struct FitOutcome {
   Case drawn;
   FitSummary found;
   double cost_ratio = kNaN;  ///< to that of a fit started at the truth
@@ -99,8 +99,8 @@ ReferenceModel model_of(const Case& c, const std::array<double, kDriveParameterC
   return model;
 }
 
-Outcome run_case(const Case& c, int free) {
-  Outcome o;
+FitOutcome run_case(const Case& c, int free) {
+  FitOutcome o;
   o.drawn = c;
   const Recording recording = c.run.recording();
   const auto begin = std::chrono::steady_clock::now();
@@ -114,7 +114,7 @@ Outcome run_case(const Case& c, int free) {
   return o;
 }
 
-double relative_error(const Outcome& o, int number) {
+double relative_error(const FitOutcome& o, int number) {
   const FittedParameter* p = o.found.find(kDriveParameters[number].key);
   return std::abs(p->value / o.drawn.truth[static_cast<std::size_t>(number)] - 1.0);
 }
@@ -125,7 +125,7 @@ struct Tally {
   std::map<int, std::vector<double>> errors;
   std::vector<double> seconds, simulations;
 
-  void add(const Outcome& o, int free) {
+  void add(const FitOutcome& o, int free) {
     ++cases;
     at_optimum += o.cost_ratio <= kSameCost;
     seconds.push_back(o.seconds);
@@ -151,7 +151,7 @@ struct Tally {
   }
 };
 
-void print_case(std::uint64_t seed, const Outcome& o, int free) {
+void print_case(std::uint64_t seed, const FitOutcome& o, int free) {
   const Case& c = o.drawn;
   fmt::print(
       "{} {} {} {} bit noise {:.1f} | ratio {:.4f} rmse/floor {:.2f} innov/floor {:.2f} at {:.3g} Hz "
@@ -174,7 +174,7 @@ int main_study(int argc, char** argv) {
   const int free = argc > 4 ? std::clamp(std::atoi(argv[4]), 1, 7) : 5;
   const bool verbose = argc > 5 && std::atoi(argv[5]) > 0;
   const int jobs = argc > 6 ? std::max(1, std::atoi(argv[6])) : 1;
-  std::vector<Outcome> outcomes(static_cast<std::size_t>(count));
+  std::vector<FitOutcome> outcomes(static_cast<std::size_t>(count));
   std::atomic<int> next = 0;
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) {
@@ -188,7 +188,7 @@ int main_study(int argc, char** argv) {
   for (std::thread& t : threads) t.join();
   std::map<std::string, Tally> tallies;
   for (int i = 0; i < count; ++i) {
-    const Outcome& o = outcomes[static_cast<std::size_t>(i)];
+    const FitOutcome& o = outcomes[static_cast<std::size_t>(i)];
     if (verbose) print_case(first + static_cast<std::uint64_t>(i), o, free);
     tallies["0 all"].add(o, free);
     tallies[fmt::format("1 {} bit", o.drawn.bits)].add(o, free);

@@ -2,7 +2,7 @@
 
 #include "reference/coordinate.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 TEST(Coordinate, RunsBothWaysOverTwelveDecadesAndThroughZero) {
@@ -26,4 +26,4 @@ TEST(Coordinate, ItsSlopeIsThatOfTheJet) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

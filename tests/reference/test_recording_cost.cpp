@@ -8,7 +8,7 @@
 #include "reference/rigs.h"
 #include "reference/starts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 using namespace test;
@@ -164,4 +164,4 @@ TEST(RecordingCost, TheObserverForgetsAWrongStartAtItsOwnRate) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

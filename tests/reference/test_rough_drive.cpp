@@ -3,12 +3,12 @@
 #include "reference/rigs.h"
 #include "reference/rough_drive.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::reference {
 namespace {
 
 TEST(RoughDrive, TheBalanceOfOneInertiaIsItsOwn) {
   test::BlindRig run;
-  run.drive.load = blind::LoadKind::kNone;
+  run.drive.load = blind::BlindLoad::kNone;
   run.drive.effects.motor.friction.level_nm = 0.01;
   run.excitation.waveform = blind::Waveform::kMultisine;
   const Recording recording = run.recording();
@@ -44,4 +44,4 @@ TEST(RoughDrive, TheFloorIsTheQuantisersOrTheNoisesWhicheverIsLarger) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::reference

@@ -4,7 +4,7 @@
 
 #include "report/draw_figure.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 
 /// No text of the drawing is cut off or meets another.
 inline void expect_clear_texts(const FigureData& figure, const Drawing& drawing) {
@@ -17,4 +17,4 @@ inline void expect_clear_texts(const FigureData& figure, const Drawing& drawing)
   }
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -11,7 +11,7 @@
 #include "report/draw_figure.h"
 #include "support/temporary_file.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -82,4 +82,4 @@ TEST(BlindReport, SaysWhatWasMissedAndListsEveryWrongAnswer) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

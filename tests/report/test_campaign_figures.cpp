@@ -5,7 +5,7 @@
 #include "report/clear_texts.h"
 #include "report/draw_figure.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST(CampaignText, SharesAreShort) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -45,11 +45,11 @@ TEST(ChangesReport, TheFigureShowsEveryReadingAndHoldsItsTextsApart) {
   for (const bool rotation : {true, false}) {
     DriveChanges all = sample();
     all.rotation = rotation;
-    const internal::FigureData figure = internal::gap_over_recordings(all);
-    const internal::Drawing drawing = internal::draw_with_notes(figure);
-    internal::expect_clear_texts(figure, drawing);
+    const internal::report::FigureData figure = internal::report::gap_over_recordings(all);
+    const internal::report::Drawing drawing = internal::report::draw_with_notes(figure);
+    internal::report::expect_clear_texts(figure, drawing);
     std::string texts;
-    for (const internal::DrawnText& t : drawing.texts) texts += t.markup + "\n";
+    for (const internal::report::DrawnText& t : drawing.texts) texts += t.markup + "\n";
     for (const char* expected : {"model-free", "reference", "model-free: none above", "recording_of_month_1"})
       EXPECT_THAT(texts, HasSubstr(expected));
     EXPECT_THAT(texts, HasSubstr(rotation ? "(mrad)" : "(mm)"));
@@ -75,7 +75,7 @@ TEST(ChangesReport, IsDrawnFromTheStoredComparisonAlone) {
 TEST(ChangesReport, OfReportsWithoutAGapHasNoFigure) {
   DriveChanges all = sample();
   for (DriveQuantity& q : all.quantities) q.key = "load_damping", q.unit = "N m s/rad";
-  EXPECT_THAT(internal::gap_over_recordings(all).missing, HasSubstr("no report tells a gap"));
+  EXPECT_THAT(internal::report::gap_over_recordings(all).missing, HasSubstr("no report tells a gap"));
   EXPECT_THAT(changes_text(all), Not(HasSubstr("mrad")));
 }
 

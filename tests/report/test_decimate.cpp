@@ -6,7 +6,7 @@
 #include "gapscope/base/random.h"
 #include "report/decimate.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 TEST(DecimateColumns, KeepsTheExtremesOfEveryColumn) {
@@ -54,4 +54,4 @@ TEST(ThinOut, LeavesNoHoleWiderThanOneStepMoreThanAsked) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -106,7 +106,7 @@ TEST(DiagnosisReport, TheCaptionKnowsOfTheLineThatTheTableLists) {
   r.diagnosis.where.periods_per_turn = kNaN;
   r.rotation = false;
   r.diagnosis.periodic.front().periods_per_turn = 2.0 * kPi / 2.5e-3;
-  const std::string reading = internal::diagnosis_torque_map(r).reading;
+  const std::string reading = internal::report::diagnosis_torque_map(r).reading;
   EXPECT_NE(
       reading.find("No cycle over the displacement stands out of what the nominal model leaves. In what "
                    "remains with cogging torque one does: every 2.50 mm."),
@@ -116,41 +116,42 @@ TEST(DiagnosisReport, TheCaptionKnowsOfTheLineThatTheTableLists) {
 
 TEST(DiagnosisReport, TheTorqueMapShowsWhatRemainsBesideWhatTheNominalModelLeaves) {
   DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
-  const auto both = internal::diagnosis_torque_map(r);
+  const auto both = internal::report::diagnosis_torque_map(r);
   ASSERT_EQ(both.panels.size(), 4u);
   EXPECT_EQ(both.panels[0].title, "Nominal model, over the motor angle");
   EXPECT_EQ(both.panels[1].title, "With cogging torque, over the motor angle");
   EXPECT_NE(both.panels[0].series[0].y, both.panels[1].series[0].y);
   EXPECT_EQ(both.panels[0].series[0].x, both.panels[1].series[0].x);
   r.diagnosis.effects.clear();
-  EXPECT_EQ(internal::diagnosis_torque_map(r).panels.size(), 2u);
+  EXPECT_EQ(internal::report::diagnosis_torque_map(r).panels.size(), 2u);
 }
 
 TEST(DiagnosisReport, AMapOfAnErrorThatIsAlikeEverywhereIsLeftOut) {
   DiagnosisResult r = sample(DiagnosisVerdict::kUnknown);
   r.diagnosis.where.direction = {{"backward", 0.51, 0.5}, {"forward", 0.49, 0.5}};
-  for (const auto& panel : internal::diagnosis_where(r).panels) EXPECT_NE(panel.title, "Direction of motion");
+  for (const auto& panel : internal::report::diagnosis_where(r).panels)
+    EXPECT_NE(panel.title, "Direction of motion");
 }
 
 TEST(DiagnosisReport, AMapOfOnePlaceIsLeftOutAndSoAreNoCandidatesInSilence) {
   DiagnosisResult r = sample(DiagnosisVerdict::kUnknown);
   r.diagnosis.where.mode = {{"gap", 0.0, 0.0}, {"engagement", 1.0, 1.0}, {"impact", 0.0, 0.0}};
-  const auto where = internal::diagnosis_where(r);
+  const auto where = internal::report::diagnosis_where(r);
   ASSERT_EQ(where.panels.size(), 6u);
   EXPECT_EQ(where.panels.front().title, "Direction of motion");
   while (r.diagnosis.ranking.size() < 18) r.diagnosis.ranking.push_back(r.diagnosis.ranking.back());
-  EXPECT_NE(internal::diagnosis_ranking(r).panels[0].title.find("first 12 of 18"), std::string::npos);
+  EXPECT_NE(internal::report::diagnosis_ranking(r).panels[0].title.find("first 12 of 18"), std::string::npos);
 }
 
 TEST(DiagnosisReport, WithoutCandidatesTheRankingIsLeftOutWithItsReason) {
   DiagnosisResult none = sample(DiagnosisVerdict::kNone);
   none.diagnosis.ranking.clear();
-  const auto figure = internal::diagnosis_ranking(none);
+  const auto figure = internal::report::diagnosis_ranking(none);
   EXPECT_NE(figure.missing.find("at the floor"), std::string::npos);
 }
 
 TEST(DiagnosisReport, BarsEndAtTheShares) {
-  const auto figure = internal::diagnosis_where(sample(DiagnosisVerdict::kUnknown));
+  const auto figure = internal::report::diagnosis_where(sample(DiagnosisVerdict::kUnknown));
   ASSERT_EQ(figure.panels.size(), 7u);
   const auto& series = figure.panels[0].series.front();
   ASSERT_EQ(series.x.size(), 3u);

@@ -5,7 +5,7 @@
 #include "report/figures.h"
 #include "report/sample_run.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 constexpr std::size_t kKinds = 7;
@@ -90,4 +90,4 @@ TEST(Drawing, DoesNotDrawMarksBeyondTheAxes) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -9,7 +9,7 @@
 #include "report/sample_run.h"
 #include "report/signals.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 const RunResult& full_run() {
@@ -316,4 +316,4 @@ TEST(MissingFigures, SayWhy) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

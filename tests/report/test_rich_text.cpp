@@ -7,7 +7,7 @@
 #include "report/rich_text.h"
 #include "report/typesetter.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 using Level = TextRun::Level;
@@ -108,4 +108,4 @@ TEST(FontFolder, SaysWhatToDoWithoutFonts) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -5,7 +5,7 @@
 #include "gapscope/base/random.h"
 #include "report/signals.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 TEST(Autocorrelation, OfAnAlternatingSequenceHasAClosedForm) {
@@ -79,4 +79,4 @@ TEST(PeakToPeak, IgnoresUndefinedSamples) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

@@ -5,7 +5,7 @@
 #include "gapscope/base/random.h"
 #include "report/ticks.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 TEST(Ticks, AreRoundWithinTheRangeAndNotTooMany) {
@@ -46,7 +46,7 @@ TEST(Ticks, LabelsShowTheDecimalsOfTheStepAndATrueMinus) {
   EXPECT_EQ(tick_label(150.0, 0), "150");
 }
 
-TEST(UnitScale, KeepsNumbersBetweenOneAndAThousand) {
+TEST(AxisScale, KeepsNumbersBetweenOneAndAThousand) {
   struct Case {
     const char* unit;
     double magnitude, factor;
@@ -58,11 +58,11 @@ TEST(UnitScale, KeepsNumbersBetweenOneAndAThousand) {
                         {"N·m", 0.1, 1e-3, "mN·m"},   {"kg m²", 8e-4, 1.0, "kg m²"},
                         {"", 0.01, 1.0, ""},          {"rad", 0.0, 1.0, "rad"}};
   for (const Case& c : cases) {
-    const UnitScale scale = unit_scale(c.unit, c.magnitude);
+    const AxisScale scale = axis_scale(c.unit, c.magnitude);
     EXPECT_DOUBLE_EQ(scale.factor, c.factor) << c.unit << c.magnitude;
     EXPECT_EQ(scale.unit, c.shown);
   }
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

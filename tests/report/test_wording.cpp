@@ -3,7 +3,7 @@
 #include "report/sample_run.h"
 #include "report/wording.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::report {
 namespace {
 
 TEST(Wording, ShowsTheDigitsThatTheIntervalWarrants) {
@@ -69,4 +69,4 @@ TEST(Accuracy, SaysWhetherTheIntervalHoldsTheTruth) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::report

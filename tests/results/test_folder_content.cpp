@@ -24,14 +24,32 @@ TEST(FolderContent, TakesNothingAwayThatChangedInTheLastMoment) {
   for (const fs::path& folder : {from, to}) fs::create_directory(folder);
   std::ofstream(from / "report.md") << "new";
   std::ofstream(to / "report.md") << "mine";
-  const internal::FileList before{"", "drive", "", {{"report.md", sha256("old")}}};
+  const internal::results::FileList before{"", "drive", "", {{"report.md", sha256("old")}}};
   const auto is_result = [](const std::string&) { return false; };
   const std::string refused = testing::refusal([&] {
-    internal::replace_files(from, to, {"report.md"}, {}, scratch.path / "aside", is_result, &before);
+    internal::results::replace_files(from, to, {"report.md"}, {}, scratch.path / "aside", is_result, &before);
   });
   EXPECT_THAT(refused, HasSubstr("report.md: changed meanwhile"));
   EXPECT_EQ(text_of(to / "report.md"), "mine");
   EXPECT_EQ(text_of(from / "report.md"), "new");
+}
+
+TEST(FolderContent, TakesNothingBackOverWhatCameMeanwhile) {
+  ScratchFolder scratch;
+  const fs::path from = scratch.path / "from", to = scratch.path / "to";
+  for (const fs::path& folder : {from, to}) fs::create_directory(folder);
+  for (const char* file : {"a", "b"}) std::ofstream(from / file) << "new";
+  std::ofstream(to / "a") << "old";
+  std::ofstream(to / "b") << "mine";  // and not what is listed
+  const internal::results::FileList before{"", "drive", "", {{"a", sha256("old")}, {"b", sha256("old")}}};
+  const std::string refused = testing::refusal([&] {
+    internal::results::replace_files(
+        from, to, {"a", "b"}, {}, scratch.path / "aside", [](const std::string& file) { return file == "a"; },
+        &before);
+  });
+  EXPECT_THAT(refused, HasSubstr("b: changed meanwhile"));
+  EXPECT_EQ(text_of(to / "a"), "old");
+  EXPECT_EQ(text_of(to / "b"), "mine");
 }
 
 }  // namespace

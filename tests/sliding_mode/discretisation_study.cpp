@@ -49,7 +49,8 @@ struct Errors {
   std::vector<double> t1, t2, gap;
 };
 
-Errors errors_of(const internal::PaperReading& reading, const std::vector<GapPassage>& passages) {
+Errors errors_of(const internal::sliding_mode::PaperReading& reading,
+                 const std::vector<GapPassage>& passages) {
   Errors errors;
   for (const GapPassage& p : passages)
     for (const GapEvent& e : reading.events) {
@@ -63,9 +64,9 @@ Errors errors_of(const internal::PaperReading& reading, const std::vector<GapPas
 }
 
 /// Median height of e_x within 10 ms after the impacts, over its floor.
-double spike_over_floor(const MotorTrace& trace, const internal::ImpactAnalysis& analysis, double bound,
-                        Discretisation d, const std::vector<GapPassage>& passages) {
-  const internal::BankRun run = run_bank(trace, analysis.facts, {bound}, d);
+double spike_over_floor(const MotorTrace& trace, const internal::sliding_mode::ImpactAnalysis& analysis,
+                        double bound, Discretisation d, const std::vector<GapPassage>& passages) {
+  const internal::sliding_mode::BankRun run = run_bank(trace, analysis.facts, {bound}, d);
   std::vector<double> heights;
   for (const GapPassage& p : passages) {
     double height = 0.0;
@@ -77,8 +78,8 @@ double spike_over_floor(const MotorTrace& trace, const internal::ImpactAnalysis&
   return median(std::move(heights));
 }
 
-std::string cell(const MotorTrace& trace, const internal::ImpactAnalysis& analysis, double bound,
-                 Discretisation d, const std::vector<GapPassage>& passages) {
+std::string cell(const MotorTrace& trace, const internal::sliding_mode::ImpactAnalysis& analysis,
+                 double bound, Discretisation d, const std::vector<GapPassage>& passages) {
   const Errors e = errors_of(read_with_bound(trace, analysis, bound, d), passages);
   if (2 * e.gap.size() >= passages.size())
     return fmt::format("{:.1f} / {:.2f} / {:.1f} %", 1e3 * median(e.t1), 1e3 * median(e.t2),
@@ -96,7 +97,7 @@ void print_table(const Setting& s) {
   for (const double dt : {0.05e-3, 0.1e-3, 0.4e-3, 1e-3}) {
     const blind::BlindRun run = record(s, dt);
     const MotorTrace trace = run.recording.motor_trace();
-    const internal::ImpactAnalysis analysis = internal::analyse(trace);
+    const internal::sliding_mode::ImpactAnalysis analysis = internal::sliding_mode::analyse(trace);
     const auto passages = passages_of(run.truth, 1.0 / s.frequency);
     for (const double bound : s.bounds) {
       fmt::print("| {} ms | {} |", 1e3 * dt, bound);

@@ -58,7 +58,7 @@ Case draw(std::uint64_t seed) {
   c.kind = static_cast<std::size_t>(seed % kKinds.size());
   const double torque = log_uniform(g, 0.05, 0.5), gap = log_uniform(g, 0.005, 0.05);
   c.drive.gap = c.kind < kWithGap ? gap : 0.0;
-  c.drive.load = c.kind % kWithGap == 3 ? blind::LoadKind::kFree : blind::LoadKind::kLocked;
+  c.drive.load = c.kind % kWithGap == 3 ? blind::BlindLoad::kFree : blind::BlindLoad::kLocked;
   c.drive.contact_stiffness = 3.0 * torque * log_uniform(g, 50.0, 5000.0);
   c.drive.motor_damping *= log_uniform(g, 0.2, 2.0);
   draw_friction(c, g, torque);

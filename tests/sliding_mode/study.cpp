@@ -49,7 +49,7 @@ Outcome run(std::uint64_t seed, bool with_gap, blind::Waveform waveform, const D
   MotorTrace trace = r.recording.motor_trace();
   trace.quantum = c.sensor.quantum;
   Outcome o{seed, c.kind, with_gap ? c.drive.gap : 0.0, c.sensor.quantum, 0.0, 0.0, {}};
-  o.mass_ratio = c.drive.load == blind::LoadKind::kNone ? 0.0 : c.drive.load_inertia / c.drive.motor_inertia;
+  o.mass_ratio = c.drive.load == blind::BlindLoad::kNone ? 0.0 : c.drive.load_inertia / c.drive.motor_inertia;
   o.coasting = with_gap ? median_coasting(r.truth) : 0.0;
   o.estimate = detect_gap({&trace, 1}, options);
   return o;
@@ -64,7 +64,8 @@ struct Tally {
     const GapEstimate& e = o.estimate;
     ++cases;
     none += e.verdict == GapVerdict::kNone;
-    wrong_none += e.verdict == GapVerdict::kNone && o.mass_ratio >= internal::kSmallestMassRatio &&
+    wrong_none += e.verdict == GapVerdict::kNone &&
+                  o.mass_ratio >= internal::sliding_mode::kSmallestMassRatio &&
                   e.smallest_visible_gap < o.gap;
     if (e.verdict != GapVerdict::kBacklash) return;
     ++accepted;

@@ -8,7 +8,7 @@
 #include "sliding_mode/folding.h"
 #include "sliding_mode/signal_facts.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 /// Two harmonics with a period that is no whole number of samples, read through a coarse and noisy encoder.
@@ -87,4 +87,4 @@ TEST(SignalFacts, ADriftFromPeriodToPeriodIsNoPartOfTheMotion) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

@@ -8,7 +8,7 @@
 #include "gapscope/sliding_mode/detector.h"
 #include "sliding_mode/free_flight.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 using blind::BlindDrive;
@@ -83,7 +83,7 @@ TEST(FlightLaw, FindsTheMotorsOwnCoefficientsWithoutBeingToldAny) {
 
 TEST(FlightLaw, OneLawForTheWholeStrokeMeansThatNoContactWasLost) {
   BlindDrive drive;
-  drive.load = blind::LoadKind::kNone;
+  drive.load = blind::BlindLoad::kNone;
   const BlindRun run = simulate(drive);
   const MotorTrace trace = run.recording.motor_trace();
   const FlightWindow window{10000, 10400, 11200, 1};
@@ -156,4 +156,4 @@ TEST(FreeFlight, ALoadWhoseStateBeforeAndAfterItsReleaseDisagreesIsNotTrusted) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

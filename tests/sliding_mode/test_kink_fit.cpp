@@ -6,7 +6,7 @@
 #include "gapscope/base/random.h"
 #include "sliding_mode/kink_fit.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::sliding_mode {
 namespace {
 
 TEST(KinkFit, AnExactKinkIsFoundBetweenTheSamples) {
@@ -58,4 +58,4 @@ TEST(KinkFit, TheElasticStrokeBeginsAsACubeAndEndsAsTheReboundOfFreeBodies) {
 }
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::sliding_mode

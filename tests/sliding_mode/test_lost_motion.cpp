@@ -16,7 +16,7 @@ constexpr double kTorque = 0.2;  // amplitude [N m]
 /// Locked output; 2β = 10 mrad by default, 1 mrad of elastic wind-up at the amplitude.
 blind::BlindDrive locked(double gap = 0.01) {
   blind::BlindDrive drive;
-  drive.load = blind::LoadKind::kLocked;
+  drive.load = blind::BlindLoad::kLocked;
   drive.gap = gap;
   drive.contact_stiffness = 200.0;
   return drive;
@@ -69,7 +69,7 @@ TEST(LostMotion, FrictionOfTheMotorAddsItsWindUpOnBothFlanks) {
 
 TEST(LostMotion, AVeryHeavyLoadIsAsGoodAsALockedOne) {
   blind::BlindDrive drive = locked();
-  drive.load = blind::LoadKind::kFree;
+  drive.load = blind::BlindLoad::kFree;
   drive.load_inertia = 300.0 * drive.motor_inertia;
   drive.load_coulomb = 0.5;
   expect_play(detect({ramps(drive)}), 0.01);
@@ -136,14 +136,14 @@ TEST(LostMotion, AFreeLoadIsNotQuasiStatic) {
   const Recording recording =
       simulate_blind(free, sine, blind::BlindSensor::with_bits(18), options).recording;
   const MotorTrace trace = recording.motor_trace();
-  EXPECT_FALSE(internal::read_lost_motion({&trace, 1}));
+  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}));
 }
 
 TEST(LostMotion, ARecordingWithoutHalfCyclesHasNoLoop) {
   const std::vector<double> u(500, 0.1), x1(500, 0.2);
   const MotorTrace trace{"constant.csv", 0.0, 1e-3, u, x1, 0.0};
-  EXPECT_FALSE(internal::read_lost_motion({&trace, 1}));
-  EXPECT_FALSE(internal::read_lost_motion({}));
+  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}));
+  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({}));
 }
 
 TEST(LostMotion, DeniesNothingWhereTheMotorHardlyMoves) {

@@ -95,7 +95,7 @@ TEST(PaperMethod, ABendThatACoarseEncoderHidesIsToldAsSuch) {
 TEST(PaperMethod, NoBoundReadsAGapWhereThereIsNone) {
   blind::BlindDrive bonded, one_inertia, sticking;
   bonded.contact = blind::ContactKind::kBonded;
-  one_inertia.load = blind::LoadKind::kNone;
+  one_inertia.load = blind::BlindLoad::kNone;
   one_inertia.motor_inertia *= 2.0;
   one_inertia.effects.motor.friction.level_nm = 0.05;
   sticking = one_inertia;

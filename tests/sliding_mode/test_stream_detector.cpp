@@ -120,7 +120,7 @@ TEST(StreamDetector, WhatComesLaterChangesNothingThatWasTold) {
 
 TEST(StreamDetector, KeepsNoMoreThanItsWindow) {
   const TestRecording recording = paper_experiment(3);
-  internal::FrozenSearch search("", 0.0, recording.dt, recording.quantum, 3);
+  internal::sliding_mode::FrozenSearch search("", 0.0, recording.dt, recording.quantum, 3);
   std::size_t most = 0;
   for (int lap = 0; lap < 4; ++lap)
     for (std::size_t i = 0; i < recording.x1.size(); ++i) {
@@ -145,10 +145,10 @@ TEST(StreamDetector, OfRestOrNoiseSaysWhyNothingIsLearnt) {
 }
 
 TEST(TurnCounter, CountsStrokesOfAMotionThatWanders) {
-  internal::TurnCounter turns(0.6);
+  internal::sliding_mode::TurnCounter turns(0.6);
   for (int i = 0; i < 10000; ++i) turns.step(std::sin(2.0 * kPi * i / 1000.0) + 1e-3 * i);
   EXPECT_NEAR(static_cast<double>(turns.count()), 20.0, 1.0);
-  internal::TurnCounter still(0.6);
+  internal::sliding_mode::TurnCounter still(0.6);
   for (int i = 0; i < 1000; ++i) still.step(0.25 * std::sin(0.1 * i));
   EXPECT_EQ(still.count(), 0u);
 }

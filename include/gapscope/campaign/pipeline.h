@@ -18,7 +18,7 @@ struct Estimators {
 /// Told what begins: "reading train.csv".
 using Progress = std::function<void(const std::string&)>;
 
-struct Outcome {
+struct RunOutcome {
   RunResult result;
   Timing timing;
   std::vector<std::string> warnings;  ///< what the user should know beside the result
@@ -26,16 +26,17 @@ struct Outcome {
 
 /// Data, both estimators, comparison: everything of `run`, `detect` and `fit` but the writing.
 /// @throws ConfigError, Interrupted
-Outcome run_pipeline(const Configuration& configuration, const Estimators& wanted, const Progress& progress);
+RunOutcome run_pipeline(const Configuration& configuration, const Estimators& wanted,
+                        const Progress& progress);
 
 /// The recordings of a configuration, read or simulated, with the encoder's sheet applied. `notes` gets what
 /// was done to them, `warnings` what looks wrong.
 std::vector<Recording> load_recordings(const Configuration& configuration, const Progress& progress,
-                                       Outcome& outcome);
+                                       RunOutcome& outcome);
 
 /// The recordings of `held_out:`, read likewise; empty where there are none.
 std::vector<Recording> load_held_out(const Configuration& configuration, const Progress& progress,
-                                     Outcome& outcome);
+                                     RunOutcome& outcome);
 
 /// What a result will be made from, each with its SHA-256: the configuration as resolved (but for effects
 /// that the diagnosis leaves out), the recordings that it names, those held out, the input that a simulation

@@ -12,7 +12,7 @@ namespace gapscope {
 void write_blind_labels(const std::string& path, const BlindLabels& labels, bool replace = true);
 BlindLabels read_blind_labels(const std::string& path);
 
-void write_blind_manifest(const std::string& path, const BlindManifest& manifest);
+void write_blind_manifest(const std::string& path, const BlindManifest& manifest, bool replace = true);
 BlindManifest read_blind_manifest(const std::string& path);
 
 void write_blind_answers(const std::string& path, const BlindAnswers& answers);

@@ -10,7 +10,7 @@
 
 namespace gapscope {
 
-namespace internal {
+namespace internal::results {
 struct FileList;
 }
 
@@ -70,9 +70,10 @@ class ReportFolder {
   void keep(const char* result, const std::vector<const char*>& others, bool held_out_traces);
   void take_over(const std::string& file);
   std::string hash_of_list() const;
-  void write_list(const char* place, const internal::FileList& list) const;
+  void write_list(const char* place, const internal::results::FileList& list) const;
   void move_list(const char* place) const;
-  internal::FileList list_after(const std::vector<std::string>& fresh, std::vector<std::string>& stale) const;
+  internal::results::FileList list_after(const std::vector<std::string>& fresh,
+                                         std::vector<std::string>& stale) const;
   void clear() noexcept;
 
   FolderKind kind_;
@@ -81,7 +82,7 @@ class ReportFolder {
   std::string list_hash_;          ///< of files.json as it was found; empty: there was none
   std::vector<std::string> made_;  ///< folders, the outermost first
   std::set<std::string> kept_;     ///< files that stay as they are
-  std::unique_ptr<internal::FileList> before_;
+  std::unique_ptr<internal::results::FileList> before_;
   std::unique_ptr<ProcessLock> lock_;
 };
 

@@ -19,7 +19,7 @@ struct ContactMode {
 template <class T>
 using StepperModel = PlantModel<T>;
 
-namespace internal {
+namespace internal::simulation {
 template <class T>
 struct StepperImpl;
 }
@@ -63,7 +63,7 @@ class DriveStepper {
   bool healthy() const;
 
  private:
-  std::unique_ptr<internal::StepperImpl<T>> impl_;
+  std::unique_ptr<internal::simulation::StepperImpl<T>> impl_;
 };
 
 extern template class DriveStepper<double>;

@@ -8,7 +8,7 @@
 
 namespace gapscope {
 
-namespace internal {
+namespace internal::sliding_mode {
 
 /// Gains and states of a bank, one array each.
 struct BankLanes {
@@ -20,7 +20,7 @@ struct BankLanes {
 /// Takes samples that are dt apart through all lanes; writes the errors row by row unless null.
 using BankLoop = void (*)(const BankLanes& lanes, std::span<const double> y, double dt, double* errors);
 
-}  // namespace internal
+}  // namespace internal::sliding_mode
 
 /// Super-twisting differentiators of one signal, side by side, one for each bound. Every one gives bit for
 /// bit what a SuperTwistingDifferentiator of its bound gives; sixteen together cost about as much as one of
@@ -47,9 +47,9 @@ class BoundBank {
   std::span<const double> positions() const { return x_; }   ///< x̂₁ [rad] of every bound
 
  private:
-  internal::BankLanes lanes() noexcept;
+  internal::sliding_mode::BankLanes lanes() noexcept;
 
-  internal::BankLoop loop_;                      // for the discretisation, and for what this processor can do
+  internal::sliding_mode::BankLoop loop_;        // for the discretisation, and for what this processor can do
   std::vector<double> k1_, k2_, root1_, root2_;  // structure of arrays: the loop over bounds vectorises
   std::vector<double> x_, w_, e_;
   bool started_ = false;

@@ -4,7 +4,7 @@
 
 namespace gapscope::blind {
 
-enum class LoadKind {
+enum class BlindLoad {
   kFree,
   kLocked,  ///< the output does not move: x2 stays where it starts
   kNone,    ///< one inertia (motor_inertia, motor_damping); load effects act on it
@@ -22,7 +22,7 @@ enum class ContactKind {
 ///   load     m2·ẇ2 = τc − d2·w2 − Fc2·sign(w2), sign set-valued at zero
 ///   contact  τc = ±max(0, k·p ± c·(w1 − w2)) while p = ±(x1 − x2) − β > 0
 struct BlindDrive {
-  LoadKind load = LoadKind::kFree;
+  BlindLoad load = BlindLoad::kFree;
   ContactKind contact = ContactKind::kCompliant;
   double motor_inertia = 8.78e-4;    ///< m1 [kg·m²]
   double torque_constant = 0.172;    ///< Km [N·m per unit of u]

@@ -47,7 +47,7 @@ Dynamics::Dynamics(const BlindDrive& drive, std::vector<Knock> knocks)
   if (!std::isnan(e.contact.damping_nms_rad)) drive_.contact_damping = e.contact.damping_nms_rad;
   motor_signed_ = e.motor.friction.level_nm > 0.0 || e.motor.friction.viscous_ratio != 0.0 ||
                   e.motor.bristle.level_nm > 0.0 || e.motor.drag_nms2 != 0.0;  // all have a kink at w1 = 0
-  load_signed_ = drive_.load == LoadKind::kFree &&
+  load_signed_ = drive_.load == BlindLoad::kFree &&
                  (drive_.load_coulomb > 0.0 || e.load.friction_per_contact_torque > 0.0);
   hidden_states_ = e.motor.bristle.level_nm > 0.0 || e.command.lag_s > 0.0 || e.sensor.lag_s > 0.0 ||
                    e.load.resonator_inertia > 0.0;
@@ -85,14 +85,14 @@ double Dynamics::contact_law(double t, const State& s, int flank) const {
 }
 
 double Dynamics::contact_torque(double t, const State& s, const Regime& r) const {
-  if (drive_.load == LoadKind::kNone || r.contact != Regime::Contact::kClosed || is_rigid()) return 0.0;
+  if (drive_.load == BlindLoad::kNone || r.contact != Regime::Contact::kClosed || is_rigid()) return 0.0;
   return r.flank * contact_law(t, s, r.flank);
 }
 
 double Dynamics::stored_energy(double t, const State& s, const Regime& r) const {
   double energy = 0.5 * motor_inertia(t) * s[kW1] * s[kW1];
-  if (drive_.load == LoadKind::kFree) energy += 0.5 * load_inertia(t) * s[kW2] * s[kW2];
-  if (is_rigid() || drive_.load == LoadKind::kNone || r.contact == Regime::Contact::kOpen) return energy;
+  if (drive_.load == BlindLoad::kFree) energy += 0.5 * load_inertia(t) * s[kW2] * s[kW2];
+  if (is_rigid() || drive_.load == BlindLoad::kNone || r.contact == Regime::Contact::kOpen) return energy;
   const double p = overlap(t, s, r.flank);
   return energy + 0.5 * drive_.contact_stiffness * p * p *
                       (1.0 + 0.5 * drive_.effects.contact.hardening_per_rad2 * p * p);
@@ -106,7 +106,7 @@ State Dynamics::rates(double t, const State& s, const Regime& r, double held) co
     const double contact = contact_torque(t, s, r);
     if (r.motor != 0) {
       double torque = motor_drive(t, s, r.motor, held) - contact - r.motor * motor_level(r.motor, s[kW1]);
-      if (drive_.load == LoadKind::kNone) torque += load_torques(s[kX1], s[kW1], s);
+      if (drive_.load == BlindLoad::kNone) torque += load_torques(s[kX1], s[kW1], s);
       rate[kX1] = s[kW1];
       rate[kW1] = torque / motor_inertia(t);
     }
@@ -146,7 +146,7 @@ Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) 
   g.fill(1.0);
   if (is_joined(r)) {
     g[0] = joined_push(t, s, r, held);
-    if (drive_.load == LoadKind::kLocked) return g;
+    if (drive_.load == BlindLoad::kLocked) return g;
     const double torque = motor_drive(t, s, r.motor, held) + load_drive(s), load = load_level(0.0);
     fill_friction_guards(&g[2], r.motor, s[kW1], torque, motor_level(1, 0.0) + load,
                          motor_level(-1, 0.0) + load);
@@ -170,7 +170,7 @@ Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) 
   }
   if (motor_signed_) {
     double torque = r.motor == 0 ? motor_drive(t, s, 0, held) - contact : 0.0;
-    if (drive_.load == LoadKind::kNone && r.motor == 0) torque += load_torques(s[kX1], s[kW1], s);
+    if (drive_.load == BlindLoad::kNone && r.motor == 0) torque += load_torques(s[kX1], s[kW1], s);
     fill_friction_guards(&g[4], r.motor, s[kW1], torque, motor_level(1, 0.0), motor_level(-1, 0.0));
   }
   return g;
@@ -185,10 +185,10 @@ void Dynamics::settle_friction(double t, const State& s, Regime& r, double held)
   }
   const double contact = contact_torque(t, s, r);
   double torque = motor_drive(t, s, 0, held) - contact;
-  if (drive_.load == LoadKind::kNone) torque += load_torques(s[kX1], s[kW1], s);
+  if (drive_.load == BlindLoad::kNone) torque += load_torques(s[kX1], s[kW1], s);
   r.motor = motor_signed_ ? direction_of(s[kW1], torque, motor_level(1, 0.0), motor_level(-1, 0.0)) : 1;
   const double level = load_level(contact);
-  if (drive_.load != LoadKind::kFree)
+  if (drive_.load != BlindLoad::kFree)
     r.load = 0;
   else
     r.load = load_signed_ ? direction_of(s[kW2], contact + load_drive(s), level, level) : 1;

@@ -63,9 +63,9 @@ class Dynamics {
   /// Kinetic energy and that of the contact spring while it is pressed; no resonator [J].
   double stored_energy(double t, const State& s, const Regime& regime) const;
 
-  bool is_rigid() const { return drive_.load != LoadKind::kNone && drive_.contact == ContactKind::kRigid; }
+  bool is_rigid() const { return drive_.load != BlindLoad::kNone && drive_.contact == ContactKind::kRigid; }
   bool has_contact_events() const {
-    return drive_.load != LoadKind::kNone && drive_.contact != ContactKind::kBonded;
+    return drive_.load != BlindLoad::kNone && drive_.contact != ContactKind::kBonded;
   }
   bool has_hidden_states() const { return hidden_states_; }
   const std::vector<double>& kinks() const {

@@ -34,14 +34,14 @@ Motion::Motion(const Dynamics& dynamics, double tolerance)
     : dynamics_(dynamics), tolerance_(tolerances(tolerance)) {
   const BlindDrive& d = dynamics_.drive();
   s_[kX1] = d.x1, s_[kW1] = d.w1, s_[kX2] = d.x2, s_[kW2] = d.w2;
-  if (d.load == LoadKind::kLocked) s_[kW2] = 0.0;
-  if (d.load == LoadKind::kNone) s_[kX2] = s_[kW2] = 0.0;
+  if (d.load == BlindLoad::kLocked) s_[kW2] = 0.0;
+  if (d.load == BlindLoad::kNone) s_[kX2] = s_[kW2] = 0.0;
   s_[kFilter] = dynamics_.measured_angle(d.x1);
-  s_[kX3] = d.load == LoadKind::kNone ? d.x1 : d.x2;
-  s_[kW3] = d.load == LoadKind::kNone ? d.w1 : d.w2;
-  if (d.load != LoadKind::kNone && d.contact == ContactKind::kBonded) {
+  s_[kX3] = d.load == BlindLoad::kNone ? d.x1 : d.x2;
+  s_[kW3] = d.load == BlindLoad::kNone ? d.w1 : d.w2;
+  if (d.load != BlindLoad::kNone && d.contact == ContactKind::kBonded) {
     regime_.contact = Regime::Contact::kClosed;
-  } else if (d.load != LoadKind::kNone) {
+  } else if (d.load != BlindLoad::kNone) {
     for (const int flank : {1, -1})  // an initial overlap is a closed contact
       if (dynamics_.overlap(0.0, s_, flank) > 0.0)
         regime_.contact = Regime::Contact::kClosed, regime_.flank = flank;
@@ -62,7 +62,7 @@ void Motion::settle() {
 }
 
 int Motion::flank_in_contact() const {
-  if (dynamics_.drive().load == LoadKind::kNone || regime_.contact != Regime::Contact::kClosed) return 0;
+  if (dynamics_.drive().load == BlindLoad::kNone || regime_.contact != Regime::Contact::kClosed) return 0;
   if (dynamics_.drive().contact != ContactKind::kBonded) return regime_.flank;
   return dynamics_.contact_torque(t_, s_, regime_) < 0.0 ? -1 : 1;
 }

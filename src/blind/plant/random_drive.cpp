@@ -88,7 +88,7 @@ void draw_stribeck(std::mt19937_64& g, MotorFriction& f, double torque) {
 }
 
 void become_one_inertia(BlindDrive& d) {
-  d.load = LoadKind::kNone;
+  d.load = BlindLoad::kNone;
   d.motor_inertia += d.load_inertia;
   d.motor_damping += d.load_damping;
   d.load_coulomb = 0.0;

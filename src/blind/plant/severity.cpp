@@ -134,9 +134,9 @@ void impact_damping(BlindCase& c, EffectScale& s) {
 }
 void backlash(BlindCase& c, EffectScale& s) {
   BlindDrive& d = c.drive;
-  if (d.load == LoadKind::kNone) {
+  if (d.load == BlindLoad::kNone) {
     const double share = s.any(0.3, 0.7);
-    d.load = LoadKind::kFree;
+    d.load = BlindLoad::kFree;
     d.load_inertia = share * d.motor_inertia;
     d.motor_inertia -= d.load_inertia;
     d.load_damping = share * d.motor_damping;
@@ -187,7 +187,7 @@ void input_noise(BlindCase& c, EffectScale& s) {
 }
 void load_resonance(BlindCase& c, EffectScale& s) {
   LoadEffects& e = c.drive.effects.load;
-  const double inertia = c.drive.load == LoadKind::kNone ? c.drive.motor_inertia : c.drive.load_inertia;
+  const double inertia = c.drive.load == BlindLoad::kNone ? c.drive.motor_inertia : c.drive.load_inertia;
   const double omega = 2.0 * kPi * s.any(4.0, 15.0) / s.period;
   e.resonator_inertia = inertia * s.between(0.05, 0.5);
   e.resonator_stiffness = e.resonator_inertia * omega * omega;
@@ -211,7 +211,7 @@ void load_dependent_friction(BlindCase& c, EffectScale& s) {
   c.drive.effects.load.friction_per_contact_torque = s.between(0.03, 0.4);
 }
 
-constexpr EffectEntry kEntries[] = {
+constexpr DrawnEffect kEntries[] = {
     {"motor_coulomb_friction", true, Needs::kNothing, motor_coulomb_friction},
     {"friction_asymmetry", true, Needs::kNothing, friction_asymmetry},
     {"stribeck_friction", true, Needs::kNothing, stribeck_friction},
@@ -248,10 +248,10 @@ constexpr EffectEntry kEntries[] = {
 
 }  // namespace
 
-std::span<const EffectEntry> effect_entries() { return kEntries; }
+std::span<const DrawnEffect> effect_entries() { return kEntries; }
 
-bool can_have(const BlindDrive& drive, const EffectEntry& entry) {
-  const bool has_contact = drive.load != LoadKind::kNone;
+bool can_have(const BlindDrive& drive, const DrawnEffect& entry) {
+  const bool has_contact = drive.load != BlindLoad::kNone;
   const bool has_gap = has_contact && drive.contact != ContactKind::kBonded;
   switch (entry.needs) {
     case Needs::kNothing:
@@ -268,7 +268,7 @@ bool can_have(const BlindDrive& drive, const EffectEntry& entry) {
 
 void give_effect(BlindCase& c, std::string_view name, double severity, std::uint64_t seed) {
   const auto* entry = std::find_if(std::begin(kEntries), std::end(kEntries),
-                                   [&](const EffectEntry& e) { return e.name == name; });
+                                   [&](const DrawnEffect& e) { return e.name == name; });
   GAPSCOPE_REQUIRE(entry != std::end(kEntries));
   GAPSCOPE_REQUIRE(can_have(c.drive, *entry));
   EffectScale scale = scale_of(c, severity, seed);

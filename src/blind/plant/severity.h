@@ -18,7 +18,7 @@ enum class Needs {
 struct EffectScale;  // what sizes are relative to
 
 /// An effect that a case can be given by name.
-struct EffectEntry {
+struct DrawnEffect {
   std::string_view name;  ///< identifier of the catalogue, or a name of its own
   bool in_catalogue;
   Needs needs;
@@ -26,10 +26,10 @@ struct EffectEntry {
 };
 
 /// All effects: the catalogue's in its order, then those outside.
-std::span<const EffectEntry> effect_entries();
+std::span<const DrawnEffect> effect_entries();
 
 /// Whether the effect has a place in the drive.
-bool can_have(const BlindDrive& drive, const EffectEntry& entry);
+bool can_have(const BlindDrive& drive, const DrawnEffect& entry);
 
 /// Adds one effect to the case. Severity 0 is weak (2–3 % of the torque, a tenth of the gap and the like), 1
 /// strong (20–30 %, most of the gap), geometric in between; signs, phases, periods and times are drawn from

@@ -91,12 +91,12 @@ double Dynamics::motor_level(int direction, double w) const {
 }
 
 double Dynamics::load_level(double contact_torque) const {
-  if (drive_.load == LoadKind::kLocked) return kInfinity;
+  if (drive_.load == BlindLoad::kLocked) return kInfinity;
   return drive_.load_coulomb + drive_.effects.load.friction_per_contact_torque * std::abs(contact_torque);
 }
 
 double Dynamics::load_inertia(double t) const {
-  if (drive_.load == LoadKind::kLocked) return kInfinity;
+  if (drive_.load == BlindLoad::kLocked) return kInfinity;
   const LoadEffects& e = drive_.effects.load;
   if (e.inertia_ratio == 0.0) return drive_.load_inertia;
   const double since = t - e.inertia_time_s;
@@ -106,7 +106,8 @@ double Dynamics::load_inertia(double t) const {
 }
 
 double Dynamics::motor_inertia(double t) const {
-  if (drive_.load != LoadKind::kNone || drive_.effects.load.inertia_ratio == 0.0) return drive_.motor_inertia;
+  if (drive_.load != BlindLoad::kNone || drive_.effects.load.inertia_ratio == 0.0)
+    return drive_.motor_inertia;
   return drive_.motor_inertia * load_inertia(t) / drive_.load_inertia;
 }
 
@@ -116,7 +117,7 @@ void Dynamics::hidden_rates(const State& s, double held, State& rate) const {
   if (e.command.lag_s > 0.0) rate[kTorqueLoop] = (held - s[kTorqueLoop]) / e.command.lag_s;
   if (e.sensor.lag_s > 0.0) rate[kFilter] = (measured_angle(s[kX1]) - s[kFilter]) / e.sensor.lag_s;
   if (e.load.resonator_inertia > 0.0) {
-    const bool one = drive_.load == LoadKind::kNone;
+    const bool one = drive_.load == BlindLoad::kNone;
     const double x = s[one ? kX1 : kX2], w = s[one ? kW1 : kW2];
     rate[kX3] = s[kW3];
     rate[kW3] = (e.load.resonator_stiffness * (x - s[kX3]) + e.load.resonator_damping * (w - s[kW3])) /

@@ -43,9 +43,9 @@ std::vector<Update> updates(const Dynamics& dynamics, const std::vector<double>&
 }
 
 /// The encoder with all its faults; asked for the samples in order.
-class Encoder {
+class EncoderReading {
  public:
-  Encoder(const Dynamics& dynamics, const BlindSensor& sensor, const BlindOptions& options)
+  EncoderReading(const Dynamics& dynamics, const BlindSensor& sensor, const BlindOptions& options)
       : dynamics_(dynamics),
         effects_(dynamics.drive().effects.sensor),
         quantum_(std::max(sensor.quantum, effects_.quantum_rad)),
@@ -132,9 +132,9 @@ BlindRun simulate_blind_command(const BlindDrive& drive, const std::vector<doubl
   const Dynamics dynamics(drive, draw_knocks(drive.effects.motor.knocks, options));
   const double dt = 1.0 / options.rate;
   const std::vector<Update> queue = updates(dynamics, u, dt, options.seed);
-  const bool has_load = drive.load != LoadKind::kNone;
+  const bool has_load = drive.load != BlindLoad::kNone;
   Motion motion(dynamics, options.tolerance);
-  Encoder encoder(dynamics, sensor, options);
+  EncoderReading encoder(dynamics, sensor, options);
   BlindRun run;
   run.recording.file = "blind";
   run.recording.dt = dt;

@@ -5,7 +5,7 @@
 #include "plant/effects/define_effect.h"
 #include "plant/effects/smooth_functions.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct CoggingTorque {
@@ -31,6 +31,6 @@ struct CoggingTorque {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(cogging_torque, CoggingTorque)

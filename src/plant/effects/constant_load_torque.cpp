@@ -4,7 +4,7 @@
 
 #include "plant/effects/define_effect.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct ConstantLoadTorque {
@@ -22,6 +22,6 @@ struct ConstantLoadTorque {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(constant_load_torque, ConstantLoadTorque)

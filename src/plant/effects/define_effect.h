@@ -2,7 +2,7 @@
 
 #include "gapscope/plant/effect.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 
 /// Collects whatever laws the class E has into hooks for the scalar T.
 template <class E, class T>
@@ -26,12 +26,12 @@ constexpr EffectHooks<T> hooks_of() {
 template <class E, class T>
 inline constexpr EffectHooks<T> kHooks = hooks_of<E, T>();
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 /// Defines the catalogue row `identifier` from a class with `parameters`, `look_alikes`, `side`, `law` and
 /// its hooks.
 #define GAPSCOPE_DEFINE_EFFECT(identifier, Class)                 \
-  namespace gapscope::internal {                                  \
+  namespace gapscope::internal::plant {                           \
   extern const EffectEntry effect_##identifier;                   \
   const EffectEntry effect_##identifier{#identifier,              \
                                         Class::side,              \

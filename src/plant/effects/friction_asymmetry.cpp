@@ -4,7 +4,7 @@
 
 #include "plant/effects/define_effect.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct FrictionAsymmetry {
@@ -27,6 +27,6 @@ struct FrictionAsymmetry {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(friction_asymmetry, FrictionAsymmetry)

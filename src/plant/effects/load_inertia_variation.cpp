@@ -4,7 +4,7 @@
 
 #include "plant/effects/define_effect.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct LoadInertiaVariation {
@@ -27,6 +27,6 @@ struct LoadInertiaVariation {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(load_inertia_variation, LoadInertiaVariation)

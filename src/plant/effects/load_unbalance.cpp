@@ -4,7 +4,7 @@
 
 #include "plant/effects/define_effect.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct LoadUnbalance {
@@ -25,6 +25,6 @@ struct LoadUnbalance {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(load_unbalance, LoadUnbalance)

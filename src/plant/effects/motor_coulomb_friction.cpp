@@ -4,7 +4,7 @@
 
 #include "plant/effects/define_effect.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct MotorCoulombFriction {
@@ -25,6 +25,6 @@ struct MotorCoulombFriction {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(motor_coulomb_friction, MotorCoulombFriction)

@@ -5,7 +5,7 @@
 #include "plant/effects/define_effect.h"
 #include "plant/effects/smooth_functions.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct QuadraticDrag {
@@ -28,6 +28,6 @@ struct QuadraticDrag {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(quadratic_drag, QuadraticDrag)

@@ -4,7 +4,7 @@
 
 #include "gapscope/plant/scalar.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 
 /// sin y + h sin 2y. With derivatives at the price of one sine and one cosine.
 template <class T>
@@ -26,4 +26,4 @@ T power(const T& b, const T& n) {
     return value;
 }
 
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant

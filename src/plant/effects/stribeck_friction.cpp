@@ -5,7 +5,7 @@
 #include "plant/effects/define_effect.h"
 #include "plant/effects/smooth_functions.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct StribeckFriction {
@@ -50,6 +50,6 @@ struct StribeckFriction {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(stribeck_friction, StribeckFriction)

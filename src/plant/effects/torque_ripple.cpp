@@ -5,7 +5,7 @@
 #include "plant/effects/define_effect.h"
 #include "plant/effects/smooth_functions.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct TorqueRipple {
@@ -32,6 +32,6 @@ struct TorqueRipple {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(torque_ripple, TorqueRipple)

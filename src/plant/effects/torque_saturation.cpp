@@ -5,7 +5,7 @@
 #include "plant/effects/define_effect.h"
 #include "plant/effects/smooth_functions.h"
 
-namespace gapscope::internal {
+namespace gapscope::internal::plant {
 namespace {
 
 struct TorqueSaturation {
@@ -26,6 +26,6 @@ struct TorqueSaturation {
 };
 
 }  // namespace
-}  // namespace gapscope::internal
+}  // namespace gapscope::internal::plant
 
 GAPSCOPE_DEFINE_EFFECT(torque_saturation, TorqueSaturation)

@@ -9,7 +9,7 @@
 
 namespace gapscope::blind {
 
-void PrintTo(const EffectEntry& entry, std::ostream* out) {
+void PrintTo(const DrawnEffect& entry, std::ostream* out) {
   *out << entry.name;
 }  // found by its type's namespace
 
@@ -27,7 +27,7 @@ BlindCase wide_case() {
 
 BlindCase one_inertia_case() {
   BlindCase c = wide_case();
-  c.drive.load = LoadKind::kNone;
+  c.drive.load = BlindLoad::kNone;
   return c;
 }
 
@@ -44,9 +44,9 @@ Motion hold_and_wait(const Dynamics& dynamics, double torque, double until) {
   return motion;
 }
 
-class EveryEffect : public testing::TestWithParam<EffectEntry> {};
+class EveryEffect : public testing::TestWithParam<DrawnEffect> {};
 
-std::string name_of(const testing::TestParamInfo<EffectEntry>& info) { return std::string(info.param.name); }
+std::string name_of(const testing::TestParamInfo<DrawnEffect>& info) { return std::string(info.param.name); }
 
 TEST_P(EveryEffect, ShowsInTheRecordingAndShowsMoreWhenStronger) {
   const BlindCase nominal = can_have(wide_case().drive, GetParam()) ? wide_case() : one_inertia_case();
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, EveryEffect,
 
 TEST(Effects, TheCatalogueHasTwentyFourAndAtLeastFourLieOutside) {
   const auto inside = std::count_if(effect_entries().begin(), effect_entries().end(),
-                                    [](const EffectEntry& e) { return e.in_catalogue; });
+                                    [](const DrawnEffect& e) { return e.in_catalogue; });
   EXPECT_EQ(inside, 24);
   EXPECT_GE(static_cast<int>(effect_entries().size()) - inside, 4);
 }
@@ -114,7 +114,7 @@ TEST(Effects, BristleGivesWayLikeAnExponentialSpring) {
 
 TEST(Effects, UnbalanceAndConstantTorqueMoveAFrictionlessLoadToTheirBalance) {
   BlindDrive drive;
-  drive.load = LoadKind::kNone;
+  drive.load = BlindLoad::kNone;
   drive.effects.load.unbalance_nm = 0.1;
   drive.effects.load.constant_torque_nm = 0.03;
   const Dynamics dynamics(drive, {});
@@ -143,7 +143,7 @@ TEST(Effects, FractionalDelayActsInsideTheSample) {
 
 TEST(Effects, TorqueLoopAndMeasurementFollowAStepExponentially) {
   BlindDrive drive;
-  drive.load = LoadKind::kNone;
+  drive.load = BlindLoad::kNone;
   drive.effects.command.lag_s = 0.01;
   drive.effects.sensor.lag_s = 0.02;
   drive.motor_damping = 0.0;
@@ -160,7 +160,7 @@ TEST(Effects, TorqueLoopAndMeasurementFollowAStepExponentially) {
 TEST(Effects, AdheringContactLetsGoAtItsTensileTorque) {
   BlindDrive drive;
   drive.x1 = 0.5 * drive.gap;
-  drive.load = LoadKind::kLocked;
+  drive.load = BlindLoad::kLocked;
   drive.effects.contact.release_nm = 0.02;
   const Dynamics dynamics(drive, {});
   Motion motion(dynamics, 1e-12);

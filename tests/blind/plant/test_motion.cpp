@@ -186,7 +186,7 @@ TEST(Motion, RigidBouncesEndInAContactThatHolds) {
 
 TEST(Motion, LockedOutputTurnsTorqueIntoWindUp) {
   BlindDrive drive;
-  drive.load = LoadKind::kLocked;
+  drive.load = BlindLoad::kLocked;
   const Dynamics dynamics(drive, {});
   Motion motion(dynamics, 1e-12);
   motion.hold(0.5);
@@ -198,7 +198,7 @@ TEST(Motion, LockedOutputTurnsTorqueIntoWindUp) {
 
 TEST(Motion, OneInertiaHasNoContactAndNoLoad) {
   BlindDrive drive;
-  drive.load = LoadKind::kNone;
+  drive.load = BlindLoad::kNone;
   const BlindRun run = simulate_blind(drive, {}, {}, {.duration = 1.0});
   EXPECT_TRUE(run.recording.x2.empty());
   EXPECT_TRUE(run.recording.mode.empty());
