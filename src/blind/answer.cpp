@@ -12,11 +12,11 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
 #include "gapscope/blind/blind_check.h"
-#include "gapscope/campaign/pipeline.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/effect.h"
 #include "gapscope/results/blind_files.h"
 #include "gapscope/results/sha256.h"
+#include "gapscope/run/run_diagnosis.h"
 
 namespace gapscope {
 namespace {
@@ -26,13 +26,6 @@ std::string word_of(DiagnosisVerdict verdict) {
   return verdict == DiagnosisVerdict::kNone ? "none" : "unknown";
 }
 
-std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
-  std::vector<MotorTrace> traces;
-  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
-  return traces;
-}
-
-/// On one thread: cases, not candidates, share the cores.
 /// What a sheet names was sealed with it.
 void require_sealed(const Configuration& c, const SealedCase& sealed) {
   if (!c.recording) throw ConfigError(c.file, "simulates, expected recording: {file, held_out}");
@@ -44,17 +37,14 @@ void require_sealed(const Configuration& c, const SealedCase& sealed) {
                           "names " + shown(r.given) + ", expected a recording that was sealed with it");
 }
 
+/// On one thread: cases, not candidates, share the cores.
 Diagnosis diagnosis_of(const std::string& sheet, const SealedCase& sealed) {
   const Configuration c = load_configuration(sheet);
   require_sealed(c, sealed);
   require_reference_model(c);
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = 1;
-  RunOutcome ignored;
-  const auto silent = [](const std::string&) {};
-  const std::vector<Recording> train = load_recordings(c, silent, ignored);
-  const std::vector<Recording> held_out = load_held_out(c, silent, ignored);
-  return diagnose(traces_of(train), traces_of(held_out), c.model.reference_model(), options);
+  return diagnose_recordings(c, load_for_diagnosis(c, [](const std::string&) {}), options);
 }
 
 /// What is said of a copy, said of the original.

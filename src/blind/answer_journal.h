@@ -7,7 +7,7 @@
 #include <string>
 
 #include "gapscope/base/process_lock.h"
-#include "gapscope/blind/records.h"
+#include "gapscope/results/blind_records.h"
 
 namespace gapscope::blind {
 

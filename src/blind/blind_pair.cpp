@@ -11,30 +11,30 @@
 namespace gapscope::blind {
 namespace {
 
-BlindCase rig_case(const std::string& rig) {
-  BlindCase c;
-  BlindDrive& d = c.drive;
-  c.options.tolerance = kFastTolerance;
+independent_plant::BlindCase rig_case(const std::string& rig) {
+  independent_plant::BlindCase c;
+  independent_plant::BlindDrive& d = c.drive;
+  c.options.tolerance = independent_plant::kFastTolerance;
   if (rig == "geared") {
     d.load_inertia = 3.0 * d.motor_inertia;
     d.motor_damping = 0.02, d.load_damping = 0.02, d.load_coulomb = 0.03;
     d.gap = 30e-3, d.contact_stiffness = 120.0, d.contact_damping = 0.08;
-    c.sensor = BlindSensor::with_bits(14, 0.5);
+    c.sensor = independent_plant::BlindSensor::with_bits(14, 0.5);
     c.options.rate = 1000.0;
   } else if (rig == "heavy") {
     d.load_inertia = 8.0 * d.motor_inertia;
     d.motor_damping = 0.03, d.load_damping = 0.03, d.load_coulomb = 0.06;
     d.gap = 6e-3, d.contact_stiffness = 600.0, d.contact_damping = 0.15;
-    c.sensor = BlindSensor::with_bits(17);
+    c.sensor = independent_plant::BlindSensor::with_bits(17);
     c.options.rate = 2000.0;
   } else {
-    c.sensor = BlindSensor::with_bits(20);
+    c.sensor = independent_plant::BlindSensor::with_bits(20);
     c.options.rate = 1250.0;
   }
   return c;
 }
 
-void vary(BlindDrive& d, std::uint64_t seed) {
+void vary(independent_plant::BlindDrive& d, std::uint64_t seed) {
   auto g = random_stream(seed, "diagnosis rig");
   for (double* v : {&d.motor_damping, &d.load_inertia, &d.load_damping, &d.load_coulomb, &d.gap,
                     &d.contact_stiffness, &d.contact_damping})
@@ -42,18 +42,21 @@ void vary(BlindDrive& d, std::uint64_t seed) {
 }
 
 /// Torque from two to eight times the load's friction; slow enough for several radians in half of the cases.
-void excite(BlindCase& c, Waveform waveform, std::mt19937_64& g) {
+void excite(independent_plant::BlindCase& c, independent_plant::Waveform waveform, std::mt19937_64& g) {
   c.excitation.waveform = waveform;
   c.excitation.amplitude = c.drive.load_coulomb * log_uniform(g, 3.0, 8.0) / c.drive.torque_constant;
   c.excitation.frequency = log_uniform(g, 0.25, 1.5);
-  if (waveform == Waveform::kMultisine || waveform == Waveform::kSweptSine)
+  if (waveform == independent_plant::Waveform::kMultisine ||
+      waveform == independent_plant::Waveform::kSweptSine)
     c.excitation.frequency_end = log_uniform(g, 3.0, 8.0), c.excitation.frequency = log_uniform(g, 0.2, 0.5);
 }
 
 constexpr std::uint64_t kNextDraw = 0x9e3779b97f4a7c15;  ///< a second effect draws from a seed far away
 
-constexpr std::array kWaveforms{Waveform::kSine,     Waveform::kMultisine, Waveform::kSweptSine,
-                                Waveform::kTriangle, Waveform::kTrapezoid, Waveform::kSteps};
+constexpr std::array kWaveforms{
+    independent_plant::Waveform::kSine,      independent_plant::Waveform::kMultisine,
+    independent_plant::Waveform::kSweptSine, independent_plant::Waveform::kTriangle,
+    independent_plant::Waveform::kTrapezoid, independent_plant::Waveform::kSteps};
 
 void set(ReferenceModel& model, int index, double value, bool estimate) {
   ParameterSetting& p = model.parameters[static_cast<std::size_t>(index)];
@@ -62,8 +65,8 @@ void set(ReferenceModel& model, int index, double value, bool estimate) {
 }
 
 /// Contact stiffness and damping are known, the rest is a start.
-ReferenceModel sheet_model(const BlindDrive& true_drive, std::uint64_t seed) {
-  const BlindDrive sheet = data_sheet(true_drive, seed);
+ReferenceModel sheet_model(const independent_plant::BlindDrive& true_drive, std::uint64_t seed) {
+  const independent_plant::BlindDrive sheet = independent_plant::data_sheet(true_drive, seed);
   ReferenceModel model;
   set(model, 0, sheet.motor_inertia, false);
   set(model, 1, sheet.torque_constant, false);
@@ -86,7 +89,7 @@ BlindPair blind_pair(const std::string& rig, const std::string& effect, double s
 BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& effects, double severity,
                      std::uint64_t seed, double duration) {
   auto g = random_stream(seed, "diagnosis excitation");
-  BlindCase c = rig_case(rig);
+  independent_plant::BlindCase c = rig_case(rig);
   c.options.duration = duration;
   vary(c.drive, seed);
   const auto first = static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size()));
@@ -95,14 +98,14 @@ BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& eff
   BlindPair pair{rig, name, severity, 1.0, "", {}, {}, {}, sheet_model(c.drive, seed)};
   const auto give = [&] {
     for (std::size_t i = 0; i < effects.size(); ++i)
-      give_effect(c, effects[i], severity, seed + i * kNextDraw);
+      independent_plant::give_effect(c, effects[i], severity, seed + i * kNextDraw);
   };
   const auto record = [&](std::size_t kind, std::uint64_t noise) {
     excite(c, kWaveforms[kind % kWaveforms.size()], g);
     c.options.seed = noise;
     if (pair.train.x1.empty()) give();
     pair.excitations += "smwtzj"[kind % kWaveforms.size()];
-    return simulate_blind(c).recording;
+    return independent_plant::simulate_blind(c).recording;
   };
   pair.train = record(first, 2 * seed);
   pair.held_out = record(first + other, 2 * seed + 1);

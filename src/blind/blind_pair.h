@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "blind/plant/severity.h"
 #include "gapscope/reference/fit.h"
+#include "independent_plant/severity.h"
 
 namespace gapscope::blind {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "blind/plant/severity.h"
 #include "gapscope/base/random.h"
+#include "independent_plant/severity.h"
 
 namespace gapscope::blind {
 namespace {
@@ -15,7 +15,7 @@ using Names = std::vector<std::string>;
 /// `backlash` has no place: every rig has a gap.
 Names effect_names(bool in_catalogue) {
   Names names;
-  for (const DrawnEffect& e : effect_entries())
+  for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
     if (e.in_catalogue == in_catalogue && e.name != "backlash") names.emplace_back(e.name);
   return names;
 }

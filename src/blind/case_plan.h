@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "gapscope/blind/records.h"
 #include "gapscope/config/blind_config.h"
+#include "gapscope/results/blind_records.h"
 
 namespace gapscope::blind {
 

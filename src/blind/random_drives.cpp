@@ -9,18 +9,18 @@
 #include <stdexcept>
 #include <vector>
 
-#include "blind/plant/random_drive.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/results/report_folder.h"
+#include "independent_plant/random_drive.h"
 
 namespace gapscope {
 namespace {
 
 namespace fs = std::filesystem;
-using blind::BlindCase;
-using blind::BlindDrive;
+using independent_plant::BlindCase;
+using independent_plant::BlindDrive;
 
 const char* word(RandomDriveKind kind) { return kind == RandomDriveKind::kGap ? "gap" : "gap_free"; }
 
@@ -39,7 +39,7 @@ std::string configuration(const std::string& name, const BlindCase& c, const Bli
                           bool with_gap) {
   std::string y = fmt::format("name: {}\nrecording: {{file: {}.csv}}\nencoder: {{quantum: {:.17g}}}\n", name,
                               name, c.sensor.quantum);
-  const bool one_inertia = sheet.load == blind::BlindLoad::kNone;
+  const bool one_inertia = sheet.load == independent_plant::BlindLoad::kNone;
   const double mass_ratio = one_inertia ? 0.0 : sheet.load_inertia / sheet.motor_inertia;
   y += fmt::format("model:\n  parameters:\n    motor_inertia: {:.6g}\n    torque_constant: {:.6g}\n",
                    sheet.motor_inertia, sheet.torque_constant);
@@ -64,21 +64,21 @@ constexpr const char* kTruthHeader =
     "noise_rad,load_travel_share\n";
 
 /// Median travel of the load while the gap was crossed, over the gap.
-double load_travel_share(const blind::BlindTruth& truth) {
+double load_travel_share(const independent_plant::BlindTruth& truth) {
   std::vector<double> shares;
-  for (const blind::GapPassage& p : truth.passages)
+  for (const independent_plant::GapPassage& p : truth.passages)
     if (p.from_flank * p.to_flank < 0) shares.push_back(std::abs(p.load_travel) / p.gap);
   return median(shares);
 }
 
-std::string truth_row(const std::string& name, const BlindCase& c, const blind::BlindTruth& truth,
+std::string truth_row(const std::string& name, const BlindCase& c, const independent_plant::BlindTruth& truth,
                       bool with_gap) {
   const BlindDrive& d = c.drive;
   return fmt::format(
       "{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.4g}\n",
       name, c.kind, with_gap ? d.gap : 0.0,
-      d.load == blind::BlindLoad::kNone ? 0.0 : d.load_inertia / d.motor_inertia, d.contact_stiffness,
-      d.contact_damping, d.motor_damping, d.load_damping, d.load_coulomb,
+      d.load == independent_plant::BlindLoad::kNone ? 0.0 : d.load_inertia / d.motor_inertia,
+      d.contact_stiffness, d.contact_damping, d.motor_damping, d.load_damping, d.load_coulomb,
       d.torque_constant * c.excitation.amplitude, c.excitation.frequency, c.options.rate, c.sensor.quantum,
       c.sensor.noise, with_gap ? load_travel_share(truth) : 0.0);
 }
@@ -93,13 +93,15 @@ void write_random_drives(RandomDriveKind kind, std::uint64_t first_seed, std::ui
   std::string truth = kTruthHeader;
   for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
     stop_point();
-    const BlindCase c = with_gap ? blind::random_drive(seed) : blind::random_gap_free_drive(seed);
-    blind::BlindRun run = simulate_blind(c);
+    const BlindCase c =
+        with_gap ? independent_plant::random_drive(seed) : independent_plant::random_gap_free_drive(seed);
+    independent_plant::BlindRun run = simulate_blind(c);
     run.recording.x2.clear();
     run.recording.mode.clear();
     const std::string name = fmt::format("{}_{}", word(kind), seed);
     write_csv((place / (name + ".csv")).string(), run.recording);
-    write_text(place / (name + ".yaml"), configuration(name, c, blind::data_sheet(c.drive, seed), with_gap));
+    write_text(place / (name + ".yaml"),
+               configuration(name, c, independent_plant::data_sheet(c.drive, seed), with_gap));
     truth += truth_row(name, c, run.truth, with_gap);
     if (progress) progress(seed - first_seed + 1);
   }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "gapscope/blind/records.h"
+#include "gapscope/results/blind_records.h"
 
 namespace gapscope::blind {
 

@@ -14,7 +14,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
-#include "gapscope/campaign/pipeline.h"
+#include "gapscope/run/run_pipeline.h"
 
 namespace gapscope {
 namespace {

@@ -32,10 +32,6 @@ inline constexpr int kSpoiltRecording = 3;
 /// What stands in the help of every command that takes a configuration.
 inline constexpr const char* kConfigHelp = "configuration (YAML)";
 
-/// Of files that are another when they were read.
-inline constexpr const char* kSourcesChanged =
-    "or a recording that it names changed while it was read, expected it to stay";
-
 /// @throws std::runtime_error naming what cannot be written
 void write_text(const std::string& path, const std::string& text, bool replace = true);
 

@@ -3,19 +3,15 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
-#include "gapscope/base/version.h"
-#include "gapscope/campaign/pipeline.h"
-#include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/inspection/inspection.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/report_folder.h"
+#include "gapscope/run/run_diagnosis.h"
 
 namespace gapscope::cli {
 namespace {
@@ -33,30 +29,6 @@ void require_known(const std::vector<std::string>& effects) {
     if (find_effect(name) == nullptr)
       throw ConfigError(
           fmt::format("gapscope: --exclude is '{}', expected an effect that `gapscope effects` lists", name));
-}
-
-std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
-  std::vector<MotorTrace> traces;
-  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
-  return traces;
-}
-
-/// What `check` says will spoil the estimates, of what is fitted and what is held out alike. Reversals are
-/// the detector's concern.
-std::vector<std::string> spoiling(const Configuration& c, const std::vector<RecordedFile>& files) {
-  std::vector<std::string> warnings;
-  for (const RecordedFile& file : files)
-    for (const Finding& f : inspect(file.path, c.recording->reading, c.rotation).findings)
-      if (f.severity == Severity::kSpoils && f.rule != "reversals")
-        warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
-  return warnings;
-}
-
-void check_recordings(const Configuration& c, const Progress& progress, std::vector<std::string>& warnings) {
-  if (!c.recording) return;
-  progress("checking the recordings");
-  for (const auto* files : {&c.recording->files, &c.recording->held_out})
-    for (std::string& warning : spoiling(c, *files)) warnings.push_back(std::move(warning));
 }
 
 /// Under the input of what was held out, which stands in the report; a motion that diverges has left no
@@ -83,14 +55,6 @@ void write_outcome(ReportFolder& report, const Configuration& c, const Diagnosis
   report.commit();
 }
 
-/// Where the recordings do not decide: what would.
-void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
-                 Diagnosis& d) {
-  if (d.rivals.size() < 2) return;
-  options.progress("looking for the experiment that would tell");
-  d.next_experiment = next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads);
-}
-
 void diagnose_configuration(const Arguments& a) {
   require_known(a.excluded);
   Configuration c = load_configuration(a.config);
@@ -103,25 +67,13 @@ void diagnose_configuration(const Arguments& a) {
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = a.threads;
   options.progress = progress_on_terminal(a.quiet);
-  const std::vector<FileHash> sources = sources_of(c);
-  RunOutcome loaded;
-  const std::vector<Recording> train = load_recordings(c, options.progress, loaded);
-  require_possible_experiment(c, train.front().dt);
-  const std::vector<Recording> held_out = load_held_out(c, options.progress, loaded);
-  if (sources != sources_of(c)) throw ConfigError(a.config, kSourcesChanged);
-  check_recordings(c, options.progress, loaded.warnings);
-  const std::vector<MotorTrace> train_traces = traces_of(train), held_out_traces = traces_of(held_out);
-  DiagnosisResult result{c.name, version(), resolved_yaml(c), c.rotation,
-                         diagnose(train_traces, held_out_traces, c.model.reference_model(), options)};
-  result.sources = sources;
-  auto& warnings = result.diagnosis.warnings;
-  warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
-  ask_further(c, train_traces.front(), options, result.diagnosis);
+  DiagnosisOutcome outcome = run_diagnosis(c, options);
+  DiagnosisResult& result = outcome.result;
   options.progress("drawing the report");
-  report.keep_estimate(result.version, sources);
-  write_outcome(report, c, result, train_traces.front());
-  if (!report.dropped().empty()) warnings.push_back(report.dropped());
-  print_warnings(warnings);
+  report.keep_estimate(result.version, result.sources);
+  write_outcome(report, c, result, outcome.first.motor_trace());
+  if (!report.dropped().empty()) result.diagnosis.warnings.push_back(report.dropped());
+  print_warnings(result.diagnosis.warnings);
   print_diagnosis(folder, result);
 }
 

@@ -12,9 +12,9 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/campaign/pipeline.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/report_folder.h"
+#include "gapscope/run/run_pipeline.h"
 
 namespace gapscope::cli {
 namespace {

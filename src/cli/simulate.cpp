@@ -10,8 +10,8 @@
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
-#include "gapscope/campaign/pipeline.h"
 #include "gapscope/recording/recording_file.h"
+#include "gapscope/run/run_pipeline.h"
 
 namespace gapscope::cli {
 namespace {

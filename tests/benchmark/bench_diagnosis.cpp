@@ -5,9 +5,9 @@
 
 #include <ctime>
 
-#include "blind/plant/severity.h"
 #include "diagnosis/candidates.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "independent_plant/severity.h"
 
 namespace {
 
@@ -29,15 +29,15 @@ struct Drive {
 
 /// The source paper's rig at 2 kHz for 8 s, 16 bit with noise; a sine to be fitted, a multisine held out.
 Drive drive_with(const char* effect) {
-  blind::BlindCase c;
-  c.options = {2000.0, 8.0, 1, blind::kFastTolerance};
-  c.sensor = blind::BlindSensor::with_bits(16, 0.5);
+  independent_plant::BlindCase c;
+  c.options = {2000.0, 8.0, 1, independent_plant::kFastTolerance};
+  c.sensor = independent_plant::BlindSensor::with_bits(16, 0.5);
   c.excitation.amplitude = 0.8;
-  const blind::BlindDrive sheet = blind::data_sheet(c.drive, 1);
+  const independent_plant::BlindDrive sheet = independent_plant::data_sheet(c.drive, 1);
   if (effect != std::string("none")) give_effect(c, effect, 0.5, 3);
   Drive drive;
   drive.train = simulate_blind(c).recording;
-  c.excitation.waveform = blind::Waveform::kMultisine;
+  c.excitation.waveform = independent_plant::Waveform::kMultisine;
   c.options.seed = 2;
   drive.held_out = simulate_blind(c).recording;
   const double values[kDriveParameterCount] = {sheet.motor_inertia,

@@ -35,15 +35,15 @@ double seconds(const std::function<void()>& work) {
 
 BlindRig rig(bool sine) {
   BlindRig r;
-  r.options = {2000.0, 8.0, 1, blind::kFastTolerance};
-  r.excitation.waveform = sine ? blind::Waveform::kSine : blind::Waveform::kMultisine;
+  r.options = {2000.0, 8.0, 1, independent_plant::kFastTolerance};
+  r.excitation.waveform = sine ? independent_plant::Waveform::kSine : independent_plant::Waveform::kMultisine;
   r.excitation.frequency = sine ? 1.0 : 0.5;
   r.excitation.amplitude = 0.6;
   r.drive.x2 = 0.004;
   return r;
 }
 
-ReferenceModel wrong_model(const blind::BlindDrive& drive) {
+ReferenceModel wrong_model(const independent_plant::BlindDrive& drive) {
   ReferenceModel model = known_model(drive);
   double factor = 1.3;
   for (const int n : kFree) {

@@ -8,7 +8,7 @@
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
-#include "gapscope/campaign/pipeline.h"
+#include "gapscope/run/run_pipeline.h"
 
 namespace gapscope {
 namespace {

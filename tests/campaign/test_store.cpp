@@ -5,9 +5,9 @@
 
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/campaign/pipeline.h"
 #include "gapscope/campaign/store.h"
 #include "gapscope/recording/recording_file.h"
+#include "gapscope/run/run_pipeline.h"
 
 namespace gapscope {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "blind/plant/severity.h"
 #include "diagnosis/candidates.h"
+#include "independent_plant/severity.h"
 
 namespace gapscope::test {
 namespace {
@@ -13,17 +13,17 @@ using namespace gapscope::internal::diagnosis;
 constexpr double kHz = 3.0;
 constexpr double kSeverity = 0.6;
 
-blind::BlindCase slow_case(std::uint64_t seed) {
-  blind::BlindCase c;
-  c.options = {1000.0, 5.0, seed, blind::kFastTolerance};
-  c.sensor = blind::BlindSensor::with_bits(16, 0.5);
+independent_plant::BlindCase slow_case(std::uint64_t seed) {
+  independent_plant::BlindCase c;
+  c.options = {1000.0, 5.0, seed, independent_plant::kFastTolerance};
+  c.sensor = independent_plant::BlindSensor::with_bits(16, 0.5);
   c.excitation.amplitude = 0.8;
   c.excitation.frequency = 0.5;
   return c;
 }
 
-ReferenceModel sheet_of(const blind::BlindDrive& d, std::uint64_t seed) {
-  const blind::BlindDrive sheet = blind::data_sheet(d, seed);
+ReferenceModel sheet_of(const independent_plant::BlindDrive& d, std::uint64_t seed) {
+  const independent_plant::BlindDrive sheet = independent_plant::data_sheet(d, seed);
   const double values[kDriveParameterCount] = {sheet.motor_inertia, sheet.torque_constant,
                                                sheet.motor_damping, sheet.load_inertia / sheet.motor_inertia,
                                                sheet.gap,           sheet.load_damping,
@@ -66,7 +66,7 @@ double seen_excess(const LookAlikes& pair, const Recording& recorded) {
 }
 
 Recording played(const LookAlikes& pair, const NextExperiment& proposal) {
-  blind::BlindOptions options = pair.drive.options;
+  independent_plant::BlindOptions options = pair.drive.options;
   options.rate = proposal.rate;
   options.duration = proposal.duration;
   options.seed += 1;

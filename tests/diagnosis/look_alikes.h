@@ -5,15 +5,15 @@
 #include <utility>
 #include <vector>
 
-#include "blind/plant/random_drive.h"
 #include "gapscope/diagnosis/next_experiment.h"
+#include "independent_plant/random_drive.h"
 
 namespace gapscope::test {
 
 /// A drive of the independent plant with an effect, recorded under a slow sine that shows little of it, and
 /// two models fitted to that: with the true effect, and with one that is easily mistaken for it.
 struct LookAlikes {
-  blind::BlindCase drive;
+  independent_plant::BlindCase drive;
   Recording recording;
   std::vector<Rival> rivals;  ///< the truth first
 };

@@ -39,7 +39,7 @@ std::vector<std::string> effects_of(const std::string& kind) {
     return pairs;
   }
   std::vector<std::string> names;
-  for (const blind::DrawnEffect& e : blind::effect_entries())
+  for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
     if (e.in_catalogue == (kind == "known" || kind == "one") && e.name != "backlash")
       names.emplace_back(e.name);
   return names;

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "blind/blind_pair.h"
-#include "blind/plant/severity.h"
 #include "diagnosis/one_inertia.h"
 #include "diagnosis/pipeline.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording.h"
+#include "independent_plant/severity.h"
 
 namespace gapscope {
 namespace {
@@ -174,8 +174,8 @@ TEST(Diagnosis, AcceptsNoRefusedFirstStepForReachingTheFloorAlone) {
 }
 
 TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
-  blind::BlindCase truth;
-  truth.sensor = blind::BlindSensor::with_bits(20);
+  independent_plant::BlindCase truth;
+  truth.sensor = independent_plant::BlindSensor::with_bits(20);
   give_effect(truth, "encoder_eccentricity", 0.5, 400012);
   const blind::BlindPair pair = blind::blind_pair("paper", "encoder_eccentricity", 0.5, 400012);
   const MotorTrace train[] = {pair.train.motor_trace()};
@@ -233,7 +233,7 @@ TEST(Diagnosis, RefusesAnUnknownExclusion) {
 }
 
 TEST(Diagnosis, FindsTwoEffectsOneAfterTheOther) {
-  blind::MotorEffects both;
+  independent_plant::MotorEffects both;
   both.friction.level_nm = 0.03;
   both.cogging = {0.02, 13.7, 0.4, 0.0};
   const Diagnosis d = diagnosis_of(test::one_inertia(both, 500022));
@@ -272,7 +272,7 @@ TEST(TemptingAnswers, ACompliantShaftIsNotCalledADelay) {
 }
 
 TEST(TemptingAnswers, CoulombFrictionIsNotCalledBacklash) {
-  blind::MotorEffects friction;
+  independent_plant::MotorEffects friction;
   friction.friction.level_nm = 0.03;
   const Diagnosis d = diagnosis_of(test::one_inertia(friction, 500006));
   EXPECT_EQ(d.effects, std::vector<std::string>{"motor_coulomb_friction"}) << d.sentence;

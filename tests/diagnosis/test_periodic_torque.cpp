@@ -16,7 +16,7 @@ constexpr double kCycles = 13.7;  // no whole number of cycles per turn
 
 /// What periodic torque the nominal model, fitted, leaves.
 std::vector<PeriodicTorque> left_by_nominal(double cogging, const DiagnosisKnowledge& known = {}) {
-  blind::MotorEffects effects;
+  independent_plant::MotorEffects effects;
   effects.cogging = {cogging, kCycles, 0.4, 0.0};
   const blind::BlindPair pair = test::one_inertia(effects, 500021);
   const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};

@@ -3,15 +3,15 @@
 #include <array>
 #include <vector>
 
-#include "blind/plant/simulate.h"
 #include "gapscope/reference/fit.h"
+#include "independent_plant/simulate.h"
 
 namespace gapscope::test {
 
 using namespace place;
 
 /// The independent plant's default drive is the rig of the source paper; its numbers in our order.
-inline std::array<double, kDriveParameterCount> numbers_of(const blind::BlindDrive& d) {
+inline std::array<double, kDriveParameterCount> numbers_of(const independent_plant::BlindDrive& d) {
   return {d.motor_inertia,
           d.torque_constant,
           d.motor_damping,
@@ -24,7 +24,7 @@ inline std::array<double, kDriveParameterCount> numbers_of(const blind::BlindDri
 }
 
 /// A model whose numbers are all known; tests free some of them.
-inline ReferenceModel known_model(const blind::BlindDrive& d) {
+inline ReferenceModel known_model(const independent_plant::BlindDrive& d) {
   ReferenceModel model;
   const auto numbers = numbers_of(d);
   for (std::size_t i = 0; i < numbers.size(); ++i) model.parameters[i].value = numbers[i];
@@ -39,12 +39,14 @@ inline void estimate(ReferenceModel& model, int number, double start = kNaN) {
 
 /// A recording of the independent plant, short enough for many fits.
 struct BlindRig {
-  blind::BlindDrive drive;
-  blind::BlindExcitation excitation;
-  blind::BlindSensor sensor = blind::BlindSensor::with_bits(20);
-  blind::BlindOptions options{1000.0, 4.0, 1, 1e-10};
+  independent_plant::BlindDrive drive;
+  independent_plant::BlindExcitation excitation;
+  independent_plant::BlindSensor sensor = independent_plant::BlindSensor::with_bits(20);
+  independent_plant::BlindOptions options{1000.0, 4.0, 1, 1e-10};
 
-  Recording recording() const { return blind::simulate_blind(drive, excitation, sensor, options).recording; }
+  Recording recording() const {
+    return independent_plant::simulate_blind(drive, excitation, sensor, options).recording;
+  }
 };
 
 /// The part of a recording from one time on.

@@ -40,7 +40,7 @@ struct Case {
 /// Three unlike drives: the paper's; a geared axis; a heavy load behind a small gap.
 BlindRig rig_of(int kind) {
   BlindRig run;
-  blind::BlindDrive& d = run.drive;
+  independent_plant::BlindDrive& d = run.drive;
   if (kind == 0) run.options.rate = 2000.0;
   if (kind == 1) {
     d.motor_inertia = 5e-4, d.load_inertia = 15e-4, d.gap = 30e-3;
@@ -55,7 +55,7 @@ BlindRig rig_of(int kind) {
     run.options.rate = 4000.0;
   }
   run.options.duration = 8.0;
-  run.options.tolerance = blind::kFastTolerance;
+  run.options.tolerance = independent_plant::kFastTolerance;
   return run;
 }
 
@@ -73,9 +73,10 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   c.bits = list == "quantiser" ? 12 : kBits[seed / 6 % 3];
   const double drawn = uniform(g, 0.3, 1.5);
   c.noise = list == "noise" || (list == "recover" && seed / 18 % 2 == 1) ? drawn : 0.0;
-  c.run.sensor = blind::BlindSensor::with_bits(c.bits, c.noise);
+  c.run.sensor = independent_plant::BlindSensor::with_bits(c.bits, c.noise);
   c.run.options.seed = seed;
-  c.run.excitation.waveform = sine ? blind::Waveform::kSine : blind::Waveform::kMultisine;
+  c.run.excitation.waveform =
+      sine ? independent_plant::Waveform::kSine : independent_plant::Waveform::kMultisine;
   c.run.excitation.frequency = sine ? uniform(g, 0.7, 1.5) : 0.5;
   c.run.excitation.amplitude =
       kTorque[rig] / c.run.drive.torque_constant * (sine ? 1.0 : 1.5) * uniform(g, 0.8, 1.4);

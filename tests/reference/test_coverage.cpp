@@ -14,7 +14,7 @@ struct Count {
 };
 
 /// Fits `cases` recordings that differ in seed, initial place of the load and amplitude.
-Count covered(int cases, const blind::BlindSensor& sensor) {
+Count covered(int cases, const independent_plant::BlindSensor& sensor) {
   Count count;
   for (int i = 0; i < cases; ++i) {
     auto generator = random_stream(static_cast<std::uint64_t>(i), "coverage");
@@ -40,14 +40,14 @@ Count covered(int cases, const blind::BlindSensor& sensor) {
 constexpr int kCases = 40, kFewest = 34;
 
 TEST(Coverage, OfNoisyRecordings) {
-  const Count count = covered(kCases, blind::BlindSensor::with_bits(16, 0.7));
+  const Count count = covered(kCases, independent_plant::BlindSensor::with_bits(16, 0.7));
   EXPECT_GE(count.gap, kFewest);
   EXPECT_GE(count.damping, kFewest);
   EXPECT_GE(count.mass_ratio, kFewest);
 }
 
 TEST(Coverage, OfAQuantiserWithoutDitherWhoseErrorRepeatsEveryPeriod) {
-  const Count count = covered(kCases, blind::BlindSensor::with_bits(12));
+  const Count count = covered(kCases, independent_plant::BlindSensor::with_bits(12));
   EXPECT_GE(count.gap, kFewest);
   EXPECT_GE(count.damping, kFewest);
   EXPECT_GE(count.mass_ratio, kFewest);

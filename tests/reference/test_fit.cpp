@@ -58,7 +58,7 @@ TEST(Fit, RecoversGapDampingAndMassRatioOfWhichNothingWasSaid) {
 
 TEST(Fit, RecoversAllButInertiaAndTorqueConstantFromASheetTwentyPercentOff) {
   BlindRig run;
-  run.excitation.waveform = blind::Waveform::kMultisine;
+  run.excitation.waveform = independent_plant::Waveform::kMultisine;
   run.excitation.frequency = 0.5;
   run.excitation.amplitude = 1.2;
   ReferenceModel model = known_model(run.drive);
@@ -82,7 +82,7 @@ TEST(Fit, SeveralRecordingsShareTheirParametersAndKeepTheirOwnInitialStates) {
   BlindRig first, second;
   first.options.duration = second.options.duration = 2.0;
   first.drive.x2 = 0.005;
-  second.excitation.waveform = blind::Waveform::kMultisine;
+  second.excitation.waveform = independent_plant::Waveform::kMultisine;
   second.drive.x1 = 0.3, second.drive.x2 = 0.292;
   second.options.rate = 2000.0;
   const Recording a = first.recording(), b = second.recording();
@@ -162,7 +162,7 @@ TEST(Fit, AWrongFixedParameterIsSaidNotHidden) {
 
 TEST(Fit, ASmallMismatchIsSeenInTheRandomnessOfTheResidualAndAQuantisersPatternIsNot) {
   BlindRig rig;
-  rig.sensor = blind::BlindSensor::with_bits(16, 0.5);
+  rig.sensor = independent_plant::BlindSensor::with_bits(16, 0.5);
   rig.options.duration = 3.0;
   for (const bool right : {true, false}) {
     ReferenceModel model = known_model(rig.drive);
@@ -172,7 +172,7 @@ TEST(Fit, ASmallMismatchIsSeenInTheRandomnessOfTheResidualAndAQuantisersPatternI
     EXPECT_LT(summary.rmse, 3.0 * summary.floor);
     EXPECT_EQ(summary.full_report().find("not random") == std::string::npos, right) << summary.full_report();
   }
-  rig.sensor = blind::BlindSensor::with_bits(12);  // correlated by its own coarseness
+  rig.sensor = independent_plant::BlindSensor::with_bits(12);  // correlated by its own coarseness
   rig.options.rate = 5000.0;
   ReferenceModel model = known_model(rig.drive);
   estimate(model, kGap, 0.02);
@@ -183,7 +183,7 @@ TEST(Fit, ASmallMismatchIsSeenInTheRandomnessOfTheResidualAndAQuantisersPatternI
 
 TEST(Fit, ResidualsOfTheRightModelAreAsRandomAsChanceAndThoseOfAWrongOneAreNot) {
   BlindRig rig;
-  rig.sensor = blind::BlindSensor::with_bits(16, 1.0);
+  rig.sensor = independent_plant::BlindSensor::with_bits(16, 1.0);
   for (const bool right : {true, false}) {
     ReferenceModel model = known_model(rig.drive);
     if (!right) model.parameters[kContactStiffness].value = 100.0;
@@ -199,7 +199,7 @@ TEST(Fit, ResidualsOfTheRightModelAreAsRandomAsChanceAndThoseOfAWrongOneAreNot) 
 
 TEST(Fit, TheProfileOfAWellKnownParameterIsItsInterval) {
   BlindRig rig;
-  rig.sensor = blind::BlindSensor::with_bits(16, 1.0);
+  rig.sensor = independent_plant::BlindSensor::with_bits(16, 1.0);
   ReferenceModel model = known_model(rig.drive);
   estimate(model, kGap, 0.02);
   estimate(model, kMotorDamping, 0.07);
@@ -238,7 +238,7 @@ TEST(Fit, AWrongSignOfTheInputIsSuspectedBeforeAnythingElse) {
 
 TEST(Fit, ATightPriorHoldsAParameterThatTheRecordingHardlySees) {
   BlindRig run;
-  run.sensor = blind::BlindSensor::with_bits(12);
+  run.sensor = independent_plant::BlindSensor::with_bits(12);
   ReferenceModel model = known_model(run.drive);
   estimate(model, kContactDamping, 0.05);
   model.parameters[kContactDamping].prior = Prior{0.07, 1e-5};

@@ -18,7 +18,7 @@ ModelEffect effect(const char* name, double start) {
 
 TEST(FitStructures, OneInertiaHasMotorParametersOnly) {
   BlindRig run;
-  run.drive.load = blind::BlindLoad::kNone;
+  run.drive.load = independent_plant::BlindLoad::kNone;
   ReferenceModel model = known_model(run.drive);
   model.structure.has_load = false;
   estimate(model, kMotorInertia, 2.0 * 8.78e-4);
@@ -35,9 +35,9 @@ TEST(FitStructures, OneInertiaHasMotorParametersOnly) {
 
 TEST(FitStructures, ALockedLoadYieldsTheGapAndItsPlace) {
   BlindRig run;
-  run.drive.load = blind::BlindLoad::kLocked;
+  run.drive.load = independent_plant::BlindLoad::kLocked;
   run.drive.x2 = 0.004;
-  run.excitation.waveform = blind::Waveform::kTriangle;
+  run.excitation.waveform = independent_plant::Waveform::kTriangle;
   ReferenceModel model = known_model(run.drive);
   model.structure.load = LoadKind::kLocked;
   estimate(model, kGap, 0.03);
@@ -53,7 +53,7 @@ TEST(FitStructures, ALockedLoadYieldsTheGapAndItsPlace) {
 
 TEST(FitStructures, AnEffectOfTheCatalogueIsFittedWithTheDrive) {
   BlindRig run;
-  run.drive.load = blind::BlindLoad::kNone;
+  run.drive.load = independent_plant::BlindLoad::kNone;
   run.drive.effects.motor.friction.level_nm = 0.02;
   ReferenceModel model = known_model(run.drive);
   model.structure.has_load = false;

@@ -23,7 +23,7 @@ void expect_not_identifiable(const FitSummary& summary, const char* key) {
 
 TEST(Identifiability, InertiaTorqueConstantAndDampingOfOneInertiaScaleTogether) {
   BlindRig run;
-  run.drive.load = blind::BlindLoad::kNone;
+  run.drive.load = independent_plant::BlindLoad::kNone;
   ReferenceModel model = known_model(run.drive);
   model.structure.has_load = false;
   for (const int n : {kMotorInertia, kTorqueConstant, kMotorDamping})
@@ -41,7 +41,7 @@ TEST(Identifiability, InertiaTorqueConstantAndDampingOfOneInertiaScaleTogether) 
 
 TEST(Identifiability, TorqueConstantAndInertiaAloneAreKnownAsARatio) {
   BlindRig run;
-  run.drive.load = blind::BlindLoad::kNone;
+  run.drive.load = independent_plant::BlindLoad::kNone;
   run.drive.motor_damping = 0.0;  // which would fix the scale
   run.excitation.offset = 0.0;
   run.excitation.amplitude = 0.1;
@@ -67,7 +67,7 @@ TEST(Identifiability, ASineSaysWhatWouldSharpenTheContact) {
 
 TEST(Identifiability, AllNineFreeLeaveGapAndMassRatioOnly) {
   BlindRig run;
-  run.excitation.waveform = blind::Waveform::kMultisine;
+  run.excitation.waveform = independent_plant::Waveform::kMultisine;
   ReferenceModel model = known_model(run.drive);
   for (int n = 0; n < kDriveParameterCount; ++n)
     model.parameters[static_cast<std::size_t>(n)].estimate = true;

@@ -8,9 +8,9 @@ namespace {
 
 TEST(RoughDrive, TheBalanceOfOneInertiaIsItsOwn) {
   test::BlindRig run;
-  run.drive.load = blind::BlindLoad::kNone;
+  run.drive.load = independent_plant::BlindLoad::kNone;
   run.drive.effects.motor.friction.level_nm = 0.01;
-  run.excitation.waveform = blind::Waveform::kMultisine;
+  run.excitation.waveform = independent_plant::Waveform::kMultisine;
   const Recording recording = run.recording();
   const MotorTrace traces[] = {recording.motor_trace()};
   const RoughDrive rough = rough_drive(traces);
@@ -36,7 +36,7 @@ TEST(RoughDrive, TheFirstSamplesOfAParabolaGiveItsSpeed) {
 
 TEST(RoughDrive, TheFloorIsTheQuantisersOrTheNoisesWhicheverIsLarger) {
   test::BlindRig run;
-  run.sensor = blind::BlindSensor::with_bits(20);
+  run.sensor = independent_plant::BlindSensor::with_bits(20);
   const Recording clean = run.recording();
   EXPECT_NEAR(encoder_floor(clean.motor_trace()), clean.quantum / std::sqrt(12.0), 0.3 * clean.quantum);
   run.sensor.noise = 1e-4;  // fourth differences of white noise: their robust deviation is its rms

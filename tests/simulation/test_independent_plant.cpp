@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "blind/plant/simulate.h"
+#include "independent_plant/simulate.h"
 #include "simulation/drives.h"
 
 namespace gapscope {
@@ -25,8 +25,8 @@ const Rig kRigs[] = {{"paper", test::paper_rig(), 0.6, 2000.0},
                      {"geared", test::geared_axis(), 1.0, 1000.0},
                      {"heavy", test::heavy_load(), 0.6, 4000.0}};
 
-blind::BlindDrive independent(const DriveParameters<double>& p) {
-  blind::BlindDrive d;
+independent_plant::BlindDrive independent(const DriveParameters<double>& p) {
+  independent_plant::BlindDrive d;
   d.motor_inertia = p.motor_inertia;
   d.torque_constant = p.torque_constant;
   d.motor_damping = p.motor_damping;
@@ -47,12 +47,13 @@ std::vector<double> input(const Rig& rig) {
   return u;
 }
 
-double largest_difference(const Rig& rig, const StepperModel<double>& model, const blind::BlindDrive& truth) {
+double largest_difference(const Rig& rig, const StepperModel<double>& model,
+                          const independent_plant::BlindDrive& truth) {
   const std::vector<double> u = input(rig);
-  blind::BlindOptions options;
+  independent_plant::BlindOptions options;
   options.rate = rig.rate;
   options.duration = 10.0;
-  const blind::BlindRun run = blind::simulate_blind_command(truth, u, {}, options);
+  const independent_plant::BlindRun run = independent_plant::simulate_blind_command(truth, u, {}, options);
   DriveStepper<double> stepper(model, 1.0 / rig.rate);
   stepper.reset({});
   double largest = 0.0;
@@ -69,7 +70,7 @@ double largest_difference(const Rig& rig, const StepperModel<double>& model, con
 struct EqualForm {
   const char* name;
   std::function<std::vector<double>(const Rig&)> parameters;
-  std::function<void(const std::vector<double>&, blind::Effects&)> apply;
+  std::function<void(const std::vector<double>&, independent_plant::Effects&)> apply;
 };
 
 double torque(const Rig& rig) { return rig.amplitude * rig.drive.torque_constant; }
@@ -78,12 +79,12 @@ const std::vector<EqualForm>& equal_forms() {
   using V = std::vector<double>;
   static const std::vector<EqualForm> forms = {
       {"motor_coulomb_friction", [](const Rig& r) { return V{0.1 * torque(r)}; },
-       [](const V& p, blind::Effects& e) { e.motor.friction.level_nm = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.motor.friction.level_nm = p[0]; }},
       {"friction_asymmetry",
        [](const Rig& r) {
          return V{0.1 * torque(r), 0.3, 0.2};
        },
-       [](const V& p, blind::Effects& e) {
+       [](const V& p, independent_plant::Effects& e) {
          e.motor.friction.level_nm = p[0];
          e.motor.friction.coulomb_ratio = p[1];
          e.motor.friction.viscous_ratio = p[2];
@@ -92,7 +93,7 @@ const std::vector<EqualForm>& equal_forms() {
        [](const Rig& r) {
          return V{0.08 * torque(r), 0.5, 0.3, 1.4};
        },
-       [](const V& p, blind::Effects& e) {
+       [](const V& p, independent_plant::Effects& e) {
          e.motor.friction.level_nm = p[0];
          e.motor.friction.stiction_ratio = p[1];
          e.motor.friction.stribeck_speed_rad_s = p[2];
@@ -102,70 +103,74 @@ const std::vector<EqualForm>& equal_forms() {
        [](const Rig& r) {
          return V{0.1 * torque(r), 2e-3, 1e-4};
        },
-       [](const V& p, blind::Effects& e) {
+       [](const V& p, independent_plant::Effects& e) {
          e.motor.bristle = {p[0], p[1], p[2]};
        }},
       {"quadratic_drag",
        [](const Rig& r) {
          return V{0.05 * torque(r), 2.1};
        },
-       [](const V& p, blind::Effects& e) { e.motor.drag_nms2 = p[0], e.motor.drag_exponent = p[1]; }},
+       [](const V& p, independent_plant::Effects& e) {
+         e.motor.drag_nms2 = p[0], e.motor.drag_exponent = p[1];
+       }},
       {"cogging_torque",
        [](const Rig& r) {
          return V{0.1 * torque(r), 24.0, 0.3, 0.0};
        },
-       [](const V& p, blind::Effects& e) {
+       [](const V& p, independent_plant::Effects& e) {
          e.motor.cogging = {p[0], p[1], p[2], 0.0};
        }},
       {"torque_ripple",
        [](const Rig&) {
          return V{0.1, 12.0, 0.3, 0.0};
        },
-       [](const V& p, blind::Effects& e) {
+       [](const V& p, independent_plant::Effects& e) {
          e.command.ripple = {p[0], p[1], p[2], 0.0};
        }},
       {"load_unbalance",
        [](const Rig& r) {
          return V{0.1 * torque(r), 0.7};
        },
-       [](const V& p, blind::Effects& e) { e.load.unbalance_nm = p[0], e.load.unbalance_phase_rad = p[1]; }},
+       [](const V& p, independent_plant::Effects& e) {
+         e.load.unbalance_nm = p[0], e.load.unbalance_phase_rad = p[1];
+       }},
       {"constant_load_torque", [](const Rig& r) { return V{0.05 * torque(r)}; },
-       [](const V& p, blind::Effects& e) { e.load.constant_torque_nm = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.load.constant_torque_nm = p[0]; }},
       {"input_dead_zone", [](const Rig& r) { return V{0.1 * r.amplitude}; },
-       [](const V& p, blind::Effects& e) { e.command.dead_zone = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.command.dead_zone = p[0]; }},
       {"input_delay", [](const Rig& r) { return V{2.3 / r.rate}; },
-       [](const V& p, blind::Effects& e) { e.command.delay_s = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.command.delay_s = p[0]; }},
       {"actuator_lag", [](const Rig& r) { return V{3.0 / r.rate}; },
-       [](const V& p, blind::Effects& e) { e.command.lag_s = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.command.lag_s = p[0]; }},
       {"shaft_compliance", [](const Rig& r) { return V{0.5 * r.drive.contact_stiffness}; },
-       [](const V& p, blind::Effects& e) { e.contact.stiffness_nm_rad = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.contact.stiffness_nm_rad = p[0]; }},
       {"impact_damping", [](const Rig& r) { return V{2.0 * r.drive.contact_damping}; },
-       [](const V& p, blind::Effects& e) { e.contact.damping_nms_rad = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.contact.damping_nms_rad = p[0]; }},
       {"gap_eccentricity",
        [](const Rig& r) {
          return V{0.1 * r.drive.gap, 0.4};
        },
-       [](const V& p, blind::Effects& e) {
+       [](const V& p, independent_plant::Effects& e) {
          e.contact.eccentricity_rad = p[0], e.contact.eccentricity_phase_rad = p[1];
        }},
       {"gap_growth", [](const Rig& r) { return V{0.05 * r.drive.gap}; },
-       [](const V& p, blind::Effects& e) { e.contact.growth_rad_s = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.contact.growth_rad_s = p[0]; }},
       {"contact_adhesion", [](const Rig& r) { return V{0.1 * torque(r)}; },
-       [](const V& p, blind::Effects& e) { e.contact.release_nm = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.contact.release_nm = p[0]; }},
       {"encoder_eccentricity",
        [](const Rig&) {
          return V{1e-3, 0.4};
        },
-       [](const V& p, blind::Effects& e) {
+       [](const V& p, independent_plant::Effects& e) {
          e.sensor.eccentricity_rad = p[0], e.sensor.eccentricity_phase_rad = p[1];
        }},
       {"measurement_lag", [](const Rig& r) { return V{2.0 / r.rate}; },
-       [](const V& p, blind::Effects& e) { e.sensor.lag_s = p[0]; }},
+       [](const V& p, independent_plant::Effects& e) { e.sensor.lag_s = p[0]; }},
       {"viscous_drift",
        [](const Rig&) {
          return V{0.3, 4.0};
        },
-       [](const V& p, blind::Effects& e) {
+       [](const V& p, independent_plant::Effects& e) {
          e.motor.viscous_drift_ratio = p[0], e.motor.viscous_drift_time_s = p[1];
        }}};
   return forms;
@@ -186,7 +191,7 @@ TEST_P(OnThreeRigs, EachEffectOfEqualFormFreeRunsTenSecondsWithinAFifthOfACount)
     const std::vector<double> p = form.parameters(rig);
     StepperModel<double> model = stepper_model(rig.drive, {});
     add_effect<double>(model, *find_effect(form.name), p);
-    blind::BlindDrive truth = independent(rig.drive);
+    independent_plant::BlindDrive truth = independent(rig.drive);
     form.apply(p, truth.effects);
     const double difference = largest_difference(rig, model, truth);
     std::cout << rig.name << " " << form.name << ": " << difference / kCount20Bit << " counts of 20 bit\n";

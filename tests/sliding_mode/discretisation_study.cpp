@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "blind/plant/simulate.h"
 #include "gapscope/base/statistics.h"
+#include "independent_plant/simulate.h"
 #include "sliding_mode/paper_method.h"
 
 namespace gapscope {
 namespace {
 
-using blind::GapPassage;
+using independent_plant::GapPassage;
 
 constexpr Discretisation kAll[] = {Discretisation::kForwardEuler, Discretisation::kSemiImplicit,
                                    Discretisation::kImplicit, Discretisation::kMatched};
@@ -24,20 +24,20 @@ struct Setting {
   std::vector<double> bounds;  // [rad/s²]
 };
 
-blind::BlindRun record(const Setting& s, double dt) {
-  const blind::BlindDrive rig;
-  blind::BlindExcitation sine;
+independent_plant::BlindRun record(const Setting& s, double dt) {
+  const independent_plant::BlindDrive rig;
+  independent_plant::BlindExcitation sine;
   sine.amplitude = s.torque / rig.torque_constant;
   sine.frequency = s.frequency;
-  blind::BlindOptions options;
+  independent_plant::BlindOptions options;
   options.rate = 1.0 / dt;
   options.duration = 10.0 / s.frequency;
-  options.tolerance = blind::kFastTolerance;
-  return simulate_blind(rig, sine, blind::BlindSensor::with_bits(20), options);
+  options.tolerance = independent_plant::kFastTolerance;
+  return simulate_blind(rig, sine, independent_plant::BlindSensor::with_bits(20), options);
 }
 
 /// From one flank to the other, after the first period.
-std::vector<GapPassage> passages_of(const blind::BlindTruth& truth, double from) {
+std::vector<GapPassage> passages_of(const independent_plant::BlindTruth& truth, double from) {
   std::vector<GapPassage> passages;
   for (const GapPassage& p : truth.passages)
     if (p.from_flank * p.to_flank < 0 && p.t1 > from) passages.push_back(p);
@@ -95,7 +95,7 @@ void print_table(const Setting& s) {
   for (const Discretisation d : kAll) fmt::print(" {} |", to_string(d));
   fmt::print("\n|---|---|---|---|---|---|\n");
   for (const double dt : {0.05e-3, 0.1e-3, 0.4e-3, 1e-3}) {
-    const blind::BlindRun run = record(s, dt);
+    const independent_plant::BlindRun run = record(s, dt);
     const MotorTrace trace = run.recording.motor_trace();
     const internal::sliding_mode::ImpactAnalysis analysis = internal::sliding_mode::analyse(trace);
     const auto passages = passages_of(run.truth, 1.0 / s.frequency);

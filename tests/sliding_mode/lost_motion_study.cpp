@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "blind/plant/simulate.h"
 #include "gapscope/base/random.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/simulate.h"
 
 namespace gapscope {
 namespace {
@@ -29,15 +29,15 @@ constexpr std::size_t kWithGap = 4;
 
 struct Case {
   std::size_t kind = 0;
-  blind::BlindDrive drive;
-  blind::BlindExcitation excitation;
-  blind::BlindSensor sensor;
-  blind::BlindOptions options;
+  independent_plant::BlindDrive drive;
+  independent_plant::BlindExcitation excitation;
+  independent_plant::BlindSensor sensor;
+  independent_plant::BlindOptions options;
 };
 
 void draw_friction(Case& c, std::mt19937_64& g, double torque) {
   const double level = torque * uniform(g, 0.02, 0.6);
-  blind::MotorEffects& motor = c.drive.effects.motor;
+  independent_plant::MotorEffects& motor = c.drive.effects.motor;
   if (c.kind == 1 || c.kind == 4) motor.friction.level_nm = level;
   if (c.kind == 3 || c.kind == 7) {
     motor.friction.level_nm = 0.3 * level;
@@ -58,24 +58,26 @@ Case draw(std::uint64_t seed) {
   c.kind = static_cast<std::size_t>(seed % kKinds.size());
   const double torque = log_uniform(g, 0.05, 0.5), gap = log_uniform(g, 0.005, 0.05);
   c.drive.gap = c.kind < kWithGap ? gap : 0.0;
-  c.drive.load = c.kind % kWithGap == 3 ? blind::BlindLoad::kFree : blind::BlindLoad::kLocked;
+  c.drive.load =
+      c.kind % kWithGap == 3 ? independent_plant::BlindLoad::kFree : independent_plant::BlindLoad::kLocked;
   c.drive.contact_stiffness = 3.0 * torque * log_uniform(g, 50.0, 5000.0);
   c.drive.motor_damping *= log_uniform(g, 0.2, 2.0);
   draw_friction(c, g, torque);
-  c.excitation.waveform = uniform(g, 0.0, 3.0) < 2.0 ? blind::Waveform::kTriangle : blind::Waveform::kSine;
+  c.excitation.waveform = uniform(g, 0.0, 3.0) < 2.0 ? independent_plant::Waveform::kTriangle
+                                                     : independent_plant::Waveform::kSine;
   c.excitation.amplitude = torque / c.drive.torque_constant;
   c.excitation.frequency = log_uniform(g, 0.1, 0.5);
   const int bits = uniform(g, 0.0, 1.0) < 0.5 ? 16 : 20;
-  c.sensor = blind::BlindSensor::with_bits(bits, uniform(g, 0.0, 1.0) < 0.5 ? 0.0 : 0.7);
+  c.sensor = independent_plant::BlindSensor::with_bits(bits, uniform(g, 0.0, 1.0) < 0.5 ? 0.0 : 0.7);
   c.options = {.rate = 400.0,
                .duration = 5.0 / c.excitation.frequency,
                .seed = seed,
-               .tolerance = blind::kFastTolerance};
+               .tolerance = independent_plant::kFastTolerance};
   return c;
 }
 
 /// Distance of the true x1 at the zeros of the command after its two directions.
-double true_play(const Case& c, const blind::BlindRun& run) {
+double true_play(const Case& c, const independent_plant::BlindRun& run) {
   std::vector<double> after_plus, after_minus;
   for (double t = 1.0 / c.excitation.frequency; t < c.options.duration - 1e-9;
        t += 0.5 / c.excitation.frequency) {
@@ -91,7 +93,7 @@ struct Tally {
   std::vector<double> errors;
 };
 
-void add(Tally& tally, const Case& c, const blind::BlindRun& run) {
+void add(Tally& tally, const Case& c, const independent_plant::BlindRun& run) {
   const MotorTrace trace = run.recording.motor_trace();
   const GapEstimate e = detect_gap({&trace, 1});
   ++tally.cases;

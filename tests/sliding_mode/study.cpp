@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "blind/plant/random_drive.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/random_drive.h"
 #include "sliding_mode/visible_gap.h"
 
 namespace gapscope {
@@ -25,31 +25,36 @@ struct Outcome {
   GapEstimate estimate;
 };
 
-blind::Waveform waveform_of(const std::string& name) {
-  const std::map<std::string, blind::Waveform> names{{"sine", blind::Waveform::kSine},
-                                                     {"triangle", blind::Waveform::kTriangle},
-                                                     {"trapezoid", blind::Waveform::kTrapezoid},
-                                                     {"multisine", blind::Waveform::kMultisine}};
+independent_plant::Waveform waveform_of(const std::string& name) {
+  const std::map<std::string, independent_plant::Waveform> names{
+      {"sine", independent_plant::Waveform::kSine},
+      {"triangle", independent_plant::Waveform::kTriangle},
+      {"trapezoid", independent_plant::Waveform::kTrapezoid},
+      {"multisine", independent_plant::Waveform::kMultisine}};
   return names.at(name);
 }
 
-double median_coasting(const blind::BlindTruth& truth) {
+double median_coasting(const independent_plant::BlindTruth& truth) {
   std::vector<double> shares;
-  for (const blind::GapPassage& p : truth.passages)
+  for (const independent_plant::GapPassage& p : truth.passages)
     if (p.from_flank * p.to_flank < 0) shares.push_back(std::abs(p.load_travel) / p.gap);
   return shares.empty() ? 0.0 : median(std::move(shares));
 }
 
-Outcome run(std::uint64_t seed, bool with_gap, blind::Waveform waveform, const DetectorOptions& options) {
-  blind::BlindCase c =
-      with_gap ? blind::random_drive(seed, waveform)
-               : blind::random_gap_free_drive(seed, static_cast<int>(seed % blind::kGapFreeKinds), waveform);
-  c.options.tolerance = blind::kFastTolerance;
-  const blind::BlindRun r = blind::simulate_blind(c);
+Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform waveform,
+            const DetectorOptions& options) {
+  independent_plant::BlindCase c =
+      with_gap ? independent_plant::random_drive(seed, waveform)
+               : independent_plant::random_gap_free_drive(
+                     seed, static_cast<int>(seed % independent_plant::kGapFreeKinds), waveform);
+  c.options.tolerance = independent_plant::kFastTolerance;
+  const independent_plant::BlindRun r = independent_plant::simulate_blind(c);
   MotorTrace trace = r.recording.motor_trace();
   trace.quantum = c.sensor.quantum;
   Outcome o{seed, c.kind, with_gap ? c.drive.gap : 0.0, c.sensor.quantum, 0.0, 0.0, {}};
-  o.mass_ratio = c.drive.load == blind::BlindLoad::kNone ? 0.0 : c.drive.load_inertia / c.drive.motor_inertia;
+  o.mass_ratio = c.drive.load == independent_plant::BlindLoad::kNone
+                     ? 0.0
+                     : c.drive.load_inertia / c.drive.motor_inertia;
   o.coasting = with_gap ? median_coasting(r.truth) : 0.0;
   o.estimate = detect_gap({&trace, 1}, options);
   return o;
@@ -121,7 +126,7 @@ int main_study(int argc, char** argv) {
   const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
   const std::uint64_t count = std::strtoull(argv[2], nullptr, 10);
   const bool with_gap = std::string(argv[3]) == "gap";
-  const blind::Waveform waveform = waveform_of(argv[4]);
+  const independent_plant::Waveform waveform = waveform_of(argv[4]);
   const auto asked = [&](const char* word) {
     return std::find(argv + 5, argv + argc, std::string(word)) != argv + argc;
   };

@@ -3,24 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blind/plant/random_drive.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/random_drive.h"
 #include "sliding_mode/free_flight.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-using blind::BlindDrive;
-using blind::BlindRun;
-using blind::GapPassage;
+using independent_plant::BlindDrive;
+using independent_plant::BlindRun;
+using independent_plant::GapPassage;
 
 BlindRun simulate(const BlindDrive& drive, int bits = 20) {
-  blind::BlindExcitation sine;
-  blind::BlindOptions options;
+  independent_plant::BlindExcitation sine;
+  independent_plant::BlindOptions options;
   options.duration = 7.0;
-  options.tolerance = blind::kFastTolerance;
-  return blind::simulate_blind(drive, sine, blind::BlindSensor::with_bits(bits), options);
+  options.tolerance = independent_plant::kFastTolerance;
+  return independent_plant::simulate_blind(drive, sine, independent_plant::BlindSensor::with_bits(bits),
+                                           options);
 }
 
 BlindDrive coasting_drive() {
@@ -83,7 +84,7 @@ TEST(FlightLaw, FindsTheMotorsOwnCoefficientsWithoutBeingToldAny) {
 
 TEST(FlightLaw, OneLawForTheWholeStrokeMeansThatNoContactWasLost) {
   BlindDrive drive;
-  drive.load = blind::BlindLoad::kNone;
+  drive.load = independent_plant::BlindLoad::kNone;
   const BlindRun run = simulate(drive);
   const MotorTrace trace = run.recording.motor_trace();
   const FlightWindow window{10000, 10400, 11200, 1};
@@ -102,16 +103,17 @@ TEST(FlightLaw, TheGapOfALoadThatCoastsIsReadNotItsUncorrectedS5) {
   EXPECT_GT(std::abs(estimate.events.back().gap_uncorrected / drive.gap - 1.0), 0.03);
 }
 
-GapEstimate detect(blind::BlindCase c) {
-  c.options.tolerance = blind::kFastTolerance;
-  const BlindRun run = blind::simulate_blind(c);
+GapEstimate detect(independent_plant::BlindCase c) {
+  c.options.tolerance = independent_plant::kFastTolerance;
+  const BlindRun run = independent_plant::simulate_blind(c);
   MotorTrace trace = run.recording.motor_trace();
   trace.quantum = c.sensor.quantum;
   return detect_gap({&trace, 1});
 }
 
 TEST(FreeFlight, AFlightThatBeginsInTheReboundOfAnImpactIsNotUsed) {
-  const blind::BlindCase c = blind::random_drive(320033, blind::Waveform::kMultisine);
+  const independent_plant::BlindCase c =
+      independent_plant::random_drive(320033, independent_plant::Waveform::kMultisine);
   const GapEstimate estimate = detect(c);
   EXPECT_TRUE(std::any_of(estimate.events.begin(), estimate.events.end(), [](const GapEvent& e) {
     return e.remark == "the impact before it threw motor and load apart";
@@ -122,25 +124,29 @@ TEST(FreeFlight, AFlightThatBeginsInTheReboundOfAnImpactIsNotUsed) {
 }
 
 TEST(FreeFlight, AMotorThatSlowsDownDidNotCrossAGapFromRest) {
-  const blind::BlindCase wide = blind::random_drive(320204, blind::Waveform::kMultisine);
+  const independent_plant::BlindCase wide =
+      independent_plant::random_drive(320204, independent_plant::Waveform::kMultisine);
   const GapEstimate estimate =
       detect(wide);  // read 28 % too small where the release is taken at a later kink
   if (estimate.verdict == GapVerdict::kBacklash) {
     EXPECT_NEAR(estimate.gap, wide.drive.gap, 0.08 * wide.drive.gap) << estimate.brief_report();
   }
-  const blind::BlindCase presliding = blind::random_gap_free_drive(310699, 310699 % blind::kGapFreeKinds);
+  const independent_plant::BlindCase presliding =
+      independent_plant::random_gap_free_drive(310699, 310699 % independent_plant::kGapFreeKinds);
   EXPECT_NE(detect(presliding).verdict, GapVerdict::kBacklash);
 }
 
 TEST(FreeFlight, TheLawOfTheFlightAndTheContactAreFittedTogether) {
-  const blind::BlindCase c = blind::random_drive(340203);  // soft: 11 % too small with a law carried on alone
+  const independent_plant::BlindCase c =
+      independent_plant::random_drive(340203);  // soft: 11 % too small with a law carried on alone
   const GapEstimate estimate = detect(c);
   ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason;
   EXPECT_NEAR(estimate.gap, c.drive.gap, 0.03 * c.drive.gap);
 }
 
 TEST(FreeFlight, AnUnsymmetricalMotionMayShowTheGapOneWayOnly) {
-  const blind::BlindCase c = blind::random_drive(345122, blind::Waveform::kMultisine);
+  const independent_plant::BlindCase c =
+      independent_plant::random_drive(345122, independent_plant::Waveform::kMultisine);
   const GapEstimate estimate = detect(c);
   ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason;
   EXPECT_NE(estimate.reason.find("all with falling x1"), std::string::npos) << estimate.reason;
@@ -150,7 +156,7 @@ TEST(FreeFlight, AnUnsymmetricalMotionMayShowTheGapOneWayOnly) {
 TEST(FreeFlight, ALoadWhoseStateBeforeAndAfterItsReleaseDisagreesIsNotTrusted) {
   // Read 22 and 15 % too large when only the flight was asked.
   for (const std::uint64_t seed : {345157, 345206})
-    EXPECT_EQ(detect(blind::random_drive(seed, blind::Waveform::kMultisine)).verdict,
+    EXPECT_EQ(detect(independent_plant::random_drive(seed, independent_plant::Waveform::kMultisine)).verdict,
               GapVerdict::kInconclusive)
         << seed;
 }

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "blind/plant/simulate.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/simulate.h"
 #include "sliding_mode/lost_motion.h"
 
 namespace gapscope {
@@ -14,26 +14,27 @@ using ::testing::HasSubstr;
 constexpr double kTorque = 0.2;  // amplitude [N m]
 
 /// Locked output; 2β = 10 mrad by default, 1 mrad of elastic wind-up at the amplitude.
-blind::BlindDrive locked(double gap = 0.01) {
-  blind::BlindDrive drive;
-  drive.load = blind::BlindLoad::kLocked;
+independent_plant::BlindDrive locked(double gap = 0.01) {
+  independent_plant::BlindDrive drive;
+  drive.load = independent_plant::BlindLoad::kLocked;
   drive.gap = gap;
   drive.contact_stiffness = 200.0;
   return drive;
 }
 
-Recording ramps(const blind::BlindDrive& drive, double torque = kTorque, int bits = 18,
+Recording ramps(const independent_plant::BlindDrive& drive, double torque = kTorque, int bits = 18,
                 std::uint64_t seed = 1) {
-  blind::BlindExcitation triangle;
-  triangle.waveform = blind::Waveform::kTriangle;
+  independent_plant::BlindExcitation triangle;
+  triangle.waveform = independent_plant::Waveform::kTriangle;
   triangle.amplitude = torque / drive.torque_constant;
   triangle.frequency = 0.2;
-  blind::BlindOptions options;
+  independent_plant::BlindOptions options;
   options.rate = 400.0;
   options.duration = 25.0;
   options.seed = seed;
-  options.tolerance = blind::kFastTolerance;
-  return simulate_blind(drive, triangle, blind::BlindSensor::with_bits(bits, 0.5), options).recording;
+  options.tolerance = independent_plant::kFastTolerance;
+  return simulate_blind(drive, triangle, independent_plant::BlindSensor::with_bits(bits, 0.5), options)
+      .recording;
 }
 
 GapEstimate detect(const std::vector<Recording>& recordings) {
@@ -61,15 +62,15 @@ TEST(LostMotion, WithoutFrictionThePlayIsTheGap) {
 
 TEST(LostMotion, FrictionOfTheMotorAddsItsWindUpOnBothFlanks) {
   for (const double level : {0.02, 0.06}) {
-    blind::BlindDrive drive = locked();
+    independent_plant::BlindDrive drive = locked();
     drive.effects.motor.friction.level_nm = level;
     expect_play(detect({ramps(drive)}), 0.01 + 2.0 * level / drive.contact_stiffness);
   }
 }
 
 TEST(LostMotion, AVeryHeavyLoadIsAsGoodAsALockedOne) {
-  blind::BlindDrive drive = locked();
-  drive.load = blind::BlindLoad::kFree;
+  independent_plant::BlindDrive drive = locked();
+  drive.load = independent_plant::BlindLoad::kFree;
   drive.load_inertia = 300.0 * drive.motor_inertia;
   drive.load_coulomb = 0.5;
   expect_play(detect({ramps(drive)}), 0.01);
@@ -83,12 +84,12 @@ TEST(LostMotion, OnlyTheZeroOfTheInputCountsNotItsUnit) {
 }
 
 TEST(LostMotion, HysteresisOfFrictionAndComplianceIsNoPlay) {
-  blind::BlindDrive coulomb = locked(0.0), presliding = locked(0.0), soft = locked(0.0);
+  independent_plant::BlindDrive coulomb = locked(0.0), presliding = locked(0.0), soft = locked(0.0);
   coulomb.effects.motor.friction.level_nm = 0.08;
   presliding.effects.motor.bristle = {.level_nm = 0.1, .length_rad = 5e-3};
   soft.contact_stiffness = 10.0;
   soft.effects.motor.friction.level_nm = 0.15;
-  for (const blind::BlindDrive& drive : {coulomb, presliding, soft}) {
+  for (const independent_plant::BlindDrive& drive : {coulomb, presliding, soft}) {
     const GapEstimate estimate = detect({ramps(drive)});
     EXPECT_EQ(estimate.verdict, GapVerdict::kNone) << estimate.brief_report();
     EXPECT_GT(estimate.smallest_visible_gap, 0.0);
@@ -98,7 +99,7 @@ TEST(LostMotion, HysteresisOfFrictionAndComplianceIsNoPlay) {
 
 TEST(LostMotion, ADriveThatSticksAndLeapsIsNotReadAsPlay) {
   for (const double stiction : {0.5, 1.0}) {
-    blind::BlindDrive drive = locked(0.0);
+    independent_plant::BlindDrive drive = locked(0.0);
     drive.contact_stiffness = 20.0;
     drive.effects.motor.friction = {
         .level_nm = 0.04, .stiction_ratio = stiction, .stribeck_speed_rad_s = 0.1};
@@ -107,7 +108,7 @@ TEST(LostMotion, ADriveThatSticksAndLeapsIsNotReadAsPlay) {
 }
 
 TEST(LostMotion, TorqueLevelsThatAgreeAreReadTogether) {
-  blind::BlindDrive drive = locked();
+  independent_plant::BlindDrive drive = locked();
   drive.effects.motor.friction.level_nm = 0.02;
   const GapEstimate estimate = detect({ramps(drive, 0.1), ramps(drive, 0.3, 18, 2)});
   expect_play(estimate, 0.0102);
@@ -116,7 +117,8 @@ TEST(LostMotion, TorqueLevelsThatAgreeAreReadTogether) {
 }
 
 TEST(LostMotion, TorqueLevelsThatDisagreeAreToldAndNotAveraged) {
-  blind::BlindDrive drive = locked(0.0);  // below the friction nothing moves: the small ramps only wind it up
+  independent_plant::BlindDrive drive =
+      locked(0.0);  // below the friction nothing moves: the small ramps only wind it up
   drive.contact_stiffness = 20.0;
   drive.effects.motor.friction.level_nm = 0.08;
   const GapEstimate estimate = detect({ramps(drive, 0.1), ramps(drive, 0.4)});
@@ -126,15 +128,15 @@ TEST(LostMotion, TorqueLevelsThatDisagreeAreToldAndNotAveraged) {
 }
 
 TEST(LostMotion, AFreeLoadIsNotQuasiStatic) {
-  blind::BlindDrive free;
-  blind::BlindExcitation sine;
+  independent_plant::BlindDrive free;
+  independent_plant::BlindExcitation sine;
   sine.frequency = 0.2;
-  blind::BlindOptions options;
+  independent_plant::BlindOptions options;
   options.rate = 400.0;
   options.duration = 25.0;
-  options.tolerance = blind::kFastTolerance;
+  options.tolerance = independent_plant::kFastTolerance;
   const Recording recording =
-      simulate_blind(free, sine, blind::BlindSensor::with_bits(18), options).recording;
+      simulate_blind(free, sine, independent_plant::BlindSensor::with_bits(18), options).recording;
   const MotorTrace trace = recording.motor_trace();
   EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}));
 }
@@ -147,7 +149,7 @@ TEST(LostMotion, ARecordingWithoutHalfCyclesHasNoLoop) {
 }
 
 TEST(LostMotion, DeniesNothingWhereTheMotorHardlyMoves) {
-  blind::BlindDrive stiff = locked(0.0);
+  independent_plant::BlindDrive stiff = locked(0.0);
   stiff.contact_stiffness = 1e5;  // 2 µrad of wind-up, a tenth of a count
   EXPECT_EQ(detect({ramps(stiff)}).verdict, GapVerdict::kInconclusive);
   Recording counts = ramps(stiff);

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "blind/plant/simulate.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/simulate.h"
 
 namespace gapscope {
 namespace {
@@ -17,21 +17,22 @@ struct Setting {
   int bits = 20;
 };
 
-GapEstimate read(const blind::BlindDrive& drive, const Setting& s, double bound) {
-  blind::BlindExcitation sine;
+GapEstimate read(const independent_plant::BlindDrive& drive, const Setting& s, double bound) {
+  independent_plant::BlindExcitation sine;
   sine.amplitude = s.torque / drive.torque_constant;
   sine.frequency = s.frequency;
-  blind::BlindOptions options;
+  independent_plant::BlindOptions options;
   options.rate = s.rate;
   options.duration = 8.0 / s.frequency;
-  options.tolerance = blind::kFastTolerance;
+  options.tolerance = independent_plant::kFastTolerance;
   const Recording recording =
-      simulate_blind(drive, sine, blind::BlindSensor::with_bits(s.bits), options).recording;
+      simulate_blind(drive, sine, independent_plant::BlindSensor::with_bits(s.bits), options).recording;
   const MotorTrace trace = recording.motor_trace();
   return detect_gap({&trace, 1}, {.bound = bound});
 }
 
-void expect_read(const blind::BlindDrive& drive, const Setting& s, double bound, double tolerance) {
+void expect_read(const independent_plant::BlindDrive& drive, const Setting& s, double bound,
+                 double tolerance) {
   const GapEstimate estimate = read(drive, s, bound);
   ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
   EXPECT_EQ(estimate.method, GapMethod::kPaper);
@@ -50,7 +51,7 @@ TEST(PaperMethod, ABoundBetweenTheAccelerationsReadsTheExperiment) {
 
 TEST(PaperMethod, TheExperimentIsReadWithStifferAndCoarserDrives) {
   for (const double stiffness : {1000.0, 5000.0}) {
-    blind::BlindDrive drive;
+    independent_plant::BlindDrive drive;
     drive.contact_stiffness = stiffness;
     expect_read(drive, {}, 4.0, 0.03);
   }
@@ -63,7 +64,7 @@ TEST(PaperMethod, ABoundBelowTheEngagedAccelerationReadsWhereTheErrorBendsAway) 
   for (const double stiffness : {200.0, 1000.0, 5000.0})
     for (const double rate : {2500.0, 5000.0, 10000.0, 20000.0}) {
       SCOPED_TRACE(testing::Message() << stiffness << " N m/rad, " << rate << " Hz");
-      blind::BlindDrive drive;
+      independent_plant::BlindDrive drive;
       drive.contact_stiffness = stiffness;
       expect_read(drive, {.torque = 0.5, .frequency = 2.0, .rate = rate}, 40.0, 0.03);
     }
@@ -93,15 +94,15 @@ TEST(PaperMethod, ABendThatACoarseEncoderHidesIsToldAsSuch) {
 }
 
 TEST(PaperMethod, NoBoundReadsAGapWhereThereIsNone) {
-  blind::BlindDrive bonded, one_inertia, sticking;
-  bonded.contact = blind::ContactKind::kBonded;
-  one_inertia.load = blind::BlindLoad::kNone;
+  independent_plant::BlindDrive bonded, one_inertia, sticking;
+  bonded.contact = independent_plant::ContactKind::kBonded;
+  one_inertia.load = independent_plant::BlindLoad::kNone;
   one_inertia.motor_inertia *= 2.0;
   one_inertia.effects.motor.friction.level_nm = 0.05;
   sticking = one_inertia;
   sticking.effects.motor.friction.stiction_ratio = 0.6;
   sticking.effects.motor.friction.stribeck_speed_rad_s = 0.1;
-  for (const blind::BlindDrive& drive : {bonded, one_inertia, sticking})
+  for (const independent_plant::BlindDrive& drive : {bonded, one_inertia, sticking})
     for (const Setting& s : {Setting{}, Setting{.torque = 0.5, .frequency = 2.0}})
       for (const double bound : {3.0, 5.0, 10.0, 20.0, 40.0, 60.0, 100.0})
         EXPECT_NE(read(drive, s, bound).verdict, GapVerdict::kBacklash) << bound << " " << s.torque;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blind/plant/random_drive.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "gapscope/sliding_mode/stream_detector.h"
+#include "independent_plant/random_drive.h"
 #include "sliding_mode/frozen_search.h"
 #include "sliding_mode/test_drive.h"
 #include "support/data.h"
@@ -67,9 +67,10 @@ GapEstimate frozen(const MotorTrace& trace) { return detect_gap({&trace, 1}, {.f
 TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnDrivesOfTheIndependentPlant) {
   std::size_t events = 0;
   for (std::uint64_t seed = 910001; seed < 910009; ++seed) {
-    blind::BlindCase c = blind::random_drive(seed, blind::Waveform::kSine);
-    c.options.tolerance = blind::kFastTolerance;
-    const blind::BlindRun run = blind::simulate_blind(c);
+    independent_plant::BlindCase c =
+        independent_plant::random_drive(seed, independent_plant::Waveform::kSine);
+    c.options.tolerance = independent_plant::kFastTolerance;
+    const independent_plant::BlindRun run = independent_plant::simulate_blind(c);
     MotorTrace trace = run.recording.motor_trace();
     trace.quantum = c.sensor.quantum;
     const GapEstimate batch = frozen(trace);

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/blind/records.h"
 #include "gapscope/blind/score.h"
 #include "gapscope/config/blind_config.h"
+#include "gapscope/results/blind_records.h"
 
 /// The blind check of the diagnosis, in steps that can run on different machines: recordings are made and
 /// their labels sealed, the diagnosis answers from recordings and sheets alone, the answers are sealed, the

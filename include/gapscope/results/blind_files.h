@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "gapscope/blind/records.h"
+#include "gapscope/results/blind_records.h"
 
 /// The files of a blind check. Each writer throws std::runtime_error naming what cannot be written, each
 /// reader ConfigError for another schema or a damaged file.

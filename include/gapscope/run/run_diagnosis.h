@@ -1,0 +1,31 @@
+#pragma once
+
+#include "gapscope/results/diagnosis_result.h"
+#include "gapscope/run/run_pipeline.h"
+
+namespace gapscope {
+
+/// What a diagnosis is made from.
+struct DiagnosisRecordings {
+  LoadedRecordings train, held_out;
+};
+
+/// Reads what is fitted and what is held out.  @throws ConfigError, Interrupted
+DiagnosisRecordings load_for_diagnosis(const Configuration& configuration, const Progress& progress);
+
+/// The diagnosis of recordings that are there, and nothing else.
+/// @throws ConfigError where the model cannot be fitted or nothing moves, Interrupted
+Diagnosis diagnose_recordings(const Configuration& configuration, const DiagnosisRecordings& recordings,
+                              const DiagnosisOptions& options);
+
+struct DiagnosisOutcome {
+  DiagnosisResult result;
+  Recording first;  ///< of what was fitted
+};
+
+/// Everything of `diagnose` but the writing: the recordings are read, looked at as `check` does and
+/// diagnosed; where they do not decide, the experiment that would is looked for.
+/// @throws ConfigError, also where a source changes meanwhile; Interrupted
+DiagnosisOutcome run_diagnosis(const Configuration& configuration, const DiagnosisOptions& options);
+
+}  // namespace gapscope

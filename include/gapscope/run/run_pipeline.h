@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gapscope/config/configuration.h"
+#include "gapscope/results/run_result.h"
+
+namespace gapscope {
+
+/// Which of the two estimators a command asks for.
+struct Estimators {
+  bool model_free = true;
+  bool reference = true;
+};
+
+/// Told what begins: "reading train.csv".
+using Progress = std::function<void(const std::string&)>;
+
+struct RunOutcome {
+  RunResult result;
+  Timing timing;
+  std::vector<std::string> warnings;  ///< what the user should know beside the result
+};
+
+/// Data, both estimators, comparison: everything of `run`, `detect` and `fit` but the writing.
+/// @throws ConfigError, Interrupted
+RunOutcome run_pipeline(const Configuration& configuration, const Estimators& wanted,
+                        const Progress& progress);
+
+struct LoadedRecordings {
+  std::vector<Recording> recordings;
+  std::vector<std::string> notes;     ///< what was done to them
+  std::vector<std::string> warnings;  ///< what looks wrong
+
+  std::vector<MotorTrace> motor_traces() const;
+};
+
+/// The recordings of a configuration, read or simulated, with the encoder's sheet applied.
+/// @throws ConfigError, Interrupted
+LoadedRecordings load_recordings(const Configuration& configuration, const Progress& progress);
+
+/// The recordings of `held_out:`, read likewise; empty where there are none.
+LoadedRecordings load_held_out(const Configuration& configuration, const Progress& progress);
+
+/// What a result will be made from, each with its SHA-256: the configuration as resolved (but for effects
+/// that the diagnosis leaves out), the recordings that it names, those held out, the input that a simulation
+/// plays again.
+std::vector<FileHash> sources_of(const Configuration& configuration);
+
+/// The paths of the configuration itself and of these files.
+std::vector<std::string> source_paths(const Configuration& configuration);
+
+/// Of files that are another when they were read.
+inline constexpr const char* kSourcesChanged =
+    "or a recording that it names changed while it was read, expected it to stay";
+
+/// The recording that `simulation:` describes.
+Recording simulated_recording(const Configuration& configuration);
+
+}  // namespace gapscope

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "gapscope/base/statistics.h"
+
+/// What can be added to the independent plant, by the side it acts on. Everything is absent by default.
+/// Where a law can reasonably be written in another form than the first that comes to mind, it is: whoever
+/// identifies these effects meets the effect, not the formula.
+namespace gapscope::independent_plant {
+
+/// Set-valued dry friction of the motor bearing. In direction s = sign(w1) it resists with
+///   level·(1 + coulomb_ratio·s)·(1 + stiction_ratio·exp(−|w1/v|^exponent)),   v = stribeck_speed,
+/// and viscous friction becomes d1·(1 + viscous_ratio·s).
+struct MotorFriction {
+  double level_nm = 0.0;              ///< [N·m]
+  double coulomb_ratio = 0.0;         ///< [-]
+  double viscous_ratio = 0.0;         ///< [-]
+  double stiction_ratio = 0.0;        ///< [-]
+  double stribeck_speed_rad_s = 1.0;  ///< [rad/s]
+  double stribeck_exponent = 1.0;     ///< [-], 1: Tustin's form, 2: Gaussian
+};
+
+/// LuGre bristle with constant level: ż = w1 − |w1|·z/length, torque −(level/length)·z − damping·ż.
+struct BristleFriction {
+  double level_nm = 0.0;
+  double length_rad = 1e-3;
+  double damping_nms = 0.0;
+};
+
+/// Periodic in the motor angle, steeper on one side of a tooth than on the other: with y = N·x1 + φ
+///   amplitude·sin(y + skew·sin(y)),
+/// whose second harmonic is skew/2 of the first, its third skew²/8, and so on.
+struct AngleHarmonic {
+  double amplitude = 0.0;  ///< cogging: [N·m]; ripple: share of the torque [-]
+  double periods_per_turn = 12.0;
+  double phase_rad = 0.0;
+  double skew = 0.0;  ///< [rad]
+};
+
+/// A short push on the motor from outside: half-sine torque pulses at random times (outside the catalogue).
+struct Knocks {
+  int count = 0;
+  double torque_nm = 0.0;  ///< peak; sign drawn for every knock
+  double duration_s = 5e-3;
+};
+
+struct MotorEffects {
+  MotorFriction friction;
+  BristleFriction bristle;
+  double drag_nms2 = 0.0;  ///< −drag·sign(w1)·|w1|^drag_exponent
+  double drag_exponent = 2.0;
+  AngleHarmonic cogging;              ///< −cogging
+  double viscous_drift_ratio = 0.0;   ///< d1·(1 + ratio·(1 − exp(−t/T)))
+  double viscous_drift_time_s = 5.0;  ///< T
+  Knocks knocks;
+};
+
+struct LoadEffects {
+  double unbalance_nm = 0.0;  ///< −unbalance·sin(x2 + φ)
+  double unbalance_phase_rad = 0.0;
+  double constant_torque_nm = 0.0;
+  double inertia_ratio =
+      0.0;  ///< m2·(1 + ratio·r(t)), r a ramp from 0 to 1: mass arrives with the speed of the load
+  double inertia_time_s = 0.0;
+  double inertia_duration_s = 0.0;  ///< 0: a step
+  double resonator_inertia = 0.0;  ///< third inertia on the load by a spring (outside the catalogue) [kg·m²]
+  double resonator_stiffness = 0.0;          ///< [N·m/rad]
+  double resonator_damping = 0.0;            ///< [N·m·s/rad]
+  double friction_per_contact_torque = 0.0;  ///< Fc2 + ratio·|τc| (outside the catalogue) [-]
+};
+
+struct ContactEffects {
+  double stiffness_nm_rad = kNaN;  ///< true stiffness where it is not the nominal one
+  double damping_nms_rad = kNaN;   ///< true damping where it is not the nominal one
+  double eccentricity_rad = 0.0;   ///< 2β + 2·eccentricity·sin(x2 + φ)
+  double eccentricity_phase_rad = 0.0;
+  double growth_rad_s = 0.0;  ///< initial rate of 2β, which then saturates: rate·T·(1 − exp(−t/T))
+  double growth_time_s = kInfinity;  ///< T; infinite: linear growth
+  double release_nm = 0.0;           ///< tensile torque at which a closed contact lets go
+  double hardening_per_rad2 = 0.0;   ///< k·p·(1 + hardening·p²) (outside the catalogue)
+};
+
+struct CommandEffects {
+  AngleHarmonic ripple;                ///< Km·u·(1 + ripple)
+  double saturation_knee = kInfinity;  ///< knee·tanh(u/knee) [unit of u]
+  double dead_zone = 0.0;              ///< half width [unit of u], subtracted beyond
+  double delay_s = 0.0;
+  double lag_s = 0.0;      ///< time constant of a first-order torque loop
+  double jitter_s = 0.0;   ///< every update late by a uniform share of it, < sample (outside the catalogue)
+  double noise = 0.0;      ///< rms of what is added to every command, unrecorded (outside the catalogue)
+  double sag_ratio = 0.0;  ///< torque·(1 − ratio·(1 − cos(2π·t/period))/2) (outside the catalogue)
+  double sag_period_s = 2.0;
+};
+
+struct SensorEffects {
+  double eccentricity_rad = 0.0;  ///< x1 + e·sin(x1 + φ)
+  double eccentricity_phase_rad = 0.0;
+  double quantum_rad = 0.0;  ///< the real quantum where it is coarser than that of the sheet
+  double lag_s = 0.0;        ///< first-order filter on the angle
+  int lost_count_times = 0;  ///< how often counts are lost (outside the catalogue)
+  int lost_counts = 0;       ///< how many each time; the sign is drawn
+};
+
+struct Effects {
+  MotorEffects motor;
+  LoadEffects load;
+  ContactEffects contact;
+  CommandEffects command;
+  SensorEffects sensor;
+};
+
+}  // namespace gapscope::independent_plant

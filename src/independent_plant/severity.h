@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "independent_plant/random_drive.h"
+
+namespace gapscope::independent_plant {
+
+enum class Needs {
+  kNothing,
+  kContact,  ///< a load behind a spring or a gap
+  kGap,
+  kNoGap,  ///< `backlash`, where the nominal drive has none
+};
+
+struct EffectScale;  // what sizes are relative to
+
+/// An effect that a case can be given by name.
+struct DrawnEffect {
+  std::string_view name;  ///< identifier of the catalogue, or a name of its own
+  bool in_catalogue;
+  Needs needs;
+  void (*give)(BlindCase&, EffectScale&);
+};
+
+/// All effects: the catalogue's in its order, then those outside.
+std::span<const DrawnEffect> effect_entries();
+
+/// Whether the effect has a place in the drive.
+bool can_have(const BlindDrive& drive, const DrawnEffect& entry);
+
+/// Adds one effect to the case. Severity 0 is weak (2–3 % of the torque, a tenth of the gap and the like), 1
+/// strong (20–30 %, most of the gap), geometric in between; signs, phases, periods and times are drawn from
+/// the seed. Sizes are relative to the case's own peak torque, travel, speed, period and encoder.
+/// @throws std::logic_error for an unknown name or an effect that the drive cannot have.
+void give_effect(BlindCase& c, std::string_view name, double severity, std::uint64_t seed);
+
+}  // namespace gapscope::independent_plant

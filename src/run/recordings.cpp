@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/recording/recording_file.h"
+#include "gapscope/results/sha256.h"
+#include "gapscope/run/run_pipeline.h"
+#include "gapscope/simulation/simulate.h"
+#include "independent_plant/simulate.h"
+
+namespace gapscope {
+namespace {
+
+/// The file's own name; where two files share it, the path as it was given, without separators.
+std::string name_of(const RecordedFile& file, const std::vector<RecordedFile>& all) {
+  const auto own = [](const RecordedFile& f) { return std::filesystem::path(f.path).filename().string(); };
+  const auto same = std::count_if(all.begin(), all.end(), [&](const auto& f) { return own(f) == own(file); });
+  if (same == 1) return own(file);
+  std::string name = file.given;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+/// The sheet knows better than the samples, but a large difference is worth a word.
+void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>& warnings) {
+  const double sheet = c.position_quantum(), seen = r.quantum;
+  if (sheet == 0.0) return;
+  r.quantum = sheet;
+  if (seen == 0.0 || (seen < 1.5 * sheet && seen > sheet / 1.5)) return;
+  warnings.push_back(fmt::format("{}: positions step by {:.4g} {} where encoder: says {:.4g}", r.file, seen,
+                                 c.rotation ? "rad" : "m", sheet));
+}
+
+Recording read_one(const RecordedFile& file, const Configuration& c) {
+  if (std::error_code unreachable; !std::filesystem::exists(file.path, unreachable))
+    throw ConfigError(c.file, file.line,
+                      fmt::format("there is no recording {}, expected a CSV or .mat file (relative to this "
+                                  "configuration)",
+                                  file.given));
+  return read_recording(file.path, c.recording->reading);
+}
+
+/// The plant of a configuration in the terms of the independent code.
+independent_plant::BlindDrive independent_drive(const SimulationConfig& s) {
+  const DriveParameters<double>& p = s.plant.drive;
+  const DriveStructure& structure = s.plant.structure;
+  independent_plant::BlindDrive d;
+  d.load = !structure.has_load                   ? independent_plant::BlindLoad::kNone
+           : structure.load == LoadKind::kLocked ? independent_plant::BlindLoad::kLocked
+                                                 : independent_plant::BlindLoad::kFree;
+  d.contact = structure.contact == ContactLaw::kRigid ? independent_plant::ContactKind::kRigid
+                                                      : independent_plant::ContactKind::kCompliant;
+  d.restitution = structure.restitution;
+  d.motor_inertia = p.motor_inertia;
+  d.torque_constant = p.torque_constant;
+  d.motor_damping = p.motor_damping;
+  d.load_inertia = p.motor_inertia * p.mass_ratio;
+  d.load_damping = p.load_damping;
+  d.load_coulomb = p.load_coulomb_friction;
+  d.gap = p.gap;
+  d.contact_stiffness = p.contact_stiffness;
+  d.contact_damping = p.contact_damping;
+  d.x1 = s.initial.x1, d.w1 = s.initial.w1;
+  d.x2 = s.initial.x2, d.w2 = s.initial.w2;
+  return d;
+}
+
+Recording independent_recording(const Configuration& c, const std::vector<double>& u) {
+  const SimulationConfig& s = *c.simulation;
+  independent_plant::BlindOptions options;
+  options.rate = s.rate;
+  options.duration = s.duration;
+  options.seed = s.seed;
+  options.tolerance = independent_plant::kFastTolerance;
+  return independent_plant::simulate_blind_command(independent_drive(s), u, {c.position_quantum(), s.noise},
+                                                   options)
+      .recording;
+}
+
+LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile>& files,
+                          const Progress& progress) {
+  LoadedRecordings loaded;
+  for (const RecordedFile& file : files) {
+    stop_point();
+    progress("reading " + file.given);
+    Recording r = read_one(file, c);
+    r.file = name_of(file, files);
+    apply_sheet(r, c, loaded.warnings);
+    if (!r.resampling.empty()) loaded.notes.push_back(r.file + ": " + r.resampling);
+    if (r.open_end)
+      loaded.notes.push_back(r.file + ": its last line has no end, so the last number may be cut off");
+    loaded.recordings.push_back(std::move(r));
+  }
+  return loaded;
+}
+
+}  // namespace
+
+std::vector<std::string> source_paths(const Configuration& c) {
+  std::vector<std::string> paths = {c.file};
+  if (c.recording)
+    for (const auto* files : {&c.recording->files, &c.recording->held_out})
+      for (const RecordedFile& f : *files) paths.push_back(f.path);
+  if (c.simulation && !c.simulation->excitation.file.empty())
+    paths.push_back(
+        (std::filesystem::path(c.simulation->excitation.folder) / c.simulation->excitation.file).string());
+  return paths;
+}
+
+std::vector<FileHash> sources_of(const Configuration& c) {
+  Configuration asked_of_all = c;
+  asked_of_all.excluded.clear();  // a question of the diagnosis, no other drive
+  std::vector<FileHash> sources = {{"configuration", sha256(resolved_yaml(asked_of_all))}};
+  for (const std::string& path : source_paths(c)) {
+    if (path == c.file) continue;
+    const std::string name = std::filesystem::path(path).filename().string();
+    std::error_code unreachable;  // what is held out need not be there for an estimate
+    const bool there = std::filesystem::is_regular_file(path, unreachable);
+    sources.push_back({name, there ? sha256_of_file(path) : ""});
+  }
+  return sources;
+}
+
+Recording simulated_recording(const Configuration& c) {
+  const SimulationConfig& s = *c.simulation;
+  SimulationOptions options;
+  options.rate = s.rate;
+  options.seed = s.seed;
+  options.initial = {s.initial.x1, s.initial.w1, s.initial.x2, s.initial.w2};
+  options.encoder = {c.position_quantum(), s.noise};
+  const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
+  stop_point();
+  Recording r = s.independent ? independent_recording(c, u) : simulate(s.plant.plant_model(), u, options);
+  r.file = c.name;
+  return r;
+}
+
+std::vector<MotorTrace> LoadedRecordings::motor_traces() const {
+  std::vector<MotorTrace> traces;
+  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
+  return traces;
+}
+
+LoadedRecordings load_recordings(const Configuration& c, const Progress& progress) {
+  if (!c.simulation) return read_all(c, c.recording->files, progress);
+  progress("simulating " + c.name);
+  LoadedRecordings loaded;
+  loaded.recordings.push_back(simulated_recording(c));
+  return loaded;
+}
+
+LoadedRecordings load_held_out(const Configuration& c, const Progress& progress) {
+  if (!c.recording) return {};
+  return read_all(c, c.recording->held_out, progress);
+}
+
+}  // namespace gapscope

@@ -1,0 +1,73 @@
+#include "gapscope/run/run_diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/version.h"
+#include "gapscope/inspection/inspection.h"
+
+namespace gapscope {
+namespace {
+
+/// What `check` says will spoil the estimates, of what is fitted and what is held out alike. Reversals are
+/// the detector's concern.
+std::vector<std::string> spoiling(const Configuration& c, const std::vector<RecordedFile>& files) {
+  std::vector<std::string> warnings;
+  for (const RecordedFile& file : files)
+    for (const Finding& f : inspect(file.path, c.recording->reading, c.rotation).findings)
+      if (f.severity == Severity::kSpoils && f.rule != "reversals")
+        warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
+  return warnings;
+}
+
+std::vector<std::string> checked(const Configuration& c, const Progress& progress) {
+  std::vector<std::string> warnings;
+  if (!c.recording) return warnings;
+  progress("checking the recordings");
+  for (const auto* files : {&c.recording->files, &c.recording->held_out})
+    for (std::string& warning : spoiling(c, *files)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+/// Where the recordings do not decide: what would.
+void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
+                 Diagnosis& d) {
+  if (d.rivals.size() < 2) return;
+  options.progress("looking for the experiment that would tell");
+  d.next_experiment = next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads);
+}
+
+}  // namespace
+
+DiagnosisRecordings load_for_diagnosis(const Configuration& c, const Progress& progress) {
+  DiagnosisRecordings all{load_recordings(c, progress), {}};
+  require_possible_experiment(c, all.train.recordings.front().dt);
+  all.held_out = load_held_out(c, progress);
+  return all;
+}
+
+Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings& recordings,
+                              const DiagnosisOptions& options) {
+  return diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
+                  c.model.reference_model(), options);
+}
+
+DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& options) {
+  const std::vector<FileHash> sources = sources_of(c);
+  DiagnosisRecordings recordings = load_for_diagnosis(c, options.progress);
+  if (sources != sources_of(c)) throw ConfigError(c.file, kSourcesChanged);
+  std::vector<std::string> warnings = std::move(recordings.train.warnings);
+  for (const auto& more : {recordings.held_out.warnings, checked(c, options.progress)})
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  DiagnosisResult result{c.name, version(), resolved_yaml(c), c.rotation,
+                         diagnose_recordings(c, recordings, options)};
+  result.sources = sources;
+  Diagnosis& d = result.diagnosis;
+  d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
+  ask_further(c, recordings.train.recordings.front().motor_trace(), options, d);
+  return {std::move(result), std::move(recordings.train.recordings.front())};
+}
+
+}  // namespace gapscope

@@ -1,0 +1,123 @@
+#include "gapscope/run/run_pipeline.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/units.h"
+#include "gapscope/base/version.h"
+#include "gapscope/diagnosis/comparison.h"
+#include "gapscope/reference/fit.h"
+#include "gapscope/sliding_mode/detector.h"
+
+namespace gapscope {
+namespace {
+
+/// A result of f and how long it took [s].
+template <class Function>
+auto timed(double& seconds, const Function& f) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto result = f();
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+/// The lower end of (13) from what the model and the input tell; 0 where they do not. The detector estimates
+/// nothing from it: it only says what the published choice of L would have shown.
+double published_bound(const Configuration& c, const std::vector<MotorTrace>& traces) {
+  DriveParameters<double> drive;
+  for (int i = 0; i < kDriveParameterCount; ++i) drive_parameter(drive, i) = c.model.parameters[i].value;
+  BoundKnowledge known;
+  known.load_force_bound = drive.load_coulomb_friction;
+  for (const MotorTrace& trace : traces)
+    for (const double u : trace.u) known.input_limit = std::max(known.input_limit, std::abs(u));
+  const Interval bound = acceleration_bound(drive, known);
+  return c.model.structure.has_load && std::isfinite(bound.low) && std::isfinite(bound.high) ? bound.low
+                                                                                             : 0.0;
+}
+
+DetectorOptions detector_options(const Configuration& c, const std::vector<MotorTrace>& traces,
+                                 std::vector<std::string>& notes) {
+  DetectorOptions options;
+  options.frozen = c.detector.frozen;
+  if (c.detector.bound) options.bound = *c.detector.bound;
+  if (!c.detector.bound && !c.detector.from_model) options.paper_bound = published_bound(c, traces);
+  if (!c.detector.from_model) return options;
+  const Interval bound = bound_from_model(c);
+  options.bound = chosen_bound(bound);
+  options.paper_bound = bound.low;
+  notes.push_back(
+      fmt::format("bound of the detector from the model, eq. (13): {:.4g} < L < {:.4g}, L = {:.4g} "
+                  "rad/s^2 taken",
+                  bound.low, bound.high, options.bound));
+  return options;
+}
+
+/// Parameters that the configuration does not mention and that count as a number all the same.
+void note_defaults(const ModelConfig& model, std::vector<std::string>& notes) {
+  std::vector<std::string> keys;
+  for (int i = 0; i < kDriveParameterCount; ++i)
+    if (model.defaulted[i] && !model.parameters[i].estimate && has_parameter(model.structure, i))
+      keys.emplace_back(kDriveParameters[i].key);
+  if (!keys.empty()) notes.push_back(fmt::format("not given and taken as 0: {}", fmt::join(keys, ", ")));
+}
+
+/// What the estimators said of a rotation, in the units of the axis.
+void speak_of_the_axis(RunResult& r) {
+  const auto say = [&](std::string& text) { text = axis_sentence(text, r.rotation); };
+  const auto say_all = [&](std::vector<std::string>& texts) {
+    std::for_each(texts.begin(), texts.end(), say);
+  };
+  if (r.model_free) say(r.model_free->reason), say_all(r.model_free->warnings);
+  if (r.reference) say(r.reference->message), say_all(r.reference->warnings), say_all(r.reference->advice);
+  say_all(r.notes);
+}
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const Progress& progress) {
+  if (wanted.reference) require_reference_model(c);
+  RunOutcome out;
+  RunResult& r = out.result;
+  r.name = c.name;
+  r.version = version();
+  r.configuration = resolved_yaml(c);
+  r.rotation = c.rotation;
+  LoadedRecordings loaded = load_recordings(c, progress);
+  r.notes = std::move(loaded.notes);
+  out.warnings = std::move(loaded.warnings);
+  r.recordings = std::move(loaded.recordings);
+  if (c.simulation && c.simulation->plant.structure.has_load) r.simulated_gap = c.simulation->plant.drive.gap;
+  std::vector<MotorTrace> traces;
+  for (const Recording& recording : r.recordings) traces.push_back(recording.motor_trace());
+  if (wanted.model_free) {
+    stop_point();
+    progress("model-free detector");
+    const DetectorOptions options = detector_options(c, traces, r.notes);
+    r.model_free = timed(out.timing.model_free_s, [&] { return detect_gap(traces, options); });
+  }
+  if (wanted.reference) {
+    stop_point();
+    progress("reference fit");
+    note_defaults(c.model, r.notes);
+    r.reference =
+        timed(out.timing.reference_s, [&] { return fit(traces, c.model.reference_model(), c.fit); });
+  }
+  speak_of_the_axis(r);
+  if (r.model_free) append(out.warnings, r.model_free->warnings);
+  if (r.reference) append(out.warnings, r.reference->warnings);
+  if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
+  if (r.comparison) r.comparison->map_width = map_width(r.recordings);
+  stop_point();
+  return out;
+}
+
+}  // namespace gapscope
