@@ -32,4 +32,5 @@ build() {
   cmake --build "$folder" --target "$target"
 }
 
-mapfile -t packages <.ci/packages
+mapfile -t packages <.ci/packages            # to build and to run gapscope
+mapfile -t test_packages <.ci/test_packages  # for the tests, besides
