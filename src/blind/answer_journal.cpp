@@ -38,7 +38,12 @@ void AnswerJournal::read(const std::string& check) {
     throw ConfigError(path_, "is no regular file, expected the answers so far");
   std::ifstream in(path_, std::ios::binary);
   std::string line;
-  if (!std::getline(in, line) || line != check)
+  const auto require_read = [&] {
+    if (!in.is_open() || in.bad()) throw MachineError(path_ + ": cannot be read");
+  };
+  const bool begun = static_cast<bool>(std::getline(in, line));
+  require_read();
+  if (!begun || line != check)
     throw ConfigError(
         path_, 1,
         "answers " + shown(line, 200) + ", expected " + shown(check, 200) + "; remove it to begin anew");
@@ -46,6 +51,7 @@ void AnswerJournal::read(const std::string& check) {
     BlindAnswer answer = blind_answer_of(line, path_ + ":" + std::to_string(number));
     answers_.insert_or_assign(answer.name, answer);
   }
+  require_read();  // or answers that are there would be given again
 }
 
 void AnswerJournal::add(const BlindAnswer& answer) {

@@ -43,9 +43,13 @@ void require_nothing_beside(const std::string& file) {
 /// SQLite takes what has such a name, and removes it.
 void require_own_beside(const std::string& file) {
   const auto begins = [&](const char* end, std::initializer_list<std::string> heads) {
+    std::error_code problem;
+    const fs::file_status there = fs::symlink_status(file + end, problem);
+    if (!fs::exists(there)) return true;
+    if (!fs::is_regular_file(there)) return false;
     std::ifstream in(file + end, std::ios::binary);
     std::string head(4, '\0');
-    if (!in.read(head.data(), 4)) return in.gcount() == 0;  // empty, or not there
+    if (!in.read(head.data(), 4)) return in.gcount() == 0;  // empty
     return std::any_of(heads.begin(), heads.end(), [&](const std::string& h) { return head == h; });
   };
   const std::string zeros(4, '\0');  // of one that is no longer valid
@@ -54,6 +58,9 @@ void require_own_beside(const std::string& file) {
   if (!begins("-journal", {"\xd9\xd5\x05\xf9", zeros}))
     throw ConfigError(file + "-journal", "is not what SQLite keeps beside a store, expected it elsewhere");
   std::error_code problem;
+  const fs::file_status index = fs::symlink_status(file + "-shm", problem);
+  if (fs::exists(index) && !fs::is_regular_file(index))
+    throw ConfigError(file + "-shm", "is not what SQLite keeps beside a store, expected it elsewhere");
   constexpr std::uintmax_t kUnit = 32768;  // of its index of the log
   if (const auto size = fs::file_size(file + "-shm", problem); !problem && size % kUnit != 0)
     throw ConfigError(file + "-shm", "is not what SQLite keeps beside a store, expected it elsewhere");

@@ -167,6 +167,10 @@ TEST(CampaignStore, LeavesAUsersFileBesideItAlone) {
                 HasSubstr("is not what SQLite keeps beside a store"));
     EXPECT_EQ(testing::text_of(file), "notes of mine");
     std::filesystem::remove(file);
+    std::filesystem::create_directory(file);
+    EXPECT_THAT(testing::refusal([&] { CampaignStore(small.place("store")); }),
+                HasSubstr("is not what SQLite keeps beside a store"));
+    std::filesystem::remove(file);
   }
 }
 

@@ -52,5 +52,16 @@ TEST(FolderContent, TakesNothingBackOverWhatCameMeanwhile) {
   EXPECT_EQ(text_of(to / "b"), "mine");
 }
 
+TEST(FolderContent, TakesNoFileOfTheUserForAnEmptyFolder) {
+  ScratchFolder scratch;
+  const fs::path from = scratch.path / "from", to = scratch.path / "to";
+  for (const fs::path& folder : {from, to}) fs::create_directory(folder);
+  std::ofstream(from / "a") << "new";
+  std::ofstream(to / "traces") << "mine";
+  internal::results::replace_files(
+      from, to, {"a"}, {}, from / ".replaced", [](const std::string&) { return false; }, nullptr);
+  EXPECT_EQ(text_of(to / "traces"), "mine");
+}
+
 }  // namespace
 }  // namespace gapscope
