@@ -37,7 +37,7 @@ bool is_stream(const std::string& path) {
          name.starts_with("/proc/self/fd/");
 }
 
-/// The same of what a file holds, whatever its name is; empty where there is none.
+/// Changes with what is written into a file, not with its name; empty where there is none.
 std::string content_identity(const std::string& path) {
   struct stat s {};
   if (lstat(path.c_str(), &s) != 0) return "";
