@@ -9,8 +9,7 @@ namespace gapscope {
 namespace {
 
 constexpr std::size_t kFewestSteps = 20;
-constexpr std::size_t kFewPositions =
-    12;                                 ///< so few different ones are counts, however they follow each other
+constexpr std::size_t kFewPositions = 12;  ///< different ones; so few are counts, however they come
 constexpr double kTextRounding = 1e-6;  ///< of the range: smaller steps come from printing, not from counting
 constexpr double kCluster = 0.02;       ///< steps that differ by less than this share are the same step
 constexpr double kOnGrid = 0.1;         ///< distance from a whole number of quanta that still is one
