@@ -37,21 +37,40 @@ bool is_stream(const std::string& path) {
          name.starts_with("/proc/self/fd/");
 }
 
-/// Changes with what is written into a file, not with its name; empty where there is none.
+/// Gives a file that came in the place of ours a name that shows.
+std::string kept_beside(const std::string& from, const std::string& to) {
+  constexpr int kMost = 100;
+  for (int number = 1; number <= kMost; ++number) {
+    const std::string name = fmt::format("{}.meanwhile{}", to, number);
+    if (moved_where_nothing_is(from, name)) return name;
+  }
+  return from;
+}
+
+}  // namespace
+
+std::string identity_of(const std::string& path) {
+  struct stat s {};
+  if (stat(path.c_str(), &s) != 0) return "";
+  return fmt::format("{} {} {} {}.{} {}.{}", s.st_dev, s.st_ino, s.st_size, s.st_mtim.tv_sec,
+                     s.st_mtim.tv_nsec, s.st_ctim.tv_sec, s.st_ctim.tv_nsec);
+}
+
 std::string content_identity(const std::string& path) {
   struct stat s {};
   if (lstat(path.c_str(), &s) != 0) return "";
   return fmt::format("{} {} {} {}.{}", s.st_dev, s.st_ino, s.st_size, s.st_mtim.tv_sec, s.st_mtim.tv_nsec);
 }
 
-/// @param found  content identity of what may be replaced; empty: nothing was there
-void take_place_of(const std::string& found, const std::string& from, const std::string& to) {
-  const ConfigError changed(to, "changed meanwhile, expected it as it was");
+void replace_file(const std::string& found, const std::string& from, const std::string& to) {
+  const ConfigError changed(to, found.empty() ? "came to be there meanwhile, expected that it stays free"
+                                              : "changed meanwhile, expected it as it was");
   if (content_identity(to) != found) throw changed;
   if (found.empty()) {
     if (!moved_where_nothing_is(from, to)) throw changed;
     return;
   }
+  const std::string own = content_identity(from);
   const auto exchange = [&] {
     return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0;
   };
@@ -63,18 +82,11 @@ void take_place_of(const std::string& found, const std::string& from, const std:
   }
   if (content_identity(from) != found) {
     exchange();
-    throw changed;
+    if (content_identity(from) == own) throw changed;
+    throw std::runtime_error(to + ": changed more than once meanwhile; what stood there last is " +
+                             kept_beside(from, to));
   }
   unlink(from.c_str());
-}
-
-}  // namespace
-
-std::string identity_of(const std::string& path) {
-  struct stat s {};
-  if (stat(path.c_str(), &s) != 0) return "";
-  return fmt::format("{} {} {} {}.{} {}.{}", s.st_dev, s.st_ino, s.st_size, s.st_mtim.tv_sec,
-                     s.st_mtim.tv_nsec, s.st_ctim.tv_sec, s.st_ctim.tv_nsec);
 }
 
 bool moved_where_nothing_is(const std::string& from, const std::string& to) {
@@ -105,21 +117,18 @@ std::string new_file_beside(const std::string& path) {
 }
 
 void write_whole_file(const std::string& path, const std::function<void(std::ostream&)>& write,
-                      bool replace) {
+                      Replaceable found) {
   std::error_code problem;
   const fs::file_status there = fs::status(path, problem);
   if (is_stream(path) || (fs::exists(there) && !fs::is_regular_file(there)))
     return write_file(path, path, write);
   if (fs::is_symlink(fs::symlink_status(path, problem)))
     throw ConfigError(path, "is a link to another file, expected the name of the file itself");
-  const std::string found = content_identity(path);
+  if (!found) found = content_identity(path);
   const fs::path aside = new_file_beside(path);
   try {
     write_file(aside, path, write);
-    if (!replace && !moved_where_nothing_is(aside, path))
-      throw ConfigError(path, "came to be there meanwhile, expected that it stays free");
-    problem.clear();
-    if (replace) take_place_of(found, aside, path);
+    replace_file(*found, aside, path);
   } catch (...) {
     fs::remove(aside, problem);
     throw;

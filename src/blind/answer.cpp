@@ -11,6 +11,7 @@
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
+#include "gapscope/base/whole_file.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/effect.h"
@@ -97,10 +98,10 @@ void require_answer(const BlindAnswer& a, const std::string& file) {
 }
 
 /// Answers may be given again; those to another check stay, and so does any other file.
-void require_replaceable(const std::string& path, const BlindManifest& manifest, const std::string& sealed) {
-  namespace fs = std::filesystem;
-  std::error_code problem;
-  if (!fs::exists(fs::symlink_status(path, problem)) || is_answers_file(path, sha256_of_file(sealed))) return;
+std::string require_replaceable(const std::string& path, const BlindManifest& manifest,
+                                const std::string& sealed) {
+  std::string found = content_identity(path);
+  if (found.empty() || is_answers_file(path, sha256_of_file(sealed))) return found;
   throw ConfigError(path, "is there and holds no answers to " + manifest.name + ", expected another name");
 }
 
@@ -138,8 +139,7 @@ BlindAnswers answer_blind_check(const std::string& folder, const std::string& pa
     answer.seal = sealed_after(answers.cases.empty() ? head : answers.seal(), answer);
     answers.cases.push_back(std::move(answer));
   }
-  require_replaceable(path, manifest, folder + "/manifest.json");  // nothing came there meanwhile
-  write_blind_answers(path, answers);
+  write_blind_answers(path, answers, require_replaceable(path, manifest, folder + "/manifest.json"));
   journal.remove();
   return answers;
 }

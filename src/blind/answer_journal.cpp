@@ -12,17 +12,21 @@ namespace gapscope::blind {
 
 AnswerJournal::AnswerJournal(std::string path, const std::string& check) : path_(std::move(path)) {
   require_alone();
+  const std::string found = content_identity(path_);
   read(check);
   const std::string whole = new_file_beside(path_);
   out_.open(whole, std::ios::binary);
   lock_.emplace(whole);
   out_ << check << '\n';
   for (const auto& [name, answer] : answers_) out_ << line_of(answer) << '\n';
-  std::error_code problem;
-  if (out_.flush()) std::filesystem::rename(whole, path_, problem);
-  if (out_ && !problem) return;
-  std::filesystem::remove(whole, problem);
-  throw std::runtime_error(path_ + ": cannot be written");
+  try {
+    if (!out_.flush()) throw std::runtime_error(path_ + ": cannot be written");
+    replace_file(found, whole, path_);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(whole, ignored);
+    throw;
+  }
 }
 
 void AnswerJournal::require_alone() const {

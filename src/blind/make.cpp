@@ -54,7 +54,7 @@ void write_case(const fs::path& folder, double duration, blind::PlannedCase& pla
 
 /// The same labels may be there already; any others stay.
 void write_or_find(const std::string& path, const BlindLabels& labels) {
-  if (!fs::exists(fs::symlink_status(path))) return write_blind_labels(path, labels, false);
+  if (!fs::exists(fs::symlink_status(path))) return write_blind_labels(path, labels, "");
   const BlindLabels there = read_blind_labels(path);
   const auto same = [](const BlindLabel& a, const BlindLabel& b) { return line_of(a) == line_of(b); };
   if (head_line_of(there) != head_line_of(labels) ||

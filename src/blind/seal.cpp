@@ -110,7 +110,7 @@ BlindManifest seal_blind_check(const std::string& folder, const std::string& lab
   for (const BlindLabel& l : secret.cases)
     manifest.cases.push_back({l.name, l.part, label_hash(l), files_of(folder, l.name)});
   if (there && !(read_blind_manifest(path) == manifest)) throw another;
-  if (!there) write_blind_manifest(path, manifest, false);
+  if (!there) write_blind_manifest(path, manifest, "");
   return manifest;
 }
 

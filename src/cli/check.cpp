@@ -31,12 +31,12 @@ Configuration reading_of(const RecordingArguments& r) {
 
 void check_recording(const Arguments& a) {
   const RecordingArguments& r = a.recording;
-  const auto replaces = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
-  if (!a.output.empty()) replaces();  // before the work
+  const auto look = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
+  if (!a.output.empty()) look();  // before the work
   const Configuration c = reading_of(r);
   const Inspection inspection = inspect(r.file, c.recording->reading, c.rotation);
   const std::string json = inspection_json(inspection, resolved_reading(c));
-  if (!a.output.empty()) write_text(a.output, json, replaces());
+  if (!a.output.empty()) write_text(a.output, json, look());
   fmt::print("{}", a.json ? json : inspection.report());
   if (inspection.spoilt()) throw ExitStatus{kSpoiltRecording};
 }

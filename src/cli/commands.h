@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "gapscope/base/whole_file.h"
 #include "gapscope/config/data_config.h"
 
 namespace gapscope::cli {
@@ -33,14 +34,14 @@ inline constexpr int kSpoiltRecording = 3;
 inline constexpr const char* kConfigHelp = "configuration (YAML)";
 
 /// @throws std::runtime_error naming what cannot be written
-void write_text(const std::string& path, const std::string& text, bool replace = true);
+void write_text(const std::string& path, const std::string& text, const Replaceable& found = {});
 
 /// @param sources  that the command reads
 /// @param is_own   whether a file that is there is one that the command may write again
 /// @throws ConfigError if no file of that name can be written, or it is a source or somebody else's
-/// @returns whether there is one to be replaced
-bool require_file_name(const std::string& file, const std::vector<std::string>& sources,
-                       bool (*is_own)(const std::string& file));
+/// @returns what may be replaced: the file as it was before it was looked at
+std::string require_file_name(const std::string& file, const std::vector<std::string>& sources,
+                              bool (*is_own)(const std::string& file));
 
 /// A recording that is named on the command line, and how it is to be read.
 struct RecordingArguments {

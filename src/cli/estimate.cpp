@@ -115,9 +115,9 @@ std::string fit_details() {
 
 }  // namespace
 
-void write_text(const std::string& path, const std::string& text, bool replace) {
+void write_text(const std::string& path, const std::string& text, const Replaceable& found) {
   write_whole_file(
-      path, [&](std::ostream& out) { out << text; }, replace);
+      path, [&](std::ostream& out) { out << text; }, found);
 }
 
 void add_work_options(CommandLine& command, int& threads, bool& quiet) {

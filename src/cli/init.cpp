@@ -33,7 +33,7 @@ void write_starter(const Arguments& a) {
   const fs::path parent = fs::path(output).parent_path();
   const Starter starter = starter_configuration(r.configuration(), r.encoder(), !r.translation,
                                                 parent.empty() ? "." : parent.string(), model_of(a.model));
-  write_text(output, starter.yaml, false);
+  write_text(output, starter.yaml, "");
   print_warnings(starter.spoiling);
   fmt::print(
       "{:<12}{}\n{:<12}{}\n{:<12}fill in what is marked GUESS, then gapscope run {} (or detect, fit, "

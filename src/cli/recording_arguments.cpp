@@ -85,9 +85,10 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command.add_flag("--translation", a.translation, "positions in m and forces in N instead of rad and N m");
 }
 
-bool require_file_name(const std::string& file, const std::vector<std::string>& sources,
-                       bool (*is_own)(const std::string& file)) {
+std::string require_file_name(const std::string& file, const std::vector<std::string>& sources,
+                              bool (*is_own)(const std::string& file)) {
   namespace fs = std::filesystem;
+  const std::string found = content_identity(file);
   std::error_code problem;
   const fs::file_status there = fs::status(file, problem);
   if (problem && there.type() != fs::file_type::not_found)
@@ -106,7 +107,7 @@ bool require_file_name(const std::string& file, const std::vector<std::string>& 
     throw ConfigError(file,
                       "is there already, expected another name (-o FILE) or that it is moved away: this "
                       "command did not write it");
-  return fs::exists(there);
+  return found;
 }
 
 }  // namespace gapscope::cli

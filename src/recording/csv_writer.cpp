@@ -34,10 +34,10 @@ void write_rows(std::ostream& out, const Recording& r) {
 
 }  // namespace
 
-void write_csv(const std::string& path, const Recording& recording, bool replace) {
+void write_csv(const std::string& path, const Recording& recording, const Replaceable& found) {
   check_lengths(recording);
   write_whole_file(
-      path, [&](std::ostream& out) { write_rows(out, recording); }, replace);
+      path, [&](std::ostream& out) { write_rows(out, recording); }, found);
 }
 
 }  // namespace gapscope

@@ -69,8 +69,8 @@ Json blind_answers_schema() { return document_schema(kAnswers, BlindAnswers()); 
 
 }  // namespace internal::results
 
-void write_blind_answers(const std::string& path, const BlindAnswers& answers) {
-  internal::results::write_document(path, internal::results::kAnswers, answers);
+void write_blind_answers(const std::string& path, const BlindAnswers& answers, const Replaceable& found) {
+  internal::results::write_document(path, internal::results::kAnswers, answers, found);
 }
 
 BlindAnswers read_blind_answers(const std::string& path) {

@@ -55,15 +55,15 @@ Json blind_manifest_schema() { return document_schema(kManifest, BlindManifest()
 
 }  // namespace internal::results
 
-void write_blind_labels(const std::string& path, const BlindLabels& labels, bool replace) {
-  internal::results::write_document(path, internal::results::kLabels, labels, replace);
+void write_blind_labels(const std::string& path, const BlindLabels& labels, const Replaceable& found) {
+  internal::results::write_document(path, internal::results::kLabels, labels, found);
 }
 BlindLabels read_blind_labels(const std::string& path) {
   return internal::results::read_document<BlindLabels>(path, internal::results::kLabels);
 }
 
-void write_blind_manifest(const std::string& path, const BlindManifest& manifest, bool replace) {
-  internal::results::write_document(path, internal::results::kManifest, manifest, replace);
+void write_blind_manifest(const std::string& path, const BlindManifest& manifest, const Replaceable& found) {
+  internal::results::write_document(path, internal::results::kManifest, manifest, found);
 }
 BlindManifest read_blind_manifest(const std::string& path) {
   return internal::results::read_document<BlindManifest>(path, internal::results::kManifest);

@@ -30,9 +30,9 @@ std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-void save_json(const std::string& path, const Json& json, bool replace) {
+void save_json(const std::string& path, const Json& json, const Replaceable& found) {
   write_whole_file(
-      path, [&](std::ostream& out) { out << text_of(json, 1) << '\n'; }, replace);
+      path, [&](std::ostream& out) { out << text_of(json, 1) << '\n'; }, found);
 }
 
 namespace {

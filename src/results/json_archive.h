@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/base/whole_file.h"
 
 /// Two archives that meet the same list of fields: one writes it as JSON, the other reads it back. A struct
 /// names its fields once, in `template <class Archive> void fields(Archive&, Struct&)`, so what is written is
@@ -34,7 +35,7 @@ std::string shown_json(const Json& json);
 std::string text_of(const Json& json, int indent);
 
 /// Text of a JSON document with a final newline; doubles come out shortest and read back the same.
-void save_json(const std::string& path, const Json& json, bool replace = true);
+void save_json(const std::string& path, const Json& json, const Replaceable& found = {});
 /// @throws ConfigError where the file is missing or no JSON.
 Json load_json(const std::string& path);
 /// @param file for messages  @throws ConfigError where the text is no JSON

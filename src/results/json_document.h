@@ -8,11 +8,12 @@ namespace gapscope::internal::results {
 
 /// A file that is one struct after the name of its schema.
 template <class Struct>
-void write_document(const std::string& path, std::string schema, Struct value, bool replace = true) {
+void write_document(const std::string& path, std::string schema, Struct value,
+                    const Replaceable& found = {}) {
   JsonWriter writer;
   writer("schema", schema);
   fields(writer, value);
-  save_json(path, writer.json, replace);
+  save_json(path, writer.json, found);
 }
 
 /// @throws ConfigError for another schema or a damaged file.

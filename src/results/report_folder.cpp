@@ -12,6 +12,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
+#include "gapscope/base/whole_file.h"
 #include "gapscope/results/sha256.h"
 #include "results/file_list.h"
 #include "results/folder_content.h"
@@ -209,11 +210,12 @@ void ReportFolder::write_list(const char* place, const FileList& list) const {
   internal::results::write_file_list(folder, list);
 }
 
-void ReportFolder::move_list(const char* place) const {
-  std::error_code error;
-  const fs::path list = fs::path(final_) / internal::results::kFileList;
-  fs::rename(fs::path(partial_) / place / internal::results::kFileList, list, error);
-  if (error) fail(list, "cannot be written: " + error.message());
+/// @returns the content identity of the list that is there then
+std::string ReportFolder::move_list(const char* place, const std::string& found) const {
+  const fs::path list = fs::path(partial_) / place / internal::results::kFileList;
+  std::string moved = content_identity(list);
+  replace_file(found, list, fs::path(final_) / internal::results::kFileList);
+  return moved;
 }
 
 /// What the folder will list, and what of the earlier report goes.
@@ -248,21 +250,21 @@ void ReportFolder::commit() {
   if (before_) meanwhile.files.insert(meanwhile.files.end(), before_->files.begin(), before_->files.end());
   write_list(".meanwhile", meanwhile);
   write_list(".after", after);
-  if (hash_of_list() != list_hash_)
-    throw ConfigError(final_ + "/" + internal::results::kFileList,
-                      "changed during the work, expected it as it was");
+  const std::string list = final_ + "/" + internal::results::kFileList;
+  const std::string found = content_identity(list);
+  if (hash_of_list() != list_hash_) throw ConfigError(list, "changed during the work, expected it as it was");
   internal::results::require_out_of_the_way(final_, before_.get(), fresh);
-  move_list(".meanwhile");
+  const std::string moved = move_list(".meanwhile", found);
   made_.clear();
   try {
     internal::results::replace_files(partial_, final_, fresh, stale, partial_ + "/.replaced", is_result,
                                      before_.get());
   } catch (...) {
     if (before_) write_list(".after", *before_);
-    if (before_) move_list(".after");
+    if (before_) move_list(".after", moved);
     throw;
   }
-  move_list(".after");
+  move_list(".after", moved);
   clear();
 }
 

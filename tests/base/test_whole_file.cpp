@@ -56,7 +56,7 @@ TEST(WholeFile, LeavesWhatCameMeanwhile) {
     out << "new";
     std::ofstream(path) << "precious";
   };
-  EXPECT_THROW(write_whole_file(path, write, false), ConfigError);
+  EXPECT_THROW(write_whole_file(path, write, ""), ConfigError);
   EXPECT_EQ(text_of(path), "precious");
 }
 
@@ -86,6 +86,18 @@ TEST(WholeFile, LeavesWhatChangedMeanwhile) {
   EXPECT_THROW(write_whole_file(place.path(), write), ConfigError);
   EXPECT_EQ(text_of(place.path()), "precious");
   EXPECT_EQ(std::distance(fs::directory_iterator(place.folder()), {}), 1) << "nothing is left aside";
+}
+
+TEST(WholeFile, LeavesWhatCameSinceTheFirstLook) {
+  const testing::TemporaryFile place("ours");
+  const std::string found = content_identity(place.path());
+  fs::remove(place.path());
+  std::ofstream(place.path()) << "precious";
+  const auto write = [](std::ostream& out) { out << "new"; };
+  EXPECT_THROW(write_whole_file(place.path(), write, found), ConfigError);
+  EXPECT_EQ(text_of(place.path()), "precious");
+  write_whole_file(place.path(), write, content_identity(place.path()));
+  EXPECT_EQ(text_of(place.path()), "new");
 }
 
 TEST(WholeFile, TakesThePlaceOfWhatItFoundAlone) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "gapscope/base/whole_file.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/recording/units.h"
 
@@ -45,6 +46,6 @@ Recording read_recording(const std::string& path, const ReadOptions& options = {
 
 /// Writes t, u, x1 and, where known, x2 and mode, so that read_recording() returns the same numbers.
 /// @throws std::runtime_error if the file cannot be written.
-void write_csv(const std::string& path, const Recording& recording, bool replace = true);
+void write_csv(const std::string& path, const Recording& recording, const Replaceable& found = {});
 
 }  // namespace gapscope

@@ -2,20 +2,22 @@
 
 #include <string>
 
+#include "gapscope/base/whole_file.h"
 #include "gapscope/results/blind_records.h"
 
 /// The files of a blind check. Each writer throws std::runtime_error naming what cannot be written, each
-/// reader ConfigError for another schema or a damaged file.
+/// reader ConfigError for another schema or a damaged file. What may be replaced is told by `found`
+/// (write_whole_file()).
 namespace gapscope {
 
-/// @param replace  false: labels that are there stay, and are told by a ConfigError
-void write_blind_labels(const std::string& path, const BlindLabels& labels, bool replace = true);
+void write_blind_labels(const std::string& path, const BlindLabels& labels, const Replaceable& found = {});
 BlindLabels read_blind_labels(const std::string& path);
 
-void write_blind_manifest(const std::string& path, const BlindManifest& manifest, bool replace = true);
+void write_blind_manifest(const std::string& path, const BlindManifest& manifest,
+                          const Replaceable& found = {});
 BlindManifest read_blind_manifest(const std::string& path);
 
-void write_blind_answers(const std::string& path, const BlindAnswers& answers);
+void write_blind_answers(const std::string& path, const BlindAnswers& answers, const Replaceable& found = {});
 BlindAnswers read_blind_answers(const std::string& path);
 
 /// Whether a file is a blind check's own: labels of that name and configuration, answers to that manifest.

@@ -71,7 +71,7 @@ class ReportFolder {
   void take_over(const std::string& file);
   std::string hash_of_list() const;
   void write_list(const char* place, const internal::results::FileList& list) const;
-  void move_list(const char* place) const;
+  std::string move_list(const char* place, const std::string& found) const;
   internal::results::FileList list_after(const std::vector<std::string>& fresh,
                                          std::vector<std::string>& stale) const;
   void clear() noexcept;
