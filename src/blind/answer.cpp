@@ -6,6 +6,7 @@
 
 #include "blind/answer_journal.h"
 #include "blind/case_copy.h"
+#include "blind/expected_place.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
@@ -64,9 +65,19 @@ BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
     throw ConfigError(of_original(error.what(), copy.folder(), folder));
   }
   stop_point();  // a diagnosis that was asked to stop has judged by less than it had
-  return {c.name,      c.files,          word_of(d.verdict), d.effects,
-          d.group,     d.where.headline, d.gap.before,       d.gap.after,
-          d.gap.floor, d.gap.shrink,     d.gap.shrink_ci95,  d.evidence,
+  return {c.name,
+          c.files,
+          word_of(d.verdict),
+          d.effects,
+          d.group,
+          d.where.headline,
+          blind::told_place(d.where),
+          d.gap.before,
+          d.gap.after,
+          d.gap.floor,
+          d.gap.shrink,
+          d.gap.shrink_ci95,
+          d.evidence,
           ""};
 }
 

@@ -68,15 +68,15 @@ void set(ReferenceModel& model, int index, double value, bool estimate) {
 ReferenceModel sheet_model(const independent_plant::BlindDrive& true_drive, std::uint64_t seed) {
   const independent_plant::BlindDrive sheet = independent_plant::data_sheet(true_drive, seed);
   ReferenceModel model;
-  set(model, 0, sheet.motor_inertia, false);
-  set(model, 1, sheet.torque_constant, false);
-  set(model, 2, sheet.motor_damping, true);
-  set(model, 3, sheet.load_inertia / sheet.motor_inertia, true);
-  set(model, 4, sheet.gap, true);
-  set(model, 5, sheet.load_damping, true);
-  set(model, 6, sheet.load_coulomb, true);
-  set(model, 7, true_drive.contact_stiffness, false);
-  set(model, 8, true_drive.contact_damping, false);
+  set(model, place::kMotorInertia, sheet.motor_inertia, false);
+  set(model, place::kTorqueConstant, sheet.torque_constant, false);
+  set(model, place::kMotorDamping, sheet.motor_damping, true);
+  set(model, place::kMassRatio, sheet.load_inertia / sheet.motor_inertia, true);
+  set(model, place::kGap, sheet.gap, true);
+  set(model, place::kLoadDamping, sheet.load_damping, true);
+  set(model, place::kLoadCoulomb, sheet.load_coulomb, true);
+  set(model, place::kContactStiffness, true_drive.contact_stiffness, false);
+  set(model, place::kContactDamping, true_drive.contact_damping, false);
   return model;
 }
 
@@ -110,8 +110,9 @@ BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& eff
   pair.train = record(first, 2 * seed);
   pair.held_out = record(first + other, 2 * seed + 1);
   pair.next = record(static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size())), ~(2 * seed));
-  if (name == "cogging_torque") pair.cycles_per_turn = c.drive.effects.motor.cogging.periods_per_turn;
-  if (name == "torque_ripple") pair.cycles_per_turn = c.drive.effects.command.ripple.periods_per_turn;
+  if (const auto* drawn = independent_plant::find_drawn_effect(name);
+      drawn != nullptr && drawn->traits.cycles_per_turn != nullptr)
+    pair.cycles_per_turn = drawn->traits.cycles_per_turn(c);
   return pair;
 }
 

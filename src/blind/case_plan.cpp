@@ -22,10 +22,10 @@ Names effect_names(bool in_catalogue) {
 
 /// Three laws of one and the same bearing: a drive has one of them.
 bool same_bearing(const std::string& a, const std::string& b) {
-  const auto bearing = [](const std::string& name) {
-    return name == "motor_coulomb_friction" || name == "friction_asymmetry" || name == "stribeck_friction";
+  const auto of_the_bearing = [](const std::string& name) {
+    return independent_plant::find_drawn_effect(name)->traits.of_the_bearing;
   };
-  return bearing(a) && bearing(b);
+  return of_the_bearing(a) && of_the_bearing(b);
 }
 
 std::string another_effect(const Names& names, const std::string& first, std::mt19937_64& g) {

@@ -53,7 +53,7 @@ void add_known(const CountedCases& cases, std::vector<BlindCount>& counts) {
       "one effect, named: the headline names its place", cases,
       [](const Scored& s) { return seen_known(s) && s.named(); },
       [](const Scored& s) {
-        return names_the_place(s.answer->headline, s.label->effects.front(), s.label->cycles_per_turn);
+        return names_the_place(s.answer->where, s.label->effects.front(), s.label->cycles_per_turn);
       },
       0.85));
 }

@@ -2,10 +2,15 @@
 
 #include <string>
 
+#include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/results/blind_records.h"
+
 namespace gapscope::blind {
 
-/// Whether a headline names the place where an effect acts. The rule, which was written before any
-/// headline was scored by it:
+ToldPlace told_place(const MismatchPlace& place);
+
+/// Whether the place that was told is the one where an effect acts, by what its entry in the catalogue says
+/// of it. The rule, which was written before any answer was scored by it:
 ///   friction of the motor                 follows the direction of motion
 ///   quadratic_drag                        along the speed
 ///   cogging_torque, torque_ripple         periodic in the motor angle, at the true cycles per turn within
@@ -19,6 +24,6 @@ namespace gapscope::blind {
 ///   contact_adhesion                      in engagement or in the gap, between which it acts
 ///   encoder_quantization                  within the count of the encoder
 /// @param cycles_per_turn  of an effect that repeats with the motor angle
-bool names_the_place(const std::string& headline, const std::string& effect, double cycles_per_turn);
+bool names_the_place(const ToldPlace& told, const std::string& effect, double cycles_per_turn);
 
 }  // namespace gapscope::blind

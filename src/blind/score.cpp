@@ -8,8 +8,8 @@
 #include <map>
 
 #include "blind/scored.h"
-#include "diagnosis/effect_starts.h"
 #include "gapscope/plant/effect.h"
+#include "independent_plant/severity.h"
 
 namespace gapscope {
 namespace blind {
@@ -51,7 +51,7 @@ std::size_t Scored::standing() const {
   return static_cast<std::size_t>(std::count_if(names.begin(), names.end(), [&](const std::string& name) {
     return std::none_of(names.begin(), names.end(), [&](const std::string& other) {
       const EffectEntry* later = find_effect(other);  // a stored answer may name anything
-      const EffectEntry* contained = later == nullptr ? nullptr : internal::diagnosis::nested_parent(*later);
+      const EffectEntry* contained = later == nullptr ? nullptr : contained_effect(*later);
       return contained != nullptr && contained == find_effect(name);
     });
   }));
@@ -105,9 +105,8 @@ std::vector<ConfusionCell> confusion_of(const std::vector<Scored>& cases) {
 }
 
 bool has_another_law(const std::string& effect) {
-  return contains({"presliding_friction", "viscous_drift", "load_inertia_variation", "encoder_eccentricity",
-                   "gap_eccentricity"},
-                  effect);
+  const independent_plant::DrawnEffect* drawn = independent_plant::find_drawn_effect(effect);
+  return drawn != nullptr && drawn->traits.another_law;
 }
 
 void fill_shrinks(const std::vector<Scored>& cases, BlindScore& score) {

@@ -31,8 +31,13 @@ void print_json() {
 }
 
 void print_laws() {
-  for (const EffectEntry* e : effect_table())
-    fmt::print("{:<23} {:<8} {}\n", e->name, to_string(e->side), e->law);
+  for (const EffectEntry* e : effect_table()) {
+    std::vector<std::string> parameters;
+    for (const EffectParameterSpec& p : e->parameters)
+      parameters.push_back(fmt::format("{} [{}]", p.key, p.unit));
+    fmt::print("{:<23} {:<8} {}\n{:<32} {}\n", e->name, to_string(e->side), e->law, "",
+               fmt::join(parameters, ", "));
+  }
 }
 
 }  // namespace
@@ -43,8 +48,9 @@ void add_effects(CommandLine& app) {
   const Option as_json =
       command.add_flag("--json", *json, "with side, law, parameters and units, and look-alikes");
   command
-      .add_flag("--laws", *laws,
-                "each with what it acts on (command, motor, contact, load, sensor) and its law")
+      .add_flag(
+          "--laws", *laws,
+          "each with what it acts on (command, motor, contact, load, sensor), its law and its parameters")
       .excludes(as_json);
   command.footer(
       "One identifier a line. In a law x1, w1 are angle and speed of the motor, x2, w2 of the load, u is the "

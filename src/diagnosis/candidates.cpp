@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "reference/search.h"
 #include "reference/starts.h"
@@ -138,14 +137,9 @@ double weaker(const reference::FitProblem& problem, const EffectEntry& entry, st
   return std::isfinite(absent) ? absent + kWeaker * (value - absent) : std::min(value / kWeaker, p.high);
 }
 
-/// Whether an amplitude and a phase are all that the effect has.
-bool is_sine(const EffectEntry& entry) {
-  return entry.parameters.size() == 2 && entry.parameters[1].key == std::string_view("phase_rad");
-}
-
 /// Whether the model's last effect is the simpler one that this one contains, and so takes the place of.
 bool replaces_last(const ReferenceModel& model, const EffectEntry& entry) {
-  return !model.effects.empty() && nested_parent(entry) == model.effects.back().entry;
+  return !model.effects.empty() && contained_effect(entry) == model.effects.back().entry;
 }
 
 ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry) {
@@ -234,7 +228,7 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, s
     race(point, &base);
   };
   for (const Base& base : bases) {
-    if (!is_sine(entry) || starts.empty()) break;
+    if (entry.start_search != StartSearch::kSine || starts.empty()) break;
     std::vector<double> values = effect_values(problem, entry, starts.front());
     reference::Solution point{point_of(problem, extended), nominal.starts, kInfinity, false};
     std::copy(base.q.begin(), base.q.end(), point.q.begin());
@@ -271,7 +265,7 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
   const EffectEntry* mine = candidate.model.effects.back().entry;
   const EffectEntry* others = other.effects.back().entry;
   ReferenceModel moved = with_drive(candidate.model, other);
-  if (nested_parent(*others) == mine || nested_parent(*mine) == others)
+  if (contained_effect(*others) == mine || contained_effect(*mine) == others)
     moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
   // By the numbers of the model without the effect the load may have seemed to start elsewhere.
   const std::vector<reference::RecordingStart> settled = settled_starts(train, candidate.model, hz);
@@ -287,20 +281,24 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
 }
 
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
-  const std::string_view name = entry.name;
   for (const ModelEffect& e : model.effects)
-    if (e.entry == &entry || nested_parent(*e.entry) == &entry) return false;
-  const auto estimated = [&](int i) { return model.parameters[static_cast<std::size_t>(i)].estimate; };
+    if (e.entry == &entry || contained_effect(*e.entry) == &entry) return false;
+  if (entry.stands_for >= 0 && model.parameters[static_cast<std::size_t>(entry.stands_for)].estimate)
+    return false;
   const bool has_load = model.structure.has_load;
-  const bool compliant = has_load && model.structure.contact == ContactLaw::kCompliant;
   const ParameterSetting& gap = model.parameters[place::kGap];
-  if (name == "backlash") return !has_load || (!gap.estimate && !(gap.value > 0.0));
-  if (name == "shaft_compliance") return compliant && !estimated(place::kContactStiffness);
-  if (name == "impact_damping") return compliant && !estimated(place::kContactDamping);
-  if (name == "contact_adhesion") return compliant;
-  if (name == "gap_eccentricity" || name == "gap_growth") return has_load && gap.value > 0.0;
-  if (name == "load_inertia_variation" || name == "load_unbalance" || name == "constant_load_torque")
-    return !has_load || model.structure.load == LoadKind::kFree;
+  switch (entry.needs) {
+    case EffectNeeds::kNothing:
+      return true;
+    case EffectNeeds::kNoGap:
+      return !has_load || (!gap.estimate && !(gap.value > 0.0));
+    case EffectNeeds::kContact:
+      return has_load && model.structure.contact == ContactLaw::kCompliant;
+    case EffectNeeds::kGap:
+      return has_load && gap.value > 0.0;
+    case EffectNeeds::kFreeLoad:
+      return !has_load || model.structure.load == LoadKind::kFree;
+  }
   return true;
 }
 

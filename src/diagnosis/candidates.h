@@ -65,6 +65,6 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model);
 
 /// Whether the effect is a coarser count of the encoder, which no fit of a motion shows.
-inline bool reads_counts(const EffectEntry& entry) { return entry.hooks_double->quantum != nullptr; }
+inline bool reads_counts(const EffectEntry& entry) { return entry.follows == ResidualPattern::kCounts; }
 
 }  // namespace gapscope::internal::diagnosis

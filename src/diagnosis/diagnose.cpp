@@ -93,7 +93,7 @@ std::optional<Judged> nominal_near(const Study& study, const Findings& found) {
 
 /// The simpler effect that the first candidate contains, where it is none itself.
 const EffectEntry* excluded_parent(const Study& study, const std::vector<Judged>& ranked) {
-  const EffectEntry* parent = ranked.empty() ? nullptr : nested_parent(*ranked.front().entry);
+  const EffectEntry* parent = ranked.empty() ? nullptr : contained_effect(*ranked.front().entry);
   const auto& all = study.catalogue;
   return std::find(all.begin(), all.end(), parent) == all.end() ? parent : nullptr;
 }

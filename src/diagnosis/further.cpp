@@ -37,7 +37,7 @@ Judged base_of(const Judged& model) {
       base.fitted.model.effects.begin(), base.fitted.model.effects.end(), [](const ModelEffect& e) {
         const auto table = effect_table();
         return std::none_of(table.begin(), table.end(),
-                            [&](const EffectEntry* child) { return nested_parent(*child) == e.entry; });
+                            [&](const EffectEntry* child) { return contained_effect(*child) == e.entry; });
       });
   return base;
 }
@@ -193,7 +193,7 @@ bool clearly_better(const Judged& before, const Judged& best, const Decision& d)
 }
 
 bool refines(const Judged& before, const Judged& best, const Decision& d) {
-  const EffectEntry* contained = nested_parent(*best.entry);
+  const EffectEntry* contained = contained_effect(*best.entry);
   return contained != nullptr && contains(before.fitted.model, contained) && d.gain >= kRefinedGain &&
          d.margin >= kRefinedGain && d.windows_better >= kWorthFollowingWindows &&
          best.fitted.mean_square < kAskedFor * before.fitted.mean_square;

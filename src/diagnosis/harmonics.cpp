@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -112,7 +111,7 @@ std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
 
 std::vector<EffectStart> line_starts(const EffectEntry& entry, std::span<const Harmonic> lines,
                                      double peak_torque, double travel) {
-  const bool follows_torque = entry.name == std::string_view("torque_ripple");
+  const bool follows_torque = entry.start_search == StartSearch::kTorqueShareLines;
   const double sign = follows_torque ? 1.0 : -1.0;
   std::vector<EffectStart> starts;
   for (const Harmonic& line : lines) {

@@ -34,7 +34,7 @@ std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
                                       std::span<const MotorTrace> traces, double torque_constant,
                                       std::size_t count);
 
-/// Starts of cogging_torque or torque_ripple at these lines, in units of the effect's scales.
+/// Starts of an effect that repeats with the motor angle at these lines, in units of the effect's scales.
 std::vector<EffectStart> line_starts(const EffectEntry& entry, std::span<const Harmonic> lines,
                                      double peak_torque, double travel);
 

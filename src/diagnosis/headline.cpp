@@ -19,19 +19,18 @@ const MapShare& largest(const std::vector<MapShare>& map) {
                            [](const MapShare& a, const MapShare& b) { return a.share < b.share; });
 }
 
-/// The bin with most of the error; of modes the one where it is densest, if that is clear.
-std::string mode_words(const std::vector<MapShare>& mode, bool rotation) {
-  const MapShare* chosen = &largest(mode);
-  for (const MapShare& m : mode)
-    if (m.expected > 0.0 && m.share > 0.2 && m.share / m.expected > kDense &&
-        m.share / m.expected > chosen->share / std::max(chosen->expected, 1e-9))
-      chosen = &m;
-  if (chosen->expected >= 1.0) return "";  // there is but one mode
-  const char* const where = chosen->bin == "impact" ? "at impacts"
-                            : chosen->bin == "gap"  ? "in the gap"
-                                                    : "in engagement";
-  return fmt::format("{} ({:.0f} % of the squared residual {} in {:.0f} % of the time)", where,
-                     100.0 * chosen->share, rotation ? "torque" : "force", 100.0 * chosen->expected);
+/// Of the bins of a map of modes, in the order of ContactPhase.
+ContactPhase phase_of(const std::vector<MapShare>& mode, const MapShare& bin) {
+  return static_cast<ContactPhase>(&bin - mode.data());
+}
+
+std::string phase_words(const MismatchPlace& place, bool rotation) {
+  static constexpr const char* kWhere[] = {"in the gap", "in engagement", "at impacts"};
+  if (!place.phase) return "";
+  const auto phase = static_cast<std::size_t>(*place.phase);
+  return fmt::format("{} ({:.0f} % of the squared residual {} in {:.0f} % of the time)", kWhere[phase],
+                     100.0 * place.mode[phase].share, rotation ? "torque" : "force",
+                     100.0 * place.mode[phase].expected);
 }
 
 std::string direction_words(const std::vector<MapShare>& direction) {
@@ -51,23 +50,23 @@ std::string angle_words(const MismatchPlace& p, bool rotation) {
   return fmt::format("periodic in the motor angle with {:.3g} cycles per turn", p.periods_per_turn);
 }
 
-std::string pattern_words(Pattern pattern, const MismatchPlace& p, bool rotation) {
+std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, bool rotation) {
   switch (pattern) {
-    case Pattern::kAngle:
+    case ResidualPattern::kAngle:
       return angle_words(p, rotation);
-    case Pattern::kDirection:
+    case ResidualPattern::kDirection:
       return direction_words(p.direction);
-    case Pattern::kSpeed:
+    case ResidualPattern::kSpeed:
       return fmt::format("along the speed, most at {}", largest(p.speed).bin);
-    case Pattern::kInput:
+    case ResidualPattern::kInput:
       return fmt::format("along the input level, most at {}", largest(p.input).bin);
-    case Pattern::kTime:
+    case ResidualPattern::kTime:
       return fmt::format("changing over time, most at {}", largest(p.time).bin);
-    case Pattern::kInputSteps:
+    case ResidualPattern::kInputSteps:
       return fmt::format("where the torque changes, most at {}", largest(p.frequency).bin);
-    case Pattern::kCounts:
+    case ResidualPattern::kCounts:
       return "within the count of a coarser encoder";
-    case Pattern::kMode:
+    case ResidualPattern::kMode:
       break;
   }
   return "";
@@ -75,45 +74,44 @@ std::string pattern_words(Pattern pattern, const MismatchPlace& p, bool rotation
 
 }  // namespace
 
-Pattern pattern_of(const EffectEntry& effect) {
-  if (effect.side == EffectSide::kContact && effect.parameters.size() == 1 &&
-      effect.parameters[0].scale != Scale::kGapPerRecord)
-    return Pattern::kMode;
-  for (const EffectParameterSpec& p : effect.parameters) {
-    const std::string key = p.key;
-    if (key == "phase_rad" || p.scale == Scale::kPerTravel) return Pattern::kAngle;
-    if (p.scale == Scale::kRecord || p.scale == Scale::kGapPerRecord) return Pattern::kTime;
-    if (p.scale == Scale::kSample) return Pattern::kInputSteps;
-    if (p.scale == Scale::kPeakInput) return Pattern::kInput;
-    if (p.scale == Scale::kTorquePerSpeed2) return Pattern::kSpeed;
-    if (p.scale == Scale::kQuantum) return Pattern::kCounts;
-  }
-  return effect.side == EffectSide::kMotor ? Pattern::kDirection : Pattern::kMode;
+std::optional<ContactPhase> densest_phase(const std::vector<MapShare>& mode) {
+  const MapShare* chosen = &largest(mode);
+  for (const MapShare& m : mode)
+    if (m.expected > 0.0 && m.share > 0.2 && m.share / m.expected > kDense &&
+        m.share / m.expected > chosen->share / std::max(chosen->expected, 1e-9))
+      chosen = &m;
+  if (chosen->expected >= 1.0) return {};
+  return phase_of(mode, *chosen);
 }
 
 double cycles_of(const ModelEffect& effect) {
-  if (pattern_of(*effect.entry) != Pattern::kAngle) return kNaN;
+  if (effect.entry->follows != ResidualPattern::kAngle) return kNaN;
   for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i)
     if (effect.entry->parameters[i].scale == Scale::kPerTravel) return effect.parameters[i].value;
   return 1.0;
 }
 
-std::string headline_of(const MismatchPlace& place, const std::vector<PatternStrength>& patterns,
-                        const ModelEffect* effect, bool rotation) {
-  std::string text = mode_words(place.mode, rotation);
-  const auto add = [&text](const std::string& words) {
-    text += text.empty() || words.empty() ? words : ", " + words;
-  };
-  std::vector<Pattern> named;
-  if (effect != nullptr) named.push_back(pattern_of(*effect->entry));
+std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength>& patterns,
+                                               const ModelEffect* effect) {
+  std::vector<ResidualPattern> followed;
+  if (effect != nullptr) followed.push_back(effect->entry->follows);
   const auto strongest = std::max_element(
       patterns.begin(), patterns.end(),
       [](const PatternStrength& a, const PatternStrength& b) { return a.strength < b.strength; });
   if (strongest != patterns.end() && strongest->strength > kWorthNaming &&
-      std::find(named.begin(), named.end(), strongest->pattern) == named.end())
-    named.push_back(strongest->pattern);
-  for (const Pattern pattern : named) add(pattern_words(pattern, place, rotation));
-  if (named.empty()) add("forward and backward, without a clear order in angle, speed, input or time");
+      std::find(followed.begin(), followed.end(), strongest->pattern) == followed.end())
+    followed.push_back(strongest->pattern);
+  return followed;
+}
+
+std::string headline_of(const MismatchPlace& place, bool rotation) {
+  std::string text = phase_words(place, rotation);
+  const auto add = [&text](const std::string& words) {
+    text += text.empty() || words.empty() ? words : ", " + words;
+  };
+  for (const ResidualPattern pattern : place.follows) add(pattern_words(pattern, place, rotation));
+  if (place.follows.empty())
+    add("forward and backward, without a clear order in angle, speed, input or time");
   return text;
 }
 

@@ -27,7 +27,7 @@ constexpr std::size_t kConfirmed = 3;  ///< inputs whose separation is checked f
 /// Whether the law of one effect contains that of the other.
 bool contains_law(const std::string& large, const std::string& small) {
   const EffectEntry* entry = find_effect(large);
-  const EffectEntry* parent = entry != nullptr ? nested_parent(*entry) : nullptr;
+  const EffectEntry* parent = entry != nullptr ? contained_effect(*entry) : nullptr;
   return parent != nullptr && parent->name == small;
 }
 

@@ -37,7 +37,7 @@ bool names(std::span<const char* const> list, std::string_view name) {
 /// Whether such an effect leaves more than a trace of the free runs' error: it is then at best a part of the
 /// cause.
 bool leaves_a_part(const Judged& after, const Judged& before) {
-  return law_is_fixed(*after.entry) && !at_floor(after) &&
+  return after.entry->law_is_fixed && !at_floor(after) &&
          after.median_free - 1.0 > kTrace * (before.median_free - 1.0);
 }
 
@@ -95,7 +95,7 @@ void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_ba
                    [](const Judged& a, const Judged& b) { return a.score < b.score; });
   if (candidates.empty()) return;
   const Judged& best = candidates.front();
-  const EffectEntry* parent = nested_parent(*best.entry);
+  const EffectEntry* parent = contained_effect(*best.entry);
   const auto found = std::find_if(candidates.begin(), candidates.end(),
                                   [&](const Judged& c) { return parent != nullptr && c.entry == parent; });
   if (found == candidates.end()) return;
@@ -124,7 +124,7 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   const double left = repeats_badly ? 0.0 : std::max(best.score - kFloorScore, 0.0);
   double other = before.score;
   for (const Judged& c : ranked) {
-    if (nested_parent(*c.entry) == best.entry) continue;  // it contains the best: parsimony has decided
+    if (contained_effect(*c.entry) == best.entry) continue;  // it contains the best: parsimony has decided
     const bool alike = &c == &best || look_alike(*c.entry, *best.entry);
     if (c.score - best.score < (alike ? kAlike + kAlikeOfLeft * left : kIndistinct))
       d.group.push_back(c.entry);
@@ -144,7 +144,7 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   const bool asked_for = reads_counts(*best.entry) || fitted < share * before.fitted.mean_square;
   d.accepted = enough && asked_for && d.margin >= kLeastMargin;
   for (const Judged& parent : excluded_parents)
-    if (nested_parent(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)
+    if (contained_effect(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)
       d.accepted = false;
   return d;
 }

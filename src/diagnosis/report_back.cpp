@@ -154,7 +154,7 @@ std::vector<Rival> rivals_of(const std::vector<Judged>& candidates, const Judged
   for (const Judged& c : candidates) {
     if (rivals.size() == kMostRivals || !std::isfinite(c.score)) break;
     if (before.score - c.score < std::max(kRivalGain, kRivalShare * decision.gain)) break;
-    const bool contains_best = nested_parent(*c.entry) == candidates.front().entry;
+    const bool contains_best = contained_effect(*c.entry) == candidates.front().entry;
     if (!reads_counts(*c.entry) && !contains_best) rivals.push_back({c.entry->name, c.fitted.model});
   }
   if (rivals.size() < kMostRivals) rivals.clear();

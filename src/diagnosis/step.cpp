@@ -52,9 +52,10 @@ std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judge
   std::vector<std::vector<EffectStart>> starts;
   for (const EffectEntry* entry : entries) {
     starts.push_back(effect_starts(*entry));
-    if (!std::isnan(starts.back().front()[1])) continue;
-    const bool ripple = entry->name == std::string_view("torque_ripple");
-    const auto lines = first_lines(study, playbacks, standing, ripple ? km : 0.0);
+    const bool of_torque = entry->start_search == StartSearch::kTorqueLines;
+    const bool of_share = entry->start_search == StartSearch::kTorqueShareLines;
+    if (!of_torque && !of_share) continue;
+    const auto lines = first_lines(study, playbacks, standing, of_share ? km : 0.0);
     starts.back() = line_starts(*entry, lines, km * rough.peak_input, rough.travel);
   }
   return starts;
@@ -96,7 +97,7 @@ void further_rounds(const Study& study, const Judged& before, std::vector<Judged
   std::set<const EffectEntry*> tried;
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     const EffectEntry* entry = ranked[i].entry;
-    if (i >= kSecondRound && entry != nested_parent(*best) && nested_parent(*entry) != best) continue;
+    if (i >= kSecondRound && entry != contained_effect(*best) && contained_effect(*entry) != best) continue;
     if (!all && ranked[i].score > near && !look_alike(*entry, *best)) continue;
     few.push_back(i);
     tried.insert(entry);
@@ -172,9 +173,9 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
   const auto wave = [&](bool children) {
     std::vector<std::size_t> now;
     for (std::size_t i = 0; i < entries.size(); ++i)
-      if ((nested_parent(*entries[i]) != nullptr) == children) now.push_back(i);
+      if ((contained_effect(*entries[i]) != nullptr) == children) now.push_back(i);
     parallel_for(now.size(), study.options.threads, [&](std::size_t k) {
-      const std::size_t parent = place_of(nested_parent(*entries[now[k]]));
+      const std::size_t parent = place_of(contained_effect(*entries[now[k]]));
       const bool has = parent < entries.size() && judged[parent].fitted.mean_square < kInfinity;
       run(now[k], has ? &judged[parent].fitted : nullptr);
     });

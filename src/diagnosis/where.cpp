@@ -19,7 +19,7 @@ constexpr double kLine =
 
 /// One scored sample.
 struct Sample {
-  double torque, weight, w1, x1, u, time;
+  double torque, w1, x1, u, time;
   Mode mode;
 };
 
@@ -30,7 +30,7 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
     const Playback& p = playbacks[r];
     for (std::size_t i = std::max(held_out.scored_from[r], held_out.restart(r)); i < t.size(); ++i)
       samples.push_back(
-          {p.torque[i], 1.0, p.w1[i], t.x1[i], km * t.u[i], t.dt * static_cast<double>(i), p.mode[i]});
+          {p.torque[i], p.w1[i], t.x1[i], km * t.u[i], t.dt * static_cast<double>(i), p.mode[i]});
   }
   return samples;
 }
@@ -116,7 +116,9 @@ void fill_maps(const std::vector<Sample>& samples, bool rotation, MismatchPlace&
   const char* speed = rotation ? "rad/s" : "m/s";
   const char* angle = rotation ? "rad" : "m";
   place.mode = class_map(samples, {"gap", "engagement", "impact"}, [](const Sample& s) -> std::size_t {
-    return s.mode == Mode::kGap ? 0 : s.mode == Mode::kImpact ? 2 : 1;
+    return static_cast<std::size_t>(s.mode == Mode::kGap      ? ContactPhase::kGap
+                                    : s.mode == Mode::kImpact ? ContactPhase::kImpact
+                                                              : ContactPhase::kEngagement);
   });
   place.direction = class_map(samples, {"backward", "forward"},
                               [](const Sample& s) -> std::size_t { return s.w1 > 0.0 ? 1 : 0; });
@@ -155,14 +157,15 @@ double displaced(const std::vector<MapShare>& map) {
 
 std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples, const MismatchPlace& place,
                                          double line_explained) {
-  return {{Pattern::kAngle, line_explained},
-          {Pattern::kDirection, explained(
-                                    samples, [](const Sample& s) { return s.w1 > 0.0 ? 1.0 : 0.0; }, 2)},
-          {Pattern::kSpeed, explained(
-                                samples, [](const Sample& s) { return s.w1; }, kBins)},
-          {Pattern::kInput, explained(
-                                samples, [](const Sample& s) { return s.u; }, kBins)},
-          {Pattern::kTime, displaced(place.time)}};
+  return {
+      {ResidualPattern::kAngle, line_explained},
+      {ResidualPattern::kDirection, explained(
+                                        samples, [](const Sample& s) { return s.w1 > 0.0 ? 1.0 : 0.0; }, 2)},
+      {ResidualPattern::kSpeed, explained(
+                                    samples, [](const Sample& s) { return s.w1; }, kBins)},
+      {ResidualPattern::kInput, explained(
+                                    samples, [](const Sample& s) { return s.u; }, kBins)},
+      {ResidualPattern::kTime, displaced(place.time)}};
 }
 
 }  // namespace
@@ -181,7 +184,9 @@ MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& he
   const double line_explained = lines.empty() ? 0.0 : lines.front().explained;
   if (line_explained > kLine) place.periods_per_turn = lines.front().periods;
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
-  place.headline = headline_of(place, patterns_of(samples, place, line_explained), effect, rotation);
+  place.phase = densest_phase(place.mode);
+  place.follows = followed_patterns(patterns_of(samples, place, line_explained), effect);
+  place.headline = headline_of(place, rotation);
   return place;
 }
 

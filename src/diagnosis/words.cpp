@@ -28,7 +28,7 @@ std::string likeness(std::vector<std::string> group) {
 /// The simpler law that an effect brings along, where no earlier effect has named it.
 std::string within(const std::string& effect, const std::vector<std::string>& all) {
   const EffectEntry* entry = find_effect(effect);
-  const EffectEntry* simpler = entry == nullptr ? nullptr : nested_parent(*entry);
+  const EffectEntry* simpler = entry == nullptr ? nullptr : contained_effect(*entry);
   if (simpler == nullptr || std::find(all.begin(), all.end(), simpler->name) != all.end()) return "";
   return fmt::format(" (which contains {})", readable(simpler->name));
 }

@@ -211,14 +211,17 @@ void load_dependent_friction(BlindCase& c, EffectScale& s) {
   c.drive.effects.load.friction_per_contact_torque = s.between(0.03, 0.4);
 }
 
+double cogging_cycles(const BlindCase& c) { return c.drive.effects.motor.cogging.periods_per_turn; }
+double ripple_cycles(const BlindCase& c) { return c.drive.effects.command.ripple.periods_per_turn; }
+
 constexpr DrawnEffect kEntries[] = {
-    {"motor_coulomb_friction", true, Needs::kNothing, motor_coulomb_friction},
-    {"friction_asymmetry", true, Needs::kNothing, friction_asymmetry},
-    {"stribeck_friction", true, Needs::kNothing, stribeck_friction},
-    {"presliding_friction", true, Needs::kNothing, presliding_friction},
+    {"motor_coulomb_friction", true, Needs::kNothing, motor_coulomb_friction, {.of_the_bearing = true}},
+    {"friction_asymmetry", true, Needs::kNothing, friction_asymmetry, {.of_the_bearing = true}},
+    {"stribeck_friction", true, Needs::kNothing, stribeck_friction, {.of_the_bearing = true}},
+    {"presliding_friction", true, Needs::kNothing, presliding_friction, {.another_law = true}},
     {"quadratic_drag", true, Needs::kNothing, quadratic_drag},
-    {"cogging_torque", true, Needs::kNothing, cogging_torque},
-    {"torque_ripple", true, Needs::kNothing, torque_ripple},
+    {"cogging_torque", true, Needs::kNothing, cogging_torque, {.cycles_per_turn = cogging_cycles}},
+    {"torque_ripple", true, Needs::kNothing, torque_ripple, {.cycles_per_turn = ripple_cycles}},
     {"load_unbalance", true, Needs::kNothing, load_unbalance},
     {"constant_load_torque", true, Needs::kNothing, constant_load_torque},
     {"torque_saturation", true, Needs::kNothing, torque_saturation},
@@ -228,14 +231,14 @@ constexpr DrawnEffect kEntries[] = {
     {"shaft_compliance", true, Needs::kContact, shaft_compliance},
     {"impact_damping", true, Needs::kContact, impact_damping},
     {"backlash", true, Needs::kNoGap, backlash},
-    {"gap_eccentricity", true, Needs::kGap, gap_eccentricity},
+    {"gap_eccentricity", true, Needs::kGap, gap_eccentricity, {.another_law = true}},
     {"gap_growth", true, Needs::kGap, gap_growth},
     {"contact_adhesion", true, Needs::kGap, contact_adhesion},
-    {"encoder_eccentricity", true, Needs::kNothing, encoder_eccentricity},
+    {"encoder_eccentricity", true, Needs::kNothing, encoder_eccentricity, {.another_law = true}},
     {"encoder_quantization", true, Needs::kNothing, encoder_quantization},
     {"measurement_lag", true, Needs::kNothing, measurement_lag},
-    {"viscous_drift", true, Needs::kNothing, viscous_drift},
-    {"load_inertia_variation", true, Needs::kNothing, load_inertia_variation},
+    {"viscous_drift", true, Needs::kNothing, viscous_drift, {.another_law = true}},
+    {"load_inertia_variation", true, Needs::kNothing, load_inertia_variation, {.another_law = true}},
     {"external_knocks", false, Needs::kNothing, external_knocks},
     {"input_jitter", false, Needs::kNothing, input_jitter},
     {"input_noise", false, Needs::kNothing, input_noise},
@@ -249,6 +252,12 @@ constexpr DrawnEffect kEntries[] = {
 }  // namespace
 
 std::span<const DrawnEffect> effect_entries() { return kEntries; }
+
+const DrawnEffect* find_drawn_effect(std::string_view name) {
+  for (const DrawnEffect& entry : kEntries)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
 
 bool can_have(const BlindDrive& drive, const DrawnEffect& entry) {
   const bool has_contact = drive.load != BlindLoad::kNone;
@@ -267,9 +276,8 @@ bool can_have(const BlindDrive& drive, const DrawnEffect& entry) {
 }
 
 void give_effect(BlindCase& c, std::string_view name, double severity, std::uint64_t seed) {
-  const auto* entry = std::find_if(std::begin(kEntries), std::end(kEntries),
-                                   [&](const DrawnEffect& e) { return e.name == name; });
-  GAPSCOPE_REQUIRE(entry != std::end(kEntries));
+  const DrawnEffect* entry = find_drawn_effect(name);
+  GAPSCOPE_REQUIRE(entry != nullptr);
   GAPSCOPE_REQUIRE(can_have(c.drive, *entry));
   EffectScale scale = scale_of(c, severity, seed);
   entry->give(c, scale);

@@ -17,16 +17,27 @@ enum class Needs {
 
 struct EffectScale;  // what sizes are relative to
 
+/// What else there is to know of an effect.
+struct EffectTraits {
+  bool of_the_bearing = false;  ///< a law of the one bearing that a drive has: only one of them at a time
+  bool another_law = false;     ///< of another functional form than the catalogue's
+  double (*cycles_per_turn)(const BlindCase&) = nullptr;  ///< as given, where it is not one
+};
+
 /// An effect that a case can be given by name.
 struct DrawnEffect {
   std::string_view name;  ///< identifier of the catalogue, or a name of its own
   bool in_catalogue;
   Needs needs;
   void (*give)(BlindCase&, EffectScale&);
+  EffectTraits traits = {};
 };
 
 /// All effects: the catalogue's in its order, then those outside.
 std::span<const DrawnEffect> effect_entries();
+
+/// nullptr if there is none of that name.
+const DrawnEffect* find_drawn_effect(std::string_view name);
 
 /// Whether the effect has a place in the drive.
 bool can_have(const BlindDrive& drive, const DrawnEffect& entry);

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "gapscope/base/statistics.h"
+#include "gapscope/plant/effect_hooks.h"
 
 namespace gapscope {
 
@@ -26,6 +28,21 @@ const EffectEntry* find_effect(std::string_view name) {
   for (const EffectEntry* entry : effect_table())
     if (name == entry->name) return entry;
   return nullptr;
+}
+
+const EffectEntry* contained_effect(const EffectEntry& entry) {
+  return entry.contains == nullptr ? nullptr : find_effect(entry.contains);
+}
+
+const char* to_string(ResidualPattern pattern) {
+  static constexpr const char* kWords[] = {"angle", "direction",   "speed",  "input",
+                                           "time",  "input_steps", "counts", "mode"};
+  return kWords[static_cast<int>(pattern)];
+}
+
+const char* to_string(ContactPhase phase) {
+  static constexpr const char* kWords[] = {"gap", "engagement", "impact"};
+  return kWords[static_cast<int>(phase)];
 }
 
 const char* to_string(EffectSide side) {
@@ -77,7 +94,7 @@ double scale_value(Scale scale, const ScaleContext& c) {
     case Scale::kRecord:
       return c.duration;
     case Scale::kPerTravel:
-      return 2.0 * 3.14159265358979323846 / c.travel;
+      return 2.0 * kPi / c.travel;
   }
   return 1.0;
 }
@@ -86,7 +103,7 @@ template <class T>
 void add_effect(PlantModel<T>& plant, const EffectEntry& entry, std::span<const T> parameters) {
   GAPSCOPE_REQUIRE(parameters.size() == entry.parameters.size());
   ActiveEffect<T> effect;
-  effect.hooks = entry.hooks<T>();
+  effect.hooks = &hooks_of<T>(entry);
   std::copy(parameters.begin(), parameters.end(), effect.parameters);
   if (effect.hooks->shape != nullptr) effect.hooks->shape(plant, effect.parameters);
   plant.effects.push_back(effect);

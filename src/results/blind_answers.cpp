@@ -27,6 +27,13 @@ void fields(Archive& archive, StepEvidence& e) {
 }
 
 template <class Archive>
+void fields(Archive& archive, ToldPlace& p) {
+  archive("phase", p.phase);
+  archive("follows", p.follows);
+  archive("periods_per_turn", p.periods_per_turn);
+}
+
+template <class Archive>
 void answer_fields(Archive& archive, BlindAnswer& a) {
   archive("name", a.name);
   archive.list("files", a.files);
@@ -34,6 +41,7 @@ void answer_fields(Archive& archive, BlindAnswer& a) {
   archive("effects", a.effects);
   archive("group", a.group);
   archive("headline", a.headline);
+  archive.single("where", a.where);
   archive("before_rad", a.before);
   archive("after_rad", a.after);
   archive("floor_rad", a.floor);
@@ -62,7 +70,7 @@ void fields(Archive& archive, BlindAnswers& a) {
 }
 
 namespace {
-constexpr const char* kAnswers = "gapscope.blind_answers/2";
+constexpr const char* kAnswers = "gapscope.blind_answers/3";
 }  // namespace
 
 Json blind_answers_schema() { return document_schema(kAnswers, BlindAnswers()); }

@@ -30,8 +30,8 @@ struct Forcing {
   T decaying{};                              ///< amplitude of a dying torque on the motor [N m]
 };
 
-/// Order at which the truncated terms of a flow of the given rate are below 1e-17 of the state over a step h:
-/// the least n with (rate h)ⁿ⁺¹/(n + 1)! below that, at least 4 for the quadratic torques.
+/// Order of the series over a step h of a flow of the given rate: the least n with (rate h)ⁿ⁺¹/(n + 1)! below
+/// 1e-17 of the state, at least 4 for the quadratic torques, at most kSeriesOrder (which leaves 1e-14).
 inline int series_order(double rate_times_h) {
   double term = rate_times_h;
   int n = 0;

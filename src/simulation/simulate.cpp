@@ -6,6 +6,7 @@
 
 #include "gapscope/base/random.h"
 #include "gapscope/base/require.h"
+#include "gapscope/simulation/stepper.h"
 
 namespace gapscope {
 namespace {
@@ -17,7 +18,7 @@ Mode mode_of(const DriveStepper<double>& stepper) {
 }
 
 /// The coarser of the sheet's quantum and one that an effect gives.
-double real_quantum(const StepperModel<double>& model, double quantum) {
+double real_quantum(const PlantModel<double>& model, double quantum) {
   for (const ActiveEffect<double>& e : model.effects)
     if (e.hooks->quantum != nullptr) quantum = std::max(quantum, e.hooks->quantum(e.parameters));
   return quantum;
@@ -25,7 +26,7 @@ double real_quantum(const StepperModel<double>& model, double quantum) {
 
 }  // namespace
 
-Recording simulate(const StepperModel<double>& model, std::span<const double> u,
+Recording simulate(const PlantModel<double>& model, std::span<const double> u,
                    const SimulationOptions& options) {
   GAPSCOPE_REQUIRE(options.rate > 0.0);
   Recording r;
@@ -52,8 +53,8 @@ Recording simulate(const StepperModel<double>& model, std::span<const double> u,
   return r;
 }
 
-StepperModel<double> stepper_model(const DriveParameters<double>& drive, const DriveStructure& structure) {
-  StepperModel<double> model;
+PlantModel<double> stepper_model(const DriveParameters<double>& drive, const DriveStructure& structure) {
+  PlantModel<double> model;
   model.drive = drive;
   model.structure = structure;
   model.load_sticks = drive.load_coulomb_friction > 0.0;

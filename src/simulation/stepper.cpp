@@ -8,7 +8,7 @@
 namespace gapscope {
 
 template <class T>
-DriveStepper<T>::DriveStepper(const StepperModel<T>& model, double dt)
+DriveStepper<T>::DriveStepper(const PlantModel<T>& model, double dt)
     : impl_(std::make_unique<internal::simulation::StepperImpl<T>>(model, dt)) {}
 template <class T>
 DriveStepper<T>::~DriveStepper() = default;

@@ -34,11 +34,17 @@ struct Extra {
 
 struct Acting;
 
+/// Modes that have a flow of their own: contact or none, load and motor that slip or stick, and in which
+/// direction the motor goes.
+constexpr int kFlows = 12;
+inline int flow_index(const ContactMode& mode) {
+  return (mode.contact != 0 ? 6 : 0) + (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
+}
+
 template <class T>
 struct StepperImpl {
   // --- what does not change from sample to sample
-  // --------------------------------------------------------------
-  StepperModel<T> model;
+  PlantModel<T> model;
   FlowConstants<T> f;
   double dt = 0.0;
   bool has_load = true, locked = false, load_friction = true, motor_friction = false;
@@ -56,7 +62,6 @@ struct StepperImpl {
   std::vector<T> memory;       ///< kMostEffectMemory per effect
 
   // --- the state
-  // -----------------------------------------------------------------------------------------------
   DriveState<T> z;
   ContactMode mode;
   T now{};     ///< [s]
@@ -70,12 +75,11 @@ struct StepperImpl {
   bool healthy = true;
   long events = 0;
   /// Of each segment of a sample (two with a delay), each mode, and how often its pieces are halved.
-  StateTransition<T> transitions[2][12][kMostHalvings + 1];
+  StateTransition<T> transitions[2][kFlows][kMostHalvings + 1];
 
-  StepperImpl(const StepperModel<T>& m, double step);
+  StepperImpl(const PlantModel<T>& m, double step);
 
   // --- where things stand: stepper_state.h
-  // -----------------------------------------------------------------------
   void set_decay();
   void reset(const DriveState<T>& state);
   void inject(const T& dx1, const T& dw1);
@@ -88,7 +92,6 @@ struct StepperImpl {
   }
 
   // --- effects: stepper_effects.h
-  // --------------------------------------------------------------------------------
   EffectPoint<T> point(const DriveState<T>& state, const T& time, std::size_t effect) const;
   Extra<T> extra_at(const DriveState<T>& state, const T& time) const;
   Forcing<T> forcing_without_effects() const;
@@ -102,7 +105,6 @@ struct StepperImpl {
   void set_inertia();
 
   // --- one sample: stepper_sample.h
-  // ------------------------------------------------------------------------------
   void step(double u);
   void segment(const T& span, double u, int index);
   StateTransition<T>& transition(const T& span, int index, int times_halved);
@@ -110,13 +112,14 @@ struct StepperImpl {
   void respond(const StateTransition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
   void respond_to_slopes(const StateTransition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
   void advance_smoothly(const StateTransition<T>& step, Forcing<T>& on, DriveState<T>& next) const;
-  bool may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end, double h) const;
   void accept(const DriveState<T>& next, const T& h);
   void advance(T span);
   void build_series(const T& h, PowerSeries<T>& series, Forcing<T>& on) const;
 
+  // --- whether an event may lie in a step: stepper_outlook.h
+  bool may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end, double h) const;
+
   // --- events: stepper_events.h
-  // ----------------------------------------------------------------------------------
   void collect(const PowerSeries<T>& series, const Forcing<T>& on, GuardSet& set) const;
   template <class Use>
   void with_terms(const Guard& guard, const PowerSeries<T>& flow, const Forcing<T>& on, const Use& use) const;

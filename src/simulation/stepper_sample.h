@@ -1,13 +1,12 @@
 #pragma once
 
-#include "simulation/stepper_impl.h"
+#include "simulation/stepper_outlook.h"
 
 namespace gapscope::internal::simulation {
 
 template <class T>
 StateTransition<T>& StepperImpl<T>::transition(const T& span, int index, int times_halved) {
-  const int row = (mode.contact != 0 ? 6 : 0) + (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
-  StateTransition<T>& found = transitions[index][row][times_halved];
+  StateTransition<T>& found = transitions[index][flow_index(mode)][times_halved];
   if (!found.ready) prepare(f, mode, has_load, span, smooth, times_halved, found);
   return found;
 }
@@ -27,27 +26,28 @@ void StepperImpl<T>::respond(const StateTransition<T>& step, const Forcing<T>& o
                              DriveState<T>& next) const {
   const auto& r = step.response;
   if (mode.contact == 0) {
-    next.x1 = z.x1 + r[1][0] * z.w1 + r[3][0] * on.motor[0];
-    next.w1 = r[1][1] * z.w1 + r[3][1] * on.motor[0];
+    next.x1 = z.x1 + r[kW1][kToX1] * z.w1 + r[kMotor0][kToX1] * on.motor[0];
+    next.w1 = r[kW1][kToW1] * z.w1 + r[kMotor0][kToW1] * on.motor[0];
     if (decaying >= 0) {
-      next.x1 += r[9][0] * on.decaying;
-      next.w1 += r[9][1] * on.decaying;
+      next.x1 += r[kDying][kToX1] * on.decaying;
+      next.w1 += r[kDying][kToW1] * on.decaying;
     }
     if (!has_load || mode.load == 0) {
       next.x2 = z.x2, next.w2 = z.w2;
       return;
     }
-    next.x2 = z.x2 + r[2][2] * z.w2 + r[4][2] * on.load[0];
-    next.w2 = r[2][3] * z.w2 + r[4][3] * on.load[0];
+    next.x2 = z.x2 + r[kW2][kToX2] * z.w2 + r[kLoad0][kToX2] * on.load[0];
+    next.w2 = r[kW2][kToW2] * z.w2 + r[kLoad0][kToW2] * on.load[0];
     return;
   }
   const T depth = z.x1 - z.x2 - static_cast<double>(mode.contact) * on.half_gap[0];
-  T out[4];
-  for (int i = 0; i < 4; ++i)
-    out[i] = r[0][i] * depth + r[1][i] * z.w1 + r[2][i] * z.w2 + r[3][i] * on.motor[0] + r[4][i] * on.load[0];
+  T out[kRows];
+  for (int i = 0; i < kRows; ++i)
+    out[i] = r[kDepth][i] * depth + r[kW1][i] * z.w1 + r[kW2][i] * z.w2 + r[kMotor0][i] * on.motor[0] +
+             r[kLoad0][i] * on.load[0];
   if (decaying >= 0)
-    for (int i = 0; i < 4; ++i) out[i] += r[9][i] * on.decaying;
-  next = {z.x1 + out[0], out[1], z.x2 + out[2], out[3]};
+    for (int i = 0; i < kRows; ++i) out[i] += r[kDying][i] * on.decaying;
+  next = {z.x1 + out[kToX1], out[kToW1], z.x2 + out[kToX2], out[kToW2]};
 }
 
 /// Adds what the slopes and curvatures of the torques do. A gap that opens under a closed contact pushes on
@@ -57,11 +57,11 @@ void StepperImpl<T>::respond_to_slopes(const StateTransition<T>& step, const For
                                        DriveState<T>& next) const {
   const auto& r = step.response;
   if (mode.contact == 0) {
-    next.x1 += r[5][0] * on.motor[1] + r[7][0] * on.motor[2];
-    next.w1 += r[5][1] * on.motor[1] + r[7][1] * on.motor[2];
+    next.x1 += r[kMotor1][kToX1] * on.motor[1] + r[kMotor2][kToX1] * on.motor[2];
+    next.w1 += r[kMotor1][kToW1] * on.motor[1] + r[kMotor2][kToW1] * on.motor[2];
     if (!has_load || mode.load == 0) return;
-    next.x2 += r[6][2] * on.load[1] + r[8][2] * on.load[2];
-    next.w2 += r[6][3] * on.load[1] + r[8][3] * on.load[2];
+    next.x2 += r[kLoad1][kToX2] * on.load[1] + r[kLoad2][kToX2] * on.load[2];
+    next.w2 += r[kLoad1][kToW2] * on.load[1] + r[kLoad2][kToW2] * on.load[2];
     return;
   }
   T motor[2] = {on.motor[1], on.motor[2]}, load[2] = {on.load[1], on.load[2]};
@@ -72,9 +72,10 @@ void StepperImpl<T>::respond_to_slopes(const StateTransition<T>& step, const For
       load[n] -= pushing * on.half_gap[n + 1];
     }
   }
-  T* const out[4] = {&next.x1, &next.w1, &next.x2, &next.w2};
-  for (int i = 0; i < 4; ++i)
-    *out[i] += r[5][i] * motor[0] + r[6][i] * load[0] + r[7][i] * motor[1] + r[8][i] * load[1];
+  T* const out[kRows] = {&next.x1, &next.w1, &next.x2, &next.w2};
+  for (int i = 0; i < kRows; ++i)
+    *out[i] +=
+        r[kMotor1][i] * motor[0] + r[kLoad1][i] * load[0] + r[kMotor2][i] * motor[1] + r[kLoad2][i] * load[1];
 }
 
 /// The state half-way on the cubics through both ends.
@@ -102,104 +103,6 @@ void StepperImpl<T>::advance_smoothly(const StateTransition<T>& step, Forcing<T>
     next = constant;
     respond_to_slopes(step, on, next);
   }
-}
-
-/// Whether a guard may fall to zero between two states h apart, judged by its values and slopes at both ends.
-/// A yes may be wrong, a no is not: within the series' reach guards are nearly cubic, and one that dips
-/// between rising ends stays above the crossing of its end tangents.
-inline bool dips(double g0, double slope0, double g1, double slope1, double h) {
-  if (g1 <= 0.0) return true;
-  if (!(slope0 < 0.0 && slope1 > 0.0)) return false;
-  const double s = (g1 - g0 - slope1 * h) / (slope0 - slope1);
-  return g0 + slope0 * s <= 0.0;
-}
-
-/// What acts at one end of a step, without friction, dampers and contact: values and rates.
-struct Acting {
-  double half_gap, half_gap_rate, motor, motor_rate, load, load_rate;
-};
-
-template <class T>
-Acting acting_at(const StepperImpl<T>& d, const Forcing<T>& on, double s) {
-  const auto value = [s](const T(&c)[3]) {
-    return value_of(c[0]) + s * (value_of(c[1]) + s * value_of(c[2]));
-  };
-  const auto slope = [s](const T(&c)[3]) { return value_of(c[1]) + 2.0 * s * value_of(c[2]); };
-  const double rate = value_of(d.f.decay_rate);
-  const double dying = rate > 0.0 ? value_of(on.decaying) * std::exp(-rate * s) : 0.0;
-  return {value(on.half_gap), slope(on.half_gap), value(on.motor) + dying, slope(on.motor) - rate * dying,
-          value(on.load),     slope(on.load)};
-}
-
-/// What the guards look at, at one end of a step.
-struct Outlook {
-  double delta, delta_rate, torque, torque_rate;  ///< contact, where it is closed or beyond the edge
-  double w1, a1, w2, a2;
-};
-
-template <class T>
-Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Acting& on) {
-  Outlook q;
-  const int side = d.mode.contact != 0 ? d.mode.contact : d.mode.outside;
-  const double k = side != 0 ? value_of(d.f.k) : 0.0, c = side != 0 ? value_of(d.f.c) : 0.0;
-  q.w1 = value_of(z.w1), q.w2 = value_of(z.w2);
-  q.delta = value_of(z.x1) - value_of(z.x2), q.delta_rate = q.w1 - q.w2;
-  q.torque = k * (q.delta - side * on.half_gap) + c * q.delta_rate;
-  const double contact = d.mode.contact != 0 ? q.torque : 0.0;
-  const double d1 = value_of(d.mode.motor < 0 ? d.f.d1_minus : d.f.d1_plus);
-  q.a1 = d.mode.motor == 0 ? 0.0 : (on.motor - d1 * q.w1 - contact) * d.inverse_m1;
-  q.a2 = d.mode.load == 0 ? 0.0 : (on.load - value_of(d.f.d2) * q.w2 + contact) * d.inverse_m2;
-  q.torque_rate = k * (q.delta_rate - side * on.half_gap_rate) + c * (q.a1 - q.a2);
-  return q;
-}
-
-inline bool contact_may_leave(int contact, double adhesion, const Outlook& a, const Outlook& b, double h) {
-  return dips(adhesion + contact * a.torque, contact * a.torque_rate, adhesion + contact * b.torque,
-              contact * b.torque_rate, h);
-}
-
-inline bool gap_may_close(const Outlook& a, const Acting& at_a, const Outlook& b, const Acting& at_b,
-                          double h) {
-  return dips(at_a.half_gap - a.delta, at_a.half_gap_rate - a.delta_rate, at_b.half_gap - b.delta,
-              at_b.half_gap_rate - b.delta_rate, h) ||
-         dips(at_a.half_gap + a.delta, at_a.half_gap_rate + a.delta_rate, at_b.half_gap + b.delta,
-              at_b.half_gap_rate + b.delta_rate, h);
-}
-
-/// A sticking body: level ∓ applied torque.
-inline bool may_break(double plus, double minus, double applied0, double rate0, double applied1, double rate1,
-                      double h) {
-  return dips(plus - applied0, -rate0, plus - applied1, -rate1, h) ||
-         dips(minus + applied0, rate0, minus + applied1, rate1, h);
-}
-
-template <class T>
-bool StepperImpl<T>::may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end,
-                               double h) const {
-  if (!has_load && !motor_friction) return false;
-  if ((f.rigid && mode.contact != 0) || mode.outside != 0) return true;  // the exact path decides
-  const Outlook a = outlook(*this, z, at_start), b = outlook(*this, next, at_end);
-  const double closed_now = mode.contact != 0 ? 1.0 : 0.0;
-  if (mode.contact != 0) {
-    if (contact_may_leave(mode.contact, value_of(model.adhesion), a, b, h)) return true;
-  } else if (has_load && gap_may_close(a, at_start, b, at_end, h)) {
-    return true;
-  }
-  if (motor_friction && mode.motor != 0 &&
-      dips(mode.motor * a.w1, mode.motor * a.a1, mode.motor * b.w1, mode.motor * b.a1, h))
-    return true;
-  if (motor_friction && mode.motor == 0 &&
-      may_break(value_of(motor_level(1)), value_of(motor_level(-1)), at_start.motor - closed_now * a.torque,
-                at_start.motor_rate - closed_now * a.torque_rate, at_end.motor - closed_now * b.torque,
-                at_end.motor_rate - closed_now * b.torque_rate, h))
-    return true;
-  if (!load_friction) return false;
-  if (mode.load != 0) return dips(mode.load * a.w2, mode.load * a.a2, mode.load * b.w2, mode.load * b.a2, h);
-  if (mode.contact == 0 && !smooth) return false;
-  const double level = value_of(model.drive.load_coulomb_friction);
-  return may_break(level, level, at_start.load + closed_now * a.torque,
-                   at_start.load_rate + closed_now * a.torque_rate, at_end.load + closed_now * b.torque,
-                   at_end.load_rate + closed_now * b.torque_rate, h);
 }
 
 template <class T>

@@ -5,7 +5,7 @@
 namespace gapscope::internal::simulation {
 
 template <class T>
-StepperImpl<T>::StepperImpl(const StepperModel<T>& m, double step) : model(m), dt(step) {
+StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step) : model(m), dt(step) {
   const DriveParameters<T>& p = m.drive;
   has_load = m.structure.has_load;
   locked = has_load && m.structure.load == LoadKind::kLocked;

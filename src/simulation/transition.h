@@ -7,7 +7,11 @@
 
 namespace gapscope::internal::simulation {
 
-constexpr int kColumns = 10;
+/// What the state at the end of a step is linear in.
+enum Column { kDepth, kW1, kW2, kMotor0, kLoad0, kMotor1, kLoad1, kMotor2, kLoad2, kDying, kColumns };
+
+/// What each of them moves.
+enum Row { kToX1, kToW1, kToX2, kToW2, kRows };
 
 /// With smooth effects a piece is at most this long per unit of 1/rate, so that the torques along the motion
 /// are nearly quadratic in it.
@@ -20,10 +24,10 @@ constexpr double kSmoothReach = 0.4;
 template <class T>
 struct StateTransition {
   bool ready = false;
-  int pieces = 1;           ///< per segment, so that a piece lies within the series' reach
-  T h{};                    ///< length of a piece [s]
-  T inverse_h{};            ///< [1/s]
-  T response[kColumns][4];  ///< a column holds what one quantity does to all four
+  int pieces = 1;               ///< per segment, so that a piece lies within the series' reach
+  T h{};                        ///< length of a piece [s]
+  T inverse_h{};                ///< [1/s]
+  T response[kColumns][kRows];  ///< a column holds what one quantity does to all four
 };
 
 /// Fastest rate of a mode [1/s]: dampers, and in a closed compliant contact its oscillation and damping. A
@@ -41,21 +45,21 @@ double flow_rate(const FlowConstants<T>& f, bool closed, bool has_load) {
 
 /// Column of the response: the flow that starts from one unit of the given quantity and nothing else.
 template <class T>
-void response_column(const FlowConstants<T>& f, const ContactMode& mode, int column,
+void response_column(const FlowConstants<T>& f, const ContactMode& mode, Column column,
                      StateTransition<T>& transition) {
   DriveState<T> start;
   Forcing<T> on;
   T* const units[kColumns] = {&start.x1,    &start.w1,   &start.w2,    &on.motor[0], &on.load[0],
                               &on.motor[1], &on.load[1], &on.motor[2], &on.load[2],  &on.decaying};
   *units[column] = T(1.0);
-  if (f.rigid && mode.contact != 0 && column == 2) return;  // one body: the load's speed is the motor's
+  if (f.rigid && mode.contact != 0 && column == kW2) return;  // one body: the load's speed is the motor's
   PowerSeries<T> z;
   flow_series(f, mode, start, on, z);
   const DriveState<T> end = evaluate(z, transition.h);
-  transition.response[column][0] = end.x1 - start.x1;
-  transition.response[column][1] = end.w1;
-  transition.response[column][2] = end.x2 - start.x2;
-  transition.response[column][3] = end.w2;
+  transition.response[column][kToX1] = end.x1 - start.x1;
+  transition.response[column][kToW1] = end.w1;
+  transition.response[column][kToX2] = end.x2 - start.x2;
+  transition.response[column][kToW2] = end.w2;
 }
 
 /// What a dying torque does over a piece that is long against it: several short pieces, put together.
@@ -64,21 +68,21 @@ void dying_column(const FlowConstants<T>& f, const ContactMode& mode, bool has_l
                   StateTransition<T>& transition) {
   const double rate = std::max(flow_rate(f, mode.contact != 0, has_load), value_of(f.decay_rate));
   const double count = std::ceil(rate * value_of(transition.h) / kSeriesReach);
-  if (count <= 1.0) return response_column(f, mode, 9, transition);
+  if (count <= 1.0) return response_column(f, mode, kDying, transition);
   StateTransition<T> part;
   part.h = transition.h / count;
   for (auto& responses : part.response)
     for (T& r : responses) r = T(0.0);
-  for (const int column : {0, 1, 2, 9}) response_column(f, mode, column, part);
+  for (const Column column : {kDepth, kW1, kW2, kDying}) response_column(f, mode, column, part);
   using std::exp;
   const T share = exp(-f.decay_rate * part.h);  // of the amplitude, that a part leaves
   const auto& r = part.response;
-  T(&sum)[4] = transition.response[9];
+  T(&sum)[kRows] = transition.response[kDying];
   T amplitude(1.0);
   for (double n = 0.0; n < count; n += 1.0) {
-    const T depth = sum[0] - sum[2], w1 = sum[1], w2 = sum[3];
-    for (int i = 0; i < 4; ++i) {
-      const T moved = r[0][i] * depth + r[1][i] * w1 + r[2][i] * w2 + r[9][i] * amplitude;
+    const T depth = sum[kToX1] - sum[kToX2], w1 = sum[kToW1], w2 = sum[kToW2];
+    for (int i = 0; i < kRows; ++i) {
+      const T moved = r[kDepth][i] * depth + r[kW1][i] * w1 + r[kW2][i] * w2 + r[kDying][i] * amplitude;
       sum[i] = i % 2 == 0 ? T(sum[i] + moved) : moved;
     }
     amplitude *= share;
@@ -98,7 +102,8 @@ void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, 
   if (smooth && value_of(transition.h) > 0.0) transition.inverse_h = 1.0 / transition.h;
   for (auto& responses : transition.response)
     for (T& r : responses) r = T(0.0);
-  for (int column = 0; column < (smooth ? 9 : 5); ++column) response_column(f, mode, column, transition);
+  for (int column = kDepth; column < (smooth ? kDying : kMotor1); ++column)
+    response_column(f, mode, static_cast<Column>(column), transition);
   if (value_of(f.decay_rate) > 0.0) dying_column(f, mode, has_load, transition);
   transition.ready = true;
 }

@@ -29,8 +29,8 @@ const std::vector<EffectCase>& effect_cases() {
 
 /// The rig with as many of its numbers as the Jet holds for derivatives.
 template <class T>
-StepperModel<T> rig() {
-  StepperModel<T> model;
+PlantModel<T> rig() {
+  PlantModel<T> model;
   const DriveParameters<double> numbers = test::paper_rig();
   for (int i = 0; i < kDriveParameterCount; ++i) {
     T& p = drive_parameter(model.drive, i);
@@ -42,8 +42,8 @@ StepperModel<T> rig() {
 }
 
 template <class T>
-StepperModel<T> rig_with(const EffectCase& effect) {
-  StepperModel<T> model = rig<T>();
+PlantModel<T> rig_with(const EffectCase& effect) {
+  PlantModel<T> model = rig<T>();
   const std::vector<T> values(effect.values.begin(), effect.values.end());
   add_effect<T>(model, *find_effect(effect.name), values);
   return model;
@@ -53,7 +53,7 @@ std::vector<double> sine_input() { return test::sine(kAmplitude, 1.0, kRate, kDu
 std::vector<double> several_sines_input() { return test::several_sines(kAmplitude, kRate, kDuration); }
 
 template <class T>
-void add(const std::string& name, const StepperModel<T>& model, const std::vector<double>& u) {
+void add(const std::string& name, const PlantModel<T>& model, const std::vector<double>& u) {
   repeat(benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& s) { measure(s, model, u); }));
 }
 

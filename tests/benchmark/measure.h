@@ -25,7 +25,7 @@ void play(DriveStepper<T>& stepper, std::span<const double> u) {
 }
 
 template <class T>
-void measure(benchmark::State& state, const StepperModel<T>& model, const std::vector<double>& u) {
+void measure(benchmark::State& state, const PlantModel<T>& model, const std::vector<double>& u) {
   DriveStepper<T> stepper(model, 1.0 / kRate);
   for (auto _ : state) play(stepper, u);
   if (!stepper.healthy()) state.SkipWithError("the motion diverged");

@@ -122,7 +122,7 @@ std::string places(const Study& study, const Findings& f, const blind::BlindPair
   const MismatchPlace place =
       place_of(played, study.held_out, fitted.parameters[place::kTorqueConstant].value, true,
                told ? &fitted.effects.back() : nullptr);
-  return blind::names_the_place(place.headline, pair.effect, pair.cycles_per_turn) ? "yes" : "no";
+  return blind::names_the_place(blind::told_place(place), pair.effect, pair.cycles_per_turn) ? "yes" : "no";
 }
 
 void note_answer(StudyRow& row, const Study& study, const Findings& f, const blind::BlindPair& pair) {

@@ -180,7 +180,7 @@ TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
   const blind::BlindPair pair = blind::blind_pair("paper", "encoder_eccentricity", 0.5, 400012);
   const MotorTrace train[] = {pair.train.motor_trace()};
   const internal::diagnosis::Fitted nominal = internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
-  const internal::diagnosis::EffectStart far{0.02, 0.0};
+  const EffectStart far{0.02, 0.0};
   const internal::diagnosis::Fitted found = internal::diagnosis::fit_candidate(
       train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0),
       *find_effect("encoder_eccentricity"), {&far, 1}, nullptr, {}, 3.0);
@@ -220,7 +220,7 @@ TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
       train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0), *cogging, {},
       nullptr, {}, 3.0);
   EXPECT_EQ(without_a_line.mean_square, kInfinity);
-  const internal::diagnosis::EffectStart start{0.05, 2.0, 0.0};
+  const EffectStart start{0.05, 2.0, 0.0};
   EXPECT_EQ(internal::diagnosis::fit_candidate(train, nominal, {}, *cogging, {&start, 1}, &nominal, {}, 3.0)
                 .mean_square,
             kInfinity);

@@ -1,8 +1,7 @@
-// What the documents say of the sources is still so: files, constants, the table of effects.
+// What the documents say of the sources is still so: files, constants.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -71,32 +70,6 @@ TEST(Documents, GiveConstantsTheValuesThatTheyHaveInTheSources) {
           << document << " gives " << m[1] << " as " << m[2] << ", the sources do not";
     }
   }
-}
-
-/// The row of an effect as the table of docs/science.md should have it.
-std::string row_of(const std::string& name) {
-  const std::string source = text_of(kRoot / "src/plant/effects" / (name + ".cpp"));
-  const auto group = [&](const char* pattern) {
-    std::smatch m;
-    return std::regex_search(source, m, std::regex(pattern)) ? m[1].str() : std::string("?");
-  };
-  std::string side = group(R"rx(side = EffectSide::k(\w+))rx"), law = group(R"rx(law =\s*"([^"]*)")rx"),
-              parameters;
-  side[0] = static_cast<char>(std::tolower(side[0]));
-  law = std::regex_replace(law, std::regex("\\|"), "\\|");
-  for (const std::smatch& m : matches(source, std::regex(R"rx(\{"(\w+)",\s*"([^"]+)",\s*[^"\s])rx")))
-    parameters += (parameters.empty() ? "`" : ", `") + m[1].str() + "` [" + m[2].str() + "]";
-  return "| `" + name + "` | " + side + " | " + law + " | " + parameters + " |";
-}
-
-TEST(Documents, ListEveryEffectWithItsLawAndParameters) {
-  const std::string science = text_of(kRoot / "docs/science.md");
-  const std::string list = text_of(kRoot / "src/plant/effects/effects.inc");
-  const auto effects = matches(list, std::regex(R"rx(GAPSCOPE_EFFECT\((\w+)\))rx"));
-  ASSERT_GT(effects.size(), 20u);
-  for (const std::smatch& m : effects)
-    EXPECT_NE(science.find(row_of(m[1])), std::string::npos) << "docs/science.md, section 2, lacks the row\n"
-                                                             << row_of(m[1]);
 }
 
 }  // namespace

@@ -54,8 +54,10 @@ DiagnosisResult sample() {
   d.periodic = {{24.3, kThird, 0.002, 0.4, kNaN, 20, 19, true, true}};
   d.next_experiment = {
       "Record a sine.", 1000.0, 5.0, {{{}, "a sine", kThird, {{"a", "b", kThird, false}}, kThird}}, {}};
-  d.where = {
-      "in engagement", halves("gap", "engagement"), halves("backward", "forward"), {}, {}, {}, {}, {}, 24.0};
+  d.where.headline = "in engagement";
+  d.where.mode = halves("gap", "engagement");
+  d.where.direction = halves("backward", "forward");
+  d.where.periods_per_turn = 24.0;
   d.remaining.headline = "nowhere";
   d.blame = {{"motor_damping", "N m s/rad", 0.08, 0.06}};
   d.warnings = {"a warning"};

@@ -4,7 +4,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "gapscope/plant/effect.h"
+#include "gapscope/plant/effect_hooks.h"
+#include "gapscope/simulation/stepper.h"
 #include "simulation/drives.h"
 
 namespace {
@@ -38,8 +39,8 @@ using Scalars = testing::Types<double, Jet<8>>;
 TYPED_TEST_SUITE(Allocation, Scalars);
 
 template <class T>
-StepperModel<T> rig(bool has_load) {
-  StepperModel<T> model;
+PlantModel<T> rig(bool has_load) {
+  PlantModel<T> model;
   model.structure.has_load = has_load;
   const DriveParameters<double> numbers = test::paper_rig();
   for (int i = 0; i < kDriveParameterCount; ++i) {
@@ -64,7 +65,7 @@ ScaleContext scale() {
 
 /// Everything that an observer or a fit calls once per sample.
 template <class T>
-long allocations_of_a_run(const StepperModel<T>& model, long& events) {
+long allocations_of_a_run(const PlantModel<T>& model, long& events) {
   const std::vector<double> u = test::several_sines(0.9, kRate, 2.0);
   DriveStepper<T> stepper(model, 1.0 / kRate);
   double sum = 0.0;
@@ -95,7 +96,7 @@ TYPED_TEST(Allocation, NoneInARunWithEvents) {
 
 TYPED_TEST(Allocation, NoneWithAnyEffectOfTheCatalogue) {
   for (const EffectEntry* e : effect_table()) {
-    StepperModel<TypeParam> model = rig<TypeParam>(std::string(e->name) != "backlash");
+    PlantModel<TypeParam> model = rig<TypeParam>(std::string(e->name) != "backlash");
     std::vector<TypeParam> values;
     for (const EffectParameterSpec& p : e->parameters)
       values.emplace_back(scale_value(p.scale, scale()) * (p.low + 0.1 * (p.high - p.low)));

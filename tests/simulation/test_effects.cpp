@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "gapscope/base/random.h"
-#include "gapscope/plant/effect.h"
+#include "gapscope/plant/effect_hooks.h"
+#include "gapscope/simulation/stepper.h"
 #include "simulation/drives.h"
 
 namespace gapscope {
@@ -35,53 +36,35 @@ struct Case {
   ScaleContext scale = context(u, 4.0);
 };
 
-/// Values a moderate way into the bounds: strong enough to matter, not extreme.
+/// Values a moderate way into the bounds: where its search in the diagnosis begins. What that finds from the
+/// residual torque is some cycles over the travel here.
 std::vector<double> moderate(const EffectEntry& e, const ScaleContext& scale) {
+  constexpr double kCycles = 2.3, kPhase = 0.4;
   std::vector<double> values;
-  for (const EffectParameterSpec& p : e.parameters) {
-    const std::string key = p.key;
-    const double unit = scale_value(p.scale, scale);
-    double v = p.low + 0.1 * (p.high - p.low);
-    if (key == "periods_per_turn") v = 24.0 / unit;
-    if (key == "phase_rad") v = 0.4;
-    if (key == "knee") v = 0.7;
-    if (key == "sharpness") v = 2.5;
-    if (key == "stiffness_nm_rad") v = 0.6;
-    if (key == "damping_nms_rad") v = 2.0;
-    if (key == "delay_s") v = 1.37;
-    if (key == "time_constant_s") v = p.scale == Scale::kSample ? 3.0 : 0.4;
-    if (key == "stribeck_speed_rad_s") v = 0.1;
-    if (key == "stiction_ratio") v = 0.6;
-    if (key == "exponent") v = 1.6;
-    if (key == "length_rad") v = 0.005;
-    if (key == "ratio" && e.side == EffectSide::kCommand) v = 0.2;
-    if (key == "ratio" && e.side != EffectSide::kCommand) v = 0.5;
-    if (key == "coulomb_ratio" || key == "viscous_ratio") v = 0.3;
-    if (key == "gap_rad") v = 0.05;
-    if (key == "load_share") v = 0.4;
-    if (key == "time_s") v = 0.41;
-    if (key == "duration_s") v = 0.2;
-    if (key == "rate_rad_s") v = 0.5;
-    if (key == "torque_nm" || key == "release_nm") v = 0.2;
-    values.push_back(v * unit);
+  for (std::size_t i = 0; i < e.parameters.size(); ++i) {
+    const EffectParameterSpec& p = e.parameters[i];
+    double v = e.starts.empty() ? p.low + 0.1 * (p.high - p.low) : e.starts.front()[i];
+    if (p.scale == Scale::kPerTravel) v = kCycles;
+    if (p.key == std::string("phase_rad")) v = kPhase;
+    values.push_back(v * scale_value(p.scale, scale));
   }
   return values;
 }
 
 /// The paper's rig; a drive of one inertia for the effect that divides it in two.
-StepperModel<double> nominal(const EffectEntry& e) {
+PlantModel<double> nominal(const EffectEntry& e) {
   DriveStructure structure;
   structure.has_load = std::string(e.name) != "backlash";
   return stepper_model(paper_rig(), structure);
 }
 
-StepperModel<double> with(const EffectEntry& e, const std::vector<double>& values) {
-  StepperModel<double> model = nominal(e);
+PlantModel<double> with(const EffectEntry& e, const std::vector<double>& values) {
+  PlantModel<double> model = nominal(e);
   add_effect<double>(model, e, values);
   return model;
 }
 
-std::vector<double> measured(const StepperModel<double>& model, const std::vector<double>& u, double rate,
+std::vector<double> measured(const PlantModel<double>& model, const std::vector<double>& u, double rate,
                              int every = 1, bool* healthy = nullptr) {
   DriveStepper<double> stepper(model, 1.0 / rate);
   stepper.reset({});
@@ -125,8 +108,8 @@ TEST_P(EveryEffect, LeavesTheMotionAsItIsAtItsAbsentValues) {
 TEST_P(EveryEffect, ChangesWhatIsMeasuredAtModerateValues) {
   const Case c;
   const EffectEntry& e = entry();
-  if (e.hooks_double->quantum != nullptr) {
-    EXPECT_GT(e.hooks_double->quantum(moderate(e, c.scale).data()), c.scale.quantum);
+  if (hooks_of<double>(e).quantum != nullptr) {
+    EXPECT_GT(hooks_of<double>(e).quantum(moderate(e, c.scale).data()), c.scale.quantum);
     return;
   }
   const auto plain = measured(nominal(e), c.u, kRate);
@@ -151,8 +134,8 @@ TEST_P(EveryEffect, HasDerivativesThatAgreeWithDifferences) {
   const Case c;
   const EffectEntry& e = entry();
   const std::vector<double> values = moderate(e, c.scale);
-  if (e.hooks_double->quantum != nullptr) return;  // a quantum is not continuous
-  StepperModel<Jet<4>> model;
+  if (hooks_of<double>(e).quantum != nullptr) return;  // a quantum is not continuous
+  PlantModel<Jet<4>> model;
   model.structure = nominal(e).structure;
   for (int i = 0; i < kDriveParameterCount; ++i)
     drive_parameter(model.drive, i) = Jet<4>(drive_parameter(paper_rig(), i));
@@ -215,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, ::testing::ValuesIn(names()), n
 TEST(ActuatorLag, FarShorterThanASampleIsFollowedAlsoBesideATorqueThatIsNotConstant) {
   const Case c;
   for (const char* beside : {"encoder_eccentricity", "cogging_torque", "quadratic_drag"}) {
-    StepperModel<double> model = with(*find_effect(beside), moderate(*find_effect(beside), c.scale));
+    PlantModel<double> model = with(*find_effect(beside), moderate(*find_effect(beside), c.scale));
     const auto without = measured(model, held(c.u, 32), 32 * kRate, 32);
     add_effect<double>(model, *find_effect("actuator_lag"), std::vector<double>{0.05 / kRate});
     const auto truth = measured(model, held(c.u, 32), 32 * kRate, 32);

@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "gapscope/plant/effect_hooks.h"
+#include "gapscope/simulation/stepper.h"
 #include "independent_plant/simulate.h"
 #include "simulation/drives.h"
 
@@ -47,7 +49,7 @@ std::vector<double> input(const Rig& rig) {
   return u;
 }
 
-double largest_difference(const Rig& rig, const StepperModel<double>& model,
+double largest_difference(const Rig& rig, const PlantModel<double>& model,
                           const independent_plant::BlindDrive& truth) {
   const std::vector<double> u = input(rig);
   independent_plant::BlindOptions options;
@@ -189,7 +191,7 @@ TEST_P(OnThreeRigs, EachEffectOfEqualFormFreeRunsTenSecondsWithinAFifthOfACount)
   const Rig& rig = GetParam();
   for (const EqualForm& form : equal_forms()) {
     const std::vector<double> p = form.parameters(rig);
-    StepperModel<double> model = stepper_model(rig.drive, {});
+    PlantModel<double> model = stepper_model(rig.drive, {});
     add_effect<double>(model, *find_effect(form.name), p);
     independent_plant::BlindDrive truth = independent(rig.drive);
     form.apply(p, truth.effects);

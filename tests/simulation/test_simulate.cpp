@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "gapscope/plant/effect_hooks.h"
 #include "gapscope/simulation/simulate.h"
 #include "simulation/drives.h"
 
@@ -17,7 +18,7 @@ SimulationOptions options(double quantum, double noise, std::uint64_t seed = 1) 
   return o;
 }
 
-const StepperModel<double> kRig = stepper_model(test::paper_rig(), {});
+const PlantModel<double> kRig = stepper_model(test::paper_rig(), {});
 const std::vector<double> kInput = test::sine(0.6, 1.0, 2000.0, 2.0);
 
 TEST(Simulate, TheSameSeedGivesTheSameBytesAndAnotherSeedOtherNoise) {
@@ -46,7 +47,7 @@ TEST(Simulate, NoiseHasTheGivenRms) {
 }
 
 TEST(Simulate, ACoarserRealEncoderOverridesTheSheet) {
-  StepperModel<double> model = kRig;
+  PlantModel<double> model = kRig;
   add_effect<double>(model, *find_effect("encoder_quantization"), std::array{1e-3});
   const Recording r = simulate(model, kInput, options(1e-5, 0.0));
   for (const double x : r.x1) EXPECT_NEAR(x / 1e-3, std::nearbyint(x / 1e-3), 1e-9);

@@ -20,7 +20,7 @@ struct Motion {
   long events = 0;
 };
 
-Motion run(const StepperModel<double>& model, const std::vector<double>& u, double dt, int every = 1,
+Motion run(const PlantModel<double>& model, const std::vector<double>& u, double dt, int every = 1,
            DriveState<double> initial = {}) {
   DriveStepper<double> stepper(model, dt);
   stepper.reset(initial);
@@ -42,17 +42,17 @@ double largest_difference(const Motion& a, const Motion& b) {
   return largest;
 }
 
-StepperModel<double> plain(const DriveParameters<double>& drive) { return stepper_model(drive, {}); }
+PlantModel<double> plain(const DriveParameters<double>& drive) { return stepper_model(drive, {}); }
 
-StepperModel<double> with_motor_friction(const DriveParameters<double>& drive, double level) {
-  StepperModel<double> model = plain(drive);
+PlantModel<double> with_motor_friction(const DriveParameters<double>& drive, double level) {
+  PlantModel<double> model = plain(drive);
   model.motor_friction_plus = model.motor_friction_minus = level;
   model.motor_sticks = true;
   return model;
 }
 
 /// The same motion at Ts and Ts/64 with the same held input: exact up to round-off, amplified by the impacts.
-void expect_exact(const StepperModel<double>& model, const std::vector<double>& u, double rate) {
+void expect_exact(const PlantModel<double>& model, const std::vector<double>& u, double rate) {
   const Motion coarse = run(model, u, 1.0 / rate);
   const Motion fine = run(model, held(u, 64), 1.0 / (64.0 * rate), 64);
   EXPECT_GT(coarse.events, 20);
@@ -80,7 +80,7 @@ TEST(Stepper, SamplingDoesNotChangeTheMotionOfAStiffLightContactOfManyOscillatio
 }
 
 TEST(Stepper, SamplingDoesNotChangeTheMotionBehindARigidContact) {
-  StepperModel<double> model = plain(paper_rig());
+  PlantModel<double> model = plain(paper_rig());
   model.structure.contact = ContactLaw::kRigid;
   for (const double restitution : {0.0, 0.5, 0.8}) {
     model.structure.restitution = restitution;
@@ -90,7 +90,7 @@ TEST(Stepper, SamplingDoesNotChangeTheMotionBehindARigidContact) {
 
 TEST(Stepper, FreeMotorDecaysAsTheClosedFormSays) {
   // w = w0 exp(−d/m t), x = w0 m/d (1 − exp(−d/m t)).
-  StepperModel<double> model;
+  PlantModel<double> model;
   model.drive = paper_rig();
   model.structure.has_load = false;
   DriveStepper<double> stepper(model, 1e-3);
@@ -103,7 +103,7 @@ TEST(Stepper, FreeMotorDecaysAsTheClosedFormSays) {
 
 TEST(Stepper, CoulombFrictionStopsTheMotorAtTheClosedFormPlaceAndHoldsIt) {
   // Without damping: x = m w0²/(2 Fc), then at rest while |Km u| ≤ Fc.
-  StepperModel<double> model;
+  PlantModel<double> model;
   model.drive = paper_rig();
   model.drive.motor_damping = 0.0;
   model.structure.has_load = false;
@@ -122,7 +122,7 @@ TEST(Stepper, CoulombFrictionStopsTheMotorAtTheClosedFormPlaceAndHoldsIt) {
 
 TEST(Stepper, ClosedUndampedContactOscillatesAtItsClosedFormFrequencyUntilItOpens) {
   // δ − β = Δw/ω sin ωt with ω² = k (1/m1 + 1/m2): open again after π/ω, speeds exchanged (equal masses).
-  StepperModel<double> model = plain(paper_rig());
+  PlantModel<double> model = plain(paper_rig());
   DriveParameters<double>& p = model.drive;
   p.motor_damping = p.load_damping = p.load_coulomb_friction = p.contact_damping = 0.0;
   model.load_sticks = false;
@@ -142,7 +142,7 @@ TEST(Stepper, ClosedUndampedContactOscillatesAtItsClosedFormFrequencyUntilItOpen
 
 TEST(Stepper, MomentumIsKeptWithoutDampersAndFriction) {
   for (const ContactLaw law : {ContactLaw::kCompliant, ContactLaw::kRigid}) {
-    StepperModel<double> model = plain(geared_axis());
+    PlantModel<double> model = plain(geared_axis());
     DriveParameters<double>& p = model.drive;
     p.motor_damping = p.load_damping = p.load_coulomb_friction = 0.0;
     model.load_sticks = false;
@@ -160,7 +160,7 @@ TEST(Stepper, MomentumIsKeptWithoutDampersAndFriction) {
 }
 
 TEST(Stepper, StoredEnergyNeverGrowsWithoutInput) {
-  const StepperModel<double> model = with_motor_friction(geared_axis(), 1e-4);
+  const PlantModel<double> model = with_motor_friction(geared_axis(), 1e-4);
   const DriveParameters<double>& p = model.drive;
   DriveStepper<double> stepper(model, 1e-3);
   stepper.reset({0.01, 3.0, 0.0, -2.0});
@@ -180,7 +180,7 @@ TEST(Stepper, StoredEnergyNeverGrowsWithoutInput) {
 }
 
 TEST(Stepper, NegatingStateAndInputNegatesTheMotionBitForBit) {
-  const StepperModel<double> model = with_motor_friction(paper_rig(), 0.01);
+  const PlantModel<double> model = with_motor_friction(paper_rig(), 0.01);
   const std::vector<double> u = several_sines(0.7, 2000, 3);
   std::vector<double> opposite;
   for (const double v : u) opposite.push_back(-v);
@@ -190,7 +190,7 @@ TEST(Stepper, NegatingStateAndInputNegatesTheMotionBitForBit) {
 }
 
 TEST(Stepper, ContactNeverPullsAndTheGapCarriesNoTorque) {
-  const StepperModel<double> model = plain(paper_rig());
+  const PlantModel<double> model = plain(paper_rig());
   DriveStepper<double> stepper(model, 4e-4);
   for (const double u : several_sines(0.8, 2500, 6)) {
     stepper.step(u);
@@ -208,7 +208,7 @@ TEST(Stepper, ContactNeverPullsAndTheGapCarriesNoTorque) {
 }
 
 TEST(Stepper, LockedLoadNeverMovesAndALoadlessDriveIgnoresIt) {
-  StepperModel<double> model = plain(paper_rig());
+  PlantModel<double> model = plain(paper_rig());
   model.structure.load = LoadKind::kLocked;
   model.drive.mass_ratio = 0.0;
   const Motion locked = run(model, sine(0.6, 1.0, 2000, 3), 5e-4);
@@ -239,7 +239,7 @@ TEST(Stepper, AContactThatAnInjectionPartsIsOpenAndClosesAgain) {
 }
 
 TEST(Stepper, ElasticRigidContactBouncesByEquation3) {
-  StepperModel<double> model = plain(paper_rig());
+  PlantModel<double> model = plain(paper_rig());
   DriveParameters<double>& p = model.drive;
   p.motor_damping = p.load_damping = p.load_coulomb_friction = 0.0;
   p.mass_ratio = 2.5;

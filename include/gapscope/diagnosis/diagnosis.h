@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,7 +83,9 @@ struct MapShare {
 
 /// Where the mismatch of the nominal model is: the residual torque, spread over seven quantities.
 struct MismatchPlace {
-  std::string headline;
+  std::string headline;                  ///< the following in words
+  std::optional<ContactPhase> phase;     ///< of contact where it is densest; nothing: there is but one
+  std::vector<ResidualPattern> follows;  ///< what orders it, that of a found effect first
   std::vector<MapShare> mode, direction, speed, angle, input, frequency, time;
   double periods_per_turn = kNaN;  ///< of a residual that repeats with the motor angle [1/rev]
 };

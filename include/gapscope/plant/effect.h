@@ -1,12 +1,14 @@
 #pragma once
 
-#include <limits>
+#include <array>
 #include <span>
 #include <string_view>
 
-#include "gapscope/plant/plant_model.h"
+#include "gapscope/plant/drive.h"
 
 namespace gapscope {
+
+constexpr int kMostEffectParameters = 4;
 
 enum class EffectSide { kMotor, kLoad, kCommand, kContact, kSensor };
 const char* to_string(EffectSide side);  ///< "motor", "load", "command", "contact", "sensor"
@@ -51,76 +53,52 @@ struct EffectParameterSpec {
   Scale scale;
 };
 
-/// Where and when an effect is asked what it does.
-template <class T>
-struct EffectPoint {
-  const DriveState<T>& state;
-  T time{};                 ///< since the start of the recording [s]
-  T drive_torque{};         ///< Km u of the running sample, after the command effects [N m]
-  int motor_direction = 0;  ///< sign(w1), kept through zero by the mode; 0: sticking
-  const PlantModel<T>& plant;
-  const T* memory = nullptr;  ///< of this effect, as of the start of the step
+/// Parameters of an effect in units of their scales; NaN: not known beforehand.
+using EffectStart = std::array<double, kMostEffectParameters>;
+
+/// How the search for an effect's parameters begins.
+enum class StartSearch {
+  kListed,            ///< at its `starts`; without any at a tenth of its upper bounds
+  kSine,              ///< there, and at the amplitude and phase that the response to a small one suggests
+  kTorqueLines,       ///< at the lines of the residual torque over the motor angle
+  kTorqueShareLines,  ///< at those of the residual torque as a share of the drive's torque
 };
 
-template <class T>
-struct DriveTorque {
-  T motor{}, load{};  ///< [N m]
+/// What orders the torque that an effect leaves where it is not modelled.
+enum class ResidualPattern { kAngle, kDirection, kSpeed, kInput, kTime, kInputSteps, kCounts, kMode };
+const char* to_string(
+    ResidualPattern pattern);  ///< "angle", "direction", ..., "input_steps", "counts", "mode"
+
+enum class ContactPhase { kGap, kEngagement, kImpact };
+const char* to_string(ContactPhase phase);  ///< "gap", "engagement", "impact"
+
+/// What a drive must have for an effect to have a place in it.
+enum class EffectNeeds {
+  kNothing,
+  kNoGap,     ///< a model without one: no load, or a gap that is fixed at zero
+  kContact,   ///< a compliant contact
+  kGap,       ///< a load behind a gap
+  kFreeLoad,  ///< no output that is held; without a load it acts on the one inertia
 };
 
-/// An extra torque on the motor that dies away within a step of constant input: amplitude · exp(−rate · s).
-template <class T>
-struct DecayingTorque {
-  T amplitude{};  ///< at the point that was asked for [N m]
-  T rate{};       ///< [1/s], the same at every point
-};
+struct EffectLaws;
 
-/// The laws of one effect for one scalar; what an effect does not do stays null.
-template <class T>
-struct EffectHooks {
-  /// Changes the numbers of the drive once: friction levels, stiffness, gap.
-  void (*shape)(PlantModel<T>& plant, const T* p) = nullptr;
-  /// Input that acts in place of u.
-  T (*command)(const T& u, const T* p) = nullptr;
-  /// Time by which the input acts later [s].
-  T (*delay)(const T* p) = nullptr;
-  /// Extra torque on either side, a smooth function of the point between events.
-  DriveTorque<T> (*torque)(const EffectPoint<T>& at, const T* p) = nullptr;
-  /// Extra torque that is followed exactly; at most one effect of a drive may have one.
-  DecayingTorque<T> (*decay)(const EffectPoint<T>& at, const T* p) = nullptr;
-  /// Added to the half gap β [rad].
-  T (*half_gap)(const EffectPoint<T>& at, const T* p) = nullptr;
-  /// Load inertia over its nominal value [-].
-  T (*load_inertia)(const T& time, const T* p) = nullptr;
-  /// What the encoder would say of x1 [rad].
-  T (*sense)(const EffectPoint<T>& at, const T* p) = nullptr;
-  /// Memory at the start of a motion, and after a step of smooth motion from one point to another.
-  void (*remember)(const EffectPoint<T>& start, T* memory, const T* p) = nullptr;
-  void (*advance)(const EffectPoint<T>& from, const EffectPoint<T>& to, T* memory, const T* p) = nullptr;
-  /// Fastest rate of the effect at a point [1/s]; steps that are long against it are divided.
-  double (*rate)(const EffectPoint<T>& at, const T* p) = nullptr;
-  /// Quantum of the encoder in place of the sheet's [rad].
-  double (*quantum)(const T* p) = nullptr;
-};
-
-/// One row of the catalogue.
+/// One row of the catalogue: all that is known of an effect but its law, which effect_hooks.h has.
 struct EffectEntry {
   const char* name;
   EffectSide side;
   const char* law;
   std::span<const EffectParameterSpec> parameters;
-  std::span<const char* const> look_alikes;
-  const EffectHooks<double>* hooks_double;
-  const EffectHooks<Jet<4>>* hooks_jet4;
-  const EffectHooks<Jet<8>>* hooks_jet8;
-  const EffectHooks<Jet<12>>* hooks_jet12;
-
-  template <class T>
-  const EffectHooks<T>* hooks() const {
-    if constexpr (std::is_same_v<T, double>) return hooks_double;
-    if constexpr (std::is_same_v<T, Jet<4>>) return hooks_jet4;
-    if constexpr (std::is_same_v<T, Jet<8>>) return hooks_jet8;
-    if constexpr (std::is_same_v<T, Jet<12>>) return hooks_jet12;
-  }
+  std::span<const char* const> look_alikes;  ///< that one motor encoder can hardly tell from it
+  ResidualPattern follows;
+  std::span<const ContactPhase> acts_in;  ///< where it follows the mode: the phases of contact that show it
+  EffectNeeds needs;
+  int stands_for;        ///< a drive parameter (place::) that says the same where it is fitted; -1: none
+  const char* contains;  ///< the simpler effect that is a special case of it; nullptr: none
+  bool law_is_fixed;     ///< its law has a size but no shape: where it is the cause it leaves nothing
+  StartSearch start_search;
+  std::span<const EffectStart> starts;  ///< magnitudes and phases at which its search begins
+  const EffectLaws* laws;
 };
 
 /// The catalogue, sorted by name.
@@ -129,13 +107,7 @@ std::span<const EffectEntry* const> effect_table();
 /// nullptr if there is none of that name.
 const EffectEntry* find_effect(std::string_view name);
 
-/// Puts an effect in force: applies its shape and appends it. Parameters in the order of the specification.
-template <class T>
-void add_effect(PlantModel<T>& plant, const EffectEntry& entry, std::span<const T> parameters);
-
-extern template void add_effect(PlantModel<double>&, const EffectEntry&, std::span<const double>);
-extern template void add_effect(PlantModel<Jet<4>>&, const EffectEntry&, std::span<const Jet<4>>);
-extern template void add_effect(PlantModel<Jet<8>>&, const EffectEntry&, std::span<const Jet<8>>);
-extern template void add_effect(PlantModel<Jet<12>>&, const EffectEntry&, std::span<const Jet<12>>);
+/// The simpler effect that this one contains; nullptr if there is none.
+const EffectEntry* contained_effect(const EffectEntry& entry);
 
 }  // namespace gapscope

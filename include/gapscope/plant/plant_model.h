@@ -2,15 +2,13 @@
 
 #include <vector>
 
-#include "gapscope/plant/drive.h"
-#include "gapscope/plant/scalar.h"
+#include "gapscope/plant/effect.h"
 
 namespace gapscope {
 
 template <class T>
 struct EffectHooks;
 
-constexpr int kMostEffectParameters = 4;
 constexpr int kMostEffectMemory = 2;
 
 /// An effect that is in force, with its parameters in the order of its specification.

@@ -46,13 +46,21 @@ struct BlindManifest {
   bool operator==(const BlindManifest&) const = default;
 };
 
+/// Where the diagnosis says that the error is, in codes.
+struct ToldPlace {
+  std::string phase;                 ///< "gap", "engagement" or "impact"; empty: none stands out
+  std::vector<std::string> follows;  ///< "angle", "direction", ... (ResidualPattern)
+  double periods_per_turn = kNaN;    ///< where it repeats with the motor angle [1/rev]
+};
+
 /// What the diagnosis says of one case.
 struct BlindAnswer {
   std::string name;
   std::vector<FileHash> files;  ///< that it was given
   std::string verdict;          ///< "effect", "none" or "unknown"
   std::vector<std::string> effects, group;
-  std::string headline;  ///< where
+  std::string headline;  ///< where, in words
+  ToldPlace where;
   double before = kNaN, after = kNaN, floor = kNaN, shrink = kNaN;
   Interval shrink_ci95;
   StepEvidence evidence;

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include "gapscope/plant/plant_model.h"
 #include "gapscope/recording/recording.h"
-#include "gapscope/simulation/stepper.h"
 
 namespace gapscope {
 
@@ -25,10 +25,10 @@ struct SimulationOptions {
 /// encoder, x2 exactly, and the mode of each sample (impact: a contact closed in the interval that ends
 /// there).
 /// @throws std::runtime_error when the motion diverges.
-Recording simulate(const StepperModel<double>& model, std::span<const double> u,
+Recording simulate(const PlantModel<double>& model, std::span<const double> u,
                    const SimulationOptions& options);
 
 /// The stepper's model of a drive without effects.
-StepperModel<double> stepper_model(const DriveParameters<double>& drive, const DriveStructure& structure);
+PlantModel<double> stepper_model(const DriveParameters<double>& drive, const DriveStructure& structure);
 
 }  // namespace gapscope

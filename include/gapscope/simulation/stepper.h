@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "gapscope/plant/effect.h"
+#include "gapscope/plant/effect_hooks.h"
 
 namespace gapscope {
 
@@ -37,7 +37,7 @@ class DriveStepper {
  public:
   /// @param dt sampling interval [s]
   /// @throws std::logic_error unless inertias are positive and friction, stiffness and damping not negative.
-  DriveStepper(const StepperModel<T>& model, double dt);
+  DriveStepper(const PlantModel<T>& model, double dt);
   ~DriveStepper();
   DriveStepper(DriveStepper&&) noexcept;
   DriveStepper& operator=(DriveStepper&&) noexcept;

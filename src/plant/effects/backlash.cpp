@@ -16,6 +16,9 @@ struct Backlash {
       {"gap_rad", "rad", 0.0, 0.0, 0.66, Scale::kTravel},
       {"load_share", "-", 0.5, 0.02, 0.98, Scale::kOne}};
   static constexpr std::array<const char*, 0> look_alikes = {};
+  static constexpr ResidualPattern follows = ResidualPattern::kMode;
+  static constexpr EffectNeeds needs = EffectNeeds::kNoGap;
+  static constexpr EffectStart starts[] = {{0.02, 0.5}, {0.1, 0.5}};
 
   template <class T>
   static void shape(PlantModel<T>& plant, const T* p) {

@@ -18,6 +18,8 @@ struct CoggingTorque {
       {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne},
       {"second_harmonic", "-", 0.0, -0.5, 0.5, Scale::kOne}};
   static constexpr std::array<const char*, 1> look_alikes = {"torque_ripple"};
+  static constexpr ResidualPattern follows = ResidualPattern::kAngle;
+  static constexpr StartSearch start_search = StartSearch::kTorqueLines;
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {

@@ -14,6 +14,11 @@ struct ConstantLoadTorque {
       // key, unit, absent, bounds and what they are measured in
       {"torque_nm", "N m", 0.0, -1.0, 1.0, Scale::kPeakTorque}};
   static constexpr std::array<const char*, 2> look_alikes = {"friction_asymmetry", "load_unbalance"};
+  static constexpr ResidualPattern follows = ResidualPattern::kMode;
+  static constexpr ContactPhase acts_in[] = {ContactPhase::kEngagement};
+  static constexpr EffectNeeds needs = EffectNeeds::kFreeLoad;
+  static constexpr bool law_is_fixed = true;
+  static constexpr EffectStart starts[] = {{0.05}, {-0.05}};
 
   template <class T>
   static void shape(PlantModel<T>& plant, const T* p) {

@@ -14,6 +14,10 @@ struct ContactAdhesion {
       // key, unit, absent, bounds and what they are measured in
       {"release_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque}};
   static constexpr std::array<const char*, 0> look_alikes = {};
+  static constexpr ResidualPattern follows = ResidualPattern::kMode;
+  static constexpr ContactPhase acts_in[] = {ContactPhase::kEngagement, ContactPhase::kGap};
+  static constexpr EffectNeeds needs = EffectNeeds::kContact;
+  static constexpr EffectStart starts[] = {{0.05}, {0.2}};
 
   template <class T>
   static void shape(PlantModel<T>& plant, const T* p) {

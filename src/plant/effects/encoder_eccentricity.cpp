@@ -15,6 +15,9 @@ struct EncoderEccentricity {
       {"amplitude_rad", "rad", 0.0, 0.0, 0.1, Scale::kTravel},
       {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
   static constexpr std::array<const char*, 0> look_alikes = {};
+  static constexpr ResidualPattern follows = ResidualPattern::kAngle;
+  static constexpr StartSearch start_search = StartSearch::kSine;
+  static constexpr auto starts = quarters({0.002, 0.02});
 
   template <class T>
   static T sense(const EffectPoint<T>& at, const T* p) {

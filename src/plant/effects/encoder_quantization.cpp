@@ -14,6 +14,7 @@ struct EncoderQuantization {
       // key, unit, absent, bounds and what they are measured in
       {"quantum_rad", "rad", 0.0, 0.0, 1024.0, Scale::kQuantum}};
   static constexpr std::array<const char*, 0> look_alikes = {};
+  static constexpr ResidualPattern follows = ResidualPattern::kCounts;
 
   template <class T>
   static double quantum(const T* p) {

@@ -16,6 +16,10 @@ struct FrictionAsymmetry {
       {"coulomb_ratio", "-", 0.0, -0.99, 0.99, Scale::kOne},
       {"viscous_ratio", "-", 0.0, -0.99, 0.99, Scale::kOne}};
   static constexpr std::array<const char*, 2> look_alikes = {"constant_load_torque", "load_unbalance"};
+  static constexpr ResidualPattern follows = ResidualPattern::kDirection;
+  static constexpr const char* contains = "motor_coulomb_friction";
+  static constexpr EffectStart starts[] = {
+      {0.08, 0.3, 0.15}, {0.08, -0.3, -0.15}, {0.08, 0.3, -0.15}, {0.08, -0.3, 0.15}};
 
   template <class T>
   static void shape(PlantModel<T>& plant, const T* p) {

@@ -15,6 +15,10 @@ struct GapEccentricity {
       {"amplitude_rad", "rad", 0.0, 0.0, 0.475, Scale::kGap},
       {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
   static constexpr std::array<const char*, 0> look_alikes = {};
+  static constexpr ResidualPattern follows = ResidualPattern::kAngle;
+  static constexpr EffectNeeds needs = EffectNeeds::kGap;
+  static constexpr StartSearch start_search = StartSearch::kSine;
+  static constexpr auto starts = quarters({0.15});
 
   template <class T>
   static T half_gap(const EffectPoint<T>& at, const T* p) {

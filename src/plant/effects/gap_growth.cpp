@@ -14,6 +14,9 @@ struct GapGrowth {
       // key, unit, absent, bounds and what they are measured in
       {"rate_rad_s", "rad/s", 0.0, -0.95, 10.0, Scale::kGapPerRecord}};
   static constexpr std::array<const char*, 0> look_alikes = {};
+  static constexpr ResidualPattern follows = ResidualPattern::kTime;
+  static constexpr EffectNeeds needs = EffectNeeds::kGap;
+  static constexpr EffectStart starts[] = {{0.3}, {-0.3}};
 
   template <class T>
   static T half_gap(const EffectPoint<T>& at, const T* p) {

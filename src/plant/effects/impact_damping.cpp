@@ -14,6 +14,12 @@ struct ImpactDamping {
       // key, unit, absent, bounds and what they are measured in
       {"damping_nms_rad", "N m s/rad", 1.0, 0.0, 100.0, Scale::kContactDamping}};
   static constexpr std::array<const char*, 1> look_alikes = {"shaft_compliance"};
+  static constexpr ResidualPattern follows = ResidualPattern::kMode;
+  static constexpr ContactPhase acts_in[] = {ContactPhase::kEngagement, ContactPhase::kImpact};
+  static constexpr EffectNeeds needs = EffectNeeds::kContact;
+  static constexpr int stands_for = place::kContactDamping;
+  static constexpr bool law_is_fixed = true;
+  static constexpr EffectStart starts[] = {{0.4}, {2.5}};
 
   template <class T>
   static void shape(PlantModel<T>& plant, const T* p) {

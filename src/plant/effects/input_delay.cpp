@@ -14,6 +14,9 @@ struct InputDelay {
       // key, unit, absent, bounds and what they are measured in
       {"delay_s", "s", 0.0, 0.0, 50.0, Scale::kSample}};
   static constexpr std::array<const char*, 2> look_alikes = {"actuator_lag", "measurement_lag"};
+  static constexpr ResidualPattern follows = ResidualPattern::kInputSteps;
+  static constexpr bool law_is_fixed = true;
+  static constexpr EffectStart starts[] = {{0.7}, {3.0}, {10.0}};
 
   template <class T>
   static T delay(const T* p) {

@@ -16,6 +16,10 @@ struct LoadInertiaVariation {
       {"time_s", "s", 0.5, 0.0, 1.0, Scale::kRecord},
       {"duration_s", "s", 0.1, 0.0, 1.0, Scale::kRecord}};
   static constexpr std::array<const char*, 1> look_alikes = {"viscous_drift"};
+  static constexpr ResidualPattern follows = ResidualPattern::kTime;
+  static constexpr EffectNeeds needs = EffectNeeds::kFreeLoad;
+  static constexpr EffectStart starts[] = {
+      {0.4, 0.25, 0.15}, {0.4, 0.4, 0.15}, {0.4, 0.6, 0.15}, {-0.3, 0.4, 0.15}};
 
   template <class T>
   static T load_inertia(const T& time, const T* p) {

@@ -15,6 +15,11 @@ struct LoadUnbalance {
       {"amplitude_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
       {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
   static constexpr std::array<const char*, 2> look_alikes = {"constant_load_torque", "friction_asymmetry"};
+  static constexpr ResidualPattern follows = ResidualPattern::kAngle;
+  static constexpr EffectNeeds needs = EffectNeeds::kFreeLoad;
+  static constexpr bool law_is_fixed = true;
+  static constexpr StartSearch start_search = StartSearch::kSine;
+  static constexpr auto starts = quarters({0.08});
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {

@@ -14,6 +14,9 @@ struct MeasurementLag {
       // key, unit, absent, bounds and what they are measured in
       {"time_constant_s", "s", 0.0, 0.0, 100.0, Scale::kSample}};
   static constexpr std::array<const char*, 2> look_alikes = {"input_delay", "actuator_lag"};
+  static constexpr ResidualPattern follows = ResidualPattern::kInputSteps;
+  static constexpr bool law_is_fixed = true;
+  static constexpr EffectStart starts[] = {{0.7}, {3.0}, {10.0}};
 
   // Memory: y − x1. Over a smooth step x1 is the cubic through both ends, for which the filter is solved
   // exactly: for x1 = Σ a_n sⁿ the forced part of y is the polynomial Σ b_n sⁿ with b_3 = a_3, b_n = a_n − (n

@@ -15,6 +15,8 @@ struct MotorCoulombFriction {
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque}};
   static constexpr std::array<const char*, 3> look_alikes = {"input_dead_zone", "stribeck_friction",
                                                              "presliding_friction"};
+  static constexpr ResidualPattern follows = ResidualPattern::kDirection;
+  static constexpr EffectStart starts[] = {{0.02}, {0.1}};
 
   template <class T>
   static void shape(PlantModel<T>& plant, const T* p) {

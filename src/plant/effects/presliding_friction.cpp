@@ -16,6 +16,9 @@ struct PreslidingFriction {
       {"length_rad", "rad", 0.01, 1e-4, 0.3, Scale::kTravel},
       {"damping_nms", "N m s/rad", 0.0, 0.0, 1.0, Scale::kTorquePerSpeed}};
   static constexpr std::array<const char*, 2> look_alikes = {"motor_coulomb_friction", "stribeck_friction"};
+  static constexpr ResidualPattern follows = ResidualPattern::kDirection;
+  static constexpr const char* contains = "motor_coulomb_friction";
+  static constexpr EffectStart starts[] = {{0.05, 0.02, 0.001}, {0.15, 0.03, 0.003}, {0.1, 0.01, 0.001}};
 
   // Between reversals the deflection follows the travel in closed form:
   //   z(x1) = σ + (z0 − σ) exp(−|x1 − x0|/length),   σ = sign(w1).   Memory: x0, z0.

@@ -16,6 +16,8 @@ struct QuadraticDrag {
       {"coefficient_nms2", "N m s^2/rad^2", 0.0, 0.0, 2.0, Scale::kTorquePerSpeed2},
       {"exponent", "-", 2.0, 1.5, 2.5, Scale::kOne}};
   static constexpr std::array<const char*, 2> look_alikes = {"torque_saturation", "stribeck_friction"};
+  static constexpr ResidualPattern follows = ResidualPattern::kSpeed;
+  static constexpr EffectStart starts[] = {{0.1, 2.0}, {0.4, 2.0}};
 
   /// A power has no derivative by its exponent at rest.
   static constexpr double kRounding = 1e-12;  // (rad/s)²

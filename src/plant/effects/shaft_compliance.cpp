@@ -14,6 +14,12 @@ struct ShaftCompliance {
       // key, unit, absent, bounds and what they are measured in
       {"stiffness_nm_rad", "N m/rad", 1.0, 0.01, 100.0, Scale::kStiffness}};
   static constexpr std::array<const char*, 1> look_alikes = {"impact_damping"};
+  static constexpr ResidualPattern follows = ResidualPattern::kMode;
+  static constexpr ContactPhase acts_in[] = {ContactPhase::kEngagement, ContactPhase::kImpact};
+  static constexpr EffectNeeds needs = EffectNeeds::kContact;
+  static constexpr int stands_for = place::kContactStiffness;
+  static constexpr bool law_is_fixed = true;
+  static constexpr EffectStart starts[] = {{0.5}, {2.0}};
 
   template <class T>
   static void shape(PlantModel<T>& plant, const T* p) {

@@ -19,6 +19,9 @@ struct StribeckFriction {
       {"exponent", "-", 2.0, 0.5, 3.0, Scale::kOne}};
   static constexpr std::array<const char*, 3> look_alikes = {"motor_coulomb_friction", "presliding_friction",
                                                              "quadratic_drag"};
+  static constexpr ResidualPattern follows = ResidualPattern::kDirection;
+  static constexpr const char* contains = "motor_coulomb_friction";
+  static constexpr EffectStart starts[] = {{0.05, 0.8, 0.1, 1.5}, {0.1, 0.8, 0.25, 1.5}};
 
   /// A power below one has no slope at rest.
   static constexpr double kRounding = 1e-12;

@@ -19,6 +19,8 @@ struct TorqueRipple {
       {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne},
       {"second_harmonic", "-", 0.0, -0.5, 0.5, Scale::kOne}};
   static constexpr std::array<const char*, 1> look_alikes = {"cogging_torque"};
+  static constexpr ResidualPattern follows = ResidualPattern::kAngle;
+  static constexpr StartSearch start_search = StartSearch::kTorqueShareLines;
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {

@@ -15,6 +15,8 @@ struct ViscousDrift {
       {"ratio", "-", 0.0, -0.98, 5.0, Scale::kOne},
       {"time_constant_s", "s", 0.3, 0.01, 10.0, Scale::kRecord}};
   static constexpr std::array<const char*, 1> look_alikes = {"load_inertia_variation"};
+  static constexpr ResidualPattern follows = ResidualPattern::kTime;
+  static constexpr EffectStart starts[] = {{0.4, 0.4}, {-0.3, 0.4}};
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
