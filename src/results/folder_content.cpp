@@ -1,7 +1,5 @@
 #include "results/folder_content.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -13,7 +11,6 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
-#include "gapscope/base/whole_file.h"
 #include "results/file_hash_fields.h"
 #include "results/json_document.h"
 
@@ -32,11 +29,6 @@ bool is_one_of(const std::string& file, std::initializer_list<const char*> names
 bool is_taken(const std::string& file) {
   return is_stored(file) || is_one_of(file, {"report.md", "resolved.yaml", "timing.json", "fitted.yaml",
                                              "next_experiment.yaml", "next_experiment.csv", "truth.csv"});
-}
-
-bool is_there(const fs::path& path) {
-  std::error_code problem;
-  return fs::exists(fs::symlink_status(path, problem)) || problem.value() == EACCES;
 }
 
 bool is_partial(const fs::directory_entry& entry) {
@@ -116,6 +108,11 @@ std::string half_difference(const Half& a, const Half& b) {
 std::string word_of(FolderKind kind) {
   constexpr std::array kWords = {"drive", "campaign", "blind", "cases", "drives", "changes"};
   return kWords[static_cast<std::size_t>(kind)];
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code problem;
+  return fs::exists(fs::symlink_status(path, problem)) || problem.value() == EACCES;
 }
 
 std::vector<std::string> files_below(const fs::path& folder) {
@@ -245,79 +242,6 @@ std::string why_not_together(const fs::path& folder, const char* result, const s
   const bool diagnosis = std::string_view(result) == "diagnosis.json";
   return std::string("The ") + (diagnosis ? "diagnosis" : "estimate") +
          " that stood in this folder was dropped, as it was made from " + what + ".";
-}
-
-namespace {
-
-/// Renames that can be taken back.
-class Moves {
- public:
-  /// Nothing may be at the new place.
-  void move(const fs::path& from, const fs::path& to) {
-    std::error_code error;
-    fs::create_directories(to.parent_path(), error);
-    if (error) throw std::runtime_error(from.string() + ": cannot be replaced: " + error.message());
-    if (!moved_where_nothing_is(from, to))
-      throw ConfigError(to.string(), "came to be there meanwhile, expected that it stays free");
-    done_.push_back({from, to, identity_of(to)});
-  }
-  /// What came or changed meanwhile stays where it is, and so does what that stands in the way of.
-  void take_back() noexcept {
-    for (; !done_.empty(); done_.pop_back()) try {
-        const Done& last = done_.back();
-        if (identity_of(last.to) == last.identity) moved_where_nothing_is(last.to, last.from);
-      } catch (const std::runtime_error&) {
-      }
-  }
-
- private:
-  struct Done {
-    fs::path from, to;
-    std::string identity;  ///< of the file at its new place
-  };
-  std::vector<Done> done_;
-};
-
-/// What could not be put back gets a name that shows: the hidden folder goes.
-/// @returns that name; empty where everything is back
-std::string shown_again(const fs::path& aside, const fs::path& to) {
-  if (files_below(aside).empty()) return "";
-  const std::string hidden = aside.parent_path().filename().string();
-  const fs::path place =
-      to / ("not_put_back_" + hidden.substr(hidden.size() - std::min<std::size_t>(6, hidden.size())));
-  std::error_code problem;
-  fs::rename(aside, place, problem);
-  return problem ? aside.string() : place.string();
-}
-
-}  // namespace
-
-void replace_files(const fs::path& from, const fs::path& to, const std::vector<std::string>& fresh,
-                   const std::vector<std::string>& stale, const fs::path& aside,
-                   bool (*is_result)(const std::string&), const FileList* before) {
-  Moves moves;
-  const auto away = [&](const std::string& file) {
-    if (!is_there(to / file)) return;
-    moves.move(to / file, aside / file);
-    if (before == nullptr || !before->wrote(aside, file))  // it changed since the last look at it
-      throw ConfigError((to / file).string(), "changed meanwhile, expected it as it was");
-  };
-  try {
-    for (const bool results : {true, false})
-      for (const auto* files : {&fresh, &stale})
-        for (const std::string& file : *files)
-          if (is_result(file) == results) away(file);
-    for (const std::string& file : fresh) moves.move(from / file, to / file);
-  } catch (const std::runtime_error& error) {
-    moves.take_back();
-    const std::string left = shown_again(aside, to);
-    if (left.empty()) throw;
-    throw std::runtime_error(error.what() + ("; what could not be put back is in " + left));
-  } catch (...) {
-    moves.take_back();
-    throw;
-  }
-  rmdir((to / "traces").c_str());  // a folder that is empty, nothing else
 }
 
 }  // namespace gapscope::internal::results

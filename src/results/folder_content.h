@@ -17,6 +17,9 @@ inline constexpr const char* kMarkText =
 
 std::string word_of(FolderKind kind);
 
+/// Whether something has that name, a link to nowhere included, or it cannot be told.
+bool is_there(const std::filesystem::path& path);
+
 /// Files below a folder as sorted paths relative to it, without what is hidden.
 std::vector<std::string> files_below(const std::filesystem::path& folder);
 
@@ -43,15 +46,5 @@ void require_out_of_the_way(const std::filesystem::path& folder, const FileList*
 /// Why what is stored under a name is not of these sources; empty where it is, or is not there.
 std::string why_not_together(const std::filesystem::path& folder, const char* result,
                              const std::string& version, const std::vector<FileHash>& sources);
-
-/// Moves fresh files over and stale ones away; results go first and come last, so that none is ever found
-/// beside traces of another. What cannot be done is undone: the folder is then as it was.
-/// @param aside  a folder of the same file system for what is replaced
-/// @param before  what gapscope wrote there earlier; null: nothing
-/// @throws std::runtime_error, ConfigError where something came or changed meanwhile
-void replace_files(const std::filesystem::path& from, const std::filesystem::path& to,
-                   const std::vector<std::string>& fresh, const std::vector<std::string>& stale,
-                   const std::filesystem::path& aside, bool (*is_result)(const std::string&),
-                   const FileList* before);
 
 }  // namespace gapscope::internal::results

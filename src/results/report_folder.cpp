@@ -16,6 +16,7 @@
 #include "gapscope/results/sha256.h"
 #include "results/file_list.h"
 #include "results/folder_content.h"
+#include "results/replace_files.h"
 
 namespace gapscope {
 namespace fs = std::filesystem;

@@ -160,6 +160,24 @@ TEST(Layout, CeresIsSeenOnlyByTheFitAndItsJetsOnlyByTheScalarHeader) {
   }
 }
 
+/// Whether a header pulls another one in, directly or through others.
+bool pulls_in(const std::string& header, const std::string& wanted) {
+  std::ifstream in(kRoot / "include" / header);
+  const std::regex pattern(R"rx(^#include [<"]([^>"]+)[>"])rx");
+  std::smatch match;
+  for (std::string line; std::getline(in, line);)
+    if (std::regex_search(line, match, pattern) && (match[1] == wanted || pulls_in(match[1], wanted)))
+      return true;
+  return false;
+}
+
+TEST(Layout, WhoCallsAnEstimatorSeesNoJets) {
+  EXPECT_TRUE(pulls_in("gapscope/simulation/stepper.h", "ceres/jet.h"));
+  for (const char* header : {"gapscope/reference/fit.h", "gapscope/simulation/simulate.h",
+                             "gapscope/diagnosis/diagnosis.h", "gapscope/run/run_diagnosis.h"})
+    EXPECT_FALSE(pulls_in(header, "ceres/jet.h")) << header;
+}
+
 /// Types, and functions at the beginning of a line; not what stands in a nameless namespace.
 Names names_defined_in(const fs::path& file) {
   static const std::regex type(R"rx(^(?:enum )?(?:class|struct|enum) (?:\[\[\w+\]\] )?(\w+)[^;()]*\{)rx");

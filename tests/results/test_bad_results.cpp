@@ -138,7 +138,7 @@ const std::vector<BadResult> kBadResults = {
      "result.json:25: model_free.events has 2 items, expected at most one for each of 0 samples"},
     {"no_files", "manifest", "\"files\"", "\"piles\"", "manifest.json:7: cases[0].files is missing"},
     {"no_evidence", "answers", "\"evidence\": {", "\"evidence\": null, \"was\": {",
-     "answers.json:28: cases[0].evidence is null, expected an object"},
+     "answers.json:35: cases[0].evidence is null, expected an object"},
     {"binary", "answers", "",
      "\x7f"
      "ELF\x02\x01",

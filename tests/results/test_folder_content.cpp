@@ -8,6 +8,7 @@
 #include "gapscope/results/sha256.h"
 #include "results/file_list.h"
 #include "results/folder_content.h"
+#include "results/replace_files.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
 

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/error_scale.h"
+#include "report/fig6_one_period.h"
+#include "report/figures.h"
+#include "report/sample_run.h"
+#include "report/signals.h"
+
+namespace gapscope::internal::report {
+namespace {
+
+const RunResult& full_run() {
+  static const RunResult run = sample_run();
+  return run;
+}
+
+const Series& labelled(const Panel& panel, const std::string& part) {
+  for (const Series& s : panel.series)
+    if (s.label.find(part) != std::string::npos) return s;
+  throw std::runtime_error("no series " + part);
+}
+
+TEST(Estimates, ShowsEveryEstimateWithItsInterval) {
+  const FigureData figure = estimates(ReportView(full_run()));
+  const Panel& panel = figure.panels[0];
+  EXPECT_EQ(panel.y.categories,
+            (std::vector<std::string>{"model-free", "reference", "$x_1$–$x_2$ map", "simulated"}));
+  EXPECT_EQ(panel.series[0].x[0], full_run().model_free->gap);
+  EXPECT_EQ(panel.series[0].x_intervals[0].low, full_run().model_free->ci95.low);
+  EXPECT_EQ(panel.series[1].x_intervals[0].high, full_run().reference->parameters[4].ci95.high);
+  EXPECT_EQ(panel.x_marks[0].at, kSampleGap);
+}
+
+TEST(Estimates, SplitsThePassagesByDirectionAndCountsWhatIsBeyondTheScale) {
+  const FigureData figure = estimates(ReportView(full_run()));
+  std::size_t up = 0, down = 0, aside = 0;
+  for (const GapEvent& e : full_run().model_free->events)
+    ++(!e.accepted ? aside : e.direction > 0 ? up : down);
+  EXPECT_EQ(labelled(figure.panels[1], "rising").x.size(), up);
+  EXPECT_EQ(labelled(figure.panels[1], "falling").x.size(), down);
+  EXPECT_NE(figure.reading.find("set aside: " + std::to_string(aside)), std::string::npos);
+  EXPECT_NE(figure.reading.find(std::to_string(aside) + " of them beyond the scale"), std::string::npos);
+  EXPECT_THROW(labelled(figure.panels[1], "set aside"), std::runtime_error) << "nothing of it is in view";
+}
+
+TEST(Residuals, AreRecordedMinusFitted) {
+  const FigureData figure = residuals(ReportView(full_run()));
+  ASSERT_EQ(figure.panels.size(), 3u);
+  const Series& whole = figure.panels[0].series[0];
+  ASSERT_EQ(whole.y.size(), full_run().recordings[0].size());
+  for (std::size_t i = 0; i < whole.y.size(); i += 501)
+    EXPECT_EQ(whole.y[i], full_run().recordings[0].x1[i] - full_run().reference->traces[0].x1[i]);
+  const Series& r = figure.panels[2].series[0];
+  const std::vector<double> expected = autocorrelation(whole.y, r.y.size());
+  EXPECT_EQ(r.y, std::vector<double>(expected.begin() + 1, expected.end())) << "from lag 1 on";
+  EXPECT_NEAR(figure.panels[2].y_bands[0].range.high, 1.96 / std::sqrt(25000.0), 1e-12);
+  EXPECT_NE(figure.reading.find("is not white"), std::string::npos);
+}
+
+TEST(Residuals, ShadeTheGapModeOfTheFit) {
+  const ReportView view(full_run());
+  const FigureData figure = residuals(view);
+  const auto& mode = full_run().reference->traces[0].mode;
+  double shaded = 0.0, counted = 0.0;
+  for (const Band& band : figure.panels[1].x_bands) shaded += band.range.high - band.range.low;
+  for (std::size_t i = view.index(view.window.low); i <= view.index(view.window.high); ++i)
+    counted += mode[i] == Mode::kGap ? full_run().recordings[0].dt : 0.0;
+  EXPECT_NEAR(shaded, counted, 1e-9);
+}
+
+TEST(Residuals, OfADriveWithoutAGapHaveNoModes) {
+  const RunResult run =
+      sample_run({.samples = 7500, .load_recorded = false, .detected = false, .one_inertia = true});
+  EXPECT_TRUE(residuals(ReportView(run)).panels[0].x_bands.empty());
+}
+
+TEST(Estimates, AGapThatWasDeniedIsDrawnAgainstTheOneThatWouldHaveShown) {
+  RunResult run =
+      sample_run({.samples = 7500, .load_recorded = false, .fitted = false, .verdict = GapVerdict::kNone});
+  run.model_free->smallest_visible_gap = 0.03;
+  const ReportView view(run);
+  const Panel passages = estimates(view).panels.back();
+  ASSERT_EQ(passages.y_marks.size(), 1u);
+  EXPECT_DOUBLE_EQ(passages.y_marks[0].at, 0.03);
+  EXPECT_LE(passages.y.range.low, 0.0);
+  EXPECT_GE(passages.y.range.high, 0.03);
+}
+
+TEST(Residuals, OfWhiteNoiseAreCalledWhite) {
+  RunResult run = sample_run({.samples = 6000});
+  // Deterministic and white enough: the fractional parts of i² √2.
+  for (std::size_t i = 0; i < 6000; ++i)
+    run.recordings[0].x1[i] =
+        run.reference->traces[0].x1[i] +
+        1e-6 * std::fmod(std::sqrt(2.0) * static_cast<double>(i) * static_cast<double>(i), 1.0);
+  EXPECT_NE(residuals(ReportView(run)).reading.find("looks white"), std::string::npos);
+}
+
+TEST(LostMotionLoop, MeasuresThePlayBetweenTheBranchesAtZeroInput) {
+  RunResult run = full_run();
+  EXPECT_FALSE(lost_motion_loop(ReportView(run)).missing.empty());
+  run.model_free->method = GapMethod::kLostMotion;
+  run.model_free->quantity = GapQuantity::kPlayAtZeroTorque;
+  run.model_free->events.clear();
+  for (const double t : {1.0, 2.0, 3.0})  // loops of 5 mrad, up and down
+    for (const int direction : {1, -1})
+      run.model_free->events.push_back({run.recordings[0].file, t, t + 0.5, -2.5e-3 * direction + 1e-3,
+                                        2.5e-3 * direction + 1e-3, 5e-3, 5e-3, 1e-5, direction, true, ""});
+  const ReportView view(run);
+  const FigureData figure = lost_motion_loop(view);
+  ASSERT_EQ(figure.panels[0].dimensions.size(), 1u);
+  EXPECT_NEAR(figure.panels[0].dimensions[0].range.low, -1.5e-3, 1e-12);
+  EXPECT_NEAR(figure.panels[0].dimensions[0].range.high, 3.5e-3, 1e-12);
+  EXPECT_FALSE(fig6_one_period(view).missing.empty()) << "a loop has no t1 and t2";
+  EXPECT_EQ(estimates(view).panels[1].title, "Loop by loop");
+  run.model_free->verdict = GapVerdict::kInconclusive;
+  run.model_free->gap = kNaN;
+  EXPECT_TRUE(lost_motion_loop(ReportView(run)).panels[0].dimensions.empty())
+      << "levels that disagree have no play";
+}
+
+TEST(BoundTimeMap, ShowsEveryBoundAtItsLogarithmAndMarksThoseThatMatter) {
+  const ReportView view(full_run());
+  const FigureData figure = bound_time_map(view);
+  ASSERT_EQ(figure.panels.size(), 3u);
+  const Panel& map = figure.panels[1];
+  EXPECT_NEAR(map.x.range.high - map.x.range.low, 1.0, 1e-9);
+  EXPECT_LT(map.y.range.low, 0.0);
+  EXPECT_GT(map.y.range.high, std::log10(30.0));
+  std::vector<double> marked;
+  for (const Mark& mark : map.y_marks) marked.push_back(std::pow(10.0, mark.at));
+  ASSERT_EQ(marked.size(), 2u);
+  EXPECT_NEAR(marked[0], 4.1, 1e-9) << "decides t2";
+  EXPECT_NEAR(marked[1], 20.0, 1e-9) << "bound (13)";
+  double covered = 0.0;
+  for (const Tile& tile : map.tiles) covered += (tile.x.high - tile.x.low) * (tile.y.high - tile.y.low);
+  EXPECT_NEAR(covered, map.y.range.high - map.y.range.low, 1e-9) << "no place is left white";
+  EXPECT_NE(figure.reading.find("bound (13) is 20"), std::string::npos) << figure.reading;
+}
+
+TEST(BoundTimeMap, GetsDarkerWithEveryDecadeAlsoInGrey) {
+  const FigureData figure = bound_time_map(ReportView(full_run()));
+  double last = 256.0;
+  for (const Tile& tile : figure.panels[2].tiles) {
+    const double grey = 0.299 * tile.colour.red + 0.587 * tile.colour.green + 0.114 * tile.colour.blue;
+    EXPECT_LT(grey, last);
+    last = grey;
+  }
+  EXPECT_LT(last, 60.0);
+}
+
+TEST(BoundTimeMap, IsMissingWithoutABank) {
+  RunResult run = full_run();
+  run.model_free->map.reset();
+  EXPECT_FALSE(bound_time_map(ReportView(run)).missing.empty());
+}
+
+}  // namespace
+}  // namespace gapscope::internal::report
