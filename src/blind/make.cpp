@@ -30,8 +30,7 @@ std::string sheet_of(const std::string& name, const blind::BlindPair& pair) {
   c.model.given = true;
   c.model.structure = pair.sheet.structure;
   c.model.parameters = pair.sheet.parameters;
-  const std::string yaml = resolved_yaml(c);
-  return yaml.substr(yaml.find('\n') + 1);  // the first line speaks of a report
+  return yaml_of(c, "");
 }
 
 void write_motor_side(const fs::path& path, Recording recording) {

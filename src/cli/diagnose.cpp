@@ -34,10 +34,10 @@ void require_known(const std::vector<std::string>& effects) {
 /// Under the input of what was held out, which stands in the report; a motion that diverges has left no
 /// trace there.
 std::string fitted_model(const Configuration& c, const Diagnosis& d, const MotorTrace& recording) {
-  if (d.traces.empty()) return fitted_yaml(c, d.fitted, recording, "");
+  if (d.traces.empty()) return model_yaml(c, d.fitted, "", recording);
   const MismatchTrace& t = d.traces.front();
-  return fitted_yaml(c, d.fitted, {t.file, t.start, t.dt, t.u, t.x1, recording.quantum},
-                     held_out_trace_name(0, t.file));
+  return model_yaml(c, d.fitted, held_out_trace_name(0, t.file),
+                    {t.file, t.start, t.dt, t.u, t.x1, recording.quantum});
 }
 
 void write_outcome(ReportFolder& report, const Configuration& c, const DiagnosisResult& result,

@@ -33,7 +33,7 @@ void write_fitted_model(const std::string& folder, const Configuration& c, const
   const std::string path = folder + "/fitted.yaml";
   if (!result.reference || result.reference->initial_states.empty() || std::filesystem::exists(path)) return;
   const Recording& first = result.recordings.front();
-  write_text(path, fitted_yaml(c, *result.reference, trace_name(0, first.file), first.motor_trace()));
+  write_text(path, fit_yaml(c, *result.reference, trace_name(0, first.file), first.motor_trace()));
 }
 
 /// The folder is replaced only when everything is in it.

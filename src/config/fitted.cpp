@@ -111,8 +111,8 @@ ReferenceModel fitted_model(ReferenceModel model, const FitSummary& fit) {
 
 }  // namespace
 
-std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted, const MotorTrace& recording,
-                        const std::string& trace) {
+std::string model_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
+                       const MotorTrace& recording) {
   Configuration c = with_model(given, fitted);
   std::string input = "its input";
   if (!c.simulation) {
@@ -121,9 +121,8 @@ std::string fitted_yaml(const Configuration& given, const ReferenceModel& fitted
     input = (trace.empty() ? "a sine like the input of " : "the input of ") + shown(recording.file);
   }
   set_plant(c);
-  const std::string text = resolved_yaml(c);
-  return "# The model as the diagnosis fitted it, under " + input + "; `gapscope simulate` runs it." +
-         text.substr(text.find('\n'));
+  return yaml_of(c,
+                 "The model as the diagnosis fitted it, under " + input + "; `gapscope simulate` runs it.");
 }
 
 std::string experiment_yaml(const Configuration& given, const ReferenceModel& model,
@@ -136,13 +135,13 @@ std::string experiment_yaml(const Configuration& given, const ReferenceModel& mo
   c.simulation->duration = experiment.duration;
   c.simulation->excitation = experiment.tried.front().excitation;
   set_plant(c);
-  return "# The experiment that the diagnosis proposes, on the model that came first; `gapscope simulate` "
-         "runs it.\n" +
-         resolved_yaml(c);
+  return yaml_of(c,
+                 "The experiment that the diagnosis proposes, on the model that came first; `gapscope "
+                 "simulate` runs it.");
 }
 
-std::string fitted_yaml(const Configuration& given, const FitSummary& fit, const std::string& trace,
-                        const MotorTrace& recording) {
+std::string fit_yaml(const Configuration& given, const FitSummary& fit, const std::string& trace,
+                     const MotorTrace& recording) {
   GAPSCOPE_REQUIRE(!fit.initial_states.empty());
   Configuration c = with_model(given, fitted_model(given.model.reference_model(), fit));
   if (!c.simulation) c.simulation = replay_of(recording, trace);
@@ -150,9 +149,8 @@ std::string fitted_yaml(const Configuration& given, const FitSummary& fit, const
   c.simulation->initial = {start.x1, start.w1, start.x2, start.w2};
   c.simulation->noise = 0.0;
   set_plant(c);
-  const std::string text = resolved_yaml(c);
-  return "# The fitted model under the input of its recording; `gapscope simulate` runs it as it is." +
-         text.substr(text.find('\n'));
+  return yaml_of(c,
+                 "The fitted model under the input of its recording; `gapscope simulate` runs it as it is.");
 }
 
 }  // namespace gapscope

@@ -170,11 +170,16 @@ std::string resolved_reading(const Configuration& c) {
 }
 
 std::string resolved_yaml(const Configuration& c) {
+  return yaml_of(
+      c, "The configuration of this report, every default filled in; paths are those of the original.");
+}
+
+std::string yaml_of(const Configuration& c, const std::string& heading) {
   FitOptions fit = c.fit;
   ExperimentLimits limits = c.next_experiment;
   DiagnosisKnowledge known = c.diagnosis;
   YamlWriter out(c.rotation);
-  out.comment("The configuration of this report, every default filled in; paths are those of the original.");
+  if (!heading.empty()) out.comment(heading);
   out.entry("name", yaml_text(c.name));
   write_reading(out, c);
   write_model(out, c.model);

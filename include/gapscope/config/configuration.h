@@ -62,12 +62,12 @@ DiagnosisOptions diagnosis_options(const Configuration& configuration);
 /// `from_model`.
 Interval bound_from_model(const Configuration& configuration);
 
-/// The fitted model as a configuration of its own, which `simulate` runs as it is: every number fixed at its
+/// What was fitted as a configuration of its own, which `simulate` runs as it is: every number fixed at its
 /// fitted value, from the fitted initial state, without noise, under the input of the recording: the
 /// excitation of a simulation, else that of the trace named here (columns t_s and u).
 /// @param trace relative to where the text will be stored
-std::string fitted_yaml(const Configuration& configuration, const FitSummary& fit, const std::string& trace,
-                        const MotorTrace& recording);
+std::string fit_yaml(const Configuration& configuration, const FitSummary& fit, const std::string& trace,
+                     const MotorTrace& recording);
 
 /// A proposed experiment as a configuration that `simulate` runs on one of the rivals' models.
 std::string experiment_yaml(const Configuration& configuration, const ReferenceModel& model,
@@ -77,18 +77,21 @@ std::string experiment_yaml(const Configuration& configuration, const ReferenceM
 /// same folder: paths stay as they were given) and gives the same text again.
 std::string resolved_yaml(const Configuration& configuration);
 
+/// The same under a heading of its own, a comment of one line; empty: none.
+std::string yaml_of(const Configuration& configuration, const std::string& heading);
+
 /// What it says of how a recording is read and in which coordinates: the part of resolved_yaml() that `check`
 /// and a stream have.
 std::string resolved_reading(const Configuration& configuration);
 
-/// A fitted model as a configuration that `simulate` runs: every number known, its effects included. The
+/// A model as a configuration that `simulate` runs: every number known, its effects included. The
 /// excitation is that of the configuration where it simulates, else that of the trace named here (columns t_s
 /// and u), from the recording's first position and speed, both bodies alike; a
 /// locked load stands in the middle of the recorded positions.
 /// @param recording what the trace holds
 /// @param trace     relative to where the text will be stored; empty: a sine of the recording's peak and most
 ///                  frequent zero crossings instead
-std::string fitted_yaml(const Configuration& configuration, const ReferenceModel& fitted,
-                        const MotorTrace& recording, const std::string& trace);
+std::string model_yaml(const Configuration& configuration, const ReferenceModel& model,
+                       const std::string& trace, const MotorTrace& recording);
 
 }  // namespace gapscope
