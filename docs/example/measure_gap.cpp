@@ -15,13 +15,15 @@ void print(const gapscope::GapEstimate& estimate) {
   } else if (estimate.verdict == gapscope::GapVerdict::kNone) {
     std::printf("no gap; one of %.4f mrad would have been seen\n", 1e3 * estimate.smallest_visible_gap);
   } else {
-    std::printf("inconclusive: %s\n", estimate.reason.c_str());  // an answer, too: it says what to change
+    std::printf("inconclusive: %s\n",
+                estimate.reason.text().c_str());  // an answer, too: it says what to change
   }
   for (const gapscope::GapEvent& event : estimate.events)
     if (event.accepted)
       std::printf("  free from %.4f to %.4f s, %+.4f mrad\n", event.t1, event.t2,
                   1e3 * event.direction * event.gap);
-  for (const std::string& warning : estimate.warnings) std::printf("warning: %s\n", warning.c_str());
+  for (const gapscope::Remark& warning : estimate.warnings)
+    std::printf("warning: %s\n", warning.text().c_str());
 }
 
 }  // namespace

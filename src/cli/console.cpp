@@ -40,7 +40,7 @@ std::string model_free_line(const GapEstimate& g, bool rotation) {
                        to_string(g.method), g.events.size());
   if (g.verdict == GapVerdict::kNone)
     return fmt::format("none: a gap above {} would have shown", milli(g.smallest_visible_gap, rotation));
-  return fmt::format("{}: {}", to_string(g.verdict), g.reason);
+  return fmt::format("{}: {}", to_string(g.verdict), g.reason.text());
 }
 
 std::string reference_line(const FitSummary& f, bool rotation) {

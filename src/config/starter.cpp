@@ -39,10 +39,8 @@ Choice as_seen(const MotorTrace& trace, bool rotation) {
   if (g.verdict == GapVerdict::kBacklash)
     return {StarterModel::kGap,
             fmt::format("gap and free load: the detector reads a gap of {:.3g} {}", g.gap, unit)};
-  return {
-      StarterModel::kGap,
-      "GUESS: gap and free load; the detector is inconclusive (" + axis_sentence(g.reason, rotation) + ")",
-      false};
+  return {StarterModel::kGap,
+          "GUESS: gap and free load; the detector is inconclusive (" + g.reason.text(rotation) + ")", false};
 }
 
 Choice choose(StarterModel model, const MotorTrace& trace, bool rotation) {

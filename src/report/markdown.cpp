@@ -123,7 +123,7 @@ std::vector<std::string> notes_of(const RunResult& run) {
 
 std::vector<std::string> warnings_of(const RunResult& run) {
   std::vector<std::string> warnings;
-  if (run.model_free) warnings = run.model_free->warnings;
+  if (run.model_free) warnings = texts_of(run.model_free->warnings);
   if (!run.reference) return warnings;
   if (!run.reference->converged()) warnings.push_back("The fit did not converge: " + run.reference->message);
   const auto told = [&](const FittedParameter& p) {  // the fit says more of it than we could
@@ -169,7 +169,7 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
   if (const auto lines = warnings_of(run); !lines.empty()) text += bullet_section("Warnings", lines);
   text += "\n## Estimates\n\n" + estimate_rows(run) + comparison_line(run);
   if (run.model_free && !run.model_free->reason.empty())
-    text += "\nModel-free verdict: " + sentence(run.model_free->reason) + "\n";
+    text += "\nModel-free verdict: " + sentence(run.model_free->reason.text()) + "\n";
   text += bounds_line(run);
   text += timing_line(timing) + parameter_table(run);
   if (run.reference) text += bullet_section("What would sharpen the reference", run.reference->advice);

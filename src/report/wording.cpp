@@ -40,7 +40,8 @@ std::string model_free_sentence(const RunResult& run) {
     case GapVerdict::kNone:
       return "Without a model: no backlash above " + quantity(g.smallest_visible_gap, unit) + ".";
     default:
-      return "Without a model: inconclusive, " + g.reason + (g.reason.ends_with(".") ? "" : ".");
+      return "Without a model: inconclusive, " + g.reason.text() +
+             (g.reason.text().ends_with(".") ? "" : ".");
   }
 }
 

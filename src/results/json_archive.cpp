@@ -187,6 +187,19 @@ void JsonReader::operator()(const char* key, Interval& value) {
   value = {number(pair[0], key), number(pair[1], key)};
 }
 
+void JsonReader::operator()(const char* key, Remark& value) {
+  std::string text;
+  (*this)(key, text);
+  value = Remark::said(std::move(text));
+}
+
+void JsonReader::operator()(const char* key, std::vector<Remark>& values) {
+  std::vector<std::string> texts;
+  (*this)(key, texts);
+  values.clear();
+  for (std::string& text : texts) values.push_back(Remark::said(std::move(text)));
+}
+
 void JsonReader::operator()(const char* key, std::vector<std::string>& values) {
   const Json& array = at(key);
   if (!array.is_array()) fail(key, "is " + shown_json(array) + ", expected a list");

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "gapscope/base/remark.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/base/whole_file.h"
 
@@ -49,9 +50,11 @@ class JsonWriter {
   void operator()(const char* key, int& value) { json[key] = value; }
   void operator()(const char* key, bool& value) { json[key] = value; }
   void operator()(const char* key, std::string& value) { json[key] = value; }
+  void operator()(const char* key, Remark& value) { json[key] = value.text(); }
   void operator()(const char* key, std::optional<bool>& value);
   void operator()(const char* key, Interval& value);
   void operator()(const char* key, std::vector<std::string>& values) { json[key] = values; }
+  void operator()(const char* key, std::vector<Remark>& values) { json[key] = texts_of(values); }
   void operator()(const char* key, std::vector<double>& values);
 
   /// A bound may be infinite, which is no missing number: "inf" or "-inf".
@@ -120,9 +123,11 @@ class JsonReader {
   void operator()(const char* key, int& value);
   void operator()(const char* key, bool& value);
   void operator()(const char* key, std::string& value);
+  void operator()(const char* key, Remark& value);
   void operator()(const char* key, std::optional<bool>& value);
   void operator()(const char* key, Interval& value);
   void operator()(const char* key, std::vector<std::string>& values);
+  void operator()(const char* key, std::vector<Remark>& values);
   void operator()(const char* key, std::vector<double>& values);
   void bound(const char* key, double& value);
   void addition(const char* key,

@@ -16,6 +16,8 @@ class SchemaWriter {
   void operator()(const char* key, std::string&) { add(key, type_of(std::string())); }
   void operator()(const char* key, std::optional<bool>&) { add(key, {{"type", {"boolean", "null"}}}); }
   void operator()(const char* key, Interval&);
+  void operator()(const char* key, Remark&) { add(key, type_of(std::string())); }
+  void operator()(const char* key, std::vector<Remark>&) { add(key, list_of(type_of(std::string()))); }
   void operator()(const char* key, std::vector<std::string>&) { add(key, list_of(type_of(std::string()))); }
   void operator()(const char* key, std::vector<double>&) { add(key, list_of(type_of(0.0))); }
   void bound(const char* key, double&);

@@ -72,7 +72,10 @@ void speak_of_the_axis(RunResult& r) {
   const auto say_all = [&](std::vector<std::string>& texts) {
     std::for_each(texts.begin(), texts.end(), say);
   };
-  if (r.model_free) say(r.model_free->reason), say_all(r.model_free->warnings);
+  if (r.model_free) {
+    r.model_free->reason.put_into_words(r.rotation);
+    for (Remark& warning : r.model_free->warnings) warning.put_into_words(r.rotation);
+  }
   if (r.reference) say(r.reference->message), say_all(r.reference->warnings), say_all(r.reference->advice);
   say_all(r.notes);
 }
@@ -112,7 +115,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
         timed(out.timing.reference_s, [&] { return fit(traces, c.model.reference_model(), c.fit); });
   }
   speak_of_the_axis(r);
-  if (r.model_free) append(out.warnings, r.model_free->warnings);
+  if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
   if (r.reference) append(out.warnings, r.reference->warnings);
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);

@@ -1,7 +1,5 @@
 #include "gapscope/sliding_mode/detector.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,12 +9,14 @@
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
+#include "sliding_mode/words.h"
 
 namespace gapscope {
 namespace {
 
 using internal::sliding_mode::ImpactAnalysis;
 using internal::sliding_mode::PaperReading;
+namespace words = internal::sliding_mode::words;
 
 std::vector<PaperReading> read_all(std::span<const MotorTrace> recordings,
                                    std::span<const ImpactAnalysis> analyses, double bound) {
@@ -51,11 +51,11 @@ std::vector<Reading> readable_bounds(std::span<const MotorTrace> recordings,
   return found;
 }
 
-std::string bounds_to_try(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses) {
+Remark bounds_to_try(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses) {
   const auto found = readable_bounds(recordings, analyses);
-  if (found.empty()) return "; no single bound reads this recording, use auto";
-  if (found.size() == 1) return fmt::format("; try L = {:.2g}", found.front().bound);
-  return fmt::format("; try L between {:.2g} and {:.2g}", found.front().bound, found.back().bound);
+  if (found.empty()) return words::no_single_bound();
+  if (found.size() == 1) return words::bound_to_try(found.front().bound);
+  return words::bounds_to_try(found.front().bound, found.back().bound);
 }
 
 /// The bound whose e_x shows t1 and t2 best, for the figures: of those that read the recordings, the one
@@ -142,10 +142,7 @@ void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const
                          double bound, GapEstimate& estimate) {
   const GapEstimate paper = decide_paper(recordings, analyses, bound);
   if (paper.verdict == GapVerdict::kBacklash) return;
-  estimate.warnings.push_back(
-      fmt::format("the bound of the source paper's eq. (13), one e_x with L = {:.3g} rad/s², would have "
-                  "missed the passages: {}",
-                  bound, paper.reason));
+  estimate.warnings.push_back(words::paper_bound_misses(bound, paper.reason));
 }
 
 /// Where single periods show too little: the mean period of every recording that repeats itself.
@@ -165,7 +162,7 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
       (reading.verdict != GapVerdict::kNone || estimate.verdict == GapVerdict::kNone))
     return;
   estimate = std::move(reading);
-  estimate.reason += " in the mean of the periods";
+  estimate.reason += words::mean_of_periods();
   analyses = std::move(means);
 }
 

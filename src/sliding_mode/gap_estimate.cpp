@@ -45,15 +45,15 @@ std::string GapEstimate::brief_report() const {
     case GapVerdict::kBacklash:
       return fmt::format("backlash: {} {:.4g} rad, 95 % interval [{:.4g}, {:.4g}] rad ({})",
                          quantity == GapQuantity::kGap ? "gap" : "play at zero torque", gap, ci95.low,
-                         ci95.high, reason);
+                         ci95.high, reason.text());
     case GapVerdict::kNone:
-      return fmt::format("none above {:.3g} rad ({})", smallest_visible_gap, reason);
+      return fmt::format("none above {:.3g} rad ({})", smallest_visible_gap, reason.text());
     case GapVerdict::kInconclusive:
-      return fmt::format("inconclusive: {}", reason);
+      return fmt::format("inconclusive: {}", reason.text());
     case GapVerdict::kNotRun:
       break;
   }
-  return fmt::format("not run: {}", reason);
+  return fmt::format("not run: {}", reason.text());
 }
 
 }  // namespace gapscope

@@ -1,13 +1,13 @@
 #include "sliding_mode/lost_motion.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/signal_facts.h"
 #include "sliding_mode/torque_cycles.h"
+#include "sliding_mode/words.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -130,9 +130,11 @@ void summarise(TorqueLevel& level) {
                         2.0 * level.resolution * level.resolution);
 }
 
-std::string described(const TorqueLevel& level) {
-  return fmt::format("{:.3g} rad at |u| = {:.3g} ({} loops)", level.play, level.amplitude,
-                     level.plays.size());
+std::vector<words::Play> plays_of(const std::vector<TorqueLevel>& levels) {
+  std::vector<words::Play> plays;
+  for (const TorqueLevel& level : levels)
+    plays.push_back({level.play, level.amplitude, std::ssize(level.plays)});
+  return plays;
 }
 
 bool disagree(const TorqueLevel& a, const TorqueLevel& b) {
@@ -151,12 +153,7 @@ double limit_of(const std::vector<TorqueLevel>& levels) {
 
 void report_disagreement(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) {
   estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = "the play at zero torque depends on the torque level:";
-  for (const TorqueLevel& level : levels)
-    estimate.reason += (&level == &levels.front() ? " " : ", ") + described(level);
-  estimate.reason +=
-      "; friction or compliance makes up the difference and no gap is larger than the smallest; ramp to "
-      "small torques just above the friction, or free the output and use the impacts";
+  estimate.reason = words::play_depends_on_level(plays_of(levels));
 }
 
 void report_play(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) {
@@ -170,22 +167,14 @@ void report_play(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) 
   estimate.gap = sum;
   estimate.std = std::sqrt(variance);
   estimate.ci95 = {std::max(sum - 1.96 * estimate.std, 0.0), sum + 1.96 * estimate.std};
-  if (levels.size() == 1)
-    estimate.warnings.push_back(
-        "the play at zero torque was read at one torque level only; ramp to another amplitude as well: a "
-        "play that depends on it is friction or compliance");
-  estimate.reason = "branches of the lost-motion loop: ";
-  for (const TorqueLevel& level : levels)
-    estimate.reason += (&level == &levels.front() ? "" : ", ") + described(level);
-  estimate.reason += fmt::format("; on each ramp x1 runs free over {:.3g} rad", levels.front().free_run);
+  if (levels.size() == 1) estimate.warnings.push_back(words::play_at_one_level());
+  estimate.reason = words::play_read(plays_of(levels), levels.front().free_run);
 }
 
 /// No play at any level, but hysteresis.
 void report_none(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) {
   estimate.verdict = GapVerdict::kNone;
-  estimate.reason = "quasi-static loop without a free run: hysteresis of friction and compliance, ";
-  for (const TorqueLevel& level : levels)
-    estimate.reason += (&level == &levels.front() ? "" : ", ") + described(level);
+  estimate.reason = words::no_free_run(plays_of(levels));
 }
 
 /// @param travel  of the motor in all [rad]
@@ -203,15 +192,10 @@ void decide_gap(const std::vector<TorqueLevel>& levels, double travel, GapEstima
   if (shown == 0 && !leaps && estimate.smallest_visible_gap < travel) return report_none(levels, estimate);
   estimate.verdict = GapVerdict::kInconclusive;
   if (shown == 0 && !leaps) {
-    estimate.reason = fmt::format(
-        "the motor moves by {:.3g} rad in all, and a gap would show from {:.3g} rad: ramp to a larger torque",
-        travel, estimate.smallest_visible_gap);
+    estimate.reason = words::small_ramps(travel, estimate.smallest_visible_gap);
     return;
   }
-  estimate.reason = leaps ? "the drive sticks and leaps within a ramp, which hides or imitates a play; ramp "
-                            "the torque further beyond the friction of the motor, or add a dither"
-                          : "x1 runs free at some torque levels only; ramp the torque further beyond the "
-                            "friction of the motor";
+  estimate.reason = leaps ? words::sticks_and_leaps() : words::play_at_some_levels();
 }
 
 }  // namespace

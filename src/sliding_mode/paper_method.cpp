@@ -1,12 +1,11 @@
 #include "sliding_mode/paper_method.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/bend.h"
+#include "sliding_mode/words.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -146,27 +145,20 @@ struct Pool {
   double quiet = 1.0, half_periods = 0.0, travel = kInfinity, noise = 0.0, restless = 0.0;
 };
 
-std::string objection(const Pool& pool) {
+Remark objection(const Pool& pool) {
   const auto &up = pool.up, &down = pool.down;
-  if (pool.quiet < 0.2) return "e_x is never at rest: the bound is below the engaged acceleration";
+  if (pool.quiet < 0.2) return words::error_never_at_rest();
   const double n = static_cast<double>(up.size() + down.size());
   if (up.size() < 2 || down.size() < 2 || n < 0.5 * pool.half_periods)
-    return pool.restless < 0.5 * pool.half_periods
-               ? "no t1: the bound is above the gap-mode acceleration, only the impact shows"
-               : "no t1: the bound is below the engaged acceleration before the reversal, and where contact "
-                 "is lost e_x does not bend visibly; use a finer encoder or a higher bound";
+    return pool.restless < 0.5 * pool.half_periods ? words::bound_above_gap_mode()
+                                                   : words::bound_below_engaged();
   const double gap = 0.5 * (median(up) + median(down)), lateness = median(pool.lateness);
-  if (lateness > kLatest * gap)
-    return fmt::format(
-        "t1 comes {:.0f} % of the passage late: the bound is close to the gap-mode acceleration",
-        100.0 * lateness / gap);
-  if (gap > 0.66 * pool.travel)
-    return fmt::format("the estimate of {:.3g} rad is most of the travel of {:.3g} rad; raise the amplitude",
-                       gap, pool.travel);
+  if (lateness > kLatest * gap) return words::flank_late(100.0 * lateness / gap);
+  if (gap > 0.66 * pool.travel) return words::most_of_travel(gap, pool.travel);
   const double spread = std::max(robust_std(up), robust_std(down));
   if (spread > 0.25 * gap || std::abs(median(up) - median(down)) > 0.25 * gap)
-    return "the passages contradict each other; record more periods of one steady motion";
-  return "";
+    return words::passages_contradict();
+  return {};
 }
 
 void add(Pool& pool, const ImpactAnalysis& analysis, const PaperReading& reading) {
@@ -192,8 +184,7 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   estimate.std = std::sqrt(scatter * scatter + difference * difference + 0.25 * late * late +
                            latency * latency + 2.0 * pool.noise * pool.noise);
   estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
-  estimate.reason =
-      fmt::format("{:.0f} of {:.0f} reversals read with L = {:.3g}", n, pool.half_periods, estimate.bound);
+  estimate.reason = words::reversals_read(n, pool.half_periods, estimate.bound);
 }
 
 }  // namespace
@@ -202,11 +193,11 @@ void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const
                        GapEstimate& estimate) {
   estimate.method = GapMethod::kPaper;
   estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = "no recording";
+  estimate.reason = words::no_recording();
   Pool pool;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!analyses[i].facts.defect.empty()) {
-      estimate.reason = analyses[i].facts.defect;
+      estimate.reason = words::signal_defect(analyses[i].facts.defect);
       continue;
     }
     estimate.bound = readings[i].bound;

@@ -7,6 +7,7 @@
 #include "sliding_mode/free_flight.h"
 #include "sliding_mode/impact_time.h"
 #include "sliding_mode/release.h"
+#include "sliding_mode/words.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -34,32 +35,27 @@ const char* refusal_text(Refusal refusal) {
   return "";
 }
 
-std::string advice(Refusal refusal) {
+Remark advice(Refusal refusal) {
   switch (refusal) {
     case Refusal::kContrast:
-      return "no impact stands out of the motion: quasi-static, or without a free passage; use a faster "
-             "excitation (higher frequency or amplitude) with the output free to move";
+      return words::no_impact_stands_out();
     case Refusal::kNoReversal:
-      return "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the "
-             "motion rest at its reversals (trapezoid or triangle), or lower the frequency";
+      return words::no_reversal_before_impacts();
     case Refusal::kSmallRise:
-      return "the passages are a few encoder quanta wide; use a finer encoder or a wider motion";
+      return words::passages_few_quanta_wide();
     case Refusal::kLoadHits:
-      return "the load hits the motor instead of the motor the load; let the motion rest at its reversals, "
-             "or lower the frequency";
+      return words::load_hits_motor();
     case Refusal::kNoImpactFit:
-      return "too few samples around the impacts; sample faster";
+      return words::few_samples_around_impacts();
     case Refusal::kNoRelease:
-      return "the release before the impacts cannot be located; let the motion rest at its reversals "
-             "(trapezoid), lower the frequency, or use a finer encoder";
+      return words::release_not_located();
     case Refusal::kThrownOff:
     case Refusal::kLoadMoving:
-      return "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or "
-             "lower the frequency";
+      return words::load_moves();
     case Refusal::kNone:
       break;
   }
-  return "record more periods";
+  return words::more_periods();
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include "gapscope/base/remark.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 #include "sliding_mode/bank_run.h"
@@ -24,7 +25,7 @@ enum class Refusal {
 };
 
 const char* refusal_text(Refusal refusal);  ///< for the remark of an event
-std::string advice(Refusal refusal);        ///< what to change where it is the commonest
+Remark advice(Refusal refusal);             ///< what to change where it is the commonest
 
 /// One candidate passage: an impact, and the release before it.
 struct Transition {

@@ -1,12 +1,12 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/visible_gap.h"
+#include "sliding_mode/words.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -133,31 +133,20 @@ double scatter(const Pool& pool) {
 }
 
 /// Why the accepted passages do not make an estimate; empty if they do.
-std::string objection(const Pool& pool) {
+Remark objection(const Pool& pool) {
   const auto plus = gaps_of(pool, 1), minus = gaps_of(pool, -1);
   const int only = only_direction(pool);
   if (only == 0 && (plus.size() < kFewest || minus.size() < kFewest))
-    return fmt::format("only {} and {} usable passages of the gap in the two directions: {}", plus.size(),
-                       minus.size(), advice(commonest(pool)));
+    return words::few_passages_each_way(std::ssize(plus), std::ssize(minus), advice(commonest(pool)));
   const double asked = fewest_passages(pool, only);
   if (static_cast<double>(gaps_of(pool, only).size()) < asked)
-    return fmt::format(
-        "only {} usable passages of the gap where {:.0f} are asked, {} in {:.0f} half periods: {}",
-        pool.accepted.size(), asked, in(pool.passages, 0), pool.half_periods, advice(commonest(pool)));
+    return words::few_passages(std::ssize(pool.accepted), asked, static_cast<long>(in(pool.passages, 0)),
+                               pool.half_periods, advice(commonest(pool)));
   const auto [gap, disagreement] = middle(pool);
   const double spread = scatter(pool);
-  if (spread > 0.25 * gap)
-    return fmt::format(
-        "the passages scatter by {:.0f} % of their median; record more periods of one steady motion",
-        100.0 * spread / gap);
-  if (2.0 * disagreement > 0.25 * gap)
-    return fmt::format(
-        "{:.3g} rad with rising and {:.3g} rad with falling x1 contradict each other; remove the offset of "
-        "the excitation, or let the motion rest at its reversals",
-        median(plus), median(minus));
-  if (gap > kMostOfTravel * pool.travel)
-    return fmt::format("the estimate of {:.3g} rad is most of the travel of {:.3g} rad; raise the amplitude",
-                       gap, pool.travel);
+  if (spread > 0.25 * gap) return words::passages_scatter(100.0 * spread / gap);
+  if (2.0 * disagreement > 0.25 * gap) return words::directions_contradict(median(plus), median(minus));
+  if (gap > kMostOfTravel * pool.travel) return words::most_of_travel(gap, pool.travel);
   const auto moving = pool.refused.find(Refusal::kLoadMoving);
   if (moving != pool.refused.end() && moving->second > kFewMoving * static_cast<double>(pool.accepted.size()))
     return advice(Refusal::kLoadMoving);
@@ -165,16 +154,10 @@ std::string objection(const Pool& pool) {
   if (only != 0 && moved > kLeastMoving * gap) return advice(Refusal::kLoadMoving);
   if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
     return advice(Refusal::kLoadMoving);
-  if (gap < kFewestGapQuanta * pool.quantum)
-    return fmt::format("a gap of {:.2g} rad is only {:.0f} encoder quanta; use a finer encoder", gap,
-                       gap / pool.quantum);
+  if (gap < kFewestGapQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
   const double hidden = median_of(pool, &Transition::hidden);
-  if (hidden > kMostHidden * gap)
-    return fmt::format(
-        "the contact is so soft that the motor goes on for {:.0f} % of the gap before the encoder shows the "
-        "impact; use a finer encoder, or record more periods",
-        100.0 * hidden / gap);
-  return "";
+  if (hidden > kMostHidden * gap) return words::soft_contact(100.0 * hidden / gap);
+  return {};
 }
 
 /// No impact stands out, although every stroke left its marks, and the gap whose impacts would be more abrupt
@@ -191,17 +174,6 @@ bool too_slow(const Pool& pool) {
          (refusal == Refusal::kContrast || refusal == Refusal::kNoReversal || refusal == Refusal::kNone);
 }
 
-std::string slow_motion(const Pool& pool) {
-  const std::string limit =
-      std::isfinite(pool.visible)
-          ? fmt::format("the impacts of a gap below {:.2g} rad would not show", pool.visible)
-          : "the impact of no gap would show";
-  return fmt::format(
-      "no impact to be expected: quasi-static motion, locked output or coarse encoder, {}; use a faster "
-      "excitation (higher frequency or amplitude) with the output free to move, or a finer encoder",
-      limit);
-}
-
 void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   const int only = only_direction(pool);
   const auto used = gaps_of(pool, only).size();
@@ -215,16 +187,11 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   estimate.std = std::sqrt(random * random + disagreement * disagreement + systematic * systematic +
                            sampling * sampling + pool.noise * pool.noise);
   estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
-  estimate.reason = fmt::format("{} of {} passages of the gap used{}", used, in(pool.passages, 0),
-                                only == 0  ? ""
-                                : only > 0 ? ", all with rising x1"
-                                           : ", all with falling x1");
+  estimate.reason =
+      words::passages_used(static_cast<long>(used), static_cast<long>(in(pool.passages, 0)), only);
   if (1.96 * estimate.std <= kWidest * estimate.gap) return;
   estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = fmt::format(
-      "a gap of {:.2g} rad is seen, but only to {:.0f} %: use a finer encoder, faster sampling or more "
-      "periods, or let the motion rest at its reversals",
-      estimate.gap, 196.0 * estimate.std / estimate.gap);
+  estimate.reason = words::gap_uncertain(estimate.gap, 196.0 * estimate.std / estimate.gap);
   estimate.gap = estimate.std = kNaN;
   estimate.ci95 = {};
 }
@@ -247,21 +214,20 @@ void decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const double
   const Pool pool = collect(analyses, intervals);
   if (pool.half_periods == 0.0) {
     estimate.verdict = GapVerdict::kInconclusive;
-    estimate.reason = analyses.empty() ? "no recording" : analyses.front().facts.defect;
+    estimate.reason =
+        analyses.empty() ? words::no_recording() : words::signal_defect(analyses.front().facts.defect);
     return;
   }
   estimate.smallest_visible_gap = std::isfinite(pool.visible) ? pool.visible : kNaN;
-  const std::string against = objection(pool);
+  const Remark against = objection(pool);
   if (against.empty()) return fill_estimate(pool, estimate);
   if (shows_nothing(pool)) {
     estimate.verdict = GapVerdict::kNone;
-    estimate.reason =
-        fmt::format("for a load of at least {:.1f} of the motor's inertia: no impact in {:.0f} half periods",
-                    kSmallestMassRatio, pool.half_periods);
+    estimate.reason = words::no_impact(kSmallestMassRatio, pool.half_periods);
     return;
   }
   estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = too_slow(pool) ? slow_motion(pool) : against;
+  estimate.reason = too_slow(pool) ? words::too_slow(pool.visible) : against;
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -98,7 +98,7 @@ BoundMap sample_map(const Recording& r) {
 GapEstimate estimate(const Recording& r, const std::vector<Mode>& mode, GapVerdict verdict) {
   GapEstimate g;
   g.verdict = verdict;
-  g.reason = "";
+  g.reason = {};
   g.bound = 4.1;
   g.scale = 50.0;
   g.smallest_visible_gap = 4e-4;
@@ -107,19 +107,18 @@ GapEstimate estimate(const Recording& r, const std::vector<Mode>& mode, GapVerdi
   g.map = sample_map(r);
   g.paper_bound = 20.0;
   if (verdict == GapVerdict::kBacklash) {
-    g.reason = "passages in both directions, of one size.";
+    g.reason = Remark::said("passages in both directions, of one size.");
     g.gap = 1.006 * kSampleGap;
     g.std = 0.008 * kSampleGap;
     g.ci95 = {g.gap - 1.96 * g.std, g.gap + 1.96 * g.std};
-    g.warnings.push_back("The load turned on by up to 0.2 mrad between t1 and t2.");
+    g.warnings.push_back(Remark::said("The load turned on by up to 0.2 mrad between t1 and t2."));
     return g;
   }
   for (GapEvent& e : g.events) e.accepted = false, e.remark = "the load was moving";
   if (verdict == GapVerdict::kInconclusive)
-    g.reason =
+    g.reason = Remark::said(
         "the load was moving between t1 and t2 by more than the estimate can carry: let the motor dwell at "
-        "the "
-        "reversal, or lower the frequency";
+        "the reversal, or lower the frequency");
   return g;
 }
 

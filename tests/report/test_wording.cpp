@@ -46,7 +46,7 @@ TEST(Headline, TellsEveryVerdict) {
   run.model_free->verdict = GapVerdict::kNone;
   EXPECT_NE(headline(run).find("no backlash above 400 µrad"), std::string::npos);
   run.model_free->verdict = GapVerdict::kInconclusive;
-  run.model_free->reason = "no periodic motion";
+  run.model_free->reason = Remark::said("no periodic motion");
   EXPECT_NE(headline(run).find("inconclusive, no periodic motion. "), std::string::npos);
   run.reference->parameters[4].identifiable = false;
   EXPECT_NE(headline(run).find("could not determine the gap"), std::string::npos);

@@ -29,7 +29,7 @@ inline Recording recording(const std::string& file, double offset, bool simulate
 inline GapEstimate estimate(const RunResult& run) {
   GapEstimate g;
   g.verdict = GapVerdict::kBacklash;
-  g.reason = "6 passages, \"both\" directions, 2β";
+  g.reason = Remark::said("6 passages, \"both\" directions, 2β");
   g.method = GapMethod::kLostMotion;
   g.quantity = GapQuantity::kPlayAtZeroTorque;
   g.gap = 0.0187 * kThird;
@@ -44,7 +44,7 @@ inline GapEstimate estimate(const RunResult& run) {
   g.events.push_back({"b.csv", 1.0, kNaN, 1e-300, kNaN, kNaN, kNaN, kNaN, 1, true, ""});
   g.traces = {{"a.csv", run.recordings[0].x1, run.recordings[0].u}, {"b.csv", run.recordings[1].x1, {}}};
   g.traces[0].error[3] = kNaN;
-  g.warnings = {"one", "two"};
+  g.warnings = {Remark::said("one"), Remark::said("two")};
   g.paper_bound = 98.0 * kThird;
   g.map =
       BoundMap{"a.csv", 0.5 * kThird, 1e-3 * kThird, {kThird, 1.0}, {0.12, 3.45, 6.78, 1e-3, 0.0, 9999.0}};

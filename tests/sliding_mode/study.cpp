@@ -113,7 +113,7 @@ void print_case(const Outcome& o) {
       "{} gap {:.3f} mrad ({:.0f} quanta), mass ratio {:.2f}, coasting {:.3f}: {} {:.3f} [{:.3f}, {:.3f}]; "
       "{}\n",
       o.seed, 1e3 * o.gap, o.gap / o.quantum, o.mass_ratio, o.coasting, to_string(e.verdict), 1e3 * e.gap,
-      1e3 * e.ci95.low, 1e3 * e.ci95.high, e.reason);
+      1e3 * e.ci95.low, 1e3 * e.ci95.high, e.reason.text());
 }
 
 int main_study(int argc, char** argv) {

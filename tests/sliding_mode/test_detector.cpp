@@ -80,7 +80,7 @@ TEST(Detector, ACoarseEncoderIsToldThatItHidesTheBeginOfTheContact) {
   encoder.duration = 5.0;
   const GapEstimate estimate = detect(record(drive, sine(0.5814, 1.0), encoder));
   EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
-  EXPECT_THAT(estimate.reason, HasSubstr("before the encoder shows the impact"));
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("before the encoder shows the impact"));
 }
 
 TEST(Detector, ALoadThatOvertakesTheMotorIsNotReadAsAGap) {
@@ -104,7 +104,7 @@ TEST(Detector, TheAutoEstimateWarnsWhenThePapersBoundWouldHaveMissedThePassages)
   EXPECT_TRUE(detect(recording, {.paper_bound = 4.0}).warnings.empty());
   const GapEstimate estimate = detect(recording, {.paper_bound = 100.0});
   ASSERT_EQ(estimate.warnings.size(), 1u);
-  EXPECT_THAT(estimate.warnings[0], HasSubstr("L = 100"));
+  EXPECT_THAT(estimate.warnings[0].text(), HasSubstr("L = 100"));
 }
 
 TEST(Detector, EveryPassageIsListedInOrderWithItsTimesAndTracesAreAsLongAsTheRecording) {
@@ -177,7 +177,7 @@ TEST(Detector, NoneSaysForWhichLoadsItHoldsAndLeavesOnlySmallGapsOpen) {
   rigid.m1 += rigid.m2, rigid.d1 += rigid.d2, rigid.Fc1 = rigid.Fc2, rigid.m2 = 0.0;
   const GapEstimate estimate = detect(record(rigid, sine(0.5814, 1.0), {}));
   ASSERT_EQ(estimate.verdict, GapVerdict::kNone) << estimate.brief_report();
-  EXPECT_THAT(estimate.reason, HasSubstr("0.3 of the motor's inertia"));
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("0.3 of the motor's inertia"));
   EXPECT_LT(estimate.smallest_visible_gap, 0.019);
 }
 
@@ -210,7 +210,7 @@ TEST(Detector, BadDataIsAVerdictWithAReasonNeverAnException) {
     for (const double bound : {0.0, 5.0}) {
       const GapEstimate estimate = detect_gap({&trace, 1}, {.bound = bound});
       EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << bad.what;
-      EXPECT_THAT(estimate.reason, HasSubstr(bad.reason)) << bad.what;
+      EXPECT_THAT(estimate.reason.text(), HasSubstr(bad.reason)) << bad.what;
       EXPECT_TRUE(std::isnan(estimate.gap)) << bad.what;
     }
   }

@@ -96,7 +96,7 @@ TEST(FlightLaw, TheGapOfALoadThatCoastsIsReadNotItsUncorrectedS5) {
   const BlindRun run = simulate(drive);
   const MotorTrace trace = run.recording.motor_trace();
   const GapEstimate estimate = detect_gap({&trace, 1});
-  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason;
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason.text();
   EXPECT_NEAR(estimate.gap, drive.gap, 0.1 * drive.gap);
   EXPECT_LE(estimate.ci95.low, drive.gap);
   EXPECT_GE(estimate.ci95.high, drive.gap);
@@ -140,7 +140,7 @@ TEST(FreeFlight, TheLawOfTheFlightAndTheContactAreFittedTogether) {
   const independent_plant::BlindCase c =
       independent_plant::random_drive(340203);  // soft: 11 % too small with a law carried on alone
   const GapEstimate estimate = detect(c);
-  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason;
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason.text();
   EXPECT_NEAR(estimate.gap, c.drive.gap, 0.03 * c.drive.gap);
 }
 
@@ -148,8 +148,8 @@ TEST(FreeFlight, AnUnsymmetricalMotionMayShowTheGapOneWayOnly) {
   const independent_plant::BlindCase c =
       independent_plant::random_drive(345122, independent_plant::Waveform::kMultisine);
   const GapEstimate estimate = detect(c);
-  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason;
-  EXPECT_NE(estimate.reason.find("all with falling x1"), std::string::npos) << estimate.reason;
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason.text();
+  EXPECT_NE(estimate.reason.text().find("all with falling x1"), std::string::npos) << estimate.reason.text();
   EXPECT_NEAR(estimate.gap, c.drive.gap, 0.03 * c.drive.gap);
 }
 

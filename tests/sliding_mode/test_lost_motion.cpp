@@ -57,7 +57,7 @@ TEST(LostMotion, WithoutFrictionThePlayIsTheGap) {
   const GapEstimate estimate = detect({ramps(locked())});
   expect_play(estimate, 0.01);
   ASSERT_EQ(estimate.warnings.size(), 1u);
-  EXPECT_THAT(estimate.warnings[0], HasSubstr("one torque level only"));
+  EXPECT_THAT(estimate.warnings[0].text(), HasSubstr("one torque level only"));
 }
 
 TEST(LostMotion, FrictionOfTheMotorAddsItsWindUpOnBothFlanks) {
@@ -112,7 +112,7 @@ TEST(LostMotion, TorqueLevelsThatAgreeAreReadTogether) {
   drive.effects.motor.friction.level_nm = 0.02;
   const GapEstimate estimate = detect({ramps(drive, 0.1), ramps(drive, 0.3, 18, 2)});
   expect_play(estimate, 0.0102);
-  EXPECT_THAT(estimate.reason, HasSubstr("), 0.0"));  // both levels are listed
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("), 0.0"));  // both levels are listed
   EXPECT_TRUE(estimate.warnings.empty());
 }
 
@@ -124,7 +124,7 @@ TEST(LostMotion, TorqueLevelsThatDisagreeAreToldAndNotAveraged) {
   const GapEstimate estimate = detect({ramps(drive, 0.1), ramps(drive, 0.4)});
   EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
   EXPECT_TRUE(std::isnan(estimate.gap));
-  EXPECT_THAT(estimate.reason, HasSubstr("depends on the torque level"));
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("depends on the torque level"));
 }
 
 TEST(LostMotion, AFreeLoadIsNotQuasiStatic) {

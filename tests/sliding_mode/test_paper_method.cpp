@@ -75,22 +75,22 @@ TEST(PaperMethod, ABoundAboveTheGapAccelerationShowsNoBeginningAndSaysSo) {
     const GapEstimate estimate = read({}, {}, bound);
     EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << bound;
     EXPECT_TRUE(std::isnan(estimate.gap));
-    EXPECT_THAT(estimate.reason, HasSubstr("no t1")) << bound;
-    EXPECT_THAT(estimate.reason, HasSubstr("only the impact shows")) << bound;
-    EXPECT_THAT(estimate.reason, HasSubstr("try L between")) << bound;
+    EXPECT_THAT(estimate.reason.text(), HasSubstr("no t1")) << bound;
+    EXPECT_THAT(estimate.reason.text(), HasSubstr("only the impact shows")) << bound;
+    EXPECT_THAT(estimate.reason.text(), HasSubstr("try L between")) << bound;
   }
 }
 
 TEST(PaperMethod, ABoundBelowTheEngagedAccelerationThroughoutIsToldAsSuch) {
   const GapEstimate estimate = read({}, {}, 1.0);
   EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive);
-  EXPECT_THAT(estimate.reason, HasSubstr("below the engaged acceleration"));
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("below the engaged acceleration"));
 }
 
 TEST(PaperMethod, ABendThatACoarseEncoderHidesIsToldAsSuch) {
   const GapEstimate estimate = read({}, {.torque = 0.5, .frequency = 2.0, .bits = 15}, 40.0);
   EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive);
-  EXPECT_THAT(estimate.reason, HasSubstr("e_x does not bend visibly"));
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("e_x does not bend visibly"));
 }
 
 TEST(PaperMethod, NoBoundReadsAGapWhereThereIsNone) {

@@ -55,7 +55,8 @@ TEST(RealRecordings, LargeAndSmallRampsDisagreeAndThatIsTold) {
   for (const char* name : {"baseline_pos1", "splitpreload3_pos1"}) {
     const GapEstimate estimate = reducer(name, kAllRamps);
     EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << name << ": " << estimate.brief_report();
-    EXPECT_NE(estimate.reason.find("depends on the torque level"), std::string::npos) << estimate.reason;
+    EXPECT_NE(estimate.reason.text().find("depends on the torque level"), std::string::npos)
+        << estimate.reason.text();
   }
 }
 

@@ -142,7 +142,7 @@ TEST(StreamDetector, OfRestOrNoiseSaysWhyNothingIsLearnt) {
   EXPECT_FALSE(detector.has_learnt());
   EXPECT_TRUE(detector.take().empty());
   EXPECT_EQ(detector.estimate().verdict, GapVerdict::kInconclusive);
-  EXPECT_NE(detector.estimate().reason.find("no motion above the encoder's noise"), std::string::npos);
+  EXPECT_NE(detector.estimate().reason.text().find("no motion above the encoder's noise"), std::string::npos);
 }
 
 TEST(TurnCounter, CountsStrokesOfAMotionThatWanders) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/remark.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope {
@@ -54,8 +55,7 @@ struct BoundMap {
 /// What the model-free detector says. A default-built one says that it was not run.
 struct GapEstimate {
   GapVerdict verdict = GapVerdict::kNotRun;
-  std::string reason =
-      "detect_gap() was not called.";  ///< never empty for kInconclusive; says what to change
+  Remark reason = Remark("not_run", "detect_gap() was not called.");  ///< never empty for kInconclusive
   GapMethod method = GapMethod::kImpact;
   GapQuantity quantity = GapQuantity::kGap;
   double gap = kNaN;                   ///< 2β̂ [rad]; NaN unless the verdict is kBacklash
@@ -69,7 +69,7 @@ struct GapEstimate {
   std::vector<GapEvent> events;
   std::vector<ErrorTrace> traces;
   std::optional<BoundMap> map;
-  std::vector<std::string> warnings;
+  std::vector<Remark> warnings;
 
   std::string brief_report() const;  ///< one line: log, command line
 };

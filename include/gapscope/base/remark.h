@@ -1,0 +1,55 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gapscope {
+
+/// The unit of a parameter ("N m s/rad"), as a value of a remark.
+struct RemarkUnit {
+  std::string rotational;
+};
+
+/// What an estimator has to say: a code, numbers of a rotation in SI units, and the words around them. The
+/// axis, and with it the units, is known to whoever reads it.
+class Remark {
+ public:
+  using Value = std::variant<double, long, std::string, RemarkUnit>;
+
+  Remark() = default;
+  /// @param code   in lower case, with underscores: what a program can go by
+  /// @param words  a format (fmt) that takes the values in their order; a unit of a rotation stands in
+  /// brackets
+  ///   ("{:.3g} [rad]")
+  Remark(std::string code, std::string words, std::vector<Value> values = {});
+  /// One that has been put into words already, as it is stored.
+  static Remark said(std::string text);
+
+  bool empty() const { return parts_.empty(); }
+  std::string code() const;  ///< of its first part; empty where it is words only
+  std::vector<Value> values() const;
+  std::string text(bool rotation = true) const;
+  /// Keeps the words for this axis alone: text() gives them from now on, whatever it is asked for.
+  void put_into_words(bool rotation);
+
+  Remark& operator+=(const Remark& more);  ///< goes on with other words, without a space
+  friend Remark operator+(Remark a, const Remark& b) { return a += b; }
+  bool operator==(const Remark& other) const { return text() == other.text(); }
+
+ private:
+  struct Part {
+    std::string code, words;
+    std::vector<Value> values;
+    bool said = false;  ///< `words` are the text itself
+  };
+  std::vector<Part> parts_;
+};
+
+std::ostream& operator<<(std::ostream& out, const Remark& remark);
+
+/// The texts of remarks, in their order.
+std::vector<std::string> texts_of(const std::vector<Remark>& remarks, bool rotation = true);
+
+}  // namespace gapscope

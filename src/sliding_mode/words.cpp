@@ -1,0 +1,206 @@
+#include "sliding_mode/words.h"
+
+#include <cmath>
+
+namespace gapscope::internal::sliding_mode::words {
+namespace {
+
+/// "0.01 rad at |u| = 0.2 (3 loops), 0.02 rad at ..."
+Remark listed(std::span<const Play> levels) {
+  Remark all;
+  for (const Play& level : levels)
+    all += Remark(
+        "level",
+        all.empty() ? "{:.3g} [rad] at |u| = {:.3g} ({} loops)" : ", {:.3g} [rad] at |u| = {:.3g} ({} loops)",
+        {level.play, level.amplitude, level.loops});
+  return all;
+}
+
+}  // namespace
+
+Remark no_recording() { return {"no_recording", "no recording"}; }
+Remark signal_defect(const std::string& defect) { return {"signal", "{}", {defect}}; }
+
+Remark no_impact_stands_out() {
+  return {"no_impact_stands_out",
+          "no impact stands out of the motion: quasi-static, or without a free passage; use a faster "
+          "excitation (higher frequency or amplitude) with the output free to move"};
+}
+Remark no_reversal_before_impacts() {
+  return {"no_reversal_before_impacts",
+          "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the motion "
+          "rest at its reversals (trapezoid or triangle), or lower the frequency"};
+}
+Remark passages_few_quanta_wide() {
+  return {"passages_few_quanta_wide",
+          "the passages are a few encoder quanta wide; use a finer encoder or a wider motion"};
+}
+Remark load_hits_motor() {
+  return {"load_hits_motor",
+          "the load hits the motor instead of the motor the load; let the motion rest at its reversals, or "
+          "lower the frequency"};
+}
+Remark few_samples_around_impacts() {
+  return {"few_samples_around_impacts", "too few samples around the impacts; sample faster"};
+}
+Remark release_not_located() {
+  return {"release_not_located",
+          "the release before the impacts cannot be located; let the motion rest at its reversals "
+          "(trapezoid), lower the frequency, or use a finer encoder"};
+}
+Remark load_moves() {
+  return {"load_moves",
+          "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or lower "
+          "the frequency"};
+}
+Remark more_periods() { return {"more_periods", "record more periods"}; }
+
+Remark few_passages_each_way(long plus, long minus, const Remark& advice) {
+  return Remark("few_passages",
+                "only {} and {} usable passages of the gap in the two directions: ", {plus, minus}) +
+         advice;
+}
+Remark few_passages(long used, double asked, long seen, double half_periods, const Remark& advice) {
+  return Remark("few_passages",
+                "only {} usable passages of the gap where {:.0f} are asked, {} in {:.0f} half periods: ",
+                {used, asked, seen, half_periods}) +
+         advice;
+}
+Remark passages_scatter(double percent) {
+  return {"passages_scatter",
+          "the passages scatter by {:.0f} % of their median; record more periods of one steady motion",
+          {percent}};
+}
+Remark directions_contradict(double rising, double falling) {
+  return {
+      "directions_contradict",
+      "{:.3g} [rad] with rising and {:.3g} [rad] with falling x1 contradict each other; remove the offset "
+      "of the excitation, or let the motion rest at its reversals",
+      {rising, falling}};
+}
+Remark most_of_travel(double gap, double travel) {
+  return {"most_of_travel",
+          "the estimate of {:.3g} [rad] is most of the travel of {:.3g} [rad]; raise the amplitude",
+          {gap, travel}};
+}
+Remark gap_few_quanta(double gap, double quanta) {
+  return {"gap_few_quanta",
+          "a gap of {:.2g} [rad] is only {:.0f} encoder quanta; use a finer encoder",
+          {gap, quanta}};
+}
+Remark soft_contact(double percent) {
+  return {
+      "soft_contact",
+      "the contact is so soft that the motor goes on for {:.0f} % of the gap before the encoder shows the "
+      "impact; use a finer encoder, or record more periods",
+      {percent}};
+}
+Remark too_slow(double visible) {
+  const Remark limit =
+      std::isfinite(visible)
+          ? Remark("visible", "the impacts of a gap below {:.2g} [rad] would not show", {visible})
+          : Remark("visible", "the impact of no gap would show");
+  return Remark("too_slow",
+                "no impact to be expected: quasi-static motion, locked output or coarse encoder, ") +
+         limit +
+         Remark(
+             "too_slow",
+             "; use a faster excitation (higher frequency or amplitude) with the output free to move, or a "
+             "finer encoder");
+}
+Remark passages_used(long used, long seen, int only_direction) {
+  Remark said("passages_used", "{} of {} passages of the gap used", {used, seen});
+  if (only_direction > 0) said += Remark("rising", ", all with rising x1");
+  if (only_direction < 0) said += Remark("falling", ", all with falling x1");
+  return said;
+}
+Remark gap_uncertain(double gap, double percent) {
+  return {"gap_uncertain",
+          "a gap of {:.2g} [rad] is seen, but only to {:.0f} %: use a finer encoder, faster sampling or more "
+          "periods, or let the motion rest at its reversals",
+          {gap, percent}};
+}
+Remark no_impact(double mass_ratio, double half_periods) {
+  return {"no_impact",
+          "for a load of at least {:.1f} of the motor's inertia: no impact in {:.0f} half periods",
+          {mass_ratio, half_periods}};
+}
+Remark mean_of_periods() { return {"mean_of_periods", " in the mean of the periods"}; }
+
+Remark play_depends_on_level(std::span<const Play> levels) {
+  return Remark("play_depends_on_level", "the play at zero torque depends on the torque level: ") +
+         listed(levels) +
+         Remark("advice",
+                "; friction or compliance makes up the difference and no gap is larger than the smallest; "
+                "ramp to small torques just above the friction, or free the output and use the impacts");
+}
+Remark play_at_one_level() {
+  return {"play_at_one_level",
+          "the play at zero torque was read at one torque level only; ramp to another amplitude as well: a "
+          "play that depends on it is friction or compliance"};
+}
+Remark play_read(std::span<const Play> levels, double free_run) {
+  return Remark("play", "branches of the lost-motion loop: ") + listed(levels) +
+         Remark("free_run", "; on each ramp x1 runs free over {:.3g} [rad]", {free_run});
+}
+Remark no_free_run(std::span<const Play> levels) {
+  return Remark("no_free_run",
+                "quasi-static loop without a free run: hysteresis of friction and compliance, ") +
+         listed(levels);
+}
+Remark small_ramps(double travel, double visible) {
+  return {"small_ramps",
+          "the motor moves by {:.3g} [rad] in all, and a gap would show from {:.3g} [rad]: ramp to a larger "
+          "torque",
+          {travel, visible}};
+}
+Remark sticks_and_leaps() {
+  return {"sticks_and_leaps",
+          "the drive sticks and leaps within a ramp, which hides or imitates a play; ramp the torque further "
+          "beyond the friction of the motor, or add a dither"};
+}
+Remark play_at_some_levels() {
+  return {
+      "play_at_some_levels",
+      "x1 runs free at some torque levels only; ramp the torque further beyond the friction of the motor"};
+}
+
+Remark error_never_at_rest() {
+  return {"error_never_at_rest", "e_x is never at rest: the bound is below the engaged acceleration"};
+}
+Remark bound_above_gap_mode() {
+  return {"bound_above_gap_mode",
+          "no t1: the bound is above the gap-mode acceleration, only the impact shows"};
+}
+Remark bound_below_engaged() {
+  return {"bound_below_engaged",
+          "no t1: the bound is below the engaged acceleration before the reversal, and where contact is lost "
+          "e_x does not bend visibly; use a finer encoder or a higher bound"};
+}
+Remark flank_late(double percent) {
+  return {"flank_late",
+          "t1 comes {:.0f} % of the passage late: the bound is close to the gap-mode acceleration",
+          {percent}};
+}
+Remark passages_contradict() {
+  return {"passages_contradict",
+          "the passages contradict each other; record more periods of one steady motion"};
+}
+Remark reversals_read(double read, double half_periods, double bound) {
+  return {"reversals_read", "{:.0f} of {:.0f} reversals read with L = {:.3g}", {read, half_periods, bound}};
+}
+Remark paper_bound_misses(double bound, const Remark& reason) {
+  return Remark(
+             "paper_bound_misses",
+             "the bound of the source paper's eq. (13), one e_x with L = {:.3g} [rad/s²], would have missed "
+             "the passages: ",
+             {bound}) +
+         reason;
+}
+Remark no_single_bound() { return {"no_single_bound", "; no single bound reads this recording, use auto"}; }
+Remark bound_to_try(double bound) { return {"bound_to_try", "; try L = {:.2g}", {bound}}; }
+Remark bounds_to_try(double smallest, double largest) {
+  return {"bounds_to_try", "; try L between {:.2g} and {:.2g}", {smallest, largest}};
+}
+
+}  // namespace gapscope::internal::sliding_mode::words

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+
+#include "gapscope/base/remark.h"
+#include "gapscope/base/statistics.h"
+
+/// Everything that the detector says, in one place. Angles and speeds in SI units.
+namespace gapscope::internal::sliding_mode::words {
+
+Remark no_recording();
+Remark signal_defect(const std::string& defect);
+
+// Impacts, and passages between them.
+Remark no_impact_stands_out();
+Remark no_reversal_before_impacts();
+Remark passages_few_quanta_wide();
+Remark load_hits_motor();
+Remark few_samples_around_impacts();
+Remark release_not_located();
+Remark load_moves();
+Remark more_periods();
+
+Remark few_passages_each_way(long plus, long minus, const Remark& advice);
+Remark few_passages(long used, double asked, long seen, double half_periods, const Remark& advice);
+Remark passages_scatter(double percent);
+Remark directions_contradict(double rising, double falling);
+Remark most_of_travel(double gap, double travel);
+Remark gap_few_quanta(double gap, double quanta);
+Remark soft_contact(double percent);
+Remark too_slow(double visible);  ///< NaN: no gap would show
+Remark passages_used(long used, long seen, int only_direction);
+Remark gap_uncertain(double gap, double percent);
+Remark no_impact(double mass_ratio, double half_periods);
+Remark mean_of_periods();  ///< added to another
+
+// Quasi-static loops.
+struct Play {
+  double play, amplitude;  ///< [rad], of u
+  long loops;
+};
+Remark play_depends_on_level(std::span<const Play> levels);
+Remark play_at_one_level();
+Remark play_read(std::span<const Play> levels, double free_run);
+Remark no_free_run(std::span<const Play> levels);
+Remark small_ramps(double travel, double visible);
+Remark sticks_and_leaps();
+Remark play_at_some_levels();
+
+// One bound, as published.
+Remark error_never_at_rest();
+Remark bound_above_gap_mode();
+Remark bound_below_engaged();
+Remark flank_late(double percent);
+Remark passages_contradict();
+Remark reversals_read(double read, double half_periods, double bound);
+Remark paper_bound_misses(double bound, const Remark& reason);
+Remark no_single_bound();                               ///< added to another
+Remark bound_to_try(double bound);                      ///< added to another
+Remark bounds_to_try(double smallest, double largest);  ///< added to another
+
+}  // namespace gapscope::internal::sliding_mode::words

@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include "gapscope/base/remark.h"
+
+namespace gapscope {
+namespace {
+
+Remark gap_seen() {
+  return {"gap_seen",
+          "a gap of {:.2g} [rad] in {} passages, [{:.1f}, {:.1f}] by {}",
+          {0.0123, 7L, 1.0, 2.0, std::string("x [rad]")}};
+}
+
+TEST(Remark, IsPutTogetherWithTheUnitsOfTheAxis) {
+  EXPECT_EQ(gap_seen().text(), "a gap of 0.012 rad in 7 passages, [1.0, 2.0] by x [rad]");
+  EXPECT_EQ(gap_seen().text(false), "a gap of 0.012 m in 7 passages, [1.0, 2.0] by x [rad]");
+  const Remark damping("damping", "{} {}", {0.5, RemarkUnit{"N m s/rad"}});
+  EXPECT_EQ(damping.text(), "0.5 N m s/rad");
+  EXPECT_EQ(damping.text(false), "0.5 N s/m");
+}
+
+TEST(Remark, KeepsItsCodeAndItsNumbers) {
+  const Remark both = gap_seen() + Remark("more", "; {:.0f} [rad/s]", {3.0});
+  EXPECT_EQ(both.code(), "gap_seen");
+  ASSERT_EQ(both.values().size(), 6u);
+  EXPECT_EQ(std::get<double>(both.values().front()), 0.0123);
+  EXPECT_TRUE(both.text(false).ends_with("; 3 m/s"));
+}
+
+TEST(Remark, StaysAsItWasPutIntoWords) {
+  Remark metres = gap_seen();
+  metres.put_into_words(false);
+  EXPECT_EQ(metres.text(true), gap_seen().text(false));
+  EXPECT_EQ(metres.code(), "gap_seen");
+  EXPECT_EQ(Remark::said("as [rad] {} stored").text(false), "as [rad] {} stored");
+  EXPECT_TRUE(Remark::said("").empty());
+  EXPECT_EQ(Remark().text(), "");
+}
+
+}  // namespace
+}  // namespace gapscope
