@@ -15,7 +15,6 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/require.h"
 #include "gapscope/diagnosis/diagnosis.h"
-#include "reference/rough_drive.h"
 
 namespace gapscope {
 namespace internal::diagnosis {

@@ -48,28 +48,31 @@ AngleSums angle_sums(std::span<const std::vector<double>> torques, std::span<con
   return sums;
 }
 
-Harmonic regress(const AngleSums& sums, double periods) {
-  double ss = 0.0, sc = 0.0, cc = 0.0, rs = 0.0, rc = 0.0;
-  const double first = periods * (sums.low + 0.5 * sums.width), turn = periods * sums.width;
+Harmonic regress(const AngleSums& angles, double periods) {
+  LineSums sums;
+  sums.square = angles.square;
+  const double first = periods * (angles.low + 0.5 * angles.width), turn = periods * angles.width;
   double s = std::sin(first), c = std::cos(first);
   const double ds = std::sin(turn), dc = std::cos(turn);
   for (std::size_t i = 0; i < kBins; ++i) {
-    const double w = sums.weight[i], p = sums.product[i];
-    ss += w * s * s, sc += w * s * c, cc += w * c * c;
-    rs += p * s, rc += p * c;
+    sums.add(s, c, angles.product[i], angles.weight[i]);
     const double next = s * dc + c * ds;
     c = c * dc - s * ds, s = next;
   }
-  const double determinant = ss * cc - sc * sc;
-  Harmonic line{periods};
-  if (determinant <= 1e-9 * ss * cc) return line;
-  line.sine = (rs * cc - rc * sc) / determinant;
-  line.cosine = (rc * ss - rs * sc) / determinant;
-  line.explained = (line.sine * rs + line.cosine * rc) / std::max(sums.square, 1e-300);
-  return line;
+  return sums.line(periods);
 }
 
 }  // namespace
+
+Harmonic LineSums::line(double periods) const {
+  const double determinant = ss * cc - sc * sc;
+  Harmonic line{periods};
+  if (determinant <= 1e-9 * ss * cc) return line;
+  line.sine = (ts * cc - tc * sc) / determinant;
+  line.cosine = (tc * ss - ts * sc) / determinant;
+  line.explained = (line.sine * ts + line.cosine * tc) / std::max(square, 1e-300);
+  return line;
+}
 
 std::vector<Harmonic> angle_spectrum(std::span<const std::vector<double>> torque,
                                      std::span<const MotorTrace> traces, double torque_constant) {

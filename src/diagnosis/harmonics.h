@@ -15,6 +15,20 @@ struct Harmonic {
   double explained = 0.0;  ///< share of the squared residual torque
 };
 
+/// The normal equations of a torque that is regressed on the sine and the cosine of one line.
+struct LineSums {
+  double ss = 0.0, sc = 0.0, cc = 0.0;  ///< Σ weight s², Σ weight s c, Σ weight c²
+  double ts = 0.0, tc = 0.0;            ///< Σ torque s, Σ torque c
+  double square = 0.0;                  ///< Σ torque²
+
+  void add(double s, double c, double torque, double weight = 1.0) {
+    ss += weight * s * s, sc += weight * s * c, cc += weight * c * c;
+    ts += torque * s, tc += torque * c;
+  }
+  /// The line at N; without amplitudes where sine and cosine cannot be told apart.
+  Harmonic line(double periods) const;
+};
+
 /// The residual torque over the motor angle, line by line: regression on a grid of N from three quarters of a
 /// cycle to hundreds over the travel, in rising order.
 /// @param torque one series per recording [N m]

@@ -13,6 +13,7 @@
 #include "gapscope/base/require.h"
 #include "gapscope/simulation/simulate.h"
 #include "reference/rollout.h"
+#include "signals/encoder.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
@@ -150,7 +151,8 @@ NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& 
                                const ExperimentLimits& limits, double observer_hz, int threads) {
   using namespace internal::diagnosis;
   GAPSCOPE_REQUIRE(rivals.size() >= 2);
-  const double floor = internal::reference::encoder_floor(like), counts = like.quantum / std::sqrt(12.0);
+  const double floor = internal::signals::encoder_floor(like),
+               counts = internal::signals::rounding_noise(like.quantum);
   const auto samples = static_cast<std::size_t>(limits.duration / like.dt);
   const Bench bench{rivals, like, std::sqrt(std::max(0.0, floor * floor - counts * counts)), observer_hz,
                     samples};

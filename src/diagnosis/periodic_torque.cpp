@@ -53,30 +53,12 @@ Waves waves_of(const MotorTrace& trace, double periods) {
   return w;
 }
 
-/// Sums of a torque against both waves.
-class Regression {
- public:
-  void add(const Waves& w, const Values& torque, std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      const double s = w.sine[i], c = w.cosine[i], t = torque[i];
-      ss_ += s * s, sc_ += s * c, cc_ += c * c;
-      ts_ += t * s, tc_ += t * c, square_ += t * t;
-    }
+void add(const Waves& w, const Values& torque, std::size_t from, std::size_t to, LineSums& sums) {
+  for (std::size_t i = from; i < to; ++i) {
+    sums.add(w.sine[i], w.cosine[i], torque[i]);
+    sums.square += torque[i] * torque[i];
   }
-
-  Harmonic line(double periods) const {
-    Harmonic line{periods};
-    const double determinant = ss_ * cc_ - sc_ * sc_;
-    if (determinant <= 1e-9 * ss_ * cc_) return line;
-    line.sine = (ts_ * cc_ - tc_ * sc_) / determinant;
-    line.cosine = (tc_ * ss_ - ts_ * sc_) / determinant;
-    line.explained = (line.sine * ts_ + line.cosine * tc_) / std::max(square_, 1e-300);
-    return line;
-  }
-
- private:
-  double ss_ = 0.0, sc_ = 0.0, cc_ = 0.0, ts_ = 0.0, tc_ = 0.0, square_ = 0.0;
-};
+}
 
 bool improves(const Harmonic& line, const Waves& w, const Values& torque, std::size_t from, std::size_t to) {
   double before = 0.0, after = 0.0;
@@ -132,9 +114,9 @@ std::vector<Values> ripples_of(const std::vector<Playback>& playbacks) {
 }
 
 TorqueLine fitted_line(std::span<const Values> torque, std::span<const MotorTrace> traces, double periods) {
-  Regression sums;
+  LineSums sums;
   for (std::size_t r = 0; r < traces.size(); ++r)
-    sums.add(waves_of(traces[r], periods), torque[r], 0, torque[r].size());
+    add(waves_of(traces[r], periods), torque[r], 0, torque[r].size(), sums);
   return {sums.line(periods), kNaN};
 }
 
@@ -166,9 +148,9 @@ LineCheck check_line(double periods, std::span<const Values> torque, const HeldO
     const std::size_t restart = held_out.restart(r), half = restart / 2;
     const std::size_t from = (held_out.scored_from[r] + restart) / restart * restart;
     const std::size_t windows = torque[r].size() > from ? (torque[r].size() - from) / half : 0;
-    Regression every_other[2];
+    LineSums every_other[2];
     for (std::size_t k = 0; k < windows; ++k)
-      every_other[k % 2].add(w, torque[r], from + k * half, from + (k + 1) * half);
+      add(w, torque[r], from + k * half, from + (k + 1) * half, every_other[k % 2]);
     for (std::size_t k = 0; k < windows; ++k) {
       const Harmonic line = every_other[1 - k % 2].line(periods);
       ++check.windows;

@@ -7,9 +7,6 @@
 
 namespace gapscope::internal::diagnosis {
 
-/// Samples from one period of the input to the next; 0 if it does not repeat at least twice.
-std::size_t repeated_after(const MotorTrace& trace);
-
 /// What a drive that is driven alike leaves of an error that a model could explain: its rms difference from
 /// one period to the next, over √2 (the model's own error, however large, is the same in both).
 struct Repeatability {

@@ -12,7 +12,7 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/require.h"
-#include "reference/rough_drive.h"
+#include "signals/one_body.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
@@ -47,7 +47,7 @@ std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judge
                                                  std::span<const EffectEntry* const> entries) {
   const std::vector<Playback> playbacks = play_on_train(study, before.fitted.model);
   const std::vector<TorqueLine> standing = standing_lines(ripples_of(playbacks), study.train);
-  const reference::RoughDrive rough = reference::rough_drive(study.train);
+  const signals::OneBody rough = signals::as_one_body(study.train);
   const double km = before.fitted.model.parameters[place::kTorqueConstant].value;
   std::vector<std::vector<EffectStart>> starts;
   for (const EffectEntry* entry : entries) {

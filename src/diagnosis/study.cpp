@@ -2,8 +2,9 @@
 #include <cmath>
 
 #include "diagnosis/pipeline.h"
-#include "diagnosis/repeatability.h"
 #include "gapscope/base/require.h"
+#include "signals/encoder.h"
+#include "signals/period.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -46,7 +47,7 @@ double coarser_quantum(const std::vector<MotorTrace>& traces) {
 /// Of a recording whose counts are coarser than the sheet's the floor is the sheet's: they are what is
 /// missing.
 double floor_of(const MotorTrace& t, bool coarser) {
-  return coarser ? t.quantum / std::sqrt(12.0) : reference::encoder_floor(t);
+  return coarser ? signals::rounding_noise(t.quantum) : signals::encoder_floor(t);
 }
 
 }  // namespace
@@ -64,7 +65,8 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
   study.seen_quantum = coarser_quantum(study.held_out.traces);
   for (const MotorTrace& t : study.held_out.traces)
     study.held_out.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
-  for (const MotorTrace& t : study.held_out.traces) study.held_out.periods.push_back(repeated_after(t));
+  for (const MotorTrace& t : study.held_out.traces)
+    study.held_out.periods.push_back(signals::rough_period(t));
   for (const std::string& name : options.excluded) GAPSCOPE_REQUIRE(find_effect(name) != nullptr);
   for (const EffectEntry* entry : effect_table())
     if (std::find(options.excluded.begin(), options.excluded.end(), entry->name) == options.excluded.end())
@@ -100,7 +102,7 @@ HeldOut fitted_as_held_out(const Study& study) {
   all.scored_from.assign(all.traces.size(), 0);
   for (const MotorTrace& t : all.traces) {
     all.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
-    all.periods.push_back(repeated_after(t));
+    all.periods.push_back(signals::rough_period(t));
   }
   return all;
 }

@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "inspection/rules.h"
+#include "signals/noise.h"
 
 namespace gapscope::internal::inspection {
 namespace {
@@ -156,7 +157,7 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
   const Samples u = m.rows.u;
   const auto [low, high] = extremes(u);
   facts.input_peak = std::max(std::abs(low), std::abs(high));
-  facts.input_noise = sliding_mode::noise_from_differences(u);
+  facts.input_noise = signals::noise_from_differences(u);
   if (low == high)
     return {"input", Severity::kSpoils, fmt::format("u is {:.4g} all the time", low),
             "record what drives the motor while it moves"};

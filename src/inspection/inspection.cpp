@@ -10,6 +10,7 @@
 #include "gapscope/recording/recording_file.h"
 #include "inspection/rules.h"
 #include "recording/resample.h"
+#include "signals/encoder.h"
 
 namespace gapscope {
 namespace {
@@ -37,19 +38,8 @@ double grid_rate(const RecordedRows& rows) {
   return std::min(1.0 / median(std::move(steps)), 4.0 / internal::recording::mean_step(rows));
 }
 
-/// The step of the encoder; where it is seen too rarely to be counted, the smallest one there is.
-double quantum_of(const std::vector<double>& x1) {
-  constexpr double kMostlyStill = 0.95;
-  if (const double q = seen_quantum(x1); q > 0.0) return q;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < x1.size(); ++i)
-    if (x1[i] != x1[i - 1]) steps.push_back(std::abs(x1[i] - x1[i - 1]));
-  const double still = 1.0 - static_cast<double>(steps.size()) / static_cast<double>(x1.size());
-  return steps.empty() || still < kMostlyStill ? 0.0 : *std::min_element(steps.begin(), steps.end());
-}
-
 Recording on_grid(RecordedRows rows, const ReadOptions& options) {
-  const double quantum = quantum_of(rows.x1);
+  const double quantum = internal::signals::quantum_or_least_step(rows.x1);
   Recording r = options.resample_rate ? internal::recording::resample(rows, *options.resample_rate)
                 : internal::recording::is_uniform(rows)
                     ? internal::recording::uniform_recording(RecordedRows(rows))
@@ -119,7 +109,7 @@ Inspection inspect(const std::string& path, const ReadOptions& options, bool rot
   m.recording = on_grid(m.rows, options);
   m.resampled = options.resample_rate.has_value();
   m.rotation = rotation;
-  m.signal = internal::sliding_mode::read_facts(m.recording.motor_trace());
+  m.signal = internal::signals::read_facts(m.recording.motor_trace());
   Inspection inspection;
   inspection.file = path;
   inspection.rotation = rotation;

@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/sliding_mode/gap_estimate.h"
 #include "inspection/rules.h"
-#include "sliding_mode/folding.h"
+#include "signals/encoder.h"
+#include "signals/period.h"
 
 namespace gapscope::internal::inspection {
 namespace {
 
 using Samples = std::span<const double>;
 
-constexpr double kFewestQuanta = 1.5 * kFewestGapQuanta;  ///< of travel
-constexpr double kFewQuanta = 400.0;                      ///< of travel, below which most gaps are too small
-constexpr double kRest = 0.02;                            ///< shortest standstill that counts [s]
+constexpr double kFewestQuanta = 1.5 * signals::kFewestGapQuanta;  ///< of travel
+constexpr double kFewQuanta = 400.0;  ///< of travel, below which most gaps are too small
+constexpr double kRest = 0.02;        ///< shortest standstill that counts [s]
 constexpr double kSlow = 5.0;   ///< … in times that the rms speed takes for what still counts as one place
 constexpr double kStill = 2.0;  ///< quanta, or 4 σ, that x1 may move in it
 constexpr double kFewestRepeats = 3.0;  ///< of the input, for repeatability
@@ -69,7 +69,7 @@ Finding check_travel(const Material& m, RecordingFacts& facts) {
 }
 
 Finding check_periods(const Material& m, RecordingFacts& facts) {
-  const sliding_mode::SignalFacts& s = m.signal;
+  const signals::SignalFacts& s = m.signal;
   facts.half_periods = static_cast<int>(s.half_periods);
   if (s.half_periods > 0) facts.period = 2.0 * s.half_period;
   if (!s.defect.empty())
@@ -111,7 +111,7 @@ Finding check_rest(const Material& m, RecordingFacts& facts) {
 }
 
 Finding check_repeats(const Material& m, RecordingFacts& facts) {
-  const double period = sliding_mode::input_period(m.recording.motor_trace(), kFewestRepeats);
+  const double period = signals::exact_period(m.recording.motor_trace(), kFewestRepeats);
   if (period > 0.0) facts.input_period = period;
   const double third = m.recording.duration() / 3.0;
   if (third < kShortHeldOut)

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <span>
 
-#include "gapscope/sliding_mode/gap_estimate.h"
 #include "inspection/rules.h"
+#include "signals/encoder.h"
 
 namespace gapscope::internal::inspection {
 namespace {
@@ -19,8 +19,7 @@ constexpr double kFastestRotation = 3000.0;  ///< no motor turns faster [rad/s]
 constexpr double kFastestSlide = 50.0;       ///< no axis moves faster [m/s]
 constexpr double kJump = 10.0;               ///< step over those around it
 constexpr double kSmallestJump = 20.0;       ///< … and over the noise of one position
-constexpr double kFastStep = 3.0;            ///< quanta per sample at which no sample should stand still
-constexpr double kMostHeld = 0.3;            ///< share of samples that stand still all the same
+constexpr double kMostHeld = 0.3;  ///< share of samples of fast motion that stand still all the same
 
 /// Counts per turn that encoders are made with, beside the powers of two.
 constexpr std::array kDecimalCounts = {1000.0, 2000.0,  2500.0,  4000.0,  5000.0,
@@ -78,26 +77,6 @@ std::vector<std::size_t> jumps(const Material& m) {
   return found;
 }
 
-/// Share of the samples of fast motion in which x1 stands still, and how many come between two that move.
-struct HeldSamples {
-  double share = 0.0, every = 1.0;
-};
-
-HeldSamples held(const Material& m) {
-  constexpr std::size_t kReach = 8;
-  const Samples x = m.recording.x1;
-  const double least = kFastStep * m.recording.quantum;
-  std::size_t fast = 0, still = 0;
-  for (std::size_t i = kReach; i + kReach < x.size(); ++i) {
-    if (std::abs(x[i + kReach] - x[i - kReach]) < 2.0 * kReach * least) continue;
-    ++fast;
-    still += x[i] == x[i - 1];
-  }
-  if (fast < 100) return {};
-  const double share = static_cast<double>(still) / static_cast<double>(fast);
-  return {share, 1.0 / (1.0 - std::min(share, 0.999))};
-}
-
 }  // namespace
 
 Finding check_position_unit(const Material& m, RecordingFacts&) {
@@ -143,7 +122,7 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
           fmt::format("x1 steps by {:.4g} {}{}, noise {:.2g} steps; a gap below {:.3g} {} (40 steps) is too "
                       "coarse for the detector",
                       q, m.unit(), m.rotation ? fmt::format(" ({:.0f} per turn)", per_turn) : "", noise / q,
-                      kFewestGapQuanta * q, m.unit()),
+                      signals::kFewestGapQuanta * q, m.unit()),
           ""};
 }
 
@@ -162,7 +141,7 @@ Finding check_jumps(const Material& m, RecordingFacts&) {
 }
 
 Finding check_hold(const Material& m, RecordingFacts&) {
-  const HeldSamples h = held(m);
+  const signals::HeldSamples h = signals::held_samples(m.recording.motor_trace());
   if (h.share < kMostHeld) return {"fresh samples", Severity::kFine, "x1 is read anew for every row", ""};
   const double rate = 1.0 / (m.recording.dt * h.every);
   return {"fresh samples", Severity::kSpoils,

@@ -8,16 +8,16 @@
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/recording/recording.h"
 #include "recording/recorded_rows.h"
-#include "sliding_mode/signal_facts.h"
+#include "signals/signal_facts.h"
 
 namespace gapscope::internal::inspection {
 
 /// A recording as it is looked at.
 struct Material {
-  recording::RecordedRows rows;      ///< as they stand in the file
-  Recording recording;               ///< the same on a uniform grid
-  sliding_mode::SignalFacts signal;  ///< of its x1
-  bool resampled = false;            ///< on request: irregular time is taken care of
+  recording::RecordedRows rows;  ///< as they stand in the file
+  Recording recording;           ///< the same on a uniform grid
+  signals::SignalFacts signal;   ///< of its x1
+  bool resampled = false;        ///< on request: irregular time is taken care of
   bool rotation = true;
   const char* unit() const { return rotation ? "rad" : "m"; }
   bool moves() const { return signal.speed_rms > 0.0; }

@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "inspection/rules.h"
-#include "reference/rough_drive.h"
-#include "sliding_mode/torque_cycles.h"
+#include "signals/noise.h"
+#include "signals/one_body.h"
+#include "signals/torque_cycles.h"
 
 namespace gapscope::internal::inspection {
 namespace {
@@ -41,9 +42,7 @@ double explaining_delay(const Material& m, double cosine) {
 
 /// The fast part of a signal, outliers drawn in, of unit power; empty if there is none.
 std::vector<double> fast_part(Samples y) {
-  std::vector<double> d;
-  for (std::size_t i = 4; i < y.size(); ++i)
-    d.push_back(y[i] - 4.0 * y[i - 1] + 6.0 * y[i - 2] - 4.0 * y[i - 3] + y[i - 4]);
+  std::vector<double> d = signals::fourth_differences(y);
   const double width = 3.0 * robust_std(d),
                least = 1e-9 * (*std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
   if (!(width > least)) return {};
@@ -94,10 +93,10 @@ Finding check_sign(const Material& m, RecordingFacts& facts) {
 Finding check_scale(const Material& m, RecordingFacts& facts) {
   const MotorTrace trace = m.recording.motor_trace();
   if (!m.moves()) return {"scale of u", Severity::kNote, "cannot be told without motion", "see travel"};
-  if (sliding_mode::torque_cycles(trace).following > kFollows)
+  if (signals::torque_cycles(trace).following > kFollows)
     return {"scale of u", Severity::kFine,
             "x1 goes with u, as against a locked output: it says nothing about the inertia", ""};
-  const reference::RoughDrive rough = reference::rough_drive(std::span(&trace, 1));
+  const signals::OneBody rough = signals::as_one_body(std::span(&trace, 1));
   facts.inertia = rough.inertia, facts.damping = rough.damping, facts.friction = rough.friction;
   const char* const units = m.rotation ? "kg m^2, N m s, N m" : "kg, N s/m, N";
   const std::string inertia =

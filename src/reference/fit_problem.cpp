@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "signals/encoder.h"
 
 namespace gapscope::internal::reference {
 namespace {
@@ -15,7 +16,8 @@ constexpr double kVisible = 2.0;
 constexpr double kStiffest = 6.0;
 
 /// The size that each number probably has, from the balance of the recordings and the numbers that are given.
-std::array<double, kDriveParameterCount> suggested(const RoughDrive& rough, const ReferenceModel& model) {
+std::array<double, kDriveParameterCount> suggested(const signals::OneBody& rough,
+                                                   const ReferenceModel& model) {
   const auto given = [&](int n, double otherwise) {
     const double v = model.parameters[static_cast<std::size_t>(n)].value;
     return v > 0.0 ? v : otherwise;
@@ -43,7 +45,7 @@ std::array<double, kDriveParameterCount> suggested(const RoughDrive& rough, cons
   return s;
 }
 
-Interval derived_bounds(int number, double start, double suggestion, const RoughDrive& rough) {
+Interval derived_bounds(int number, double start, double suggestion, const signals::OneBody& rough) {
   switch (number) {
     case kGap:
       return {0.0, std::max(rough.travel, 1e-12)};
@@ -100,7 +102,7 @@ void set_bounds(Parameter& p, const ParameterSetting& setting, const Interval& d
 }
 
 Parameter drive_number(int number, const ParameterSetting& setting, double suggestion, double most,
-                       const RoughDrive& rough) {
+                       const signals::OneBody& rough) {
   Parameter p = start_parameter(number, setting, suggestion);
   p.key = kDriveParameters[number].key;
   p.unit = kDriveParameters[number].unit;
@@ -213,8 +215,8 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   problem.recordings = recordings;
   problem.structure = model.structure;
   problem.options = options;
-  problem.rough = rough_drive(recordings);
-  for (const MotorTrace& r : recordings) problem.floors.push_back(encoder_floor(r));
+  problem.rough = signals::as_one_body(recordings);
+  for (const MotorTrace& r : recordings) problem.floors.push_back(signals::encoder_floor(r));
   const std::array<double, kDriveParameterCount> sizes = suggested(problem.rough, model);
   add_drive(problem, model, sizes);
   add_effects(problem, model, scales(problem, sizes));

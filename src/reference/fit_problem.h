@@ -8,7 +8,7 @@
 #include "gapscope/reference/fit.h"
 #include "gapscope/simulation/stepper.h"
 #include "reference/coordinate.h"
-#include "reference/rough_drive.h"
+#include "signals/one_body.h"
 
 namespace gapscope::internal::reference {
 
@@ -54,7 +54,7 @@ struct FitProblem {
   std::span<const MotorTrace> recordings;
   DriveStructure structure;
   FitOptions options;
-  RoughDrive rough;
+  signals::OneBody rough;
   std::vector<double> floors;         ///< per recording [rad]
   std::vector<Parameter> parameters;  ///< all of the structure, in the order of the keys
   std::vector<int> free;              ///< indices of the estimated ones

@@ -5,6 +5,7 @@
 
 #include "gapscope/base/random.h"
 #include "reference/excerpt.h"
+#include "signals/local_motion.h"
 
 namespace gapscope::internal::reference {
 namespace {
@@ -63,7 +64,7 @@ Solution start_point(const FitProblem& problem, std::vector<double> q) {
   const double length = std::max(gap, 1e-3 * problem.rough.travel);
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
     const double floor = problem.floors[r];
-    const LocalMotion motion = local_motion(problem.recordings[r], floor);
+    const signals::LocalMotion motion = signals::local_motion(problem.recordings[r], floor);
     RecordingStart start;
     start.x1 = motion.x;
     start.moves = std::abs(motion.w) > std::max(4.0 * motion.w_std, 1e-3 * problem.rough.speed);

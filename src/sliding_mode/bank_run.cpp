@@ -14,7 +14,7 @@ constexpr std::size_t kSurrogate = 3000;  // samples
 constexpr std::size_t kSettle = 600;      // of them, not looked at
 
 /// A ramp of half the rms speed as this encoder would read it: what e is while nothing happens.
-std::vector<double> surrogate(const SignalFacts& facts, double dt) {
+std::vector<double> surrogate(const signals::SignalFacts& facts, double dt) {
   auto generator = random_stream(1, "surrogate of the chatter floor");
   const double q = facts.quantum;
   const double white = std::sqrt(std::max(facts.noise * facts.noise - q * q / 12.0, 0.0));
@@ -48,7 +48,7 @@ std::vector<double> column(const std::vector<double>& errors, std::size_t bounds
 }
 
 /// Mean speed over the first few samples, for a start without a long transient.
-double first_speed(const MotorTrace& trace, const SignalFacts& facts) {
+double first_speed(const MotorTrace& trace, const signals::SignalFacts& facts) {
   const auto m = std::clamp<std::size_t>(static_cast<std::size_t>(0.02 * facts.half_period / trace.dt), 1,
                                          trace.size() - 1);
   return (trace.x1[m] - trace.x1[0]) / (trace.dt * static_cast<double>(m));
@@ -69,7 +69,7 @@ std::size_t smallest_sliding(const BankRun& run) {
   return run.bounds.size() - 1;
 }
 
-std::vector<double> bound_grid(const SignalFacts& facts, double dt) {
+std::vector<double> bound_grid(const signals::SignalFacts& facts, double dt) {
   const double omega = std::sqrt(2.0) * facts.speed_rms / facts.amplitude;
   const double low = 0.15 * facts.amplitude * omega * omega;
   const double high = std::max(150.0 * low, 0.12 * facts.speed_rms / dt);
@@ -79,12 +79,12 @@ std::vector<double> bound_grid(const SignalFacts& facts, double dt) {
   return bounds;
 }
 
-BoundBank started_bank(const MotorTrace& trace, const SignalFacts& facts, std::span<const double> bounds,
-                       Discretisation discretisation) {
+BoundBank started_bank(const MotorTrace& trace, const signals::SignalFacts& facts,
+                       std::span<const double> bounds, Discretisation discretisation) {
   return started(trace.x1[0], first_speed(trace, facts), trace.dt, bounds, discretisation);
 }
 
-BankRun run_bank(const MotorTrace& trace, const SignalFacts& facts, std::vector<double> bounds,
+BankRun run_bank(const MotorTrace& trace, const signals::SignalFacts& facts, std::vector<double> bounds,
                  Discretisation discretisation) {
   BankRun run;
   run.bounds = std::move(bounds);

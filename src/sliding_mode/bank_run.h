@@ -5,7 +5,7 @@
 
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/bound_bank.h"
-#include "sliding_mode/signal_facts.h"
+#include "signals/signal_facts.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -20,13 +20,13 @@ struct BankRun {
 };
 
 /// Logarithmic grid of bounds for a motion: from what cannot slide to where chatter buries everything.
-std::vector<double> bound_grid(const SignalFacts& facts, double dt);
+std::vector<double> bound_grid(const signals::SignalFacts& facts, double dt);
 
 /// A bank as it stands just before the first sample of a recording.
-BoundBank started_bank(const MotorTrace& trace, const SignalFacts& facts, std::span<const double> bounds,
-                       Discretisation discretisation);
+BoundBank started_bank(const MotorTrace& trace, const signals::SignalFacts& facts,
+                       std::span<const double> bounds, Discretisation discretisation);
 
-BankRun run_bank(const MotorTrace& trace, const SignalFacts& facts, std::vector<double> bounds,
+BankRun run_bank(const MotorTrace& trace, const signals::SignalFacts& facts, std::vector<double> bounds,
                  Discretisation discretisation);
 
 /// Index of L_acc, the smallest bound that slides 80 % of the time; the highest one if none does.

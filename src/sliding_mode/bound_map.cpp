@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signals/signal_facts.h"
 #include "sliding_mode/bank_run.h"
-#include "sliding_mode/signal_facts.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -37,7 +37,7 @@ double middle_of_interest(const MotorTrace& trace, const GapEstimate& estimate) 
 }  // namespace
 
 std::optional<BoundMap> bound_map(const MotorTrace& trace, const GapEstimate& estimate) {
-  const SignalFacts facts = read_facts(trace);
+  const signals::SignalFacts facts = signals::read_facts(trace);
   if (!facts.defect.empty()) return std::nullopt;
   const double half = facts.half_period / trace.dt;
   const double shown = std::min(kHalfPeriods * half, static_cast<double>(trace.size()));

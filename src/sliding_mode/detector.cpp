@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signals/folding.h"
 #include "sliding_mode/bound_map.h"
-#include "sliding_mode/folding.h"
 #include "sliding_mode/frozen_search.h"
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/lost_motion.h"
@@ -151,7 +151,7 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
   std::vector<ImpactAnalysis> means;
   std::vector<double> intervals;
   for (const MotorTrace& recording : recordings) {
-    const internal::sliding_mode::FoldedMotion folded = internal::sliding_mode::fold(recording);
+    const internal::signals::FoldedMotion folded = internal::signals::fold(recording);
     if (folded.periods == 0) continue;
     means.push_back(internal::sliding_mode::analyse_mean(folded, recording));
     intervals.push_back(folded.dt);

@@ -48,7 +48,7 @@ FrozenSearch::FrozenSearch(std::string file, double start, double dt, double qua
       quantum_(quantum),
       most_kept_(most_kept),
       next_try_(kFirstTry) {
-  frozen_.facts.defect = read_facts({file_, start_, dt_, {}, {}, quantum_}).defect;  // too short
+  frozen_.facts.defect = signals::read_facts({file_, start_, dt_, {}, {}, quantum_}).defect;  // too short
 }
 
 MotorTrace FrozenSearch::window() const {
@@ -71,7 +71,7 @@ void FrozenSearch::push(double u, double x1) {
 
 bool FrozenSearch::try_to_learn() {
   const MotorTrace trace = window();
-  SignalFacts facts = read_facts(trace);
+  signals::SignalFacts facts = signals::read_facts(trace);
   const double moving = facts.half_period * static_cast<double>(facts.half_periods);
   if (facts.defect.empty() && moving < kMoving * dt_ * static_cast<double>(trace.size()))
     facts.defect = "no steady periodic motion yet: most of the time so far was rest or transient";
@@ -86,7 +86,7 @@ bool FrozenSearch::try_to_learn() {
   return true;
 }
 
-void FrozenSearch::learn(const SignalFacts& facts, const MotorTrace& trace) {
+void FrozenSearch::learn(const signals::SignalFacts& facts, const MotorTrace& trace) {
   const BankRun run = run_bank(trace, facts, bound_grid(facts, dt_), Discretisation::kMatched);
   frozen_.facts = facts;
   frozen_.bounds = run.bounds, frozen_.floor = run.floor, frozen_.quiet = run.quiet;

@@ -25,7 +25,7 @@ class TurnCounter {
 
 /// What the first two periods taught. Nothing of it changes afterwards.
 struct Frozen {
-  SignalFacts facts;
+  signals::SignalFacts facts;
   std::vector<double> bounds, floor, quiet;
   std::vector<double> visible;  ///< smallest gap that would show above each bound, one beyond the last [rad]
   std::size_t sliding = 0;      ///< index of L_acc
@@ -67,7 +67,7 @@ class FrozenSearch {
   };
 
   bool try_to_learn();
-  void learn(const SignalFacts& facts, const MotorTrace& trace);
+  void learn(const signals::SignalFacts& facts, const MotorTrace& trace);
   void go_on(double u, double x1);
   void read_core(std::size_t end);
   void keep(Transition passage, std::size_t mark);

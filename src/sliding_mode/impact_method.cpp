@@ -41,16 +41,16 @@ void search(const MotorTrace& trace, ImpactAnalysis& a) {
 
 ImpactAnalysis analyse(const MotorTrace& trace) {
   ImpactAnalysis a;
-  a.facts = read_facts(trace);
+  a.facts = signals::read_facts(trace);
   a.quantum = a.facts.quantum;
   search(trace, a);
   return a;
 }
 
-ImpactAnalysis analyse_mean(const FoldedMotion& mean, const MotorTrace& whole) {
+ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace& whole) {
   ImpactAnalysis a;
   const MotorTrace trace = mean.trace(whole.file);
-  a.facts = read_facts(trace, mean.noise);
+  a.facts = signals::read_facts(trace, mean.noise);
   a.facts.rounding = mean.rounding;
   a.quantum = mean.quantum;
   a.repeats = true;

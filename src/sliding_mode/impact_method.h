@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "gapscope/sliding_mode/gap_estimate.h"
-#include "sliding_mode/folding.h"
+#include "signals/folding.h"
 #include "sliding_mode/transition.h"
 
 namespace gapscope::internal::sliding_mode {
 
 /// Everything that the bank of bounds found in one recording.
 struct ImpactAnalysis {
-  SignalFacts facts;
+  signals::SignalFacts facts;
   BankRun run;
   std::size_t marks = 0;             ///< main events
   std::vector<Transition> passages;  ///< the first main event after each change of sign
@@ -25,7 +25,7 @@ struct ImpactAnalysis {
 };
 
 ImpactAnalysis analyse(const MotorTrace& trace);
-ImpactAnalysis analyse_mean(const FoldedMotion& mean, const MotorTrace& whole);
+ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace& whole);
 
 /// A passage as it is told.
 GapEvent event_of(const Transition& passage);

@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "gapscope/base/statistics.h"
-#include "sliding_mode/signal_facts.h"
-#include "sliding_mode/torque_cycles.h"
+#include "signals/signal_facts.h"
+#include "signals/torque_cycles.h"
 #include "sliding_mode/words.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -31,7 +31,7 @@ struct Loop {
 struct Branch {
   double amplitude = 0.0;
   const MotorTrace* trace = nullptr;
-  const TorqueCycles* cycles = nullptr;
+  const signals::TorqueCycles* cycles = nullptr;
   std::size_t crossing = 0;
 };
 
@@ -50,10 +50,10 @@ struct TorqueLevel {
 };
 
 /// The play of each pair of zeros of the input, one after a positive and one after a negative half cycle.
-std::vector<Loop> loops_of(const MotorTrace& trace, const TorqueCycles& cycles) {
+std::vector<Loop> loops_of(const MotorTrace& trace, const signals::TorqueCycles& cycles) {
   std::vector<Loop> loops;
   for (std::size_t i = 1; i < cycles.crossings.size(); ++i) {
-    const ZeroCrossing &a = cycles.crossings[i - 1], &b = cycles.crossings[i];
+    const signals::ZeroCrossing &a = cycles.crossings[i - 1], &b = cycles.crossings[i];
     const double smaller = std::min(a.before, b.before), larger = std::max(a.before, b.before);
     if (a.rising == b.rising || larger > kSameLevel * smaller) continue;
     Loop loop{smaller, {}};
@@ -71,7 +71,7 @@ std::vector<Loop> loops_of(const MotorTrace& trace, const TorqueCycles& cycles) 
   return loops;
 }
 
-std::vector<Branch> branches_of(const MotorTrace& trace, const TorqueCycles& cycles) {
+std::vector<Branch> branches_of(const MotorTrace& trace, const signals::TorqueCycles& cycles) {
   std::vector<Branch> branches;
   for (std::size_t i = 0; i < cycles.crossings.size(); ++i)
     branches.push_back({std::min(cycles.crossings[i].before, cycles.crossings[i].after), &trace, &cycles, i});
@@ -102,7 +102,7 @@ void read_branches(TorqueLevel& level, const std::vector<Branch>& branches) {
   std::vector<double> flanks;              // the same of the last one: the loaded flank
   for (const Branch& b : branches) {
     if (!within(b.amplitude, 0.999 * level.amplitude)) continue;
-    const auto x = branch_positions(*b.trace, *b.cycles, b.crossing, 0.98 * level.amplitude, kBins);
+    const auto x = signals::branch_positions(*b.trace, *b.cycles, b.crossing, 0.98 * level.amplitude, kBins);
     if (x.empty()) continue;
     steps.emplace_back();
     for (std::size_t k = 0; k < kBins; ++k) steps.back().push_back(x[k + 1] - x[k]);
@@ -201,15 +201,15 @@ void decide_gap(const std::vector<TorqueLevel>& levels, double travel, GapEstima
 }  // namespace
 
 std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordings) {
-  std::vector<TorqueCycles> cycles;
+  std::vector<signals::TorqueCycles> cycles;
   std::vector<Loop> loops;
   std::vector<Branch> branches;
   double resolution = 0.0, travel = 0.0;
   cycles.reserve(recordings.size());  // branches point into it
   for (const MotorTrace& trace : recordings) {
-    cycles.push_back(torque_cycles(trace));
+    cycles.push_back(signals::torque_cycles(trace));
     if (cycles.back().following < kFollowing) return std::nullopt;
-    const SignalFacts facts = read_facts(trace);
+    const signals::SignalFacts facts = signals::read_facts(trace);
     if (!facts.moves()) return std::nullopt;
     resolution = std::max(resolution, facts.noise);
     travel = std::max(travel, facts.travel);

@@ -20,7 +20,7 @@ constexpr double kAbruptShare = 0.5;
 constexpr double kLatest = 0.15;
 
 /// The extremum that x1 leaves in this direction, within the last half period before t2.
-std::size_t reversal_before(const MotorTrace& trace, const SignalFacts& facts, int direction,
+std::size_t reversal_before(const MotorTrace& trace, const signals::SignalFacts& facts, int direction,
                             std::size_t to) {
   const auto reach = static_cast<std::size_t>(0.7 * facts.half_period / trace.dt);
   const std::size_t from = to > reach ? to - reach : 0;
@@ -58,8 +58,8 @@ std::size_t fallen(const BankRun& run, const Excursion& x, double share) {
 /// One ramp of e_x. At rest before it (S2): t1 is the last sample at rest, and e_x flips its sign at the
 /// impact. Away from zero since before the reversal of x1: t1 is where it bends away, and it loses half its
 /// height.
-Marks read_ramp(const MotorTrace& trace, const SignalFacts& facts, const BankRun& run, const Excursion& ramp,
-                std::size_t quiet_from, bool flips) {
+Marks read_ramp(const MotorTrace& trace, const signals::SignalFacts& facts, const BankRun& run,
+                const Excursion& ramp, std::size_t quiet_from, bool flips) {
   Marks marks{static_cast<double>(ramp.start), 0.0, "", false};
   const double quiet_samples = std::max(3.0, kQuietShare * facts.half_period / trace.dt);
   std::size_t down = fallen(run, ramp, 1.0);
@@ -76,7 +76,7 @@ Marks read_ramp(const MotorTrace& trace, const SignalFacts& facts, const BankRun
     marks.fault = "e_x does not reverse abruptly";
   if (marks.fault.empty()) marks.t2 = bend_before_peak(run, ramp, marks.t1);
   const double covered = ramp.sign * (at(trace.x1, marks.t2) - at(trace.x1, marks.t1));
-  if (marks.fault.empty() && covered < 8.0 * facts.noise + 2.0 * facts.quantum)
+  if (marks.fault.empty() && covered < facts.least_way())
     marks.fault = "x1 does not move along the gap from t1 to t2";
   return marks;
 }
@@ -113,7 +113,7 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
                              Discretisation discretisation) {
   PaperReading reading;
   reading.bound = bound;
-  const SignalFacts& facts = analysis.facts;
+  const signals::SignalFacts& facts = analysis.facts;
   if (!facts.defect.empty()) return reading;
   const BankRun run = run_bank(trace, facts, {bound}, discretisation);
   reading.quiet = run.quiet[0];

@@ -53,7 +53,7 @@ std::optional<double> least_top(std::span<const BankEvent> events, const BankRun
   std::vector<double> tops;
   for (const BankEvent& e : events)
     if (e.seen >= kPersistent) tops.push_back(run.bounds[e.top]);
-  if (tops.size() < kFewestHalfPeriods) return {};
+  if (tops.size() < signals::kFewestHalfPeriods) return {};
   std::sort(tops.rbegin(), tops.rend());
   return tops[std::min(half_periods, tops.size()) - 1] / 6.0;
 }

@@ -132,7 +132,7 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
   const Reversal reversal = find_reversal(context, t.event.direction, from, impact.start);
   t.event.t1 = trace.time(reversal.last);
   t.event.x1_t1 = reversal.position;
-  if (reversal.rise < 8.0 * context.facts.noise + 2.0 * context.facts.quantum) {
+  if (reversal.rise < context.facts.least_way()) {
     t.refusal = Refusal::kSmallRise;
     return t;
   }

@@ -6,8 +6,8 @@
 #include "gapscope/base/remark.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
+#include "signals/signal_facts.h"
 #include "sliding_mode/bank_run.h"
-#include "sliding_mode/signal_facts.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -43,7 +43,7 @@ struct Transition {
 /// What an impact is looked at with.
 struct TransitionContext {
   const MotorTrace& trace;
-  const SignalFacts& facts;
+  const signals::SignalFacts& facts;
   const BankRun& run;
 };
 

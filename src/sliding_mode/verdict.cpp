@@ -4,6 +4,7 @@
 #include <map>
 
 #include "gapscope/base/statistics.h"
+#include "signals/encoder.h"
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/visible_gap.h"
 #include "sliding_mode/words.h"
@@ -154,7 +155,7 @@ Remark objection(const Pool& pool) {
   if (only != 0 && moved > kLeastMoving * gap) return advice(Refusal::kLoadMoving);
   if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
     return advice(Refusal::kLoadMoving);
-  if (gap < kFewestGapQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
+  if (gap < signals::kFewestGapQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
   const double hidden = median_of(pool, &Transition::hidden);
   if (hidden > kMostHidden * gap) return words::soft_contact(100.0 * hidden / gap);
   return {};

@@ -25,7 +25,8 @@ std::size_t turn_between(std::span<const double> y, std::size_t first, std::size
 }
 
 /// Median speed at which the motor is `distance` away from its last reversal.
-double speed_away_from_reversals(const MotorTrace& trace, const SignalFacts& facts, double distance) {
+double speed_away_from_reversals(const MotorTrace& trace, const signals::SignalFacts& facts,
+                                 double distance) {
   const auto& y = trace.x1;
   const auto m = std::max<std::size_t>(1, static_cast<std::size_t>(0.01 * facts.half_period / trace.dt));
   std::vector<double> speeds;
@@ -41,14 +42,14 @@ double speed_away_from_reversals(const MotorTrace& trace, const SignalFacts& fac
 
 }  // namespace
 
-double smallest_visible_gap(const MotorTrace& trace, const SignalFacts& facts, const BankRun& run,
+double smallest_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts, const BankRun& run,
                             std::size_t hiding) {
   const std::size_t sliding = smallest_sliding(run);
   const std::size_t j = std::max(sliding, hiding);
   const double k2 = SuperTwistingGains::from_bound(run.bounds[j]).k2;
   const double slowest =
       kShare * std::sqrt(2.0 * run.floor[j] * k2 / 0.102);  // v of the least visible impact
-  double gap = std::max(slowest * slowest / run.bounds[sliding], 8.0 * facts.noise + 2.0 * facts.quantum);
+  double gap = std::max(slowest * slowest / run.bounds[sliding], facts.least_way());
   while (gap < 2.0 * facts.amplitude && speed_away_from_reversals(trace, facts, gap) < slowest) gap *= 1.1;
   return gap < 2.0 * facts.amplitude ? gap : kInfinity;
 }

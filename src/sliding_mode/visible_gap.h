@@ -1,8 +1,8 @@
 #pragma once
 
 #include "gapscope/recording/recording.h"
+#include "signals/signal_facts.h"
 #include "sliding_mode/bank_run.h"
-#include "sliding_mode/signal_facts.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -16,7 +16,7 @@ constexpr double kSmallestMassRatio = 0.3;
 /// estimates of the speed v at which a gap g would have been closed are taken, the slower one counts: v² =
 /// L_acc g, and the speed that the motor really has at the distance g from its reversals. Of v, an impact on
 /// a load at rest leaves Δv = (1 + e) μ/(1 + μ) v, with the smallest mass ratio μ and restitution e.
-double smallest_visible_gap(const MotorTrace& trace, const SignalFacts& facts, const BankRun& run,
+double smallest_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts, const BankRun& run,
                             std::size_t hiding);
 
 }  // namespace gapscope::internal::sliding_mode

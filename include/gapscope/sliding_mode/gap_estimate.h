@@ -17,9 +17,6 @@ const char* to_string(GapVerdict verdict);    ///< "not_run", "backlash", "none"
 const char* to_string(GapMethod method);      ///< "impact", "paper", "lost_motion"
 const char* to_string(GapQuantity quantity);  ///< "gap", "play_at_zero_torque"
 
-/// Encoder quanta in the smallest gap that is read.
-inline constexpr double kFewestGapQuanta = 40.0;
-
 /// One passage of the gap: contact lost at t1 (S3), regained at t2 (S4).
 struct GapEvent {
   std::string file;               ///< recording it was found in

@@ -1,12 +1,12 @@
-#include "sliding_mode/torque_cycles.h"
+#include "signals/torque_cycles.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
-#include "sliding_mode/signal_facts.h"
+#include "signals/noise.h"
 
-namespace gapscope::internal::sliding_mode {
+namespace gapscope::internal::signals {
 namespace {
 
 using Samples = std::span<const double>;
@@ -124,4 +124,4 @@ std::vector<double> branch_positions(const MotorTrace& trace, const TorqueCycles
   return positions;
 }
 
-}  // namespace gapscope::internal::sliding_mode
+}  // namespace gapscope::internal::signals

@@ -5,7 +5,7 @@
 
 #include "gapscope/recording/recording.h"
 
-namespace gapscope::internal::sliding_mode {
+namespace gapscope::internal::signals {
 
 /// An instant at which the input passes zero.
 struct ZeroCrossing {
@@ -35,4 +35,4 @@ TorqueCycles torque_cycles(const MotorTrace& trace);
 std::vector<double> branch_positions(const MotorTrace& trace, const TorqueCycles& cycles,
                                      std::size_t crossing, double amplitude, std::size_t bins);
 
-}  // namespace gapscope::internal::sliding_mode
+}  // namespace gapscope::internal::signals

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "gapscope/recording/recording.h"
 
-namespace gapscope::internal::sliding_mode {
+namespace gapscope::internal::signals {
 
 /// What the samples say about themselves, before any detection.
 struct SignalFacts {
@@ -23,19 +22,17 @@ struct SignalFacts {
   std::vector<std::size_t> crossings;  ///< of the centre, one per half stroke
   std::string defect;                  ///< why nothing can be detected here; empty if something can
 
-  bool moves() const {
-    return amplitude > 6.0 * noise && amplitude > 0.0;
-  }  ///< beyond the noise of the encoder
+  /// Beyond the noise of the encoder.
+  bool moves() const { return amplitude > 6.0 * noise && amplitude > 0.0; }
+  /// The way that is surely none of noise and counting: 8 σ + 2 quanta [rad].
+  double least_way() const { return 8.0 * noise + 2.0 * quantum; }
 };
 
 /// @param noise  of one sample where it is known better than from the samples (a mean of periods) [rad]; the
 ///               quantum is then taken to be averaged out.
 SignalFacts read_facts(const MotorTrace& trace, double noise = 0.0);
 
-/// σ of white noise on a signal, from fourth differences: smooth motion drops out.
-double noise_from_differences(std::span<const double> y);
-
 /// Fewest half periods that make a motion periodic.
 constexpr std::size_t kFewestHalfPeriods = 4;
 
-}  // namespace gapscope::internal::sliding_mode
+}  // namespace gapscope::internal::signals

@@ -1,4 +1,4 @@
-#include "reference/rough_drive.h"
+#include "signals/one_body.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,19 +6,12 @@
 #include <cmath>
 #include <vector>
 
-#include "gapscope/base/statistics.h"
+#include "signals/local_motion.h"
 
-namespace gapscope::internal::reference {
+namespace gapscope::internal::signals {
 namespace {
 
-constexpr double kSpeedWindow = 0.02;  ///< over which the slope of x1 is taken as the speed [s]
-constexpr std::size_t kFewestInWindow = 9;
 constexpr std::size_t kRows = 500;  ///< of the balance, per recording
-
-std::size_t window_of(const MotorTrace& r) {
-  const auto samples = static_cast<std::size_t>(std::lround(kSpeedWindow / r.dt));
-  return std::min(std::max(samples | 1U, kFewestInWindow), r.size() / 2);
-}
 
 /// Least-squares slope of x1 over n samples from `first`.
 double slope(const MotorTrace& r, std::size_t first, std::size_t n) {
@@ -40,7 +33,7 @@ struct Balance {
 
 Balance balance_of(const MotorTrace& r) {
   Balance b;
-  const std::size_t n = window_of(r);
+  const std::size_t n = speed_window(r);
   const std::size_t stride = std::max<std::size_t>(1, (r.size() - n) / kRows);
   double impulse = 0.0, direction = 0.0;
   std::size_t done = 0;
@@ -72,8 +65,8 @@ void centre(Balance& b) {
 
 }  // namespace
 
-RoughDrive rough_drive(std::span<const MotorTrace> recordings) {
-  RoughDrive rough;
+OneBody as_one_body(std::span<const MotorTrace> recordings) {
+  OneBody body;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   double squares = 0.0, count = 0.0;
@@ -81,7 +74,7 @@ RoughDrive rough_drive(std::span<const MotorTrace> recordings) {
     Balance b = balance_of(r);
     for (const auto& row : b.rows) {
       squares += row[0] * row[0];
-      rough.peak_speed = std::max(rough.peak_speed, std::abs(row[0]));
+      body.peak_speed = std::max(body.peak_speed, std::abs(row[0]));
     }
     count += static_cast<double>(b.rows.size());
     centre(b);
@@ -91,10 +84,10 @@ RoughDrive rough_drive(std::span<const MotorTrace> recordings) {
       right += row * b.impulse[i];
     }
     const auto [low, high] = std::minmax_element(r.x1.begin(), r.x1.end());
-    rough.travel = std::max(rough.travel, *high - *low);
-    for (const double u : r.u) rough.peak_input = std::max(rough.peak_input, std::abs(u));
+    body.travel = std::max(body.travel, *high - *low);
+    for (const double u : r.u) body.peak_input = std::max(body.peak_input, std::abs(u));
   }
-  rough.speed = std::sqrt(squares / std::max(1.0, count));
+  body.speed = std::sqrt(squares / std::max(1.0, count));
   const Eigen::Vector4d scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Eigen::Matrix4d scaled =
       scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
@@ -102,51 +95,10 @@ RoughDrive rough_drive(std::span<const MotorTrace> recordings) {
                                        .ldlt()
                                        .solve(right.cwiseQuotient(scale))
                                        .cwiseQuotient(scale);
-  rough.inertia = solution[0];
-  rough.damping = solution[1];
-  rough.friction = solution[2];
-  return rough;
+  body.inertia = solution[0];
+  body.damping = solution[1];
+  body.friction = solution[2];
+  return body;
 }
 
-namespace {
-
-/// Cubic over the first n samples (a drive at rest starts with t³ under an input that starts at zero);
-/// `misfit` is its rms residual.
-LocalMotion cubic(const MotorTrace& r, std::size_t samples, double floor, double& misfit) {
-  const auto n = static_cast<Eigen::Index>(samples);
-  Eigen::MatrixXd basis(n, 4);
-  Eigen::VectorXd x(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double t = static_cast<double>(i);
-    basis.row(i) << 1.0, t, t * t, t * t * t;
-    x[i] = r.x1[static_cast<std::size_t>(i)] - r.x1[0];
-  }
-  const Eigen::Matrix4d inverse = (basis.transpose() * basis).inverse();
-  const Eigen::Vector4d fitted = inverse * (basis.transpose() * x);
-  misfit = (x - basis * fitted).norm() / std::sqrt(static_cast<double>(n - 4));
-  return {r.x1[0] + fitted[0], fitted[1] / r.dt, std::sqrt(inverse(1, 1)) * floor / r.dt};
-}
-
-}  // namespace
-
-LocalMotion local_motion(const MotorTrace& r, double floor) {
-  LocalMotion motion;
-  for (std::size_t n = window_of(r);; n = std::max(2 * n / 3, kFewestInWindow)) {
-    double misfit = 0.0;
-    motion = cubic(r, n, floor, misfit);
-    if (misfit < 1.3 * floor || n <= kFewestInWindow) return motion;
-  }
-}
-
-double encoder_floor(const MotorTrace& r) {
-  std::vector<double> fourth;
-  fourth.reserve(r.size());
-  for (std::size_t i = 4; i < r.size(); ++i)
-    fourth.push_back((r.x1[i] - 4.0 * r.x1[i - 1] + 6.0 * r.x1[i - 2] - 4.0 * r.x1[i - 3] + r.x1[i - 4]) /
-                     std::sqrt(70.0));
-  const auto [low, high] = std::minmax_element(r.x1.begin(), r.x1.end());
-  const double quantised = r.quantum / std::sqrt(12.0);
-  return std::max({quantised, robust_std(fourth), 1e-9 * (*high - *low), 1e-15});
-}
-
-}  // namespace gapscope::internal::reference
+}  // namespace gapscope::internal::signals

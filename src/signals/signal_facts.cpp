@@ -1,4 +1,4 @@
-#include "sliding_mode/signal_facts.h"
+#include "signals/signal_facts.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
-#include "sliding_mode/folding.h"
+#include "signals/encoder.h"
+#include "signals/noise.h"
+#include "signals/period.h"
 
-namespace gapscope::internal::sliding_mode {
+namespace gapscope::internal::signals {
 namespace {
 
 constexpr double kFastest = 1e60;  ///< beyond it squares of accelerations leave the range of a double [rad/s]
@@ -48,7 +50,7 @@ std::vector<std::size_t> crossings(Samples y, double centre, double amplitude) {
 /// wander, and only what it does about that is periodic.
 std::vector<double> without_drift(const MotorTrace& trace) {
   std::vector<double> level(trace.x1.begin(), trace.x1.end());
-  const double period = input_period(trace, kFewestDriftPeriods);
+  const double period = exact_period(trace, kFewestDriftPeriods);
   const auto lag = static_cast<std::size_t>(std::lround(period / trace.dt));
   if (lag == 0) return level;
   std::vector<double> gains;
@@ -70,13 +72,6 @@ void read_period(const MotorTrace& trace, Samples level, SignalFacts& facts) {
 
 }  // namespace
 
-double noise_from_differences(Samples y) {
-  std::vector<double> d;  // Σ binomial(4, i)² = 70
-  for (std::size_t i = 4; i < y.size(); ++i)
-    d.push_back(std::abs(y[i] - 4.0 * y[i - 1] + 6.0 * y[i - 2] - 4.0 * y[i - 3] + y[i - 4]));
-  return 1.4826 * median(std::move(d)) / std::sqrt(70.0);
-}
-
 SignalFacts read_facts(const MotorTrace& trace, double noise) {
   SignalFacts facts;
   const Samples y = trace.x1;
@@ -84,8 +79,8 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
     facts.defect = "recording too short: record at least three periods of a periodic motion";
     return facts;
   }
-  if (noise <= 0.0) facts.quantum = trace.quantum > 0.0 ? trace.quantum : seen_quantum(y);
-  facts.noise = std::max({noise_from_differences(y), facts.quantum / std::sqrt(12.0), noise});
+  if (noise <= 0.0) facts.quantum = encoder_quantum(trace);
+  facts.noise = std::max({noise_from_differences(y), rounding_noise(facts.quantum), noise});
   const std::vector<double> level = without_drift(trace);
   const double low = quantile(level, 0.02), high = quantile(level, 0.98);
   const auto [least, most] = std::minmax_element(level.begin(), level.end());
@@ -110,4 +105,4 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
   return facts;
 }
 
-}  // namespace gapscope::internal::sliding_mode
+}  // namespace gapscope::internal::signals

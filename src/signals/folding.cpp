@@ -1,72 +1,18 @@
-#include "sliding_mode/folding.h"
+#include "signals/folding.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "signals/encoder.h"
+#include "signals/period.h"
 
-namespace gapscope::internal::sliding_mode {
+namespace gapscope::internal::signals {
 namespace {
 
-constexpr double kRepeats = 1e-3;      ///< share of the variance by which one period may differ from the next
-constexpr std::size_t kCoarse = 3000;  ///< samples of the search for the period
 constexpr std::size_t kFewestPeriods = 3;
 constexpr double kDithered =
     2.0;  ///< variance between periods, over that of rounding, from which on noise dithers
-
-double at(std::span<const double> u, double i) {
-  const auto k = static_cast<std::size_t>(i);
-  if (k + 1 >= u.size()) return u.back();
-  const double share = i - static_cast<double>(k);
-  return (1.0 - share) * u[k] + share * u[k + 1];
-}
-
-double variance(std::span<const double> u) {
-  const double m = mean(u);
-  double sum = 0.0;
-  for (const double v : u) sum += (v - m) * (v - m);
-  return sum / static_cast<double>(u.size());
-}
-
-/// Mean squared change over a lag [samples], over twice the variance.
-double change(std::span<const double> u, double lag, std::size_t stride, double var) {
-  double sum = 0.0;
-  std::size_t n = 0;
-  for (std::size_t i = 0; static_cast<double>(i) + lag < static_cast<double>(u.size() - 1);
-       i += stride, ++n) {
-    const double d = at(u, static_cast<double>(i) + lag) - u[i];
-    sum += d * d;
-  }
-  return n > 0 ? 0.5 * sum / (static_cast<double>(n) * var) : kInfinity;
-}
-
-/// Best lag in [low, high] by a grid that closes in.
-double refine(std::span<const double> u, double low, double high, std::size_t stride, double var) {
-  double best = 0.5 * (low + high), width = 0.5 * (high - low);
-  for (; width > 1e-4; width *= 0.5) {
-    const double centre = best;
-    double least = change(u, centre, stride, var);
-    for (const double lag : {centre - 0.5 * width, centre + 0.5 * width})
-      if (const double c = change(u, lag, stride, var); c < least) least = c, best = lag;
-  }
-  return best;
-}
-
-/// First lag at which the input repeats itself, within a few samples; 0 if none.
-double rough_period(std::span<const double> u, double most, double var) {
-  const std::size_t stride = std::max<std::size_t>(1, u.size() / kCoarse);
-  const double limit = 0.05;
-  bool away = false;
-  double best = 0.0, least = limit;
-  for (double lag = 1.0; lag < most; lag += static_cast<double>(stride)) {
-    const double c = change(u, lag, stride, var);
-    if (c > 0.3) away = true;
-    if (!away) continue;
-    if (c < least) least = c, best = lag;
-    if (best > 0.0 && c > 0.3) break;  // past the first return
-  }
-  return best;
-}
 
 /// x1 by period and phase.
 struct PeriodTable {
@@ -165,29 +111,12 @@ MotorTrace FoldedMotion::trace(const std::string& file) const {
   return {file, start, dt, tiled_u, tiled_x1, 0.0};
 }
 
-double input_period(const MotorTrace& trace, double fewest) {
-  const std::span<const double> u = trace.u;
-  if (u.size() < 200) return 0.0;
-  const double var = variance(u);
-  if (!(var > 0.0)) return 0.0;
-  const double n = static_cast<double>(u.size());
-  const double rough = rough_period(u, n / fewest, var);
-  if (rough <= 0.0) return 0.0;
-  const double stride = std::max(1.0, n / static_cast<double>(kCoarse));
-  const double near = refine(u, rough - 1.5 * stride, rough + 1.5 * stride, 1, var);
-  const double repeats =
-      std::floor((n - 2.0) / near) - 1.0;  // many periods apart: the same error counts less
-  const double lag = refine(u, repeats * near - 2.0, repeats * near + 2.0, 1, var);
-  if (change(u, lag / repeats, 1, var) > kRepeats) return 0.0;
-  return lag / repeats * trace.dt;
-}
-
 FoldedMotion fold(const MotorTrace& trace) {
   FoldedMotion f;
-  const double period = input_period(trace, static_cast<double>(kFewestPeriods + 1));
+  const double period = exact_period(trace, static_cast<double>(kFewestPeriods + 1));
   if (period <= 0.0) return f;
   PeriodTable table = tabulate(trace, period / trace.dt);
-  f.quantum = trace.quantum > 0.0 ? trace.quantum : seen_quantum(trace.x1);
+  f.quantum = encoder_quantum(trace);
   const std::size_t first = first_settled(table, f.quantum);
   if (table.rows.size() - first < kFewestPeriods) return f;
   f.periods = table.rows.size() - first;
@@ -202,9 +131,10 @@ FoldedMotion fold(const MotorTrace& trace) {
   for (std::size_t tile = 0; tile < FoldedMotion::kTiles; ++tile)
     for (std::size_t b = 0; b < f.mean.size(); ++b) {
       f.tiled_x1.push_back(f.mean[b]);
-      f.tiled_u.push_back(at(trace.u, origin + (static_cast<double>(b) + 0.5) * f.dt / trace.dt));
+      f.tiled_u.push_back(
+          between_samples(trace.u, origin + (static_cast<double>(b) + 0.5) * f.dt / trace.dt));
     }
   return f;
 }
 
-}  // namespace gapscope::internal::sliding_mode
+}  // namespace gapscope::internal::signals

@@ -5,7 +5,7 @@
 
 #include "gapscope/recording/recording.h"
 
-namespace gapscope::internal::sliding_mode {
+namespace gapscope::internal::signals {
 
 /// The mean period of a periodic recording, and the same laid end to end a few times.
 struct FoldedMotion {
@@ -22,12 +22,8 @@ struct FoldedMotion {
   MotorTrace trace(const std::string& file) const;
 };
 
-/// The period of the input [s], from the lag at which it repeats itself within 0.1 % of its variance; 0 if it
-/// does not, or fewer than `fewest` times.
-double input_period(const MotorTrace& trace, double fewest);
-
 /// Averages the periods of x1 that repeat each other. The sampling need not be a whole fraction of the
 /// period: every sample is carried to the middle of its bin along the local slope.
 FoldedMotion fold(const MotorTrace& trace);
 
-}  // namespace gapscope::internal::sliding_mode
+}  // namespace gapscope::internal::signals

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+
+#include "gapscope/recording/recording.h"
+
+namespace gapscope::internal::signals {
+
+/// Encoder quanta in the smallest gap that is read.
+constexpr double kFewestGapQuanta = 40.0;
+
+/// σ of what rounding to whole quanta does to a moving position: q/√12.
+double rounding_noise(double quantum);
+
+/// The quantum that a trace comes with, else the one its samples show; 0 if neither is known [rad].
+double encoder_quantum(const MotorTrace& trace);
+
+/// The quantum that raw samples show; where they step too rarely for it to be counted, the smallest step
+/// [rad].
+double quantum_or_least_step(std::span<const double> x1);
+
+/// What the encoder alone leaves: q/√12 of the quantum the trace comes with, or its noise if that is larger
+/// [rad]. Never 0.
+double encoder_floor(const MotorTrace& trace);
+
+/// Whether x1 is read anew for every row: the share of the samples of fast motion (three quanta a sample) in
+/// which it stands still, and how many rows come to one that moves. None stands still without fast motion.
+struct HeldSamples {
+  double share = 0.0, every = 1.0;
+};
+HeldSamples held_samples(const MotorTrace& trace);
+
+}  // namespace gapscope::internal::signals

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace gapscope::internal::signals {
+
+/// y[i] − 4 y[i−1] + 6 y[i−2] − 4 y[i−3] + y[i−4]: smooth motion drops out, of white noise of σ √70 σ is
+/// left.
+std::vector<double> fourth_differences(std::span<const double> y);
+
+/// σ of white noise on a signal: the median size of its fourth differences.
+double noise_from_differences(std::span<const double> y);
+
+/// The same, of their spread about their median: what they have in common is none of the noise.
+double noise_from_spread(std::span<const double> y);
+
+}  // namespace gapscope::internal::signals

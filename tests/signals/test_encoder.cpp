@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "independent_plant/simulate.h"
+#include "signals/encoder.h"
+#include "signals/periodic.h"
+
+namespace gapscope::internal::signals {
+namespace {
+
+using testing::Periodic;
+
+Recording rig(const independent_plant::BlindSensor& sensor) {
+  return independent_plant::simulate_blind({}, {}, sensor, {1000.0, 4.0, 1, 1e-10}).recording;
+}
+
+TEST(Encoder, TheFloorIsTheQuantisersOrTheNoisesWhicheverIsLarger) {
+  auto sensor = independent_plant::BlindSensor::with_bits(20);
+  const Recording clean = rig(sensor);
+  EXPECT_NEAR(encoder_floor(clean.motor_trace()), rounding_noise(clean.quantum), 0.3 * clean.quantum);
+  sensor.noise = 1e-4;  // fourth differences of white noise: their robust deviation is its rms
+  EXPECT_NEAR(encoder_floor(rig(sensor).motor_trace()), 1e-4, 5e-6);
+}
+
+TEST(Encoder, TheQuantumIsThatOfTheSheetElseTheOneThatShows) {
+  Periodic p;
+  MotorTrace trace = p.trace(6.0);
+  trace.quantum = 0.0;
+  EXPECT_NEAR(encoder_quantum(trace), 1e-3, 1e-12);
+  trace.quantum = 2e-3;
+  EXPECT_EQ(encoder_quantum(trace), 2e-3);
+}
+
+TEST(Encoder, OfAPositionThatHardlyMovesTheSmallestStepIsTheQuantum) {
+  std::vector<double> x1(2000, 0.0);
+  for (std::size_t i = 0; i < x1.size(); ++i)  // twenty places, each at a distance of its own from the last
+    for (std::size_t step = 1; step < 20; ++step)
+      if (i >= 100 * step) x1[i] += 0.01 * std::sqrt(static_cast<double>(step));
+  EXPECT_EQ(seen_quantum(x1), 0.0);
+  EXPECT_NEAR(quantum_or_least_step(x1), 0.01, 1e-12);
+}
+
+TEST(Encoder, SamplesThatAreReadInEveryThirdRowOnlyAreHeld) {
+  Periodic p;
+  p.quantum = 1e-5;
+  MotorTrace trace = p.trace(6.0);
+  EXPECT_LT(held_samples(trace).share, 0.01);
+  for (std::size_t i = 0; i < p.x1.size(); ++i) p.x1[i] = p.x1[i - i % 3];
+  EXPECT_NEAR(held_samples(trace).share, 2.0 / 3.0, 0.01);
+  EXPECT_NEAR(held_samples(trace).every, 3.0, 0.1);
+}
+
+TEST(Encoder, WithoutFastMotionNoSampleIsHeld) {
+  Periodic p;  // a millirad a count: never three of them in a sample
+  EXPECT_EQ(held_samples(p.trace(6.0)).share, 0.0);
+}
+
+}  // namespace
+}  // namespace gapscope::internal::signals

@@ -1,0 +1,34 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gapscope/base/random.h"
+#include "signals/noise.h"
+
+namespace gapscope::internal::signals {
+namespace {
+
+TEST(Noise, OfASmoothMotionIsThatOfItsSamplesInBothWays) {
+  auto generator = random_stream(1, "noise");
+  std::vector<double> y;
+  for (int i = 0; i < 20000; ++i) y.push_back(std::sin(0.01 * i) + 1e-4 * normal(generator));
+  // The median of n has a standard error of 1.2/√n of σ, and neighbours share samples.
+  EXPECT_NEAR(noise_from_differences(y), 1e-4, 0.03e-4);
+  EXPECT_NEAR(noise_from_spread(y), 1e-4, 0.03e-4);
+}
+
+TEST(Noise, WhatFourthDifferencesHaveInCommonIsNoiseToTheOneAndNoneToTheOther) {
+  std::vector<double> y;
+  for (int i = 0; i < 100; ++i) y.push_back(std::pow(i, 4));
+  for (const double d : fourth_differences(y)) EXPECT_EQ(d, 24.0);
+  EXPECT_NEAR(noise_from_differences(y), 1.4826 * 24.0 / std::sqrt(70.0), 1e-12);
+  EXPECT_EQ(noise_from_spread(y), 0.0);
+}
+
+TEST(Noise, OfLessThanFiveSamplesIsUnknown) {
+  const double y[] = {1.0, 2.0, 3.0, 4.0};
+  EXPECT_TRUE(std::isnan(noise_from_differences(y)));
+}
+
+}  // namespace
+}  // namespace gapscope::internal::signals
