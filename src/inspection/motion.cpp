@@ -6,7 +6,6 @@
 
 #include "inspection/rules.h"
 #include "signals/encoder.h"
-#include "signals/period.h"
 
 namespace gapscope::internal::inspection {
 namespace {
@@ -18,8 +17,7 @@ constexpr double kFewQuanta = 400.0;  ///< of travel, below which most gaps are 
 constexpr double kRest = 0.02;        ///< shortest standstill that counts [s]
 constexpr double kSlow = 5.0;   ///< … in times that the rms speed takes for what still counts as one place
 constexpr double kStill = 2.0;  ///< quanta, or 4 σ, that x1 may move in it
-constexpr double kFewestRepeats = 3.0;  ///< of the input, for repeatability
-constexpr double kShortHeldOut = 2.0;   ///< a third of the recording, below which little can be told [s]
+constexpr double kShortHeldOut = 2.0;  ///< a third of the recording, below which little can be told [s]
 
 struct Rest {
   int count = 0;
@@ -111,7 +109,7 @@ Finding check_rest(const Material& m, RecordingFacts& facts) {
 }
 
 Finding check_repeats(const Material& m, RecordingFacts& facts) {
-  const double period = signals::exact_period(m.recording.motor_trace(), kFewestRepeats);
+  const double period = m.signal.input_period;
   if (period > 0.0) facts.input_period = period;
   const double third = m.recording.duration() / 3.0;
   if (third < kShortHeldOut)

@@ -18,8 +18,6 @@ constexpr double kFastest = 1e60;  ///< beyond it squares of accelerations leave
 
 using Samples = std::span<const double>;
 
-constexpr double kFewestDriftPeriods = 3.0;  ///< of the input, for a drift to be told from the motion
-
 /// Root mean square of the speed, by differences wide enough that noise does not count.
 double rms_speed(Samples y, double dt, double noise, double amplitude) {
   for (std::size_t m = 1; m < y.size() / 8; m *= 2) {
@@ -48,9 +46,8 @@ std::vector<std::size_t> crossings(Samples y, double centre, double amplitude) {
 
 /// x1 less what it gains from one period of the input to the next: an unsymmetrical input makes a free motor
 /// wander, and only what it does about that is periodic.
-std::vector<double> without_drift(const MotorTrace& trace) {
+std::vector<double> without_drift(const MotorTrace& trace, double period) {
   std::vector<double> level(trace.x1.begin(), trace.x1.end());
-  const double period = exact_period(trace, kFewestDriftPeriods);
   const auto lag = static_cast<std::size_t>(std::lround(period / trace.dt));
   if (lag == 0) return level;
   std::vector<double> gains;
@@ -81,7 +78,8 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
   }
   if (noise <= 0.0) facts.quantum = encoder_quantum(trace);
   facts.noise = std::max({noise_from_differences(y), rounding_noise(facts.quantum), noise});
-  const std::vector<double> level = without_drift(trace);
+  facts.input_period = exact_period(trace, kFewestRepetitions);
+  const std::vector<double> level = without_drift(trace, facts.input_period);
   const double low = quantile(level, 0.02), high = quantile(level, 0.98);
   const auto [least, most] = std::minmax_element(level.begin(), level.end());
   facts.travel = *most - *least;

@@ -19,6 +19,7 @@ struct SignalFacts {
   double speed_rms = 0.0;    ///< [rad/s]
   double half_period = 0.0;  ///< median time between crossings of the centre [s]
   std::size_t half_periods = 0;
+  double input_period = 0.0;           ///< exact_period() of u [s]; 0: it has none
   std::vector<std::size_t> crossings;  ///< of the centre, one per half stroke
   std::string defect;                  ///< why nothing can be detected here; empty if something can
 
@@ -34,5 +35,8 @@ SignalFacts read_facts(const MotorTrace& trace, double noise = 0.0);
 
 /// Fewest half periods that make a motion periodic.
 constexpr std::size_t kFewestHalfPeriods = 4;
+
+/// Fewest periods of the input that tell a drift from the motion.
+constexpr double kFewestRepetitions = 3.0;
 
 }  // namespace gapscope::internal::signals

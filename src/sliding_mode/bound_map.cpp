@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signals/signal_facts.h"
 #include "sliding_mode/bank_run.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -36,8 +35,8 @@ double middle_of_interest(const MotorTrace& trace, const GapEstimate& estimate) 
 
 }  // namespace
 
-std::optional<BoundMap> bound_map(const MotorTrace& trace, const GapEstimate& estimate) {
-  const signals::SignalFacts facts = signals::read_facts(trace);
+std::optional<BoundMap> bound_map(const MotorTrace& trace, const signals::SignalFacts& facts,
+                                  const GapEstimate& estimate) {
   if (!facts.defect.empty()) return std::nullopt;
   const double half = facts.half_period / trace.dt;
   const double shown = std::min(kHalfPeriods * half, static_cast<double>(trace.size()));

@@ -14,6 +14,7 @@
 namespace gapscope {
 namespace {
 
+using internal::signals::SignalFacts;
 using internal::sliding_mode::ImpactAnalysis;
 using internal::sliding_mode::PaperReading;
 namespace words = internal::sliding_mode::words;
@@ -125,7 +126,9 @@ void keep_traces(std::span<const MotorTrace> recordings, std::span<const ImpactA
 }
 
 /// The map of the recording with the most accepted passages.
-void keep_map(std::span<const MotorTrace> recordings, const DetectorOptions& options, GapEstimate& estimate) {
+/// @param facts  one per recording
+void keep_map(std::span<const MotorTrace> recordings, std::span<const SignalFacts> facts,
+              const DetectorOptions& options, GapEstimate& estimate) {
   if (options.paper_bound > 0.0) estimate.paper_bound = options.paper_bound;
   std::size_t shown = 0;
   std::ptrdiff_t most = -1;
@@ -135,7 +138,8 @@ void keep_map(std::span<const MotorTrace> recordings, const DetectorOptions& opt
                       [&](const GapEvent& e) { return e.accepted && e.file == recordings[i].file; });
     if (accepted > most) most = accepted, shown = i;
   }
-  if (!recordings.empty()) estimate.map = internal::sliding_mode::bound_map(recordings[shown], estimate);
+  if (!recordings.empty())
+    estimate.map = internal::sliding_mode::bound_map(recordings[shown], facts[shown], estimate);
 }
 
 void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
@@ -166,6 +170,12 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
   analyses = std::move(means);
 }
 
+std::vector<SignalFacts> facts_of(std::span<const MotorTrace> recordings) {
+  std::vector<SignalFacts> facts;
+  for (const MotorTrace& recording : recordings) facts.push_back(internal::signals::read_facts(recording));
+  return facts;
+}
+
 /// As a stream would tell it.
 GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const DetectorOptions& options) {
   GapEstimate estimate;
@@ -179,7 +189,7 @@ GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const Detector
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
   estimate.bound_t1 = typical_bound(analyses, &ImpactAnalysis::sliding);
   keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
-  keep_map(recordings, options, estimate);
+  keep_map(recordings, facts_of(recordings), options, estimate);
   return estimate;
 }
 
@@ -188,29 +198,30 @@ GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const Detector
 GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOptions& options) {
   if (options.frozen && !(options.bound > 0.0)) return detect_frozen(recordings, options);
   GapEstimate estimate;
+  const std::vector<SignalFacts> facts = facts_of(recordings);
   std::vector<ImpactAnalysis> analyses;
   std::vector<double> intervals;
-  for (const MotorTrace& recording : recordings) {
-    analyses.push_back(internal::sliding_mode::analyse(recording));
-    intervals.push_back(recording.dt);
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    analyses.push_back(internal::sliding_mode::analyse(recordings[i], facts[i]));
+    intervals.push_back(recordings[i].dt);
   }
   if (options.bound > 0.0) {
     estimate = decide_paper(recordings, analyses, options.bound);
     if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
       estimate.reason += bounds_to_try(recordings, analyses);
     keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
-    keep_map(recordings, options, estimate);
+    keep_map(recordings, facts, options, estimate);
     return estimate;
   }
   internal::sliding_mode::decide_gap(analyses, intervals, estimate);
   if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
   if (estimate.verdict != GapVerdict::kBacklash)
-    if (auto quasi_static = internal::sliding_mode::read_lost_motion(recordings)) return *quasi_static;
+    if (auto quasi_static = internal::sliding_mode::read_lost_motion(recordings, facts)) return *quasi_static;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
   estimate.bound_t1 =
       bound_that_shows(recordings, analyses, estimate, typical_bound(analyses, &ImpactAnalysis::sliding));
   keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
-  keep_map(recordings, options, estimate);
+  keep_map(recordings, facts, options, estimate);
   if (options.paper_bound > 0.0 && estimate.verdict == GapVerdict::kBacklash)
     warn_of_paper_bound(recordings, analyses, options.paper_bound, estimate);
   return estimate;

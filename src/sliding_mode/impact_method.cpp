@@ -39,9 +39,9 @@ void search(const MotorTrace& trace, ImpactAnalysis& a) {
 
 }  // namespace
 
-ImpactAnalysis analyse(const MotorTrace& trace) {
+ImpactAnalysis analyse(const MotorTrace& trace, const signals::SignalFacts& facts) {
   ImpactAnalysis a;
-  a.facts = signals::read_facts(trace);
+  a.facts = facts;
   a.quantum = a.facts.quantum;
   search(trace, a);
   return a;

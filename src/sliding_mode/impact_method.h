@@ -24,7 +24,8 @@ struct ImpactAnalysis {
   bool repeats = false;     ///< one mean period again and again: its passages are no independent witnesses
 };
 
-ImpactAnalysis analyse(const MotorTrace& trace);
+/// @param facts  of this trace
+ImpactAnalysis analyse(const MotorTrace& trace, const signals::SignalFacts& facts);
 ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace& whole);
 
 /// A passage as it is told.

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "gapscope/base/statistics.h"
-#include "signals/signal_facts.h"
 #include "signals/torque_cycles.h"
 #include "sliding_mode/words.h"
 
@@ -200,19 +199,20 @@ void decide_gap(const std::vector<TorqueLevel>& levels, double travel, GapEstima
 
 }  // namespace
 
-std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordings) {
+std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordings,
+                                            std::span<const signals::SignalFacts> facts) {
   std::vector<signals::TorqueCycles> cycles;
   std::vector<Loop> loops;
   std::vector<Branch> branches;
   double resolution = 0.0, travel = 0.0;
   cycles.reserve(recordings.size());  // branches point into it
-  for (const MotorTrace& trace : recordings) {
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const MotorTrace& trace = recordings[i];
     cycles.push_back(signals::torque_cycles(trace));
     if (cycles.back().following < kFollowing) return std::nullopt;
-    const signals::SignalFacts facts = signals::read_facts(trace);
-    if (!facts.moves()) return std::nullopt;
-    resolution = std::max(resolution, facts.noise);
-    travel = std::max(travel, facts.travel);
+    if (!facts[i].moves()) return std::nullopt;
+    resolution = std::max(resolution, facts[i].noise);
+    travel = std::max(travel, facts[i].travel);
     for (Loop& loop : loops_of(trace, cycles.back())) loops.push_back(std::move(loop));
     for (const Branch& branch : branches_of(trace, cycles.back())) branches.push_back(branch);
   }

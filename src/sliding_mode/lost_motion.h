@@ -5,6 +5,7 @@
 
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
+#include "signals/signal_facts.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -25,6 +26,8 @@ namespace gapscope::internal::sliding_mode {
 /// apart.
 ///
 /// Nothing if a recording is not quasi-static, or has fewer than two loops at any level.
-std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordings);
+/// @param facts  one per recording
+std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordings,
+                                            std::span<const signals::SignalFacts> facts);
 
 }  // namespace gapscope::internal::sliding_mode

@@ -97,7 +97,8 @@ void print_table(const Setting& s) {
   for (const double dt : {0.05e-3, 0.1e-3, 0.4e-3, 1e-3}) {
     const independent_plant::BlindRun run = record(s, dt);
     const MotorTrace trace = run.recording.motor_trace();
-    const internal::sliding_mode::ImpactAnalysis analysis = internal::sliding_mode::analyse(trace);
+    const internal::sliding_mode::ImpactAnalysis analysis =
+        internal::sliding_mode::analyse(trace, internal::signals::read_facts(trace));
     const auto passages = passages_of(run.truth, 1.0 / s.frequency);
     for (const double bound : s.bounds) {
       fmt::print("| {} ms | {} |", 1e3 * dt, bound);

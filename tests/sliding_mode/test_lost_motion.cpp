@@ -138,14 +138,16 @@ TEST(LostMotion, AFreeLoadIsNotQuasiStatic) {
   const Recording recording =
       simulate_blind(free, sine, independent_plant::BlindSensor::with_bits(18), options).recording;
   const MotorTrace trace = recording.motor_trace();
-  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}));
+  const internal::signals::SignalFacts facts = internal::signals::read_facts(trace);
+  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}, {&facts, 1}));
 }
 
 TEST(LostMotion, ARecordingWithoutHalfCyclesHasNoLoop) {
   const std::vector<double> u(500, 0.1), x1(500, 0.2);
   const MotorTrace trace{"constant.csv", 0.0, 1e-3, u, x1, 0.0};
-  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}));
-  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({}));
+  const internal::signals::SignalFacts facts = internal::signals::read_facts(trace);
+  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}, {&facts, 1}));
+  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({}, {}));
 }
 
 TEST(LostMotion, DeniesNothingWhereTheMotorHardlyMoves) {
