@@ -1,52 +1,30 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
-#include "diagnosis/adjust.h"
 #include "diagnosis/effect_starts.h"
-#include "diagnosis/held_out.h"
+#include "diagnosis/fitted.h"
 
 namespace gapscope::internal::diagnosis {
 
-/// A model fitted to the training recordings, and the state that each of them begins with.
-struct Fitted {
-  FittedModel model;
-  std::vector<reference::RecordingStart> starts;
-  double mean_square = kInfinity;     ///< of the innovations [floor²]
-  std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
-};
-
-/// The nominal model, from the given values and, where needed, others.
-Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
-                   double observer_hz);
-
-/// The nominal model from the values of a fit to other recordings, and nowhere else.
-Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
-                double observer_hz, const Work& work = {8, 40, 1e-5});
-
-/// A point of the fitted model's parameters with its residuals and their derivatives there: what every
-/// candidate's race borrows, since a small effect hardly changes how the drive's own numbers act.
-struct Base {
-  std::vector<double> q;  ///< in the solver units of the fitted model
-  std::vector<Linear> recordings;
-};
-
-/// Bases at the fitted values and at those of the sheet; the latter is left out where the motion diverges.
-std::vector<Base> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,
-                           const ReferenceModel& sheet, const FitOptions& options, double observer_hz);
+/// Points of the fitted model's parameters with its residuals and their derivatives there: what every
+/// candidate's race borrows, since a small effect hardly changes how the drive's own numbers act. They lie at
+/// the fitted values and at those of the sheet; the latter is left out where the motion diverges.
+std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,
+                                       const ReferenceModel& sheet, const FitOptions& options,
+                                       double observer_hz);
 
 /// One effect added to a fitted model and everything refitted.
 ///
-/// Race: from every base and every start of the effect the drive's numbers are adjusted with the base's
-/// derivatives, by plain runs alone. The best go through refine().
+/// Its starts race from every base (see Race), and the best are refined.
 /// @param starts of the effect, in units of its scales; without any, or without a base, nothing is fitted and
 ///   the mean square stays infinite
 /// @param parent a fitted model with the simpler effect that this one contains as its last; may be nullptr
-Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal, std::span<const Base> bases,
-                     const EffectEntry& entry, std::span<const EffectStart> starts, const Fitted* parent,
-                     const FitOptions& options, double observer_hz);
+Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal,
+                     std::span<const FitLinearisation> bases, const EffectEntry& entry,
+                     std::span<const EffectStart> starts, const Fitted* parent, const FitOptions& options,
+                     double observer_hz);
 
 /// A fitted candidate once more, from where a faster observer's fit leads: that forgets sooner what came
 /// before, and there are fewer minima to end in.

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/rollout.h"
-#include "reference/starts.h"
+#include "gapscope/reference/observer.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr double kRestart = 0.5;       ///< [s]
 constexpr double kFewestRestarts = 8;  ///< short recordings are divided into so many
-constexpr Work kStateWork{3, 8, 1e-3};
+constexpr RefineEffort kStateEffort{3, 8, 1e-3};
 constexpr double kMostSquare = 1e12;  ///< of a window, in floors squared: as wrong as can be
 
 Mode mode_of(const DriveStepper<double>& stepper) {
@@ -35,35 +34,34 @@ double model_quantum(const PlantModel<double>& model) {
 
 bool play_scored(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                  std::size_t restart, double hz, Playback& out) {
-  const reference::ObserverGain gain = reference::ObserverGain::poles(hz, trace.dt);
+  const ObserverGain gain = ObserverGain::poles(hz, trace.dt);
   const double quantum = model_quantum(model);
   DriveStepper<double> runner(model, trace.dt);
   out.innovation.resize(trace.size());
   out.free.resize(trace.size());
   const auto [low, high] = std::minmax_element(trace.x1.begin(), trace.x1.end());
   const double lost = *high - *low;  // the error of a free run that diverges
-  return reference::roll_out(
-      model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
-        if (i % restart == 0) runner = observer;
-        out.innovation[i] = beyond_count(trace.x1[i] - observer.measured(), quantum);
-        out.free[i] = runner.healthy() ? beyond_count(trace.x1[i] - runner.measured(), quantum) : lost;
-        if (runner.healthy()) runner.step(trace.u[i]);
-      });
+  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+    if (i % restart == 0) runner = observer;
+    out.innovation[i] = beyond_count(trace.x1[i] - observer.measured(), quantum);
+    out.free[i] = runner.healthy() ? beyond_count(trace.x1[i] - runner.measured(), quantum) : lost;
+    if (runner.healthy()) runner.step(trace.u[i]);
+  });
 }
 
 bool play_slow(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
   const double quantum = model_quantum(model);
-  return reference::roll_out(model, start, trace, reference::ObserverGain::poles(kSlowHz, trace.dt),
-                             [&](std::size_t i, const DriveStepper<double>& observer) {
-                               out.slow.push_back(beyond_count(trace.x1[i] - observer.measured(), quantum));
-                             });
+  return roll_out(model, start, trace, ObserverGain::poles(kSlowHz, trace.dt),
+                  [&](std::size_t i, const DriveStepper<double>& observer) {
+                    out.slow.push_back(beyond_count(trace.x1[i] - observer.measured(), quantum));
+                  });
 }
 
 /// Residual torque of an observer's innovation.
 class ResidualTorque {
  public:
-  ResidualTorque(const PlantModel<double>& model, const reference::ObserverGain& gain, double dt)
+  ResidualTorque(const PlantModel<double>& model, const ObserverGain& gain, double dt)
       : motor_(model.drive.motor_inertia * gain.speed / dt), both_(motor_) {
     if (model.structure.has_load && model.structure.load == LoadKind::kFree)
       both_ *= 1.0 + model.drive.mass_ratio;
@@ -78,27 +76,25 @@ class ResidualTorque {
 
 bool play_fast(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
-  const reference::ObserverGain gain = reference::ObserverGain::poles(kFastHz, trace.dt);
+  const ObserverGain gain = ObserverGain::poles(kFastHz, trace.dt);
   const double quantum = model_quantum(model);
   const ResidualTorque torque(model, gain, trace.dt);
-  return reference::roll_out(
-      model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
-        const double e = beyond_count(trace.x1[i] - observer.measured(), quantum);
-        out.fast.push_back(e);
-        out.torque.push_back(torque(observer, e));
-        out.w1.push_back(observer.state().w1);
-        out.mode.push_back(model.structure.has_load ? mode_of(observer) : Mode::kEngagementPlus);
-      });
+  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+    const double e = beyond_count(trace.x1[i] - observer.measured(), quantum);
+    out.fast.push_back(e);
+    out.torque.push_back(torque(observer, e));
+    out.w1.push_back(observer.state().w1);
+    out.mode.push_back(model.structure.has_load ? mode_of(observer) : Mode::kEngagementPlus);
+  });
 }
 
 bool play_ripple(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                  Playback& out) {
-  const reference::ObserverGain gain = reference::ObserverGain::poles(ripple_hz(trace.dt), trace.dt);
+  const ObserverGain gain = ObserverGain::poles(ripple_hz(trace.dt), trace.dt);
   const ResidualTorque torque(model, gain, trace.dt);
-  return reference::roll_out(model, start, trace, gain,
-                             [&](std::size_t i, const DriveStepper<double>& observer) {
-                               out.ripple.push_back(torque(observer, trace.x1[i] - observer.measured()));
-                             });
+  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+    out.ripple.push_back(torque(observer, trace.x1[i] - observer.measured()));
+  });
 }
 
 /// Every number given, nothing estimated.
@@ -131,28 +127,25 @@ std::size_t HeldOut::restart(std::size_t r) const {
   return 2 * std::max<std::size_t>(5, static_cast<std::size_t>(0.5 * length / traces[r].dt + 0.5));
 }
 
-std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
-                                                      const FittedModel& model, double observer_hz) {
-  const reference::FitProblem problem = reference::make_problem(recordings, all_fixed(model), {});
-  reference::Solution point = reference::start_point(problem, {});
-  reference::choose_variants(problem, point, observer_hz);
-  const reference::Solution better = refine(problem, point, observer_hz, kStateWork);
-  return better.usable() ? better.starts : point.starts;
+std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings, const FittedModel& model,
+                                           double observer_hz) {
+  const ModelFit fit(recordings, all_fixed(model), {}, observer_hz);
+  const FitPoint given = fit.given_point();
+  const FitPoint placed = fit.with_loads_placed(given).value_or(given);
+  const RefinedFit better = fit.refine(placed, kStateEffort);
+  return better.usable() ? better.starts : placed.starts;
 }
 
-StepperModel<double> stepper_of(const FittedModel& model, std::span<const MotorTrace> like) {
-  const reference::FitProblem problem = reference::make_problem(like, all_fixed(model), {});
-  return problem.stepper_model(problem.numbers<double>(nullptr));
+PlantModel<double> stepper_of(const FittedModel& model, std::span<const MotorTrace> like) {
+  return ModelFit(like, all_fixed(model), {}, 0.0).run_at({}).plant;
 }
 
 std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all) {
-  const reference::FitProblem problem = reference::make_problem(held_out.traces, all_fixed(model), {});
-  const std::vector<reference::RecordingStart> starts = settled_starts(held_out.traces, model, observer_hz);
-  const PlantModel<double> plant = problem.stepper_model(problem.numbers<double>(nullptr));
+  const ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
+  const auto [plant, starts] = fit.run_at({{}, settled_starts(held_out.traces, model, observer_hz)});
   std::vector<Playback> playbacks(held_out.traces.size());
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
-    const reference::RecordingStart& start = starts[r];
-    const DriveState<double> state = problem.state(start, 0.5 * plant.drive.gap, start.q.data());
+    const DriveState<double>& state = starts[r];
     const MotorTrace& trace = held_out.traces[r];
     if (!play_scored(plant, state, trace, held_out.restart(r), observer_hz, playbacks[r])) return {};
     if (!all) continue;

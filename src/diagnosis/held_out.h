@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "diagnosis/refine.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/reference/model_fit.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -53,12 +53,12 @@ struct Windows {
 };
 
 /// Initial states of recordings that suit a model whose numbers are all known.
-std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
-                                                      const FittedModel& model, double observer_hz);
+std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings, const FittedModel& model,
+                                           double observer_hz);
 
-/// The simulator of a model whose numbers are all known.
+/// What the simulator takes a model for whose numbers are all known.
 /// @param like recordings that its scales are taken from
-StepperModel<double> stepper_of(const FittedModel& model, std::span<const MotorTrace> like);
+PlantModel<double> stepper_of(const FittedModel& model, std::span<const MotorTrace> like);
 
 /// Plays a model on what is held out, the load's initial position fitted. Empty if the motion diverges.
 /// @param all false: only what the score needs, innovations and free runs

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/rollout.h"
+#include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -12,14 +12,13 @@
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/require.h"
 #include "gapscope/simulation/simulate.h"
-#include "reference/rollout.h"
 #include "signals/encoder.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-constexpr Work kScreening{4, 16, 1e-3};
+constexpr RefineEffort kScreening{4, 16, 1e-3};
 constexpr std::uint64_t kSeed = 1;     ///< of phases, levels and noise
 constexpr int kHalvings = 5;           ///< of an input that travels too far
 constexpr double kSeparated = 1.0;     ///< σ

@@ -120,7 +120,7 @@ void fit_look_alikes(const Study& study, const Judged& before, const Judged& bes
                      std::span<const EffectEntry* const> entries,
                      const std::vector<std::vector<EffectStart>>& starts, std::vector<Judged>& ranked) {
   const FitOptions& options = study.options.fit;
-  const std::vector<Base> bases =
+  const std::vector<FitLinearisation> bases =
       bases_of(study.train, before.fitted, best.fitted.model, options, study.observer_hz);
   if (bases.empty() || !(before.score - best.score > kWorthComparing)) return;
   parallel_for(ranked.size(), study.options.threads, [&](std::size_t k) {
@@ -152,7 +152,7 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
     if (reads_counts(*entry) ? study.seen_quantum > 0.0 : is_candidate(*entry, before.fitted.model))
       entries.push_back(entry);
   const auto starts = all_starts(study, before, entries);
-  const std::vector<Base> bases =
+  const std::vector<FitLinearisation> bases =
       bases_of(study.train, before.fitted, study.sheet, study.options.fit, study.observer_hz);
   std::vector<Judged> judged(entries.size());
   std::mutex saying;

@@ -31,7 +31,9 @@ FittedParameter fitted(const Parameter& p, const Determined& determined, double 
   return f;
 }
 
-void report_parameters(const FitProblem& problem, const FitOutcome& outcome, FitSummary& summary) {
+/// @returns the simulations that profiles took
+double report_parameters(const FitProblem& problem, const FitOutcome& outcome, FitSummary& summary) {
+  double simulations = 0.0;
   Determined determined = determine(problem, outcome.solution, outcome.information, outcome.shift());
   judge_changes(problem, outcome, determined);
   std::size_t i = 0;
@@ -42,15 +44,19 @@ void report_parameters(const FitProblem& problem, const FitOutcome& outcome, Fit
       f = fitted(p, determined, outcome.solution.q[i], i);
       if (f.at_bound)
         summary.warnings.push_back(fmt::format("{} ended at its bound {:.4g} {}.", f.key, f.value, f.unit));
-      if (problem.options.profile && f.identifiable)
-        f.profile_ci95 = profile_interval(problem, outcome.solution, outcome.objective_hz, i,
-                                          {determined.own[i], determined.linear[i]});
+      if (problem.options.profile && f.identifiable) {
+        const Profile profile = profile_interval(problem, outcome.solution, outcome.objective_hz, i,
+                                                 {determined.own[i], determined.linear[i]});
+        f.profile_ci95 = profile.interval;
+        simulations += profile.simulations;
+      }
       ++i;
     }
     summary.parameters.push_back(f);
   }
   summary.warnings.insert(summary.warnings.end(), determined.warnings.begin(), determined.warnings.end());
   summary.advice = determined.advice;
+  return simulations;
 }
 
 double pooled_floor(const FitProblem& problem) {
@@ -108,6 +114,7 @@ FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& mod
   const SearchResult found = find_minima(problem);
   summary.starts = static_cast<int>(found.ends.size());
   summary.start_costs = found.costs();
+  double simulations = found.simulations;
   if (!found.best().usable()) {
     report_failure(problem, summary);
   } else {
@@ -115,10 +122,11 @@ FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& mod
     summary.status = outcome.solution.converged ? FitStatus::kConverged : FitStatus::kNotConverged;
     summary.message = outcome.solution.converged ? "" : "the iterations ran out before the cost settled.";
     summary.warnings = outcome.warnings;
-    report_parameters(problem, outcome, summary);
+    simulations += outcome.simulations + report_parameters(problem, outcome, summary);
     report_motion(problem, outcome, summary);
+    simulations += kSimulationsPerTrace * static_cast<double>(summary.traces.size());
   }
-  summary.simulations = static_cast<int>(std::lround(problem.simulations));
+  summary.simulations = static_cast<int>(std::lround(simulations));
   return summary;
 }
 

@@ -84,9 +84,9 @@ double lowest_sensible(int number, double typical) {
                                                                                         : -kInfinity;
 }
 
-Parameter start_parameter(int number, const ParameterSetting& setting, double suggestion) {
+Parameter start_parameter(ParameterId id, const ParameterSetting& setting, double suggestion) {
   Parameter p;
-  p.number = number;
+  p.id = id;
   p.estimated = setting.estimate;
   p.given = std::isfinite(setting.value);
   GAPSCOPE_REQUIRE(p.given || p.estimated);
@@ -101,9 +101,9 @@ void set_bounds(Parameter& p, const ParameterSetting& setting, const Interval& d
   p.start = std::clamp(p.start, p.low, p.high);
 }
 
-Parameter drive_number(int number, const ParameterSetting& setting, double suggestion, double most,
-                       const signals::OneBody& rough) {
-  Parameter p = start_parameter(number, setting, suggestion);
+Parameter parameter_of_drive(int number, const ParameterSetting& setting, double suggestion, double most,
+                             const signals::OneBody& rough) {
+  Parameter p = start_parameter(drive_number(number), setting, suggestion);
   p.key = kDriveParameters[number].key;
   p.unit = kDriveParameters[number].unit;
   if (!p.estimated) return p;
@@ -117,10 +117,11 @@ Parameter drive_number(int number, const ParameterSetting& setting, double sugge
   return p;
 }
 
-Parameter effect_number(int number, const EffectEntry& effect, const EffectParameterSpec& spec,
-                        const ParameterSetting& setting, const ScaleContext& context) {
+Parameter parameter_of_effect(ParameterId id, const EffectEntry& effect, const ParameterSetting& setting,
+                              const ScaleContext& context) {
+  const EffectParameterSpec& spec = effect.parameters[static_cast<std::size_t>(id.index)];
   const double scale = scale_value(spec.scale, context);
-  Parameter p = start_parameter(number, setting, spec.low * scale + 0.1 * (spec.high - spec.low) * scale);
+  Parameter p = start_parameter(id, setting, spec.low * scale + 0.1 * (spec.high - spec.low) * scale);
   p.key = std::string(effect.name) + "." + spec.key;
   p.unit = spec.unit;
   if (!p.estimated) return p;
@@ -142,7 +143,7 @@ void add_drive(FitProblem& problem, const ReferenceModel& model,
     if (!has_parameter(model.structure, n)) continue;
     const auto i = static_cast<std::size_t>(n);
     const double most = visible(n, sizes, model.structure, problem.recordings.front().dt);
-    problem.parameters.push_back(drive_number(n, model.parameters[i], sizes[i], most, problem.rough));
+    problem.parameters.push_back(parameter_of_drive(n, model.parameters[i], sizes[i], most, problem.rough));
     const Parameter& p = problem.parameters.back();
     if (n == kLoadCoulomb) problem.load_may_stick = p.estimated || p.start > 0.0;
   }
@@ -160,20 +161,18 @@ ScaleContext scales(const FitProblem& problem, const std::array<double, kDrivePa
   context.duration = first.dt * static_cast<double>(first.size());
   for (int n = 0; n < kDriveParameterCount; ++n)
     drive_parameter(context.nominal, n) = sizes[static_cast<std::size_t>(n)];
-  for (const Parameter& p : problem.parameters) drive_parameter(context.nominal, p.number) = p.start;
+  for (const Parameter& p : problem.parameters) drive_parameter(context.nominal, p.id.index) = p.start;
   return context;
 }
 
 void add_effects(FitProblem& problem, const ReferenceModel& model, const ScaleContext& context) {
-  int number = kDriveParameterCount;
-  for (const ModelEffect& effect : model.effects) {
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const ModelEffect& effect = model.effects[e];
     GAPSCOPE_REQUIRE(effect.entry != nullptr);
     problem.effects.push_back(effect.entry);
-    const auto& specs = effect.entry->parameters;
-    for (std::size_t i = 0; i < specs.size(); ++i)
-      problem.parameters.push_back(effect_number(number + static_cast<int>(i), *effect.entry, specs[i],
-                                                 effect.parameters[i], context));
-    number += kMostEffectParameters;
+    for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i)
+      problem.parameters.push_back(parameter_of_effect({static_cast<int>(e), static_cast<int>(i)},
+                                                       *effect.entry, effect.parameters[i], context));
   }
 }
 
@@ -195,12 +194,12 @@ std::vector<int> FitProblem::free_states(const RecordingStart& start, bool free_
 }
 
 double FitProblem::stiffness(const ModelNumbers<double>& n) const {
-  const double m1 = n[kMotorInertia];
-  double rate = n[kMotorDamping] / m1;
+  const double m1 = n.drive(kMotorInertia);
+  double rate = n.drive(kMotorDamping) / m1;
   if (!structure.has_load) return rate;
-  const double inverse = 1.0 / m1 + (locked() ? 0.0 : 1.0 / (m1 * n[kMassRatio]));
-  if (!locked()) rate = std::max(rate, n[kLoadDamping] / (m1 * n[kMassRatio]));
-  return rate + std::sqrt(n[kContactStiffness] * inverse) + n[kContactDamping] * inverse;
+  const double inverse = 1.0 / m1 + (locked() ? 0.0 : 1.0 / (m1 * n.drive(kMassRatio)));
+  if (!locked()) rate = std::max(rate, n.drive(kLoadDamping) / (m1 * n.drive(kMassRatio)));
+  return rate + std::sqrt(n.drive(kContactStiffness) * inverse) + n.drive(kContactDamping) * inverse;
 }
 
 FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceModel& given,

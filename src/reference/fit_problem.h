@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/reference/fit.h"
+#include "gapscope/reference/model_fit.h"
 #include "gapscope/simulation/stepper.h"
 #include "reference/coordinate.h"
 #include "signals/one_body.h"
@@ -14,11 +14,31 @@ namespace gapscope::internal::reference {
 
 /// Every number of the model: the drive's parameters, then kMostEffectParameters for each effect.
 template <class T>
-using ModelNumbers = std::vector<T>;
+class ModelNumbers {
+ public:
+  explicit ModelNumbers(std::size_t effects)
+      : values_(kDriveParameterCount + effects * kMostEffectParameters, T(0.0)) {}
+
+  T& operator[](ParameterId id) { return values_[place_of(id)]; }
+  const T& operator[](ParameterId id) const { return values_[place_of(id)]; }
+  const T& drive(int place) const { return values_[static_cast<std::size_t>(place)]; }
+  std::span<const T> effect(std::size_t e, std::size_t count) const {
+    return std::span<const T>(values_).subspan(kDriveParameterCount + e * kMostEffectParameters, count);
+  }
+
+ private:
+  static std::size_t place_of(ParameterId id) {
+    const int first =
+        id.effect == ParameterId::kDrive ? 0 : kDriveParameterCount + id.effect * kMostEffectParameters;
+    return static_cast<std::size_t>(first + id.index);
+  }
+
+  std::vector<T> values_;
+};
 
 /// One number that the model's structure has.
 struct Parameter {
-  int number = 0;  ///< its place in ModelNumbers
+  ParameterId id;
   std::string key, unit;
   double start = kNaN;
   double low = kNaN, high = kNaN;
@@ -32,24 +52,7 @@ struct Parameter {
   bool at_bound(double q) const;
 };
 
-/// Where the load may be at the first sample, relative to the motor.
-struct InitialVariant {
-  int side = 0;             ///< −1, +1: at that edge of the gap, 0: in its middle
-  bool load_moves = false;  ///< with the speed of the motor; else at rest
-};
-
-/// Initial state of one recording in solver units, all linear:
-///   x1(0) = x̄1 + s0 q0,  w1(0) = w̄1 + s1 q1,  x2(0) = x1(0) − side β − s2 q2,  w2(0) = w1(0) + s3 q3 (or 0)
-constexpr int kStates = 4;
-struct RecordingStart {
-  double x1 = 0.0, w1 = 0.0;  ///< x̄1, w̄1 from a local polynomial
-  bool moves = false;         ///< w̄1 is clearly not zero
-  InitialVariant variant;
-  std::array<double, kStates> scale{};
-  std::array<double, kStates> q{};
-};
-
-/// All that the searches share: data, floor, parameters, and the counted cost.
+/// All that the searches share: data, floors and parameters.
 struct FitProblem {
   std::span<const MotorTrace> recordings;
   DriveStructure structure;
@@ -61,7 +64,6 @@ struct FitProblem {
   std::vector<const EffectEntry*> effects;
   bool load_may_stick = false, motor_may_stick = false;
   double stiffest = kInfinity;  ///< rate beyond which a trial is refused [1/s]
-  mutable double simulations = 0.0;
 
   std::size_t free_count() const { return free.size(); }
   const Parameter& free_parameter(std::size_t i) const {
@@ -78,11 +80,11 @@ struct FitProblem {
   /// Physical numbers from the solver's vector of the free ones.
   template <class T>
   ModelNumbers<T> numbers(const T* q) const {
-    ModelNumbers<T> n(kDriveParameterCount + effects.size() * kMostEffectParameters, T(0.0));
-    for (const Parameter& p : parameters) n[static_cast<std::size_t>(p.number)] = T(p.start);
+    ModelNumbers<T> n(effects.size());
+    for (const Parameter& p : parameters) n[p.id] = T(p.start);
     for (std::size_t i = 0; i < free.size(); ++i) {
       const Parameter& p = free_parameter(i);
-      n[static_cast<std::size_t>(p.number)] = p.coordinate.physical(q[i]);
+      n[p.id] = p.coordinate.physical(q[i]);
     }
     return n;
   }
@@ -90,15 +92,11 @@ struct FitProblem {
   template <class T>
   StepperModel<T> stepper_model(const ModelNumbers<T>& n) const {
     StepperModel<T> model;
-    for (int i = 0; i < kDriveParameterCount; ++i)
-      drive_parameter(model.drive, i) = n[static_cast<std::size_t>(i)];
+    for (int i = 0; i < kDriveParameterCount; ++i) drive_parameter(model.drive, i) = n.drive(i);
     model.structure = structure;
     model.load_sticks = load_may_stick;
-    std::span<const T> rest = std::span<const T>(n).subspan(kDriveParameterCount);
-    for (const EffectEntry* e : effects) {
-      add_effect(model, *e, rest.first(e->parameters.size()));
-      rest = rest.subspan(kMostEffectParameters);
-    }
+    for (std::size_t e = 0; e < effects.size(); ++e)
+      add_effect(model, *effects[e], n.effect(e, effects[e]->parameters.size()));
     return model;
   }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
-#include "reference/rollout.h"
+#include "gapscope/reference/observer.h"
 
 namespace gapscope::internal::reference {
 namespace {
@@ -30,19 +30,18 @@ double error(const FitProblem& problem, const std::vector<FitTrace>& traces,
 
 }  // namespace
 
-DriveState<double> start_state(const FitProblem& problem, const Solution& at, std::size_t r) {
-  const double gap = problem.numbers(at.q.data())[place::kGap];
+DriveState<double> start_state(const FitProblem& problem, const FitPoint& at, std::size_t r) {
+  const double gap = problem.numbers(at.q.data()).drive(place::kGap);
   return problem.state(at.starts[r], 0.5 * gap, at.starts[r].q.data());
 }
 
-FitTrace trace_of(const FitProblem& problem, const Solution& at, std::size_t r, double observer_hz) {
+FitTrace trace_of(const FitProblem& problem, const FitPoint& at, std::size_t r, double observer_hz) {
   const MotorTrace& recording = problem.recordings[r];
   const StepperModel<double> model = problem.stepper_model(problem.numbers(at.q.data()));
   const DriveState<double> start = start_state(problem, at, r);
   const bool has_load = problem.structure.has_load;
   FitTrace t;
   t.file = recording.file;
-  problem.simulations += 2.0;
   if (!roll_out(model, start, recording, {}, [&](std::size_t, const DriveStepper<double>& stepper) {
         t.x1.push_back(stepper.measured());
         if (has_load) t.x2.push_back(stepper.state().x2);

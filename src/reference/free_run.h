@@ -3,16 +3,18 @@
 #include <vector>
 
 #include "gapscope/reference/fit_summary.h"
-#include "reference/solve.h"
+#include "reference/fit_problem.h"
 
 namespace gapscope::internal::reference {
 
 /// State of a solution at the first sample of recording r.
-DriveState<double> start_state(const FitProblem& problem, const Solution& at, std::size_t r);
+DriveState<double> start_state(const FitProblem& problem, const FitPoint& at, std::size_t r);
+
+inline constexpr double kSimulationsPerTrace = 2.0;
 
 /// Free run and one-step prediction of a solution beside recording r. Empty columns where the motion
 /// diverges.
-FitTrace trace_of(const FitProblem& problem, const Solution& at, std::size_t r, double observer_hz);
+FitTrace trace_of(const FitProblem& problem, const FitPoint& at, std::size_t r, double observer_hz);
 
 /// Root mean square of recorded − modelled x1 over all recordings [rad]; NaN without traces.
 double free_run_error(const FitProblem& problem, const std::vector<FitTrace>& traces);

@@ -21,13 +21,13 @@ struct Directions {
 };
 
 /// The standard error that a parameter would have if all others were known [its unit].
-double error_alone(const FitProblem& problem, const Solution& at, const Information& info, std::size_t i) {
+double error_alone(const FitProblem& problem, const FitPoint& at, const Information& info, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
   const double slope = problem.free_parameter(i).coordinate.slope(at.q[i]);
   return slope * std::sqrt(info.variance / std::max(info.normal(k, k), 1e-300));
 }
 
-double size_of(const FitProblem& problem, const Solution& at, std::size_t i) {
+double size_of(const FitProblem& problem, const FitPoint& at, std::size_t i) {
   const Parameter& p = problem.free_parameter(i);
   return std::max(p.typical, std::abs(p.coordinate.physical(at.q[i])));
 }
@@ -65,7 +65,7 @@ std::string excitation_for_any(const std::vector<std::string>& keys) {
 
 /// Names the parameters of one null direction v (normalised columns) and marks them: those that change by a
 /// share of the largest relative change among the well visible ones.
-void mark_null(const FitProblem& problem, const Solution& at, const Eigen::VectorXd& v,
+void mark_null(const FitProblem& problem, const FitPoint& at, const Eigen::VectorXd& v,
                const Eigen::VectorXd& norm, Directions& directions, Determined& determined) {
   std::vector<std::string> keys;
   std::vector<double> changes;  // relative
@@ -91,7 +91,7 @@ void mark_null(const FitProblem& problem, const Solution& at, const Eigen::Vecto
                         list(keys), what_is_determined(changes), excitation_for_any(keys)));
 }
 
-Directions directions_of(const FitProblem& problem, const Solution& at, const Information& info,
+Directions directions_of(const FitProblem& problem, const FitPoint& at, const Information& info,
                          Determined& determined) {
   Directions d;
   const Eigen::Index n = info.normal.rows();
@@ -148,7 +148,7 @@ std::string partner(const FitProblem& problem, const Eigen::MatrixXd& inverse, s
   return key;
 }
 
-void judge(const FitProblem& problem, const Solution& at, const Directions& d, std::size_t i, double std,
+void judge(const FitProblem& problem, const FitPoint& at, const Directions& d, std::size_t i, double std,
            Determined& determined) {
   const Parameter& p = problem.free_parameter(i);
   if (d.in_null[i]) {
@@ -165,7 +165,7 @@ void judge(const FitProblem& problem, const Solution& at, const Directions& d, s
 }
 
 /// The worse half of the parameters that are known at all, where that is much worse than the best.
-void advise(const FitProblem& problem, const Solution& at, Determined& determined) {
+void advise(const FitProblem& problem, const FitPoint& at, Determined& determined) {
   const auto relative = [&](std::size_t i) { return determined.std[i] / size_of(problem, at, i); };
   std::vector<double> all;
   for (std::size_t i = 0; i < determined.std.size(); ++i)
@@ -196,7 +196,7 @@ std::string excitation_for(const std::string& key) {
   return found == advice.end() ? "an input that brings this effect out" : found->second;
 }
 
-Determined determine(const FitProblem& problem, const Solution& at, const Information& info,
+Determined determine(const FitProblem& problem, const FitPoint& at, const Information& info,
                      const std::vector<double>& shift) {
   const std::size_t n = problem.free_count();
   Determined determined;

@@ -26,7 +26,7 @@ struct Determined {
 /// the windows' scores, and that of the quantiser.
 /// @param shift  change of each free parameter [its unit] to another observer gain, counted as an error of
 /// its own
-Determined determine(const FitProblem& problem, const Solution& at, const Information& information,
+Determined determine(const FitProblem& problem, const FitPoint& at, const Information& information,
                      const std::vector<double>& shift = {});
 
 /// The excitation that would determine a parameter, as half a sentence.

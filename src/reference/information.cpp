@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/recording_cost.h"
-
 namespace gapscope::internal::reference {
 namespace {
 
@@ -15,7 +13,7 @@ constexpr std::size_t kMostLags = 2000;
 /// One recording's part: its residuals and Jacobian, and where its columns go.
 struct Part {
   Eigen::VectorXd residuals;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
+  Cost::Rows jacobian;
   std::vector<Eigen::Index> columns;
 };
 
@@ -26,19 +24,13 @@ void scatter(const Eigen::MatrixXd& part, const std::vector<Eigen::Index>& colum
       whole(columns[i], columns[j]) += part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
 }
 
-bool fill(const FitProblem& problem, const Solution& at, std::size_t r, double hz, Eigen::Index& used,
-          Part& part) {
-  const RecordingCost cost(problem, r, at.starts[r], hz);
-  std::vector<double> q = at.q;
-  for (std::size_t i = 0; i < at.q.size(); ++i) part.columns.push_back(static_cast<Eigen::Index>(i));
-  for (const int s : cost.states()) {
-    q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
-    part.columns.push_back(used++);
-  }
-  const auto samples = static_cast<Eigen::Index>(problem.recordings[r].size());
-  part.residuals.resize(samples);
-  part.jacobian.resize(samples, cost.numbers());
-  return cost.evaluate(q.data(), part.residuals.data(), part.jacobian.data());
+Part part_of(const Cost& cost, std::size_t r) {
+  Part part;
+  for (Eigen::Index i = 0; i < cost.shared(); ++i) part.columns.push_back(i);
+  for (Eigen::Index i = 0; i < cost.states(r); ++i) part.columns.push_back(cost.first_state(r) + i);
+  part.residuals.resize(cost.samples(r));
+  part.jacobian.resize(cost.samples(r), std::ssize(part.columns));
+  return part;
 }
 
 Eigen::MatrixXd window_scores(const Part& part, Eigen::Index length, int& count) {
@@ -131,41 +123,40 @@ Correlation correlation_of(const FitProblem& problem, const std::vector<Eigen::V
       quantised +=
           autocovariance(quantiser.error(residuals[r], recording, j / double(kFewPhases)), 1) / kFewPhases;
   }
-  if (!(zero > 0.0)) return {0.0, 0.0};
-  return {one / zero, quantised / zero};
-}
-
-void add_priors(const FitProblem& problem, const Solution& at, Information& information) {
-  for (std::size_t i = 0; i < problem.free_count(); ++i) {
-    const Parameter& p = problem.free_parameter(i);
-    const auto k = static_cast<Eigen::Index>(i);
-    if (p.prior) information.normal(k, k) += std::pow(p.coordinate.slope(at.q[i]) / p.prior->std, 2);
-  }
-  for (auto k = static_cast<Eigen::Index>(problem.free_count()); k < information.normal.rows(); ++k)
-    information.normal(k, k) += 1.0 / (kStateWidth * kStateWidth);
+  if (!(zero > 0.0)) return {0.0, 0.0, 0.0};
+  return {one / zero, quantised / zero, 0.0};
 }
 
 }  // namespace
 
-Correlation correlation_at(const FitProblem& problem, const Solution& at, double observer_hz) {
+Correlation correlation_at(const FitProblem& problem, const FitPoint& at, double observer_hz) {
+  const Cost cost(problem, at, observer_hz);
+  const Cost::Vector x = cost.pack(at);
   std::vector<Eigen::VectorXd> residuals;
-  for (std::size_t r = 0; r < at.starts.size(); ++r) {
-    const RecordingCost cost(problem, r, at.starts[r], observer_hz);
-    std::vector<double> q = at.q;
-    for (const int s : cost.states()) q.push_back(at.starts[r].q[static_cast<std::size_t>(s)]);
-    residuals.emplace_back(static_cast<Eigen::Index>(problem.recordings[r].size()));
-    if (!cost.evaluate(q.data(), residuals.back().data(), nullptr)) return {};
+  double simulations = 0.0;
+  for (std::size_t r = 0; r < cost.recordings(); ++r) {
+    residuals.emplace_back(cost.samples(r));
+    const Evaluation done = cost.evaluate(r, x, residuals.back().data(), nullptr);
+    simulations += done.simulations;
+    if (!done.valid) return {kNaN, 0.0, simulations};
   }
-  return correlation_of(problem, residuals);
+  Correlation correlation = correlation_of(problem, residuals);
+  correlation.simulations = simulations;
+  return correlation;
 }
 
-Information information_at(const FitProblem& problem, const Solution& at, double observer_hz) {
+Information information_at(const FitProblem& problem, const FitPoint& at, double observer_hz) {
+  const Cost cost(problem, at, observer_hz);
+  const Cost::Vector x = cost.pack(at);
+  const Eigen::Index used = cost.size();
   Information information;
-  auto used = static_cast<Eigen::Index>(problem.free_count());
-  std::vector<Part> parts(at.starts.size());
+  std::vector<Part> parts;
   double samples = 0.0, squares = 0.0, quantised = 0.0;
-  for (std::size_t r = 0; r < parts.size(); ++r) {
-    if (!fill(problem, at, r, observer_hz, used, parts[r])) return information;
+  for (std::size_t r = 0; r < cost.recordings(); ++r) {
+    parts.push_back(part_of(cost, r));
+    const Evaluation done = cost.evaluate(r, x, parts[r].residuals.data(), parts[r].jacobian.data());
+    information.simulations += done.simulations;
+    if (!done.valid) return information;
     const double size = static_cast<double>(parts[r].residuals.size());
     samples += size;
     squares += parts[r].residuals.squaredNorm();
@@ -179,7 +170,7 @@ Information information_at(const FitProblem& problem, const Solution& at, double
     scatter(window_scores(p, length, information.window_count), p.columns, information.windows);
     scatter(quantiser_scores(p, problem.recordings[r], problem.floors[r]), p.columns, information.quantiser);
   }
-  add_priors(problem, at, information);
+  for (Eigen::Index i = 0; i < used; ++i) information.normal(i, i) += cost.beside_curvature(i, x[i]);
   information.variance = std::max(squares, quantised) / std::max(1.0, samples - static_cast<double>(used));
   information.inflation = inflation_of(parts);
   std::vector<Eigen::VectorXd> residuals;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "reference/solve.h"
+#include "reference/cost.h"
 
 namespace gapscope::internal::reference {
 
@@ -11,13 +11,14 @@ namespace gapscope::internal::reference {
 struct Correlation {
   double lag1 = kNaN;
   double quantiser = 0.0;
+  double simulations = 0.0;  ///< spent on it
   double excess() const { return lag1 - quantiser; }
 };
 
-/// What the recordings say about the free numbers at a solution, in solver units. Columns: the free
+/// What the recordings say about the free numbers at a point, in solver units. Columns: the free
 /// parameters, then the free initial numbers of each recording. Residuals are in floors.
 struct Information {
-  bool valid = false;      ///< false: the motion diverged at the solution
+  bool valid = false;      ///< false: the motion diverged there
   Eigen::MatrixXd normal;  ///< JᵀJ with the priors (n × n)
   Eigen::MatrixXd windows;  ///< Σ over windows of score·scoreᵀ, score = Σ of J r within the window (n × n)
   Eigen::MatrixXd
@@ -26,11 +27,12 @@ struct Information {
   double inflation = 1.0;  ///< samples per independent sample, from the autocorrelation
   Correlation correlation;
   int window_count = 0;
+  double simulations = 0.0;  ///< spent on it
 };
 
 /// By plain runs; NaN where the motion diverges.
-Correlation correlation_at(const FitProblem& problem, const Solution& at, double observer_hz);
+Correlation correlation_at(const FitProblem& problem, const FitPoint& at, double observer_hz);
 
-Information information_at(const FitProblem& problem, const Solution& at, double observer_hz);
+Information information_at(const FitProblem& problem, const FitPoint& at, double observer_hz);
 
 }  // namespace gapscope::internal::reference

@@ -22,7 +22,7 @@ constexpr int kFewestBlocks = 4;            ///< of a part
 constexpr double kOtherLevel = 4.0;         ///< ratio of input powers that makes a level of its own
 constexpr double kOtherGap = 0.25;          ///< relative difference of gaps that can be told
 
-std::vector<double> values_of(const FitProblem& problem, const Solution& s) {
+std::vector<double> values_of(const FitProblem& problem, const FitPoint& s) {
   std::vector<double> values;
   for (std::size_t i = 0; i < problem.free_count(); ++i)
     values.push_back(problem.free_parameter(i).coordinate.physical(s.q[i]));
@@ -33,6 +33,7 @@ void take(const FitProblem& problem, const Solution& solution, double hz, FitOut
   outcome.solution = solution;
   outcome.objective_hz = hz;
   outcome.information = information_at(problem, solution, hz);
+  outcome.simulations += outcome.information.simulations;
 }
 
 /// Minima side by side are all possible, each with the likelihood of its cost.
@@ -43,7 +44,8 @@ void spread_over_minima(const FitProblem& problem, const std::vector<Solution>& 
   const std::vector<double> best = values_of(problem, outcome.solution);
   outcome.spread.assign(best.size(), 0.0);
   for (const Solution& other : others) {
-    const double weight = std::exp(-std::max(0.0, other.mean_square - outcome.solution.mean_square) / unit);
+    const double weight = std::exp(
+        -std::max(0.0, other.mean_square_with_priors - outcome.solution.mean_square_with_priors) / unit);
     const std::vector<double> values = values_of(problem, other);
     for (std::size_t i = 0; i < best.size(); ++i)
       outcome.spread[i] += weight * std::pow(values[i] - best[i], 2);
@@ -56,8 +58,10 @@ void spread_over_minima(const FitProblem& problem, const std::vector<Solution>& 
 void take_two_gains(const FitProblem& problem, const Solution& from, double hz, double other_hz,
                     FitOutcome& outcome) {
   const Solution found = solve(problem, from, hz, kRejected);
+  outcome.simulations += found.simulations;
   take(problem, found.usable() ? found : from, found.usable() ? hz : problem.options.observer_hz, outcome);
   const Solution other = solve(problem, outcome.solution, other_hz, kOther);
+  outcome.simulations += other.simulations;
   if (!other.usable()) return;
   outcome.changes.push_back(
       {fmt::format("when the observer is taken from {:.3g} to {:.3g} Hz", outcome.objective_hz, other_hz),
@@ -87,23 +91,30 @@ std::size_t change_of_level(const MotorTrace& r) {
 
 /// The end that predicts best at a gain. Unmodelled torque hides physics from a slow observer: what is best
 /// there need not be.
+/// @returns it with the simulations that all took
 Solution best_at(const FitProblem& problem, const std::vector<Solution>& ends, double hz) {
   Solution best;
+  double spent = 0.0;
   for (const Solution& end : ends) {
     const Solution there = solve(problem, end, hz, kOther);
-    if (there.mean_square < best.mean_square) best = there;
+    spent += there.simulations;
+    if (leaves_less(there, best)) best = there;
   }
+  best.simulations = spent;
   return best;
 }
 
 /// Free parameters on one part alone, sought anew: from the values of the whole a part that shows nothing of
-/// a parameter would only return them. Empty where that fails.
-std::vector<double> values_on(const Excerpt& part, const Solution& from, double hz) {
-  std::vector<Solution> ends = find_minima(part.problem()).ends;
-  ends.push_back(start_point(part.problem(), from.q));
-  choose_variants(part.problem(), ends.back(), hz);
-  const Solution found = best_at(part.problem(), ends, hz);
-  return found.usable() ? values_of(part.problem(), found) : std::vector<double>{};
+/// a parameter would only return them.
+Solution best_on(const Excerpt& part, const Solution& from, double hz) {
+  SearchResult found = find_minima(part.problem());
+  FitPoint start = start_point(part.problem(), from.q);
+  const Placement placed = choose_variants(part.problem(), start, hz);
+  start.starts = placed.starts;
+  found.ends.push_back({start});
+  Solution best = best_at(part.problem(), found.ends, hz);
+  best.simulations = part.of_whole(best.simulations + found.simulations + placed.simulations);
+  return best;
 }
 
 /// The first two recordings, or the two parts of the only one, each by itself.
@@ -115,13 +126,14 @@ void compare_parts(const FitProblem& problem, FitOutcome& outcome) {
   const Excerpt a(problem, 0, 0, several ? first.size() : split);
   const Excerpt b(problem, several ? 1 : 0, several ? 0 : split,
                   several ? problem.recordings[1].size() : first.size());
-  const std::vector<double> from = values_on(a, outcome.solution, outcome.objective_hz);
-  const std::vector<double> to = values_on(b, outcome.solution, outcome.objective_hz);
-  if (from.empty() || to.empty()) return;
+  const Solution from = best_on(a, outcome.solution, outcome.objective_hz);
+  const Solution to = best_on(b, outcome.solution, outcome.objective_hz);
+  outcome.simulations += from.simulations + to.simulations;
+  if (!from.usable() || !to.usable()) return;
   const std::string where =
       several ? fmt::format("from {} to {}", first.file, problem.recordings[1].file)
               : fmt::format("from the part before {:.4g} s to the part after", first.time(split));
-  outcome.changes.push_back({where, from, to, 0.5, true});
+  outcome.changes.push_back({where, values_of(a.problem(), from), values_of(b.problem(), to), 0.5, true});
 }
 
 void take_rejected(const FitProblem& problem, const SearchResult& found, FitOutcome& outcome) {
@@ -131,8 +143,9 @@ void take_rejected(const FitProblem& problem, const SearchResult& found, FitOutc
                   "encoder floor. Values are those of an observer at {:.3g} Hz; intervals hold their scatter "
                   "over windows, gains and parts of the recordings, not what the missing physics may bias. "
                   "`gapscope diagnose` asks what is missing.",
-                  std::sqrt(found.best().mean_square), o.rejected_hz));
+                  std::sqrt(found.best().mean_square_with_priors), o.rejected_hz));
   const Solution best = best_at(problem, found.ends, o.rejected_hz);
+  outcome.simulations += best.simulations;
   take_two_gains(problem, best.usable() ? best : found.best(), o.rejected_hz, kSecondGain * o.rejected_hz,
                  outcome);
   if (o.compare_parts) compare_parts(problem, outcome);
@@ -163,12 +176,13 @@ FitOutcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
   const FitOptions& o = problem.options;
   const Solution found = ends.best();
   FitOutcome outcome;
-  if (std::sqrt(found.mean_square) > o.rejected_ratio) {
+  if (std::sqrt(found.mean_square_with_priors) > o.rejected_ratio) {
     take_rejected(problem, ends, outcome);
     return outcome;
   }
   const Polished polished = polish(problem, found);
-  if (polished.best.usable() && std::sqrt(polished.best.mean_square) <= o.rejected_ratio) {
+  outcome.simulations += polished.simulations;
+  if (polished.best.usable() && std::sqrt(polished.best.mean_square_with_priors) <= o.rejected_ratio) {
     take(problem, polished.best, 0.0, outcome);
     spread_over_minima(problem, polished.others, outcome);
     warn_of_pattern(outcome.information.correlation, outcome);
@@ -194,7 +208,7 @@ void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determi
       moved += fmt::format("{}{} from {:.4g} to {:.4g} {}", moved.empty() ? "" : ", ", p.key, c.from[i],
                            c.to[i], p.unit);
       const bool other_gap = difference > kOtherGap * std::max(c.from[i], c.to[i]);
-      if (!c.parts || p.number != place::kGap || !other_gap) continue;
+      if (!c.parts || p.id != drive_number(place::kGap) || !other_gap) continue;
       determined.identifiable[i] = false;
       determined.std[i] = kNaN;
       determined.warnings.push_back(fmt::format(

@@ -24,6 +24,7 @@ struct FitOutcome {
   std::vector<ValueChange> changes;
   std::vector<double> spread;  ///< of the free parameters over minima that are nearly as good; may be empty
   std::vector<std::string> warnings;
+  double simulations = 0.0;
 
   std::vector<double> shift()
       const;  ///< all changes and the spread together, per free parameter; empty without any

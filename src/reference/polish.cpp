@@ -20,40 +20,37 @@ constexpr double kClearly = 6.0;                  ///< fall of the cost, in mean
 constexpr double kSmallestShake = 1.0, kLargestShake = 100.0;  ///< in standard errors
 
 void keep(const Solution& next, Polished& polished) {
+  polished.simulations += next.simulations;
   if (!next.usable()) return;
   polished.others.push_back(next);
-  if (next.mean_square < polished.best.mean_square) polished.best = next;
+  if (leaves_less(next, polished.best)) polished.best = next;
 }
 
-Solution over_growing_parts(const FitProblem& problem, Solution at) {
+Solution over_growing_parts(const FitProblem& problem, FitPoint at) {
+  double spent = 0.0;
   for (const double share : kShares) {
     const Excerpt part(problem, share);
     const Solution next = solve(part.problem(), at, 0.0, kTrial);
+    spent += part.of_whole(next.simulations);
     if (next.usable()) at = next;
   }
-  return solve(problem, at, 0.0, kTrial);
+  Solution to = solve(problem, at, 0.0, kTrial);
+  to.simulations += spent;
+  return to;
 }
 
 /// A random point around a solution, as far off in every direction as the recordings leave it open.
-Solution shaken(const FitProblem& problem, const Solution& at, const Eigen::MatrixXd& root, double size,
+FitPoint shaken(const FitProblem& problem, const FitPoint& at, const Eigen::MatrixXd& root, double size,
                 std::mt19937_64& generator) {
   Eigen::VectorXd step(root.cols());
   for (double& v : step) v = size * normal(generator);
   step = root * step;
-  Solution to = at;
-  Eigen::Index k = 0;
-  for (std::size_t i = 0; i < to.q.size(); ++i, ++k) {
-    const Parameter& p = problem.free_parameter(i);
-    to.q[i] = std::clamp(to.q[i] + step[k], p.coordinate.solver(p.low), p.coordinate.solver(p.high));
-  }
-  for (RecordingStart& start : to.starts)
-    for (const int s : problem.free_states(start, true)) start.q[static_cast<std::size_t>(s)] += step[k++];
-  return to;
+  const Cost cost(problem, at, 0.0);
+  return cost.unpack((cost.pack(at) + step).cwiseMax(cost.low()).cwiseMin(cost.high()));
 }
 
 /// A square root of the covariance of all free numbers; empty where there is none.
-Eigen::MatrixXd covariance_root(const FitProblem& problem, const Solution& at) {
-  const Information information = information_at(problem, at, 0.0);
+Eigen::MatrixXd covariance_root(const Information& information) {
   if (!information.valid) return {};
   const Eigen::VectorXd scale = information.normal.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information.normal *
@@ -64,7 +61,9 @@ Eigen::MatrixXd covariance_root(const FitProblem& problem, const Solution& at) {
 }
 
 void shake(const FitProblem& problem, Polished& polished) {
-  const Eigen::MatrixXd root = covariance_root(problem, polished.best);
+  const Information information = information_at(problem, polished.best, 0.0);
+  polished.simulations += information.simulations;
+  const Eigen::MatrixXd root = covariance_root(information);
   if (root.size() == 0) return;
   auto generator = random_stream(problem.options.seed, "fit polish");
   for (int i = 0; i < kShakes; ++i) {
@@ -75,7 +74,7 @@ void shake(const FitProblem& problem, Polished& polished) {
 }
 
 /// The problem with all parameters held: only initial states are left to find.
-FitProblem held_at(const FitProblem& problem, const Solution& at) {
+FitProblem held_at(const FitProblem& problem, const FitPoint& at) {
   FitProblem held = problem;
   for (std::size_t i = 0; i < problem.free_count(); ++i) {
     Parameter& p = held.parameters[static_cast<std::size_t>(problem.free[i])];
@@ -88,44 +87,52 @@ FitProblem held_at(const FitProblem& problem, const Solution& at) {
 
 /// An initial state that went astray leaves its mark at the beginning only. Each recording's is sought anew
 /// there, from what its first samples show and every place of the load.
-/// @returns whether any fits clearly better
-bool renew_starts(const FitProblem& problem, Solution& at) {
+/// @returns where each begins, and whether any fits clearly better
+Placement renewed_starts(const FitProblem& problem, const FitPoint& at) {
   const Excerpt part(problem, kBeginning);
   const FitProblem held = held_at(part.problem(), at);
-  Solution states = at;
-  states.q.clear();
-  bool renewed = false;
+  Placement renewed{at.starts, false, 0.0};
   for (std::size_t r = 0; r < at.starts.size(); ++r) {
     const double samples = static_cast<double>(held.recordings[r].size());
-    double best = recording_square(held, {}, r, at.starts[r], 0.0);
+    const auto square_from = [&](const RecordingStart& start) {
+      const Square square = recording_square(held, {}, r, start, 0.0);
+      renewed.simulations += part.of_whole(square.simulations);
+      return square.value;
+    };
+    double best = square_from(at.starts[r]);
     for (const InitialVariant& variant : initial_variants(held, at.starts[r])) {
-      Solution trial = states;
-      trial.starts[r].variant = variant;
-      trial.starts[r].q.fill(0.0);
-      trial = solve(held, trial, 0.0, kTrial);
+      FitPoint from{{}, at.starts};
+      from.starts[r].variant = variant;
+      from.starts[r].q.fill(0.0);
+      const Solution trial = solve(held, from, 0.0, kTrial);
+      renewed.simulations += part.of_whole(trial.simulations);
       if (!trial.usable()) continue;
-      const double square = recording_square(held, {}, r, trial.starts[r], 0.0);
+      const double square = square_from(trial.starts[r]);
       if (!(square < best - kClearly * std::max(1.0, best / samples))) continue;
       best = square;
-      at.starts[r] = trial.starts[r];
-      renewed = true;
+      renewed.starts[r] = trial.starts[r];
+      renewed.changed = true;
     }
   }
-  part.problem().simulations = held.simulations;
   return renewed;
 }
 
 }  // namespace
 
 Polished polish(const FitProblem& problem, const Solution& found) {
-  Polished polished{solve(problem, found, 0.0, kFinal), {}};
-  if (Solution renewed = polished.best; renewed.usable() && renew_starts(problem, renewed))
-    keep(solve(problem, renewed, 0.0, kFinal), polished);
-  if (polished.best.mean_square <= found.mean_square) return polished;
+  Polished polished{solve(problem, found, 0.0, kFinal), {}, 0.0};
+  polished.simulations = polished.best.simulations;
+  if (polished.best.usable()) {
+    const Placement renewed = renewed_starts(problem, polished.best);
+    polished.simulations += renewed.simulations;
+    if (renewed.changed) keep(solve(problem, {polished.best.q, renewed.starts}, 0.0, kFinal), polished);
+  }
+  if (polished.best.mean_square_with_priors <= found.mean_square_with_priors) return polished;
   keep(over_growing_parts(problem, found), polished);
   if (!polished.best.usable()) return polished;
   shake(problem, polished);
   const Solution last = solve(problem, polished.best, 0.0, kFinal);
+  polished.simulations += last.simulations;
   if (last.usable()) polished.best = last;
   return polished;
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reference/solve.h"
+#include "reference/solvers.h"
 
 namespace gapscope::internal::reference {
 
@@ -10,12 +10,13 @@ namespace gapscope::internal::reference {
 struct Polished {
   Solution best;
   std::vector<Solution> others;
+  double simulations = 0.0;
 };
 
 /// Least squares of the free run from where the search ended. A free run through many impacts has narrow
 /// minima side by side, one for each order of bounces: where it ends above the predictions, it is tried again
 /// over growing parts of the recordings and from points nearby, and the best one counts.
-/// @param found  end of the search; its mean_square is that of the predictions
+/// @param found  end of the search; its mean square is that of the predictions
 Polished polish(const FitProblem& problem, const Solution& found);
 
 }  // namespace gapscope::internal::reference

@@ -21,15 +21,15 @@ struct HeldParameter {
   HeldParameter(const FitProblem& whole, std::size_t i) : problem(whole), parameter(whole.free[i]) {
     problem.parameters[static_cast<std::size_t>(parameter)].estimated = false;
     problem.free.erase(problem.free.begin() + static_cast<std::ptrdiff_t>(i));
-    problem.simulations = 0.0;
   }
 };
 
 /// Walks to one side until the root of the cost's rise is the wanted one.
 class ProfileWalk {
  public:
-  ProfileWalk(const FitProblem& whole, const Solution& at, double hz, std::size_t i)
-      : held_(whole, i), hz_(hz), at_(at) {
+  /// @param square at the point, see mean_square_with_priors()
+  ProfileWalk(const FitProblem& whole, const FitPoint& at, double square, double hz, std::size_t i)
+      : held_(whole, i), hz_(hz), at_(at), square_(square) {
     at_.q.erase(at_.q.begin() + static_cast<std::ptrdiff_t>(i));
     for (const MotorTrace& r : whole.recordings) samples_ += static_cast<double>(r.size());
   }
@@ -60,36 +60,35 @@ class ProfileWalk {
     return value + std::copysign(distance, step);
   }
 
-  double simulations() const { return held_.problem.simulations; }
+  double simulations() const { return simulations_; }
 
  private:
   double root_of_rise(double value) {
     held_.problem.parameters[static_cast<std::size_t>(held_.parameter)].start = value;
     const Solution found = solve(held_.problem, at_, hz_, kRefit);
+    simulations_ += found.simulations;
     if (!found.usable()) return kInfinity;
-    return std::sqrt(std::max(0.0, (found.mean_square - at_.mean_square) * samples_));
+    return std::sqrt(std::max(0.0, (found.mean_square_with_priors - square_) * samples_));
   }
 
   HeldParameter held_;
   double hz_;
-  Solution at_;
-  double samples_ = 0.0;
+  FitPoint at_;
+  double square_, samples_ = 0.0, simulations_ = 0.0;
 };
 
 }  // namespace
 
-Interval profile_interval(const FitProblem& problem, const Solution& at, double observer_hz, std::size_t i,
-                          const ParameterError& error) {
+Profile profile_interval(const FitProblem& problem, const FitPoint& at, double observer_hz, std::size_t i,
+                         const ParameterError& error) {
   const Parameter& p = problem.free_parameter(i);
   const double value = p.coordinate.physical(at.q[i]);
   const double step = kQuantile * error.reported, wanted = kQuantile * error.reported / error.linear;
   if (!(step > 0.0) || !std::isfinite(wanted)) return {};
-  Solution from = at;
-  from.mean_square = mean_square(problem, at, observer_hz);
-  ProfileWalk walk(problem, from, observer_hz, i);
+  const Square square = mean_square_with_priors(problem, at, observer_hz);
+  ProfileWalk walk(problem, at, square.value, observer_hz, i);
   const Interval found{walk.end(value, -step, p.low, wanted), walk.end(value, step, p.high, wanted)};
-  problem.simulations += walk.simulations();
-  return found;
+  return {found, square.simulations + walk.simulations()};
 }
 
 }  // namespace gapscope::internal::reference

@@ -22,11 +22,7 @@ RecordingCost::RecordingCost(const FitProblem& problem, std::size_t recording, c
       states_(problem.free_states(start, observer_hz <= 0.0)),
       shared_(problem.free_count()),
       gain_(ObserverGain::poles(observer_hz, problem.recordings[recording].dt)),
-      floor_(problem.floors[recording]) {
-  set_num_residuals(static_cast<int>(recording_.size()));
-  if (shared_ > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(shared_));
-  if (!states_.empty()) mutable_parameter_block_sizes()->push_back(static_cast<int>(states_.size()));
-}
+      floor_(problem.floors[recording]) {}
 
 template <class T>
 bool RecordingCost::run(const T* q, T* out) const {
@@ -60,25 +56,27 @@ bool RecordingCost::run_chunk(const double* q, int first, int count, double* res
   return std::isfinite(residuals[last]) && out[last].v.allFinite();
 }
 
-bool RecordingCost::evaluate(const double* q, double* residuals, double* jacobian, bool plain) const {
-  if (stop_requested() || problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return false;
+Evaluation RecordingCost::evaluate(const double* q, double* residuals, double* jacobian) const {
+  Evaluation done;
+  if (stop_requested() || problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return done;
   if (jacobian == nullptr) {
-    problem_.simulations += 1.0;
-    if (!run(q, residuals)) return false;
+    done.simulations += 1.0;
+    if (!run(q, residuals)) return done;
   } else {
     for (int first = 0; first < std::max(1, numbers());) {
       const int left = numbers() - first;
       const int count = std::min(left, 12);
-      problem_.simulations += left <= 4 ? kJet4Cost : left <= 8 ? kJet8Cost : kJet12Cost;
-      const bool done = left <= 4   ? run_chunk<4>(q, first, count, residuals, jacobian)
-                        : left <= 8 ? run_chunk<8>(q, first, count, residuals, jacobian)
-                                    : run_chunk<12>(q, first, count, residuals, jacobian);
-      if (!done) return false;
+      done.simulations += left <= 4 ? kJet4Cost : left <= 8 ? kJet8Cost : kJet12Cost;
+      const bool valid = left <= 4   ? run_chunk<4>(q, first, count, residuals, jacobian)
+                         : left <= 8 ? run_chunk<8>(q, first, count, residuals, jacobian)
+                                     : run_chunk<12>(q, first, count, residuals, jacobian);
+      if (!valid) return done;
       first += std::max(1, count);
     }
   }
-  if (!plain) apply_loss(residuals, jacobian);
-  return true;
+  apply_loss(residuals, jacobian);
+  done.valid = true;
+  return done;
 }
 
 /// Huber: r stays within the width w; beyond it becomes √(2 w |r| − w²), whose square is Huber's loss.
@@ -94,29 +92,6 @@ void RecordingCost::apply_loss(double* residuals, double* jacobian) const {
     if (jacobian == nullptr) continue;
     for (std::size_t i = 0; i < n; ++i) jacobian[k * n + i] *= width / root;
   }
-}
-
-bool RecordingCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
-  const auto n = static_cast<std::size_t>(numbers());
-  std::vector<double> q;
-  q.reserve(n);
-  std::size_t block = 0;
-  if (shared_ > 0) q.insert(q.end(), blocks[block], blocks[block] + shared_), ++block;
-  if (!states_.empty()) q.insert(q.end(), blocks[block], blocks[block] + states_.size());
-  if (jacobians == nullptr) return evaluate(q.data(), residuals, nullptr);
-
-  const auto samples = static_cast<std::size_t>(num_residuals());
-  std::vector<double> all(samples * n);
-  if (!evaluate(q.data(), residuals, all.data())) return false;
-  std::size_t first = 0;
-  for (std::size_t b = 0; b < parameter_block_sizes().size(); ++b) {
-    const auto width = static_cast<std::size_t>(parameter_block_sizes()[b]);
-    if (jacobians[b] != nullptr)
-      for (std::size_t k = 0; k < samples; ++k)
-        std::copy_n(&all[k * n + first], width, jacobians[b] + k * width);
-    first += width;
-  }
-  return true;
 }
 
 }  // namespace gapscope::internal::reference

@@ -1,29 +1,32 @@
 #pragma once
 
-#include <ceres/cost_function.h>
-
+#include "gapscope/reference/observer.h"
 #include "reference/fit_problem.h"
-#include "reference/rollout.h"
 
 namespace gapscope::internal::reference {
 
+/// What became of an evaluation.
+struct Evaluation {
+  bool valid = false;        ///< false: the motion diverged, or was refused
+  double simulations = 0.0;  ///< spent on it, a Jet run counted as its measured cost in plain ones
+};
+
 /// Residuals of one recording, in units of its floor: innovations (measured − predicted) of the model run as
-/// an observer; the free run at zero gain. Blocks: the free parameters (left out if there are none), then the
-/// free initial numbers of this recording (left out likewise). One Jet run yields values and derivatives of
-/// up to 12 numbers; more take several runs. A rollout that diverges is refused, never a residual.
-class RecordingCost final : public ceres::CostFunction {
+/// an observer; the free run at zero gain. Its numbers: the free parameters, then the free initial numbers of
+/// this recording. One Jet run yields values and derivatives of up to 12 numbers; more take several runs. A
+/// rollout that diverges is refused, never a residual.
+class RecordingCost {
  public:
   RecordingCost(const FitProblem& problem, std::size_t recording, const RecordingStart& start,
                 double observer_hz);
 
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
+  /// @param q all numbers
+  /// @param jacobian row-major (samples × numbers), or null
+  Evaluation evaluate(const double* q, double* residuals, double* jacobian) const;
 
-  /// The same without Ceres' blocks: all free numbers in one vector, Jacobian row-major (samples × numbers),
-  /// may be null. Without the robust loss if `plain`.
-  bool evaluate(const double* q, double* residuals, double* jacobian, bool plain = false) const;
-
+  std::size_t samples() const { return recording_.size(); }
   int numbers() const { return static_cast<int>(shared_ + states_.size()); }
-  const std::vector<int>& states() const { return states_; }
+  const std::vector<int>& states() const { return states_; }  ///< the initial numbers that are free
 
  private:
   template <class T>

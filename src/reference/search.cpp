@@ -1,6 +1,7 @@
 #include "reference/search.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "gapscope/base/interrupt.h"
 #include "reference/excerpt.h"
@@ -18,42 +19,55 @@ constexpr int kMeetings = 3;  ///< of the best minimum that settle a model that 
 constexpr std::size_t kContendersPerStart = 4;
 constexpr double kGains[] = {1.0, 0.4, 2.5};  ///< of the observer on parts, by turns: their minima differ
 
-bool better(const Solution& a, const Solution& b) { return a.mean_square < b.mean_square; }
-
 /// The better of a point and a local search from it, on some recordings.
-void improve(const FitProblem& problem, double hz, const Effort& effort, Solution& at) {
-  const Solution next = solve(problem, at, hz, effort);
-  if (!next.usable()) return;
-  at = next;
-  choose_variants(problem, at, hz);
+Solution improved(const FitProblem& problem, const Solution& at, double hz, const Effort& effort) {
+  Solution next = solve(problem, at, hz, effort);
+  if (!next.usable()) {
+    Solution same = at;
+    same.simulations = next.simulations;
+    return same;
+  }
+  const Placement placed = choose_variants(problem, next, hz);
+  next.starts = placed.starts;
+  next.simulations += placed.simulations;
+  return next;
 }
 
-Solution whole_search(const FitProblem& problem, const Solution& point) {
+Solution whole_search(const FitProblem& problem, const FitPoint& point) {
   const double hz = problem.options.observer_hz;
   Solution found = solve(problem, point, hz, kSearch);
-  if (!found.usable() || !choose_variants(problem, found, hz)) return found;
-  const Solution again = solve(problem, found, hz, kSearch);
-  return again.mean_square < found.mean_square ? again : found;
+  if (!found.usable()) return found;
+  const Placement placed = choose_variants(problem, found, hz);
+  found.starts = placed.starts;
+  found.simulations += placed.simulations;
+  if (!placed.changed) return found;
+  Solution again = solve(problem, found, hz, kSearch);
+  again.simulations = found.simulations += again.simulations;
+  return leaves_less(again, found) ? again : found;
 }
 
 /// Whether further starts can be spared: nothing but the encoder is left in the innovations; or the best
 /// minimum was met often and the model is not the drive anyway.
-bool settled(const FitProblem& problem, const Solution& found, const SearchResult& result) {
+bool settled(const FitProblem& problem, const Solution& found, SearchResult& result) {
   const FitOptions& o = problem.options;
-  const double best = result.best().mean_square;
-  const auto met = std::count_if(result.ends.begin(), result.ends.end(),
-                                 [&](const Solution& end) { return end.mean_square < kSameMinimum * best; });
+  const double best = result.best().mean_square_with_priors;
+  const auto met = std::count_if(result.ends.begin(), result.ends.end(), [&](const Solution& end) {
+    return end.mean_square_with_priors < kSameMinimum * best;
+  });
   if (best > o.rejected_ratio * o.rejected_ratio) return met >= kMeetings;
-  return found.mean_square < kAtFloor * kAtFloor &&
-         correlation_at(problem, found, o.observer_hz).excess() < kWhite;
+  if (!(found.mean_square_with_priors < kAtFloor * kAtFloor)) return false;
+  const Correlation left = correlation_at(problem, found, o.observer_hz);
+  result.simulations += left.simulations;
+  return left.excess() < kWhite;
 }
 
 /// @returns whether that settles the search
-bool take(const FitProblem& problem, const Solution& point, SearchResult& result) {
+bool take(const FitProblem& problem, const FitPoint& point, SearchResult& result) {
   stop_point();
   const Solution found = whole_search(problem, point);
+  result.simulations += found.simulations;
   if (!found.usable()) return false;
-  result.ends.insert(std::upper_bound(result.ends.begin(), result.ends.end(), found, better), found);
+  result.ends.insert(std::upper_bound(result.ends.begin(), result.ends.end(), found, leaves_less), found);
   return settled(problem, found, result);
 }
 
@@ -64,26 +78,26 @@ struct Contender {
 
 /// Points that compete on growing parts of the recordings; from one part to the next half of them drop out,
 /// until `survivors` are left.
-std::vector<Solution> compete(const FitProblem& problem, const std::vector<Solution>& points,
-                              std::size_t survivors) {
+StartPoints compete(const FitProblem& problem, const std::vector<Solution>& points, std::size_t survivors) {
   std::vector<Contender> field;
   for (std::size_t i = 0; i < points.size(); ++i)
     field.push_back({points[i], kGains[i % std::size(kGains)] * problem.options.observer_hz});
+  StartPoints left;
   for (const double share : kShares) {
     const Excerpt part(problem, share);
     for (Contender& c : field) {
       stop_point();
-      improve(part.problem(), c.observer_hz, kPart, c.at);
-      c.at.mean_square = mean_square(part.problem(), c.at, problem.options.observer_hz);
+      c.at = improved(part.problem(), c.at, c.observer_hz, kPart);
+      const Square square = mean_square_with_priors(part.problem(), c.at, problem.options.observer_hz);
+      c.at.mean_square_with_priors = square.value;
+      left.simulations += part.of_whole(c.at.simulations + square.simulations);
     }
-    std::stable_sort(field.begin(), field.end(), [](const Contender& a, const Contender& b) {
-      return a.at.mean_square < b.at.mean_square;
-    });
+    std::stable_sort(field.begin(), field.end(),
+                     [](const Contender& a, const Contender& b) { return leaves_less(a.at, b.at); });
     field.erase(field.begin() + std::min(field.size(), std::max(survivors, field.size() / 2)), field.end());
   }
-  std::vector<Solution> left;
   for (const Contender& c : field)
-    if (c.at.usable() && left.size() < survivors) left.push_back(c.at);
+    if (c.at.usable() && left.points.size() < survivors) left.points.push_back(c.at);
   return left;
 }
 
@@ -91,25 +105,32 @@ std::vector<Solution> compete(const FitProblem& problem, const std::vector<Solut
 
 std::vector<double> SearchResult::costs() const {
   std::vector<double> costs;
-  for (const Solution& end : ends) costs.push_back(end.mean_square);
+  for (const Solution& end : ends) costs.push_back(end.mean_square_with_priors);
   return costs;
 }
 
 SearchResult find_minima(const FitProblem& problem) {
   SearchResult result;
   auto starts = static_cast<std::size_t>(std::max(1, problem.options.starts));
-  std::vector<Solution> points = {given_point(problem)};
+  std::vector<Solution> points(1, Solution{given_point(problem)});
+  /// @returns whether one of the points settles the search
+  const auto follow_best = [&](std::size_t count) {
+    const StartPoints left = compete(problem, points, count);
+    result.simulations += left.simulations;
+    return std::any_of(left.points.begin(), left.points.end(),
+                       [&](const Solution& point) { return take(problem, point, result); });
+  };
   if (values_are_given(problem)) {  // what the user believes goes first; derived values have no such rank
-    for (const Solution& point : compete(problem, points, 1))
-      if (take(problem, point, result)) return result;
+    if (follow_best(1)) return result;
     points.clear();
     --starts;
   }
-  if (starts > 0 && problem.free_count() > 0)
-    for (Solution& point : drawn_points(problem, kContendersPerStart * starts))
-      points.push_back(std::move(point));
-  for (const Solution& point : compete(problem, points, starts))
-    if (take(problem, point, result)) break;
+  if (starts > 0 && problem.free_count() > 0) {
+    StartPoints draws = drawn_points(problem, kContendersPerStart * starts);
+    result.simulations += draws.simulations;
+    std::move(draws.points.begin(), draws.points.end(), std::back_inserter(points));
+  }
+  follow_best(starts);
   return result;
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reference/solve.h"
+#include "reference/solvers.h"
 
 namespace gapscope::internal::reference {
 
@@ -14,6 +14,7 @@ constexpr double kWhite = 0.15;
 /// Result of the starts.
 struct SearchResult {
   std::vector<Solution> ends;  ///< of the searches that did not fail, least mean square first
+  double simulations = 0.0;    ///< spent on all of them
 
   Solution best() const { return ends.empty() ? Solution{} : ends.front(); }
   std::vector<double> costs() const;  ///< final mean squares [floor²]

@@ -24,7 +24,7 @@ constexpr double kClearlyBetter = 0.98;
 constexpr double kInside = 0.02;
 
 Interval draw_range(const FitProblem& problem, const Parameter& p) {
-  if (p.key == std::string("gap") && !p.given)
+  if (p.id == drive_number(place::kGap) && !p.given)
     return {0.01 * problem.rough.travel, 0.8 * problem.rough.travel};
   const double factor = p.given ? kNearFactor : kFarFactor;
   return {p.start / factor, p.start * factor};
@@ -56,11 +56,11 @@ std::vector<InitialVariant> initial_variants(const FitProblem& problem, const Re
   return {{0, false}, {0, true}, {-1, true}, {1, true}};
 }
 
-Solution start_point(const FitProblem& problem, std::vector<double> q) {
-  Solution point;
+FitPoint start_point(const FitProblem& problem, std::vector<double> q) {
+  FitPoint point;
   point.q = std::move(q);
   const ModelNumbers<double> numbers = problem.numbers(point.q.data());
-  const double gap = numbers[place::kGap];
+  const double gap = numbers.drive(place::kGap);
   const double length = std::max(gap, 1e-3 * problem.rough.travel);
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
     const double floor = problem.floors[r];
@@ -77,23 +77,28 @@ Solution start_point(const FitProblem& problem, std::vector<double> q) {
   return point;
 }
 
-bool choose_variants(const FitProblem& problem, Solution& at, double observer_hz) {
-  bool changed = false;
+Placement choose_variants(const FitProblem& problem, const FitPoint& at, double observer_hz) {
+  Placement placed{at.starts, false, 0.0};
+  const auto square_from = [&](std::size_t r, const RecordingStart& start) {
+    const Square square = recording_square(problem, at.q, r, start, observer_hz);
+    placed.simulations += square.simulations;
+    return square.value;
+  };
   for (std::size_t r = 0; r < at.starts.size(); ++r) {
-    double best = recording_square(problem, at.q, r, at.starts[r], observer_hz);
+    double best = square_from(r, at.starts[r]);
     for (const InitialVariant& variant : initial_variants(problem, at.starts[r])) {
-      RecordingStart start = at.starts[r];
+      RecordingStart start = placed.starts[r];
       start.variant = variant;
       start.q.fill(0.0);
       start.q[2] = -kInside * variant.side;
-      const double cost = recording_square(problem, at.q, r, start, observer_hz);
+      const double cost = square_from(r, start);
       if (!(cost < kClearlyBetter * best)) continue;
       best = cost;
-      at.starts[r] = start;
-      changed = true;
+      placed.starts[r] = start;
+      placed.changed = true;
     }
   }
-  return changed;
+  return placed;
 }
 
 bool values_are_given(const FitProblem& problem) {
@@ -102,22 +107,25 @@ bool values_are_given(const FitProblem& problem) {
   return true;
 }
 
-Solution given_point(const FitProblem& problem) { return start_point(problem, given_values(problem)); }
+FitPoint given_point(const FitProblem& problem) { return start_point(problem, given_values(problem)); }
 
-std::vector<Solution> drawn_points(const FitProblem& problem, std::size_t count) {
+StartPoints drawn_points(const FitProblem& problem, std::size_t count) {
   auto generator = random_stream(problem.options.seed, "fit starts");
-  std::vector<Solution> points;
+  StartPoints found;
   const Excerpt part(problem, kLooked);
+  const double hz = problem.options.observer_hz;
   for (std::size_t i = 0; i < kDrawsPerPoint * count; ++i) {
-    Solution p = start_point(problem, drawn(problem, generator));
-    choose_variants(part.problem(), p, problem.options.observer_hz);
-    p.mean_square = mean_square(part.problem(), p, problem.options.observer_hz);
-    if (p.usable()) points.push_back(std::move(p));
+    Solution p{start_point(problem, drawn(problem, generator))};
+    const Placement placed = choose_variants(part.problem(), p, hz);
+    p.starts = placed.starts;
+    const Square square = mean_square_with_priors(part.problem(), p, hz);
+    p.mean_square_with_priors = square.value;
+    found.simulations += part.of_whole(placed.simulations + square.simulations);
+    if (p.usable()) found.points.push_back(std::move(p));
   }
-  std::stable_sort(points.begin(), points.end(),
-                   [](const Solution& a, const Solution& b) { return a.mean_square < b.mean_square; });
-  points.resize(std::min(points.size(), count));
-  return points;
+  std::stable_sort(found.points.begin(), found.points.end(), leaves_less);
+  found.points.resize(std::min(found.points.size(), count));
+  return found;
 }
 
 }  // namespace gapscope::internal::reference

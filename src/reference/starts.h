@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reference/solve.h"
+#include "reference/solvers.h"
 
 namespace gapscope::internal::reference {
 
@@ -10,20 +10,33 @@ namespace gapscope::internal::reference {
 std::vector<InitialVariant> initial_variants(const FitProblem& problem, const RecordingStart& start);
 
 /// The point of the given parameters with each recording's initial state as its first samples show it.
-Solution start_point(const FitProblem& problem, std::vector<double> q);
+FitPoint start_point(const FitProblem& problem, std::vector<double> q);
 
-/// Gives each recording the initial place of the load that fits best at the present parameters (recordings
-/// are independent of each other in it). @returns whether any recording changed.
-bool choose_variants(const FitProblem& problem, Solution& at, double observer_hz);
+/// Where the loads are best placed at the beginning of the recordings.
+struct Placement {
+  std::vector<RecordingStart> starts;
+  bool changed = false;  ///< from where they were
+  double simulations = 0.0;
+};
+
+/// The initial place of the load in each recording that fits best at the present parameters (recordings are
+/// independent of each other in it).
+Placement choose_variants(const FitProblem& problem, const FitPoint& at, double observer_hz);
 
 /// Whether every free parameter has a value of the user's, not one that the recordings suggest.
 bool values_are_given(const FitProblem& problem);
 
 /// The given (or derived) values.
-Solution given_point(const FitProblem& problem);
+FitPoint given_point(const FitProblem& problem);
+
+/// Points to search from, best first, and what it took to find them.
+struct StartPoints {
+  std::vector<Solution> points;
+  double simulations = 0.0;
+};
 
 /// Draws, log-uniform around given values (×÷3) and over the plausible range of those that were not given:
 /// of several each, the ones that fit the first part of the recordings best. They depend on the seed alone.
-std::vector<Solution> drawn_points(const FitProblem& problem, std::size_t count);
+StartPoints drawn_points(const FitProblem& problem, std::size_t count);
 
 }  // namespace gapscope::internal::reference

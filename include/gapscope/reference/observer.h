@@ -6,7 +6,7 @@
 #include "gapscope/recording/recording.h"
 #include "gapscope/simulation/stepper.h"
 
-namespace gapscope::internal::reference {
+namespace gapscope {
 
 /// Output injection of the model run as an observer: x1 += l1 e, w1 += l2 e/dt.
 /// Both poles of the position error of a free mass lie at exp(−2π f dt).
@@ -53,4 +53,4 @@ bool roll_out(const StepperModel<T>& model, const DriveState<T>& start, const Mo
   return true;
 }
 
-}  // namespace gapscope::internal::reference
+}  // namespace gapscope

@@ -1,0 +1,168 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gapscope/reference/fit.h"
+
+namespace gapscope {
+
+/// One number of a model.
+struct ParameterId {
+  static constexpr int kDrive = -1;
+
+  int effect = kDrive;  ///< place in ReferenceModel::effects; kDrive: a number of the drive itself
+  int index = 0;        ///< place in kDriveParameters, or in the effect's specification
+
+  bool operator==(const ParameterId&) const = default;
+};
+constexpr ParameterId drive_number(int place) { return {ParameterId::kDrive, place}; }
+ParameterSetting& setting_of(ReferenceModel& model, ParameterId id);
+
+/// Where the load may be at the first sample, relative to the motor.
+struct InitialVariant {
+  int side = 0;             ///< −1, +1: at that edge of the gap, 0: in its middle
+  bool load_moves = false;  ///< with the speed of the motor; else at rest
+};
+
+/// Initial state of one recording in solver units, all linear:
+///   x1(0) = x̄1 + s0 q0,  w1(0) = w̄1 + s1 q1,  x2(0) = x1(0) − side β − s2 q2,  w2(0) = w1(0) + s3 q3 (or 0)
+inline constexpr int kStates = 4;
+struct RecordingStart {
+  double x1 = 0.0, w1 = 0.0;  ///< x̄1, w̄1 from a local polynomial
+  bool moves = false;         ///< w̄1 is clearly not zero
+  InitialVariant variant;
+  std::array<double, kStates> scale{};
+  std::array<double, kStates> q{};
+};
+
+/// A point of a search, in solver units.
+struct FitPoint {
+  std::vector<double> q;               ///< the free parameters
+  std::vector<RecordingStart> starts;  ///< one per recording
+
+  /// This point with its first numbers replaced.
+  FitPoint beginning_with(std::span<const double> first) const;
+};
+
+/// How far refine() goes.
+struct RefineEffort {
+  int jacobians = 6;        ///< exact derivatives at most so many times
+  int trials = 30;          ///< plain runs
+  double tolerance = 1e-4;  ///< relative decrease of the cost at which it stops
+};
+
+/// Where refine() ended.
+struct RefinedFit : FitPoint {
+  /// Of the residuals, the priors and the widths of the initial states, over the samples [floor²]; infinite:
+  /// failed.
+  double mean_cost = kInfinity;
+  bool converged = false;
+  double simulations = 0.0;  ///< spent on it, a Jet run counted as its measured cost in plain ones
+
+  bool usable() const { return mean_cost < kInfinity; }
+};
+
+/// Where adjust() ended.
+struct AdjustedFit : FitPoint {
+  double residual_mean_square = kInfinity;  ///< of the residuals alone [floor²]; infinite: failed
+  double simulations = 0.0;                 ///< plain runs spent on it
+
+  bool usable() const { return residual_mean_square < kInfinity; }
+};
+
+/// Residuals at a point and their derivatives by the free parameters.
+class FitLinearisation;
+
+/// Where the search for a sine begins.
+struct SineStart {
+  double amplitude = 0.0;  ///< in the unit of the effect
+  double phase = 0.0;      ///< [rad]
+};
+
+/// A model with all its numbers as the simulator takes it, and the state that each recording begins with.
+struct ModelRun {
+  PlantModel<double> plant;
+  std::vector<DriveState<double>> starts;
+};
+
+namespace internal::reference {
+struct FitProblem;
+}
+
+/// A model beside recordings, to be fitted again and again by other modules: from here, with this effort. The
+/// whole fit, with intervals and what they rest on, is fit().
+///
+/// Residuals are the innovations of the model run as an observer (see observer.h), in floors of the encoder.
+class ModelFit {
+ public:
+  /// @param observer_hz poles of the observer [Hz]; 0: the free run
+  /// @throws std::logic_error, see fit(). The recordings must live as long as this does.
+  ModelFit(std::span<const MotorTrace> recordings, const ReferenceModel& model, const FitOptions& options,
+           double observer_hz);
+  ~ModelFit();
+  ModelFit(ModelFit&&) noexcept;
+
+  const ReferenceModel& model() const { return model_; }
+
+  /// Whether every free parameter has a value of the user's, not one that the recordings suggest.
+  bool values_are_given() const;
+  /// The given (or derived) values, each recording beginning as its first samples show it.
+  FitPoint given_point() const;
+  /// The values of a model of the same numbers, or of their first ones; the others as given.
+  FitPoint point_of(const ReferenceModel& values, std::vector<RecordingStart> starts) const;
+  /// The point with each recording's load where it fits best; nullopt where it stands there already.
+  std::optional<FitPoint> with_loads_placed(const FitPoint& at) const;
+
+  /// From afar: local searches from several starts, see fit(). Nothing if all of them diverge.
+  std::optional<FitPoint> search() const;
+  /// From nearby, see refine() in src/reference/solvers.h.
+  RefinedFit refine(const FitPoint& from, const RefineEffort& effort) const;
+  /// The same with the loads placed before and, where they move, once more after.
+  RefinedFit refine_with_loads_placed(const FitPoint& from, const RefineEffort& effort) const;
+  /// By plain runs alone, see adjust() in src/reference/solvers.h.
+  AdjustedFit adjust(const FitPoint& from, const FitLinearisation& borrowed, int steps) const;
+  /// Empty where the motion diverges.
+  std::optional<FitLinearisation> linearise(const FitPoint& at) const;
+  /// Amplitude and phase of a sine, the last two numbers of the model, that explain with all the others what
+  /// a model without it leaves: both quarters of the sine act in proportion to their size while it is small.
+  /// @param borrowed residuals without the sine, derivatives by the other numbers
+  /// @param small size of the sine at which its action is tried
+  std::optional<SineStart> sine_start(const FitPoint& at, const FitLinearisation& borrowed,
+                                      double small) const;
+
+  /// The model with the values of a point.
+  ReferenceModel model_at(const FitPoint& at) const;
+  ModelRun run_at(const FitPoint& at) const;
+  /// The free numbers that stand at a bound.
+  std::vector<ParameterId> at_bound(const FitPoint& at) const;
+  Interval bounds(ParameterId id) const;  ///< NaN for a number that the model's structure does not have
+
+ private:
+  std::unique_ptr<const internal::reference::FitProblem> problem_;
+  ReferenceModel model_;
+  double observer_hz_;
+};
+
+namespace internal::reference {
+struct LinearResiduals;
+}
+
+/// Cheap to copy: what it holds is shared and never changes.
+class FitLinearisation {
+ public:
+  /// The free parameters where it was taken, in solver units.
+  const std::vector<double>& q() const { return q_; }
+
+ private:
+  friend class ModelFit;
+  FitLinearisation(std::vector<double> q, std::vector<internal::reference::LinearResiduals> recordings);
+
+  std::vector<double> q_;
+  std::shared_ptr<const std::vector<internal::reference::LinearResiduals>> recordings_;
+};
+
+}  // namespace gapscope

@@ -1,0 +1,58 @@
+#include "diagnosis/fitted.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+constexpr RefineEffort kNominal{8, 40, 1e-5};
+
+/// Keys of the last effect's parameters that have ended at a bound.
+std::vector<std::string> at_bounds(const ModelFit& fit, const FitPoint& at) {
+  std::vector<std::string> keys;
+  const std::vector<ModelEffect>& effects = fit.model().effects;
+  for (const ParameterId& id : fit.at_bound(at))
+    if (id.effect != ParameterId::kDrive && id.effect + 1 == std::ssize(effects))
+      keys.emplace_back(effects.back().entry->parameters[static_cast<std::size_t>(id.index)].key);
+  return keys;
+}
+
+}  // namespace
+
+Fitted fitted_at(const ModelFit& fit, const RefinedFit& best) {
+  const auto is_number = [](double q) { return std::isfinite(q); };
+  if (!best.usable() || !std::all_of(best.q.begin(), best.q.end(), is_number))
+    return {fit.model(), {}, kInfinity, {}};
+  return {fit.model_at(best), best.starts, best.mean_cost, at_bounds(fit, best)};
+}
+
+Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
+                   double hz) {
+  const ModelFit fit(train, model, options, hz);
+  RefinedFit best;
+  if (fit.values_are_given()) best = fit.refine_with_loads_placed(fit.given_point(), kNominal);
+  if (best.mean_cost <= kFloorSquare) return fitted_at(fit, best);
+  if (const std::optional<FitPoint> found = fit.search())
+    if (const RefinedFit other = fit.refine_with_loads_placed(*found, kNominal);
+        other.mean_cost < best.mean_cost)
+      best = other;
+  return fitted_at(fit, best);
+}
+
+Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
+                double hz, const RefineEffort& effort) {
+  const ModelFit fit(recordings, from, options, hz);
+  FitPoint point = fit.given_point();
+  point.starts =
+      settled_starts(recordings, from, hz);  // else the numbers would move for the load's first place
+  return fitted_at(fit, fit.refine_with_loads_placed(point, effort));
+}
+
+ReferenceModel with_drive(ReferenceModel model, const ReferenceModel& drive) {
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    if (!std::isnan(drive.parameters[i].value)) model.parameters[i].value = drive.parameters[i].value;
+  return model;
+}
+
+}  // namespace gapscope::internal::diagnosis

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnosis/effect_starts.h"
+#include "diagnosis/fitted.h"
+
+namespace gapscope::internal::diagnosis {
+
+/// Where an effect that was added to a fitted model begins: from every base and every start of the effect the
+/// numbers are adjusted with the base's derivatives, by plain runs alone, and the best go on to be refined.
+class Race {
+ public:
+  /// @param fit of the fitted model with the effect as its last
+  /// @param nominal the fitted model without it
+  Race(const ModelFit& fit, const Fitted& nominal, std::span<const FitLinearisation> bases);
+
+  /// A start from every base.
+  void enter(const EffectStart& start);
+  /// The sine that each base's residuals ask for.
+  void enter_sines(const EffectStart& typical);
+  /// A start on the drive of a fitted model whose last effect this one contains, and a weaker one, which is
+  /// nearly that model itself.
+  void enter_on(const Fitted& parent, const EffectStart& start);
+  /// Weaker and weaker starts from the first base while the last one entered leaves more than the model
+  /// without the effect: one far smaller than the start only hurts there.
+  /// @param i the parameter that is made weaker
+  void weaken(const EffectStart& start, std::size_t i);
+
+  /// Follows the best, then the best from elsewhere. Infinite without anything that has entered.
+  RefinedFit best();
+
+ private:
+  struct Entrant {
+    AdjustedFit at;
+    std::size_t origin = 0;  ///< the base that it set out from; their number: none
+  };
+
+  const EffectEntry& entry() const { return *fit_.model().effects.back().entry; }
+  Interval bounds(std::size_t i) const;
+  std::vector<double> physical(const EffectStart& start) const;
+  double weaker(std::size_t i, double value) const;
+  void run_from(const std::vector<double>& effect, const FitLinearisation& base);
+  void run_on(const Fitted& parent, std::vector<double> effect);
+  RefinedFit follow(const AdjustedFit& from) const;
+
+  const ModelFit& fit_;
+  const Fitted& nominal_;
+  std::span<const FitLinearisation> bases_;
+  std::vector<Entrant> field_;
+};
+
+}  // namespace gapscope::internal::diagnosis

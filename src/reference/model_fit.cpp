@@ -1,0 +1,121 @@
+#include "gapscope/reference/model_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/search.h"
+#include "reference/starts.h"
+
+namespace gapscope {
+
+using namespace internal::reference;
+
+ParameterSetting& setting_of(ReferenceModel& model, ParameterId id) {
+  const auto index = static_cast<std::size_t>(id.index);
+  if (id.effect == ParameterId::kDrive) return model.parameters[index];
+  return model.effects[static_cast<std::size_t>(id.effect)].parameters[index];
+}
+
+FitPoint FitPoint::beginning_with(std::span<const double> first) const {
+  FitPoint to = *this;
+  std::copy(first.begin(), first.end(), to.q.begin());
+  return to;
+}
+
+FitLinearisation::FitLinearisation(std::vector<double> q, std::vector<LinearResiduals> recordings)
+    : q_(std::move(q)),
+      recordings_(std::make_shared<const std::vector<LinearResiduals>>(std::move(recordings))) {}
+
+ModelFit::ModelFit(std::span<const MotorTrace> recordings, const ReferenceModel& model,
+                   const FitOptions& options, double observer_hz)
+    : problem_(std::make_unique<const FitProblem>(make_problem(recordings, model, options))),
+      model_(model),
+      observer_hz_(observer_hz) {}
+ModelFit::~ModelFit() = default;
+ModelFit::ModelFit(ModelFit&&) noexcept = default;
+
+bool ModelFit::values_are_given() const { return internal::reference::values_are_given(*problem_); }
+
+FitPoint ModelFit::given_point() const { return internal::reference::given_point(*problem_); }
+
+FitPoint ModelFit::point_of(const ReferenceModel& values, std::vector<RecordingStart> starts) const {
+  FitPoint point{{}, std::move(starts)};
+  ReferenceModel model = values;
+  for (std::size_t i = 0; i < problem_->free_count(); ++i) {
+    const Parameter& p = problem_->free_parameter(i);
+    const bool known = p.id.effect < std::ssize(model.effects);
+    const double value = known ? setting_of(model, p.id).value : p.start;
+    point.q.push_back(p.coordinate.solver(std::clamp(std::isnan(value) ? p.start : value, p.low, p.high)));
+  }
+  return point;
+}
+
+std::optional<FitPoint> ModelFit::with_loads_placed(const FitPoint& at) const {
+  Placement placed = choose_variants(*problem_, at, observer_hz_);
+  if (!placed.changed) return {};
+  return FitPoint{at.q, std::move(placed.starts)};
+}
+
+std::optional<FitPoint> ModelFit::search() const {
+  const Solution best = find_minima(*problem_).best();
+  if (!best.usable()) return {};
+  return best;
+}
+
+RefinedFit ModelFit::refine(const FitPoint& from, const RefineEffort& effort) const {
+  return internal::reference::refine(*problem_, from, observer_hz_, effort);
+}
+
+RefinedFit ModelFit::refine_with_loads_placed(const FitPoint& from, const RefineEffort& effort) const {
+  RefinedFit found = refine(with_loads_placed(from).value_or(from), effort);
+  if (!found.usable()) return found;
+  const std::optional<FitPoint> placed = with_loads_placed(found);
+  if (!placed) return found;
+  static_cast<FitPoint&>(found) = *placed;
+  const RefinedFit again = refine(found, effort);
+  return again.mean_cost < found.mean_cost ? again : found;
+}
+
+AdjustedFit ModelFit::adjust(const FitPoint& from, const FitLinearisation& borrowed, int steps) const {
+  return internal::reference::adjust(*problem_, from, *borrowed.recordings_, observer_hz_, steps);
+}
+
+std::optional<FitLinearisation> ModelFit::linearise(const FitPoint& at) const {
+  std::vector<LinearResiduals> recordings = internal::reference::linearise(*problem_, at, observer_hz_);
+  if (recordings.empty()) return {};
+  return FitLinearisation(at.q, std::move(recordings));
+}
+
+std::optional<SineStart> ModelFit::sine_start(const FitPoint& at, const FitLinearisation& borrowed,
+                                              double small) const {
+  return internal::reference::sine_start(*problem_, at, *borrowed.recordings_, small, observer_hz_);
+}
+
+ReferenceModel ModelFit::model_at(const FitPoint& at) const {
+  const ModelNumbers<double> numbers = problem_->numbers(at.q.data());
+  ReferenceModel model = model_;
+  for (const Parameter& p : problem_->parameters) setting_of(model, p.id).value = numbers[p.id];
+  return model;
+}
+
+ModelRun ModelFit::run_at(const FitPoint& at) const {
+  ModelRun run{problem_->stepper_model(problem_->numbers(at.q.data())), {}};
+  for (const RecordingStart& start : at.starts)
+    run.starts.push_back(problem_->state(start, 0.5 * run.plant.drive.gap, start.q.data()));
+  return run;
+}
+
+std::vector<ParameterId> ModelFit::at_bound(const FitPoint& at) const {
+  std::vector<ParameterId> ids;
+  for (std::size_t i = 0; i < problem_->free_count(); ++i)
+    if (const Parameter& p = problem_->free_parameter(i); p.at_bound(at.q[i])) ids.push_back(p.id);
+  return ids;
+}
+
+Interval ModelFit::bounds(ParameterId id) const {
+  for (const Parameter& p : problem_->parameters)
+    if (p.id == id) return {p.low, p.high};
+  return {};
+}
+
+}  // namespace gapscope
