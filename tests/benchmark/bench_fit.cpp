@@ -14,14 +14,14 @@
 #include <memory>
 
 #include "gapscope/recording/recording_file.h"
-#include "reference/recording_cost.h"
+#include "reference/ceres_terms.h"
 #include "reference/rigs.h"
 #include "reference/starts.h"
 
 namespace gapscope {
 namespace {
 
-using namespace internal;
+using namespace internal::reference;
 using namespace test;
 
 constexpr int kRepetitions = 7;
@@ -55,9 +55,9 @@ ReferenceModel wrong_model(const independent_plant::BlindDrive& drive) {
 
 /// The residuals without their Jacobian, for Ceres to difference.
 struct Residuals {
-  const RecordingCost* cost;
+  const RecordingTerm* term;
   bool operator()(double const* const* blocks, double* residuals) const {
-    return cost->Evaluate(blocks, residuals, nullptr);
+    return term->Evaluate(blocks, residuals, nullptr);
   }
 };
 
@@ -66,22 +66,24 @@ struct Solved {
 };
 
 /// Observer, then free run, by Ceres alone.
-Solved solve_both(const FitProblem& problem, const Solution& from, bool jets) {
+Solved solve_both(const FitProblem& problem, const FitPoint& from, bool jets) {
   std::vector<double> shared = from.q;
   Solved solved;
   for (const double hz : {2.5, 0.0}) {
-    auto cost = std::make_unique<RecordingCost>(problem, 0, from.starts[0], hz);
-    std::vector<double> states(cost->states().size(), 0.0);
+    const RecordingCost cost(problem, 0, from.starts[0], hz);
+    double simulations = 0.0;
+    auto term = std::make_unique<RecordingTerm>(cost, simulations);
+    std::vector<double> states(cost.states().size(), 0.0);
     ceres::Problem ceres_problem;
     std::vector<double*> blocks = {shared.data(), states.data()};
     if (jets) {
-      ceres_problem.AddResidualBlock(cost.get(), nullptr, blocks);
+      ceres_problem.AddResidualBlock(term.get(), nullptr, blocks);
     } else {
       auto* numeric =
-          new ceres::DynamicNumericDiffCostFunction<Residuals, ceres::CENTRAL>(new Residuals{cost.get()});
+          new ceres::DynamicNumericDiffCostFunction<Residuals, ceres::CENTRAL>(new Residuals{term.get()});
       numeric->AddParameterBlock(static_cast<int>(shared.size()));
       numeric->AddParameterBlock(static_cast<int>(states.size()));
-      numeric->SetNumResiduals(cost->num_residuals());
+      numeric->SetNumResiduals(term->num_residuals());
       ceres_problem.AddResidualBlock(numeric, nullptr, blocks);
     }
     ceres::Solver::Options options;
@@ -92,7 +94,7 @@ Solved solve_both(const FitProblem& problem, const Solution& from, bool jets) {
     ceres::Solver::Summary summary;
     solved.time += seconds([&] { ceres::Solve(options, &ceres_problem, &summary); });
     solved.cost = summary.final_cost;
-    if (jets) cost.release();  // taken over by the problem
+    if (jets) term.release();  // taken over by the problem
   }
   return solved;
 }
@@ -103,7 +105,7 @@ void compare(bool sine, const char* file) {
   const MotorTrace trace = recording.motor_trace();
   const ReferenceModel model = wrong_model(r.drive);
   const FitProblem problem = make_problem({&trace, 1}, model, {});
-  const Solution from = given_point(problem);
+  const FitPoint from = given_point(problem);
   double plain = kInfinity, jets = kInfinity, numeric = kInfinity, whole = kInfinity;
   Solved by_jets, by_differences;
   FitSummary summary;

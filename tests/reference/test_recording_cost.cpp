@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "gapscope/simulation/simulate.h"
-#include "reference/recording_cost.h"
+#include "reference/ceres_terms.h"
 #include "reference/rigs.h"
 #include "reference/starts.h"
 
@@ -18,7 +18,7 @@ struct CostOfRig {
   Recording recording;
   MotorTrace trace;
   FitProblem problem;
-  Solution point;
+  FitPoint point;
 
   CostOfRig(const BlindRig& run, const ReferenceModel& model, const FitOptions& options = {})
       : recording(run.recording()), trace(recording.motor_trace()) {
@@ -30,10 +30,9 @@ struct CostOfRig {
   }
   CostOfRig(const CostOfRig&) = delete;
 
-  std::vector<double> numbers(const RecordingCost& cost) const {
-    std::vector<double> q = point.q;
-    for (const int s : cost.states()) q.push_back(point.starts[0].q[static_cast<std::size_t>(s)]);
-    return q;
+  std::vector<double> numbers(double observer_hz) const {
+    const Cost::Vector x = Cost(problem, point, observer_hz).pack(point);
+    return {x.begin(), x.end()};
   }
 };
 
@@ -57,11 +56,13 @@ ReferenceModel freed(int count) {
 void expect_right_derivatives(double observer_hz, int free_parameters) {
   CostOfRig rig(short_run(), freed(free_parameters));
   const RecordingCost cost(rig.problem, 0, rig.point.starts[0], observer_hz);
-  const std::vector<double> q = rig.numbers(cost);
+  double simulations = 0.0;
+  const RecordingTerm term(cost, simulations);
+  const std::vector<double> q = rig.numbers(observer_hz);
   ceres::NumericDiffOptions options;
   options.ridders_relative_initial_step_size = 1e-6;  // events must stay within their samples
   const ceres::GradientChecker checker(
-      &cost, static_cast<const std::vector<const ceres::Manifold*>*>(nullptr), options);
+      &term, static_cast<const std::vector<const ceres::Manifold*>*>(nullptr), options);
   const double* blocks[] = {q.data(), q.data() + rig.problem.free_count()};
   ceres::GradientChecker::ProbeResults probe;
   checker.Probe(blocks, 1e-6, &probe);
@@ -91,10 +92,10 @@ TEST(RecordingCost, MoreNumbersThanAJetHoldsTakeSeveralRuns) {
   rig.point.starts[0].q[2] = -0.1;  // a little inside the edge
   const RecordingCost cost(rig.problem, 0, rig.point.starts[0], 0.0);
   ASSERT_EQ(cost.numbers(), 13);
-  const std::vector<double> q = rig.numbers(cost);
+  const std::vector<double> q = rig.numbers(0.0);
   const std::size_t samples = rig.recording.size();
   std::vector<double> residuals(samples), jacobian(samples * 13);
-  ASSERT_TRUE(cost.evaluate(q.data(), residuals.data(), jacobian.data()));
+  ASSERT_TRUE(cost.evaluate(q.data(), residuals.data(), jacobian.data()).valid);
   // The place of both bodies shifts the free run as a whole.
   const double shift = -rig.point.starts[0].scale[0] / rig.problem.floors[0];
   for (std::size_t i = 0; i < samples; ++i) ASSERT_NEAR(jacobian[i * 13 + 9], shift, 1e-6 * -shift);
@@ -103,9 +104,9 @@ TEST(RecordingCost, MoreNumbersThanAJetHoldsTakeSeveralRuns) {
 TEST(RecordingCost, AtTheTruthOnlyTheEncoderIsLeft) {
   CostOfRig rig(short_run(), freed(3));
   const RecordingCost cost(rig.problem, 0, rig.point.starts[0], 0.0);
-  const std::vector<double> q = rig.numbers(cost);
+  const std::vector<double> q = rig.numbers(0.0);
   std::vector<double> residuals(rig.recording.size());
-  ASSERT_TRUE(cost.evaluate(q.data(), residuals.data(), nullptr));
+  ASSERT_TRUE(cost.evaluate(q.data(), residuals.data(), nullptr).valid);
   // Half a quantum, in floors of at least quantum/√12, and the start's own error beside it.
   for (const double r : residuals) ASSERT_LT(std::abs(r), 0.5 * std::sqrt(12.0) * 3.0);
 }
@@ -117,10 +118,9 @@ TEST(RecordingCost, ADivergedMotionIsRefusedAndLeavesNoSmallResidual) {
   run.options.duration = 4.0;
   CostOfRig rig(run, model);
   const RecordingCost cost(rig.problem, 0, rig.point.starts[0], 0.0);
-  const std::vector<double> q = rig.numbers(cost);
+  const std::vector<double> q = rig.numbers(0.0);
   std::vector<double> residuals(rig.recording.size());
-  const double* blocks[] = {q.data(), q.data() + rig.problem.free_count()};
-  EXPECT_FALSE(cost.Evaluate(blocks, residuals.data(), nullptr));
+  EXPECT_FALSE(cost.evaluate(q.data(), residuals.data(), nullptr).valid);
   EXPECT_FALSE(solve(rig.problem, rig.point, 0.0, {}).usable());
 }
 
@@ -130,10 +130,10 @@ TEST(RecordingCost, HubersResidualsSquareToHubersLoss) {
   CostOfRig plain(short_run(), freed(1)), huber(short_run(), freed(1), robust);
   const RecordingCost a(plain.problem, 0, plain.point.starts[0], 2.5);
   const RecordingCost b(huber.problem, 0, huber.point.starts[0], 2.5);
-  const std::vector<double> q = plain.numbers(a);
+  const std::vector<double> q = plain.numbers(2.5);
   std::vector<double> r(plain.recording.size()), s(r.size());
-  ASSERT_TRUE(a.evaluate(q.data(), r.data(), nullptr));
-  ASSERT_TRUE(b.evaluate(q.data(), s.data(), nullptr));
+  ASSERT_TRUE(a.evaluate(q.data(), r.data(), nullptr).valid);
+  ASSERT_TRUE(b.evaluate(q.data(), s.data(), nullptr).valid);
   const double w = 1e-6 / plain.problem.floors[0];
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double size = std::abs(r[i]);
