@@ -15,7 +15,7 @@ ReferenceModel ModelConfig::reference_model() const {
 }
 
 PlantModel<double> SimulatedPlant::plant_model() const {
-  PlantModel<double> plant = stepper_model(drive, structure);
+  PlantModel<double> plant = gapscope::plant_model(drive, structure);
   for (const EffectConfig& e : effects) {
     std::vector<double> values;
     for (std::size_t i = 0; i < e.effect.entry->parameters.size(); ++i)

@@ -13,12 +13,6 @@ constexpr double kFewestRestarts = 8;  ///< short recordings are divided into so
 constexpr RefineEffort kStateEffort{3, 8, 1e-3};
 constexpr double kMostSquare = 1e12;  ///< of a window, in floors squared: as wrong as can be
 
-Mode mode_of(const DriveStepper<double>& stepper) {
-  if (stepper.closed_in_last_step()) return Mode::kImpact;
-  const int contact = stepper.mode().contact;
-  return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;
-}
-
 /// What an error is beyond the half count that a coarser encoder explains.
 double beyond_count(double error, double quantum) {
   if (quantum <= 0.0) return error;

@@ -225,7 +225,7 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   for (std::size_t i = 0; i < problem.free_count(); ++i)
     q.push_back(problem.free_parameter(i).coordinate.solver(problem.free_parameter(i).start));
   const ModelNumbers<double> numbers = problem.numbers(q.data());
-  problem.motor_may_stick = problem.stepper_model(numbers).motor_sticks;
+  problem.motor_may_stick = problem.plant_model(numbers).motor_sticks;
   problem.stiffest = std::max(kStiffest / recordings.front().dt, 3.0 * problem.stiffness(numbers));
   return problem;
 }

@@ -90,8 +90,8 @@ struct FitProblem {
   }
 
   template <class T>
-  StepperModel<T> stepper_model(const ModelNumbers<T>& n) const {
-    StepperModel<T> model;
+  PlantModel<T> plant_model(const ModelNumbers<T>& n) const {
+    PlantModel<T> model;
     for (int i = 0; i < kDriveParameterCount; ++i) drive_parameter(model.drive, i) = n.drive(i);
     model.structure = structure;
     model.load_sticks = load_may_stick;

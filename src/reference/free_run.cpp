@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::size_t kParts = 100;  ///< of a recording, in which the way is compared
 
-Mode mode_of(const DriveStepper<double>& stepper) {
-  if (stepper.closed_in_last_step()) return Mode::kImpact;
-  const int contact = stepper.mode().contact;
-  return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;
-}
-
 double error(const FitProblem& problem, const std::vector<FitTrace>& traces,
              std::vector<double> FitTrace::*column) {
   double sum = 0.0, count = 0.0;
@@ -37,7 +31,7 @@ DriveState<double> start_state(const FitProblem& problem, const FitPoint& at, st
 
 FitTrace trace_of(const FitProblem& problem, const FitPoint& at, std::size_t r, double observer_hz) {
   const MotorTrace& recording = problem.recordings[r];
-  const StepperModel<double> model = problem.stepper_model(problem.numbers(at.q.data()));
+  const PlantModel<double> model = problem.plant_model(problem.numbers(at.q.data()));
   const DriveState<double> start = start_state(problem, at, r);
   const bool has_load = problem.structure.has_load;
   FitTrace t;

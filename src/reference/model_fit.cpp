@@ -99,7 +99,7 @@ ReferenceModel ModelFit::model_at(const FitPoint& at) const {
 }
 
 ModelRun ModelFit::run_at(const FitPoint& at) const {
-  ModelRun run{problem_->stepper_model(problem_->numbers(at.q.data())), {}};
+  ModelRun run{problem_->plant_model(problem_->numbers(at.q.data())), {}};
   for (const RecordingStart& start : at.starts)
     run.starts.push_back(problem_->state(start, 0.5 * run.plant.drive.gap, start.q.data()));
   return run;

@@ -31,7 +31,7 @@ bool RecordingCost::run(const T* q, T* out) const {
   for (std::size_t i = 0; i < kStates; ++i) initial[i] = T(start_.q[i]);
   for (std::size_t i = 0; i < states_.size(); ++i)
     initial[static_cast<std::size_t>(states_[i])] = q[shared_ + i];
-  const StepperModel<T> model = problem_.stepper_model(numbers);
+  const PlantModel<T> model = problem_.plant_model(numbers);
   const DriveState<T> state = problem_.state(start_, T(0.5 * model.drive.gap), initial.data());
   const double scale = 1.0 / floor_;
   return roll_out(model, state, recording_, gain_, [&](std::size_t i, const DriveStepper<T>& stepper) {

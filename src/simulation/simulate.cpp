@@ -11,12 +11,6 @@
 namespace gapscope {
 namespace {
 
-Mode mode_of(const DriveStepper<double>& stepper) {
-  if (stepper.closed_in_last_step()) return Mode::kImpact;
-  const int contact = stepper.mode().contact;
-  return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;
-}
-
 /// The coarser of the sheet's quantum and one that an effect gives.
 double real_quantum(const PlantModel<double>& model, double quantum) {
   for (const ActiveEffect<double>& e : model.effects)
@@ -53,7 +47,7 @@ Recording simulate(const PlantModel<double>& model, std::span<const double> u,
   return r;
 }
 
-PlantModel<double> stepper_model(const DriveParameters<double>& drive, const DriveStructure& structure) {
+PlantModel<double> plant_model(const DriveParameters<double>& drive, const DriveStructure& structure) {
   PlantModel<double> model;
   model.drive = drive;
   model.structure = structure;

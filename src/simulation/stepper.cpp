@@ -62,6 +62,12 @@ bool DriveStepper<T>::healthy() const {
   return impl_->healthy;
 }
 
+Mode mode_of(const DriveStepper<double>& stepper) {
+  if (stepper.closed_in_last_step()) return Mode::kImpact;
+  const int contact = stepper.mode().contact;
+  return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;
+}
+
 template class DriveStepper<double>;
 template class DriveStepper<Jet<4>>;
 template class DriveStepper<Jet<8>>;

@@ -7,7 +7,7 @@ namespace {
 
 void samples(benchmark::State& state) {
   const auto u = test::several_sines(kAmplitude, kRate, static_cast<double>(state.range(0)) / kRate);
-  measure(state, stepper_model(test::paper_rig(), {}), u);
+  measure(state, plant_model(test::paper_rig(), {}), u);
   state.SetComplexityN(state.range(0));
 }
 
@@ -23,7 +23,7 @@ void events(benchmark::State& state) {
   const double amplitude = static_cast<double>(state.range(0)) / 10.0;
   const auto u = test::several_sines(amplitude, kRate, kDuration);
   const std::vector<double> rest(u.size(), 0.0);
-  DriveStepper<double> stepper(stepper_model(test::paper_rig(), {}), 1.0 / kRate);
+  DriveStepper<double> stepper(plant_model(test::paper_rig(), {}), 1.0 / kRate);
   double quiet = 1e9, busy = 1e9;
   for (auto _ : state) {
     quiet = std::min(quiet, time_of(stepper, rest, 10));

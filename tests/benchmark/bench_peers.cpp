@@ -20,7 +20,7 @@ using MakePeer = std::unique_ptr<Peer> (*)(const DriveParameters<double>&);
 
 /// x1 at the start of each sample of 1/kRate, from `finer` steps within each.
 std::vector<double> positions(const std::vector<double>& u, int finer) {
-  DriveStepper<double> stepper(stepper_model(test::paper_rig(), {}), 1.0 / (finer * kRate));
+  DriveStepper<double> stepper(plant_model(test::paper_rig(), {}), 1.0 / (finer * kRate));
   std::vector<double> x1;
   for (const double v : u) {
     x1.push_back(stepper.state().x1);
@@ -44,7 +44,7 @@ class Comparison {
   void run(benchmark::State& state) {
     if (reference_.empty()) find_loosest_tolerance();
     if (!(error_ <= accuracy_)) return state.SkipWithError("the accuracy is not reached at any tolerance");
-    DriveStepper<double> stepper(stepper_model(test::paper_rig(), {}), 1.0 / kRate);
+    DriveStepper<double> stepper(plant_model(test::paper_rig(), {}), 1.0 / kRate);
     double own = 1e9, other = 1e9;
     for (auto _ : state) {
       for (int i = 0; i < 10; ++i) own = std::min(own, seconds([&] { play(stepper, u_); }));

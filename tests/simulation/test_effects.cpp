@@ -55,7 +55,7 @@ std::vector<double> moderate(const EffectEntry& e, const ScaleContext& scale) {
 PlantModel<double> nominal(const EffectEntry& e) {
   DriveStructure structure;
   structure.has_load = std::string(e.name) != "backlash";
-  return stepper_model(paper_rig(), structure);
+  return plant_model(paper_rig(), structure);
 }
 
 PlantModel<double> with(const EffectEntry& e, const std::vector<double>& values) {

@@ -182,7 +182,7 @@ class OnThreeRigs : public testing::TestWithParam<Rig> {};
 
 TEST_P(OnThreeRigs, BareDriveFreeRunsTenSecondsWithinAFifthOfACount) {
   const Rig& rig = GetParam();
-  const double difference = largest_difference(rig, stepper_model(rig.drive, {}), independent(rig.drive));
+  const double difference = largest_difference(rig, plant_model(rig.drive, {}), independent(rig.drive));
   std::cout << rig.name << ": " << difference / kCount20Bit << " counts of 20 bit\n";
   EXPECT_LT(difference, 0.2 * kCount20Bit);
 }
@@ -191,7 +191,7 @@ TEST_P(OnThreeRigs, EachEffectOfEqualFormFreeRunsTenSecondsWithinAFifthOfACount)
   const Rig& rig = GetParam();
   for (const EqualForm& form : equal_forms()) {
     const std::vector<double> p = form.parameters(rig);
-    PlantModel<double> model = stepper_model(rig.drive, {});
+    PlantModel<double> model = plant_model(rig.drive, {});
     add_effect<double>(model, *find_effect(form.name), p);
     independent_plant::BlindDrive truth = independent(rig.drive);
     form.apply(p, truth.effects);

@@ -18,7 +18,7 @@ SimulationOptions options(double quantum, double noise, std::uint64_t seed = 1) 
   return o;
 }
 
-const PlantModel<double> kRig = stepper_model(test::paper_rig(), {});
+const PlantModel<double> kRig = plant_model(test::paper_rig(), {});
 const std::vector<double> kInput = test::sine(0.6, 1.0, 2000.0, 2.0);
 
 TEST(Simulate, TheSameSeedGivesTheSameBytesAndAnotherSeedOtherNoise) {

@@ -42,7 +42,7 @@ double largest_difference(const Motion& a, const Motion& b) {
   return largest;
 }
 
-PlantModel<double> plain(const DriveParameters<double>& drive) { return stepper_model(drive, {}); }
+PlantModel<double> plain(const DriveParameters<double>& drive) { return plant_model(drive, {}); }
 
 PlantModel<double> with_motor_friction(const DriveParameters<double>& drive, double level) {
   PlantModel<double> model = plain(drive);
@@ -227,7 +227,7 @@ TEST(Stepper, AContactThatAnInjectionPartsIsOpenAndClosesAgain) {
   p.contact_damping = 2.0;  // far more than k times the distance below
   DriveStructure structure;
   structure.load = LoadKind::kLocked;
-  DriveStepper<double> stepper(stepper_model(p, structure), 1e-3);
+  DriveStepper<double> stepper(plant_model(p, structure), 1e-3);
   stepper.reset({});
   for (int i = 0; i < 300; ++i) stepper.step(0.3);
   ASSERT_EQ(stepper.mode().contact, 1);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "gapscope/plant/plant_model.h"
 #include "gapscope/reference/fit.h"
 
 namespace gapscope {

@@ -37,7 +37,7 @@ DriveState<T> behind_the_sensor(DriveStepper<T>& stepper, const DriveState<T>& s
 /// samples, all in all, are no motion that the recording could show.
 /// @param start of the drive, with the motor where the sensor reads it
 template <class T, class Visit>
-bool roll_out(const StepperModel<T>& model, const DriveState<T>& start, const MotorTrace& recording,
+bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const MotorTrace& recording,
               const ObserverGain& gain, Visit&& visit) {
   DriveStepper<T> stepper(model, recording.dt);
   stepper.reset(behind_the_sensor(stepper, start));

@@ -28,7 +28,7 @@ struct SimulationOptions {
 Recording simulate(const PlantModel<double>& model, std::span<const double> u,
                    const SimulationOptions& options);
 
-/// The stepper's model of a drive without effects.
-PlantModel<double> stepper_model(const DriveParameters<double>& drive, const DriveStructure& structure);
+/// The model of a drive without effects.
+PlantModel<double> plant_model(const DriveParameters<double>& drive, const DriveStructure& structure);
 
 }  // namespace gapscope

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "gapscope/plant/effect_hooks.h"
+#include "gapscope/recording/recording.h"
 
 namespace gapscope {
 
@@ -15,9 +16,6 @@ struct ContactMode {
   int motor = 1;    ///< the same for the motor
   bool operator==(const ContactMode&) const = default;
 };
-
-template <class T>
-using StepperModel = PlantModel<T>;
 
 namespace internal::simulation {
 template <class T>
@@ -65,6 +63,9 @@ class DriveStepper {
  private:
   std::unique_ptr<internal::simulation::StepperImpl<T>> impl_;
 };
+
+/// The mode in which the last step ended, an impact where a contact closed within it.
+Mode mode_of(const DriveStepper<double>& stepper);
 
 extern template class DriveStepper<double>;
 extern template class DriveStepper<Jet<4>>;
