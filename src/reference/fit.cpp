@@ -1,7 +1,5 @@
 #include "gapscope/reference/fit.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +9,7 @@
 #include "reference/profile.h"
 #include "reference/residual_tests.h"
 #include "reference/search.h"
+#include "reference/words.h"
 
 namespace gapscope {
 namespace internal::reference {
@@ -42,8 +41,7 @@ double report_parameters(const FitProblem& problem, const FitOutcome& outcome, F
     f.key = p.key, f.unit = p.unit, f.start = f.value = p.start;
     if (p.estimated) {
       f = fitted(p, determined, outcome.solution.q[i], i);
-      if (f.at_bound)
-        summary.warnings.push_back(fmt::format("{} ended at its bound {:.4g} {}.", f.key, f.value, f.unit));
+      if (f.at_bound) summary.warnings.push_back(words::at_bound(f.key, f.value, f.unit));
       if (problem.options.profile && f.identifiable) {
         const Profile profile = profile_interval(problem, outcome.solution, outcome.objective_hz, i,
                                                  {determined.own[i], determined.linear[i]});
@@ -78,11 +76,7 @@ void report_motion(const FitProblem& problem, const FitOutcome& outcome, FitSumm
   }
   summary.rmse = free_run_error(problem, summary.traces);
   if (const double ratio = error_over_stillness(problem, summary.traces); ratio > kWorseThanStill)
-    summary.warnings.insert(
-        summary.warnings.begin(),
-        fmt::format("the free run misses the motion by {:.3g} times what a motor that stood still would: "
-                    "look at the sign and the unit of u first (gapscope check).",
-                    ratio));
+    summary.warnings.insert(summary.warnings.begin(), words::worse_than_still(ratio));
   summary.innovation_rmse = prediction_error(problem, summary.traces);
   summary.mode_errors = errors_by_mode(problem, summary.traces);
   test_residuals(problem, outcome.objective_hz == 0.0, summary);
@@ -92,7 +86,7 @@ void report_motion(const FitProblem& problem, const FitOutcome& outcome, FitSumm
 /// A fit without an answer still lists its parameters, at their starts.
 void report_failure(const FitProblem& problem, FitSummary& summary) {
   summary.status = FitStatus::kFailed;
-  summary.message = "the simulated motion diverges from every starting point.";
+  summary.message = words::diverges();
   for (const Parameter& p : problem.parameters) {
     FittedParameter f;
     f.key = p.key, f.unit = p.unit, f.start = p.start, f.low = p.low, f.high = p.high;
@@ -120,7 +114,7 @@ FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& mod
   } else {
     const FitOutcome outcome = outcome_of(problem, found);
     summary.status = outcome.solution.converged ? FitStatus::kConverged : FitStatus::kNotConverged;
-    summary.message = outcome.solution.converged ? "" : "the iterations ran out before the cost settled.";
+    summary.message = outcome.solution.converged ? Remark() : words::iterations_ran_out();
     summary.warnings = outcome.warnings;
     simulations += outcome.simulations + report_parameters(problem, outcome, summary);
     report_motion(problem, outcome, summary);

@@ -43,7 +43,7 @@ const FittedParameter* FitSummary::find(const std::string& key) const {
 
 std::string FitSummary::brief_report() const {
   std::string text = fmt::format("reference: {}", to_string(status));
-  if (status == FitStatus::kNotRun || status == FitStatus::kFailed) return text + ": " + message;
+  if (status == FitStatus::kNotRun || status == FitStatus::kFailed) return text + ": " + message.text();
   if (const FittedParameter* gap = find("gap"); gap != nullptr && gap->estimated) {
     text += fmt::format(", gap {}", number(gap->value));
     text += gap->identifiable ? fmt::format(" [{}, {}]", number(gap->ci95.low), number(gap->ci95.high))
@@ -56,7 +56,7 @@ std::string FitSummary::brief_report() const {
 }
 
 std::string FitSummary::full_report() const {
-  std::string text = fmt::format("Reference fit: {}. {}\n", to_string(status), message);
+  std::string text = fmt::format("Reference fit: {}. {}\n", to_string(status), message.text());
   if (status == FitStatus::kNotRun) return text;
   text += fmt::format("{:<34} {:>12} {:>12} {:>12} {:>26}  {}\n", "parameter", "start", "value", "std",
                       "95 %", "");
@@ -74,8 +74,8 @@ std::string FitSummary::full_report() const {
           test_text("with the input", input_correlation) + "\n";
   text += fmt::format("lag-1 autocorrelation {}, {} starts, {} simulations\n", number(lag1_autocorrelation),
                       starts, simulations);
-  for (const std::string& a : advice) text += "advice: " + a + "\n";
-  for (const std::string& w : warnings) text += "warning: " + w + "\n";
+  for (const Remark& a : advice) text += "advice: " + a.text() + "\n";
+  for (const Remark& w : warnings) text += "warning: " + w.text() + "\n";
   return text;
 }
 

@@ -1,16 +1,14 @@
 #include "reference/identifiability.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "reference/words.h"
 
 namespace gapscope::internal::reference {
 namespace {
 
 constexpr double kShareInCombination = 0.05;  ///< of the largest change, for a parameter to be named
-constexpr double kSameChange = 0.05;          ///< relative changes that count as equal
 constexpr double kLeastKnown = 10.0;          ///< relative errors this many times the least one are told
 
 /// The free numbers that the recordings see at all, and those among them that no null direction touches.
@@ -30,37 +28,6 @@ double error_alone(const FitProblem& problem, const FitPoint& at, const Informat
 double size_of(const FitProblem& problem, const FitPoint& at, std::size_t i) {
   const Parameter& p = problem.free_parameter(i);
   return std::max(p.typical, std::abs(p.coordinate.physical(at.q[i])));
-}
-
-std::string list(const std::vector<std::string>& keys) {
-  std::string text;
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == keys.size() ? " and " : ", ") + keys[i];
-  return text;
-}
-
-/// What is left of parameters that change together, by their relative changes along the null direction.
-std::string what_is_determined(const std::vector<double>& changes) {
-  const auto equal = [&](double a, double b) { return std::abs(a - b) < kSameChange * std::abs(a); };
-  bool together = true;
-  for (const double c : changes) together &= equal(changes[0], c);
-  if (together) return changes.size() == 2 ? "only their ratio is" : "only their ratios are";
-  if (changes.size() == 2 && equal(changes[0], -changes[1])) return "only their product is";
-  std::string text = "only a combination is (they change as";
-  for (std::size_t i = 0; i < changes.size(); ++i)
-    text += fmt::format("{} {:+.2g}", i == 0 ? "" : " :", changes[i] / std::abs(changes[0]));
-  return text + ")";
-}
-
-std::string excitation_for_any(const std::vector<std::string>& keys) {
-  for (const char* scale : {"torque_constant", "motor_inertia"})
-    if (std::find(keys.begin(), keys.end(), scale) != keys.end()) return excitation_for(scale);
-  std::vector<std::string> wishes;
-  for (const std::string& key : keys)
-    if (const std::string wish = excitation_for(key);
-        std::find(wishes.begin(), wishes.end(), wish) == wishes.end())
-      wishes.push_back(wish);
-  return list(wishes);
 }
 
 /// Names the parameters of one null direction v (normalised columns) and marks them: those that change by a
@@ -83,12 +50,8 @@ void mark_null(const FitProblem& problem, const FitPoint& at, const Eigen::Vecto
     changes.push_back(v[i] / norm[i] * c.slope(at.q[k]) / c.physical(at.q[k]));
   }
   if (keys.empty()) return;
-  determined.warnings.push_back(
-      keys.size() == 1
-          ? fmt::format("{} cannot be told apart from the initial state: not identifiable.", keys[0])
-          : fmt::format("{} change together without a trace: {} determined. Fix one of them; what would tell "
-                        "them apart is {}.",
-                        list(keys), what_is_determined(changes), excitation_for_any(keys)));
+  determined.warnings.push_back(keys.size() == 1 ? words::like_initial_state(keys[0])
+                                                 : words::change_together(keys, changes));
 }
 
 Directions directions_of(const FitProblem& problem, const FitPoint& at, const Information& info,
@@ -156,9 +119,7 @@ void judge(const FitProblem& problem, const FitPoint& at, const Directions& d, s
   } else if (!(std < size_of(problem, at, i))) {
     const std::string with = partner(problem, d.inverse, i);
     determined.identifiable[i] = false;
-    determined.warnings.push_back(fmt::format(
-        "{} is not determined by the recordings (standard error {:.2g} {}{}): needed is {}.", p.key, std,
-        p.unit, with.empty() ? "" : ", confounded with " + with, excitation_for(p.key)));
+    determined.warnings.push_back(words::not_determined(p.key, std, p.unit, with));
   } else {
     determined.std[i] = std;
   }
@@ -173,28 +134,11 @@ void advise(const FitProblem& problem, const FitPoint& at, Determined& determine
   const double least = quantile(all, 0.0), middle = median(all);
   for (std::size_t i = 0; i < determined.std.size(); ++i) {
     if (!determined.identifiable[i] || !(relative(i) > std::max(middle, kLeastKnown * least))) continue;
-    const std::string& key = problem.free_parameter(i).key;
-    determined.advice.push_back(fmt::format("{} is known to {:.2g} % only (standard error); sharper by {}.",
-                                            key, 100.0 * relative(i), excitation_for(key)));
+    determined.advice.push_back(words::little_known(problem.free_parameter(i).key, 100.0 * relative(i)));
   }
 }
 
 }  // namespace
-
-std::string excitation_for(const std::string& key) {
-  static const std::map<std::string, std::string> advice = {
-      {"motor_inertia", "faster changes of the input"},
-      {"torque_constant", "a known torque or a known inertia"},
-      {"motor_damping", "more speed, or more passages through the gap"},
-      {"mass_ratio", "fast changes of the input with the contact closed, and passages through the gap"},
-      {"gap", "a motion that closes the contact on both sides"},
-      {"load_damping", "more speed with the contact closed"},
-      {"load_coulomb_friction", "slow reversals that move the load"},
-      {"contact_stiffness", "impacts, or a larger torque in contact"},
-      {"contact_damping", "harder impacts"}};
-  const auto found = advice.find(key);
-  return found == advice.end() ? "an input that brings this effect out" : found->second;
-}
 
 Determined determine(const FitProblem& problem, const FitPoint& at, const Information& info,
                      const std::vector<double>& shift) {
@@ -202,13 +146,15 @@ Determined determine(const FitProblem& problem, const FitPoint& at, const Inform
   Determined determined;
   determined.std = determined.own = determined.linear = std::vector<double>(n, kNaN);
   determined.identifiable.assign(n, info.valid);
-  if (!info.valid) return determined;
+  if (!info.valid) {
+    for (std::size_t i = 0; i < n; ++i)
+      determined.warnings.push_back(words::no_information(problem.free_parameter(i).key));
+    return determined;
+  }
   for (std::size_t i = 0; i < n; ++i) {
     if (error_alone(problem, at, info, i) < size_of(problem, at, i)) continue;
-    const std::string& key = problem.free_parameter(i).key;
     determined.identifiable[i] = false;
-    determined.warnings.push_back(
-        fmt::format("{} leaves no trace in the recordings: needed is {}.", key, excitation_for(key)));
+    determined.warnings.push_back(words::no_trace(problem.free_parameter(i).key));
   }
   const Directions d = directions_of(problem, at, info, determined);
   const Eigen::VectorXd variance = variances(info, d.inverse);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "gapscope/base/remark.h"
 #include "reference/information.h"
 
 namespace gapscope::internal::reference {
@@ -11,11 +11,11 @@ namespace gapscope::internal::reference {
 struct Determined {
   std::vector<double> std;  ///< [unit of the parameter]; NaN where it is not identifiable
   std::vector<bool> identifiable;
-  std::vector<double> own;          ///< std before changes to another gain or part count
-  std::vector<double> linear;       ///< std of white residuals of one floor
-  double quantile = 1.96;           ///< half width of the 95 % interval in std
-  std::vector<std::string> advice;  ///< what would sharpen the parameters that are known least
-  std::vector<std::string> warnings;
+  std::vector<double> own;     ///< std before changes to another gain or part count
+  std::vector<double> linear;  ///< std of white residuals of one floor
+  double quantile = 1.96;      ///< half width of the 95 % interval in std
+  std::vector<Remark> advice;  ///< what would sharpen the parameters that are known least
+  std::vector<Remark> warnings;
 };
 
 /// Standard errors, and what is not determined:
@@ -28,8 +28,5 @@ struct Determined {
 /// its own
 Determined determine(const FitProblem& problem, const FitPoint& at, const Information& information,
                      const std::vector<double>& shift = {});
-
-/// The excitation that would determine a parameter, as half a sentence.
-std::string excitation_for(const std::string& key);
 
 }  // namespace gapscope::internal::reference

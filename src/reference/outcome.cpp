@@ -1,13 +1,12 @@
 #include "reference/outcome.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "reference/excerpt.h"
 #include "reference/polish.h"
 #include "reference/starts.h"
+#include "reference/words.h"
 
 namespace gapscope::internal::reference {
 namespace {
@@ -63,9 +62,8 @@ void take_two_gains(const FitProblem& problem, const Solution& from, double hz, 
   const Solution other = solve(problem, outcome.solution, other_hz, kOther);
   outcome.simulations += other.simulations;
   if (!other.usable()) return;
-  outcome.changes.push_back(
-      {fmt::format("when the observer is taken from {:.3g} to {:.3g} Hz", outcome.objective_hz, other_hz),
-       values_of(problem, outcome.solution), values_of(problem, other), 1.0, false});
+  outcome.changes.push_back({words::between_gains(outcome.objective_hz, other_hz),
+                             values_of(problem, outcome.solution), values_of(problem, other), 1.0, false});
 }
 
 /// Where the level of the input changes most; the middle if it hardly does.
@@ -130,20 +128,15 @@ void compare_parts(const FitProblem& problem, FitOutcome& outcome) {
   const Solution to = best_on(b, outcome.solution, outcome.objective_hz);
   outcome.simulations += from.simulations + to.simulations;
   if (!from.usable() || !to.usable()) return;
-  const std::string where =
-      several ? fmt::format("from {} to {}", first.file, problem.recordings[1].file)
-              : fmt::format("from the part before {:.4g} s to the part after", first.time(split));
+  const Remark where = several ? words::between_recordings(first.file, problem.recordings[1].file)
+                               : words::between_parts(first.time(split));
   outcome.changes.push_back({where, values_of(a.problem(), from), values_of(b.problem(), to), 0.5, true});
 }
 
 void take_rejected(const FitProblem& problem, const SearchResult& found, FitOutcome& outcome) {
   const FitOptions& o = problem.options;
   outcome.warnings.push_back(
-      fmt::format("the model does not explain the recordings: its prediction error is {:.3g} times the "
-                  "encoder floor. Values are those of an observer at {:.3g} Hz; intervals hold their scatter "
-                  "over windows, gains and parts of the recordings, not what the missing physics may bias. "
-                  "`gapscope diagnose` asks what is missing.",
-                  std::sqrt(found.best().mean_square_with_priors), o.rejected_hz));
+      words::not_explained(std::sqrt(found.best().mean_square_with_priors), o.rejected_hz));
   const Solution best = best_at(problem, found.ends, o.rejected_hz);
   outcome.simulations += best.simulations;
   take_two_gains(problem, best.usable() ? best : found.best(), o.rejected_hz, kSecondGain * o.rejected_hz,
@@ -153,11 +146,7 @@ void take_rejected(const FitProblem& problem, const SearchResult& found, FitOutc
 
 void warn_of_pattern(const Correlation& correlation, FitOutcome& outcome) {
   if (correlation.excess() <= kWhite) return;
-  outcome.warnings.push_back(fmt::format(
-      "the residual is within the encoder's size but not random (lag-1 autocorrelation {:.2f}, the "
-      "quantiser explains {:.2f}): something small is missing or another minimum is better, and "
-      "the intervals assume neither.",
-      correlation.lag1, correlation.quantiser));
+  outcome.warnings.push_back(words::not_random(correlation.lag1, correlation.quantiser));
 }
 
 }  // namespace
@@ -188,37 +177,28 @@ FitOutcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
     warn_of_pattern(outcome.information.correlation, outcome);
     return outcome;
   }
-  outcome.warnings.push_back(fmt::format(
-      "the free run departs from the recordings although the predictions do not: values are those of "
-      "an observer at {:.3g} Hz.",
-      kSlowObserver * o.observer_hz));
+  outcome.warnings.push_back(words::free_run_departs(kSlowObserver * o.observer_hz));
   take_two_gains(problem, found, kSlowObserver * o.observer_hz, o.observer_hz, outcome);
   return outcome;
 }
 
 void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determined& determined) {
   for (const ValueChange& c : outcome.changes) {
-    std::string moved;
+    std::vector<words::Moved> moved;
     for (std::size_t i = 0; i < c.from.size(); ++i) {
       const double difference = std::abs(c.to[i] - c.from[i]);
       // An interval of each side: the own one, on half of the recordings.
       const double interval = determined.quantile * determined.own[i] * (c.parts ? 2.0 : 1.0);
       if (!(difference > interval)) continue;
       const Parameter& p = problem.free_parameter(i);
-      moved += fmt::format("{}{} from {:.4g} to {:.4g} {}", moved.empty() ? "" : ", ", p.key, c.from[i],
-                           c.to[i], p.unit);
+      moved.push_back({p.key, c.from[i], c.to[i], p.unit});
       const bool other_gap = difference > kOtherGap * std::max(c.from[i], c.to[i]);
       if (!c.parts || p.id != drive_number(place::kGap) || !other_gap) continue;
       determined.identifiable[i] = false;
       determined.std[i] = kNaN;
-      determined.warnings.push_back(fmt::format(
-          "the gap is {:.3g} {} on one part of the recordings and {:.3g} on another: what the model "
-          "takes for a gap is something else, and none is reported.",
-          c.from[i], p.unit, c.to[i]));
+      determined.warnings.push_back(words::another_gap(c.from[i], p.unit, c.to[i]));
     }
-    if (!moved.empty())
-      determined.warnings.push_back(
-          fmt::format("values move by more than their own intervals {}: {}.", c.where, moved));
+    if (!moved.empty()) determined.warnings.push_back(words::values_move(c.where, moved));
   }
 }
 

@@ -10,7 +10,7 @@ namespace gapscope::internal::reference {
 
 /// How far the free parameters move when they are fitted in another way.
 struct ValueChange {
-  std::string where;             ///< "at 10 Hz instead of 30 Hz", "between ..."
+  Remark where;                  ///< "at 10 Hz instead of 30 Hz", "between ..."
   std::vector<double> from, to;  ///< [units of the parameters]
   double weight = 1.0;           ///< of the difference as a standard error
   bool parts = false;            ///< between parts of the recordings
@@ -23,7 +23,7 @@ struct FitOutcome {
   Information information;
   std::vector<ValueChange> changes;
   std::vector<double> spread;  ///< of the free parameters over minima that are nearly as good; may be empty
-  std::vector<std::string> warnings;
+  std::vector<Remark> warnings;
   double simulations = 0.0;
 
   std::vector<double> shift()

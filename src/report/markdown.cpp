@@ -94,7 +94,8 @@ std::string parameter_table(const RunResult& run) {
       "| start | remark |\n|---|---|---|---|---|\n";
   for (const FittedParameter& p : run.reference->parameters) text += parameter_row(p, run.rotation);
   const FitSummary& fit = *run.reference;
-  text += "\n" + sentence(fit.message) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";
+  text +=
+      "\n" + sentence(fit.message.text()) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";
   if (std::isfinite(fit.floor)) text += ", the encoder floor is " + quantity(fit.floor, position_unit(run));
   return text + ".\n";
 }
@@ -125,18 +126,9 @@ std::vector<std::string> warnings_of(const RunResult& run) {
   std::vector<std::string> warnings;
   if (run.model_free) warnings = texts_of(run.model_free->warnings);
   if (!run.reference) return warnings;
-  if (!run.reference->converged()) warnings.push_back("The fit did not converge: " + run.reference->message);
-  const auto told = [&](const FittedParameter& p) {  // the fit says more of it than we could
-    const auto& own = run.reference->warnings;
-    return std::any_of(own.begin(), own.end(),
-                       [&](const std::string& w) { return w.find(p.key) != std::string::npos; });
-  };
-  for (const FittedParameter& p : run.reference->parameters) {
-    if (p.at_bound && !told(p)) warnings.push_back("`" + p.key + "` ended at its bound.");
-    if (p.estimated && !p.identifiable && !told(p))
-      warnings.push_back("`" + p.key + "` is not determined by the recording.");
-  }
-  warnings.insert(warnings.end(), run.reference->warnings.begin(), run.reference->warnings.end());
+  if (!run.reference->converged())
+    warnings.push_back("The fit did not converge: " + run.reference->message.text());
+  for (const Remark& warning : run.reference->warnings) warnings.push_back(warning.text());
   return warnings;
 }
 
@@ -172,7 +164,8 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
     text += "\nModel-free verdict: " + sentence(run.model_free->reason.text()) + "\n";
   text += bounds_line(run);
   text += timing_line(timing) + parameter_table(run);
-  if (run.reference) text += bullet_section("What would sharpen the reference", run.reference->advice);
+  if (run.reference)
+    text += bullet_section("What would sharpen the reference", texts_of(run.reference->advice));
   text += figure_section(figures);
   text += bullet_section("Notes", notes_of(run));
   return text + fmt::format("\ngapscope {}\n", run.version);

@@ -50,7 +50,7 @@ std::string reference_sentence(const RunResult& run) {
   const FittedParameter* gap = parameter(run, "gap");
   const std::string state = fit.converged() ? "" : " (the fit did not converge)";
   if (fit.status == FitStatus::kFailed || fit.status == FitStatus::kNotRun)
-    return "The model-based reference has no result: " + fit.message;
+    return "The model-based reference has no result: " + fit.message.text();
   if (gap == nullptr) return "The model-based reference was told that the drive has no gap" + state + ".";
   const std::string value = with_interval(gap->value, gap->ci95, position_unit(run));
   if (!gap->estimated) return "The model-based reference took the gap as known, " + value + state + ".";

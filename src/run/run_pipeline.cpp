@@ -51,9 +51,8 @@ DetectorOptions detector_options(const Configuration& c, const std::vector<Motor
   options.bound = chosen_bound(bound);
   options.paper_bound = bound.low;
   notes.push_back(
-      fmt::format("bound of the detector from the model, eq. (13): {:.4g} < L < {:.4g}, L = {:.4g} "
-                  "rad/s^2 taken",
-                  bound.low, bound.high, options.bound));
+      fmt::format("bound of the detector from the model, eq. (13): {:.4g} < L < {:.4g}, L = {:.4g} {} taken",
+                  bound.low, bound.high, options.bound, axis_unit("rad/s^2", c.rotation)));
   return options;
 }
 
@@ -66,18 +65,14 @@ void note_defaults(const ModelConfig& model, std::vector<std::string>& notes) {
   if (!keys.empty()) notes.push_back(fmt::format("not given and taken as 0: {}", fmt::join(keys, ", ")));
 }
 
-/// What the estimators said of a rotation, in the units of the axis.
-void speak_of_the_axis(RunResult& r) {
-  const auto say = [&](std::string& text) { text = axis_sentence(text, r.rotation); };
-  const auto say_all = [&](std::vector<std::string>& texts) {
-    std::for_each(texts.begin(), texts.end(), say);
+/// What the estimators have to say, in the units of the axis.
+void put_into_words(RunResult& r) {
+  const auto put = [&](Remark& remark) { remark.put_into_words(r.rotation); };
+  const auto put_all = [&](std::vector<Remark>& remarks) {
+    std::for_each(remarks.begin(), remarks.end(), put);
   };
-  if (r.model_free) {
-    r.model_free->reason.put_into_words(r.rotation);
-    for (Remark& warning : r.model_free->warnings) warning.put_into_words(r.rotation);
-  }
-  if (r.reference) say(r.reference->message), say_all(r.reference->warnings), say_all(r.reference->advice);
-  say_all(r.notes);
+  if (r.model_free) put(r.model_free->reason), put_all(r.model_free->warnings);
+  if (r.reference) put(r.reference->message), put_all(r.reference->warnings), put_all(r.reference->advice);
 }
 
 void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
@@ -114,9 +109,9 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
     r.reference =
         timed(out.timing.reference_s, [&] { return fit(traces, c.model.reference_model(), c.fit); });
   }
-  speak_of_the_axis(r);
+  put_into_words(r);
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
-  if (r.reference) append(out.warnings, r.reference->warnings);
+  if (r.reference) append(out.warnings, texts_of(r.reference->warnings));
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);
   stop_point();

@@ -155,7 +155,7 @@ TEST(Fit, AWrongFixedParameterIsSaidNotHidden) {
   estimate(model, kMassRatio, 1.2);
   const FitSummary summary = fit_one(run.recording(), model);
   ASSERT_FALSE(summary.warnings.empty());
-  EXPECT_NE(summary.warnings.front().find("does not explain"), std::string::npos);
+  EXPECT_NE(summary.warnings.front().text().find("does not explain"), std::string::npos);
   EXPECT_GT(summary.objective_hz, 0.0);
   EXPECT_LT(std::abs(summary.find("gap")->value - 0.0188), 4.0 * summary.find("gap")->std);
 }
@@ -233,7 +233,7 @@ TEST(Fit, AWrongSignOfTheInputIsSuspectedBeforeAnythingElse) {
   for (double& u : recording.u) u = -u;
   const FitSummary turned = fit_one(recording, model);
   ASSERT_FALSE(turned.warnings.empty());
-  EXPECT_NE(turned.warnings.front().find("the sign and the unit of u"), std::string::npos);
+  EXPECT_NE(turned.warnings.front().text().find("the sign and the unit of u"), std::string::npos);
 }
 
 TEST(Fit, ATightPriorHoldsAParameterThatTheRecordingHardlySees) {

@@ -29,7 +29,7 @@ TEST(FitSummary, ReportsNameWhatWasFixedAndWhatCouldNotBeDetermined) {
   stiffness.key = "contact_stiffness", stiffness.unit = "N m/rad", stiffness.value = 200.0;
   stiffness.estimated = true;
   summary.parameters = {gap, inertia, stiffness};
-  summary.warnings = {"something to know."};
+  summary.warnings = {Remark::said("something to know.")};
   EXPECT_NE(summary.brief_report().find("gap 0.0188 [0.0187, 0.0189]"), std::string::npos);
   EXPECT_NE(summary.brief_report().find("1 warning"), std::string::npos);
   const std::string full = summary.full_report();

@@ -31,7 +31,7 @@ TEST(Identifiability, InertiaTorqueConstantAndDampingOfOneInertiaScaleTogether) 
   const FitSummary summary = fit_one(run.recording(), model);
   for (const char* key : {"motor_inertia", "torque_constant", "motor_damping"})
     expect_not_identifiable(summary, key);
-  EXPECT_THAT(summary.warnings,
+  EXPECT_THAT(texts_of(summary.warnings),
               Contains(AllOf(HasSubstr("motor_inertia"), HasSubstr("torque_constant"),
                              HasSubstr("only their ratios are determined"), HasSubstr("known torque"))));
   // The combinations themselves are right.
@@ -50,8 +50,8 @@ TEST(Identifiability, TorqueConstantAndInertiaAloneAreKnownAsARatio) {
   for (const int n : {kMotorInertia, kTorqueConstant}) estimate(model, n, 1.1 * numbers_of(run.drive)[n]);
   const FitSummary summary = fit_one(run.recording(), model);
   expect_not_identifiable(summary, "motor_inertia");
-  EXPECT_THAT(summary.warnings, Contains(AllOf(HasSubstr("motor_inertia and torque_constant"),
-                                               HasSubstr("only their ratio is determined"))));
+  EXPECT_THAT(texts_of(summary.warnings), Contains(AllOf(HasSubstr("motor_inertia and torque_constant"),
+                                                         HasSubstr("only their ratio is determined"))));
 }
 
 TEST(Identifiability, ASineSaysWhatWouldSharpenTheContact) {
@@ -60,9 +60,11 @@ TEST(Identifiability, ASineSaysWhatWouldSharpenTheContact) {
   for (const int n : {kGap, kMotorDamping, kContactStiffness, kContactDamping})
     estimate(model, n, 1.1 * numbers_of(run.drive)[static_cast<std::size_t>(n)]);
   const FitSummary summary = fit_one(run.recording(), model);
-  EXPECT_THAT(summary.advice, Contains(AllOf(HasSubstr("contact_stiffness"), HasSubstr("impacts"))));
-  EXPECT_THAT(summary.advice, Contains(AllOf(HasSubstr("contact_damping"), HasSubstr("harder impacts"))));
-  EXPECT_THAT(summary.advice, ::testing::Not(Contains(HasSubstr("gap is known"))));
+  EXPECT_THAT(texts_of(summary.advice),
+              Contains(AllOf(HasSubstr("contact_stiffness"), HasSubstr("impacts"))));
+  EXPECT_THAT(texts_of(summary.advice),
+              Contains(AllOf(HasSubstr("contact_damping"), HasSubstr("harder impacts"))));
+  EXPECT_THAT(texts_of(summary.advice), ::testing::Not(Contains(HasSubstr("gap is known"))));
 }
 
 TEST(Identifiability, AllNineFreeLeaveGapAndMassRatioOnly) {
@@ -91,7 +93,8 @@ TEST(Identifiability, WithoutContactNothingBehindTheGapIsSeen) {
   EXPECT_TRUE(contains(summary, "motor_damping", 0.062)) << summary.full_report();
   expect_not_identifiable(summary, "contact_stiffness");
   expect_not_identifiable(summary, "load_damping");
-  EXPECT_THAT(summary.warnings, Contains(AllOf(HasSubstr("contact_stiffness"), HasSubstr("impacts"))));
+  EXPECT_THAT(texts_of(summary.warnings),
+              Contains(AllOf(HasSubstr("contact_stiffness"), HasSubstr("impacts"))));
 }
 
 }  // namespace

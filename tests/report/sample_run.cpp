@@ -145,7 +145,7 @@ FitSummary fit(const Recording& r, bool one_inertia) {
   Motion motion = move(drive, r.u, r.dt);
   FitSummary f;
   f.status = FitStatus::kConverged;
-  f.message = "Converged in 14 iterations from the best of 8 starts.";
+  f.message = Remark::said("Converged in 14 iterations from the best of 8 starts.");
   f.floor = r.quantum / std::sqrt(12.0);
   f.starts = 8;
   f.parameters = {fitted("motor_inertia", "kg m^2", 8.78e-4, 0.0, 1.0),
@@ -158,7 +158,7 @@ FitSummary fit(const Recording& r, bool one_inertia) {
     f.parameters.back().identifiable = false;
     f.parameters.back().ci95 = {};
     f.warnings.push_back(
-        "load_coulomb_friction: a slower drive, whose load sticks longer, would determine it.");
+        Remark::said("load_coulomb_friction: a slower drive, whose load sticks longer, would determine it."));
   }
   double sum = 0.0;
   for (std::size_t i = 0; i < r.size(); ++i) sum += std::pow(motion.x1[i] - r.x1[i], 2);

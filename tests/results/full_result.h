@@ -54,7 +54,7 @@ inline GapEstimate estimate(const RunResult& run) {
 inline FitSummary summary(const RunResult& run) {
   FitSummary f;
   f.status = FitStatus::kNotConverged;
-  f.message = "100 iterations";
+  f.message = Remark::said("100 iterations");
   f.rmse = 1e-5 * kThird;
   f.floor = 1e-6 * kThird;
   f.innovation_rmse = 1e-7 * kThird;
@@ -72,7 +72,7 @@ inline FitSummary summary(const RunResult& run) {
   trace.predicted_x1 = run.recordings[1].x1;
   f.mode_errors = {{Mode::kGap, 12, kThird}, {Mode::kEngagementMinus, 0, kNaN}};
   f.start_costs = {kThird, 2.0, kNaN};
-  f.warnings = {"advice"};
+  f.warnings = {Remark::said("advice")};
   return f;
 }
 

@@ -11,10 +11,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 /// ("N s/m").
 std::string axis_unit(const std::string& unit, bool rotation);
 
-/// A sentence that has such units behind its numbers ("a gap of 0.02 rad"), in those of the axis at hand: the
-/// estimators speak of a rotation whatever the axis.
-std::string axis_sentence(const std::string& text, bool rotation);
-
 /// A unit as axis_unit() tells it, typeset: "N·m", "kg m²"; nothing for "-".
 std::string shown_unit(const std::string& unit, bool rotation);
 

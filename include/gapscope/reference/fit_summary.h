@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/remark.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/plant/drive.h"
 #include "gapscope/recording/recording.h"
@@ -59,7 +60,7 @@ struct ResidualTest {
 /// What the model-based reference says. A default-built one says that it was not run.
 struct FitSummary {
   FitStatus status = FitStatus::kNotRun;
-  std::string message = "fit() was not called.";
+  Remark message = Remark("not_run", "fit() was not called.");
   double rmse = kNaN;                  ///< free-run x1 − recorded x1, all recordings [rad]
   double floor = kNaN;                 ///< what the encoder alone leaves [rad]
   double innovation_rmse = kNaN;       ///< one-step prediction error of the model run as an observer [rad]
@@ -74,9 +75,9 @@ struct FitSummary {
   std::vector<FittedStart> initial_states;  ///< one per recording
   std::vector<FitTrace> traces;
   std::vector<ModeError> mode_errors;
-  std::vector<double> start_costs;    ///< final cost of each start, best first (waterfall)
-  std::vector<std::string> advice;    ///< what would sharpen the parameters that are known least
-  std::vector<std::string> warnings;  ///< null directions, bounds, advice: one sentence each
+  std::vector<double> start_costs;  ///< final cost of each start, best first (waterfall)
+  std::vector<Remark> advice;       ///< what would sharpen the parameters that are known least
+  std::vector<Remark> warnings;     ///< null directions, bounds, advice: one sentence each
 
   bool converged() const { return status == FitStatus::kConverged; }
   const FittedParameter* find(const std::string& key) const;  ///< nullptr if there is none of that key

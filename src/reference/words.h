@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/base/remark.h"
+
+/// Everything that the fit says, in one place. Values and units as the parameters have them.
+namespace gapscope::internal::reference::words {
+
+/// What would bring a parameter out: "faster changes of the input".
+std::string excitation_for(const std::string& key);
+
+// How it ended.
+Remark diverges();
+Remark iterations_ran_out();
+Remark not_explained(double floors, double observer_hz);
+Remark free_run_departs(double observer_hz);
+Remark not_random(double lag1, double quantiser);
+Remark worse_than_still(double ratio);
+
+// What is determined.
+Remark at_bound(const std::string& key, double value, const std::string& unit);
+Remark no_trace(const std::string& key);
+Remark like_initial_state(const std::string& key);
+/// @param changes  relative, along the direction that leaves no trace
+Remark change_together(const std::vector<std::string>& keys, const std::vector<double>& changes);
+/// @param partner  empty: none
+Remark not_determined(const std::string& key, double std, const std::string& unit,
+                      const std::string& partner);
+Remark no_information(const std::string& key);
+Remark little_known(const std::string& key, double percent);
+
+// What differs from part to part.
+struct Moved {
+  std::string key;
+  double from, to;
+  std::string unit;
+};
+Remark another_gap(double from, const std::string& unit, double to);
+Remark values_move(const Remark& where, const std::vector<Moved>& moved);
+Remark between_recordings(const std::string& from, const std::string& to);  ///< "from a.csv to b.csv"
+Remark between_parts(double split);
+Remark between_gains(double from_hz, double to_hz);
+
+}  // namespace gapscope::internal::reference::words
