@@ -1,7 +1,6 @@
 // fit_drive FILE: what a data sheet does not give, fitted to a recording: the gap, the load, the friction.
 // The sheet is that of configs/03_recording.csv; for a drive of your own change the numbers.
 #include <gapscope/base/errors.h>
-#include <gapscope/base/statistics.h>
 #include <gapscope/recording/recording_file.h>
 #include <gapscope/reference/fit.h>
 
@@ -9,32 +8,16 @@
 
 namespace {
 
-namespace place = gapscope::place;
-
-gapscope::ParameterSetting known(double value) {
-  gapscope::ParameterSetting setting;
-  setting.value = value;
-  return setting;
-}
-
-/// Sought within bounds around a start; without one, the recording suggests both.
-gapscope::ParameterSetting sought(double start = gapscope::kNaN) {
-  gapscope::ParameterSetting setting = known(start);
-  setting.estimate = true;
-  return setting;
-}
-
 /// From the sheet what the motor is; from the recording what hangs on it.
 gapscope::ReferenceModel model_of_the_drive() {
+  using gapscope::ParameterSetting;
   gapscope::ReferenceModel model;
-  auto& parameters = model.parameters;
-  parameters[place::kMotorInertia] = known(8.78e-4);      // [kg m²]
-  parameters[place::kTorqueConstant] = known(0.172);      // [N m per unit of u]
-  parameters[place::kContactStiffness] = sought(1300.0);  // [N m/rad]
-  parameters[place::kContactDamping] = sought(0.171);     // [N m s/rad]
-  for (const int unknown :
-       {place::kMotorDamping, place::kMassRatio, place::kGap, place::kLoadDamping, place::kLoadCoulomb})
-    parameters[unknown] = sought();
+  model.set("motor_inertia", ParameterSetting::known(8.78e-4));      // [kg m²]
+  model.set("torque_constant", ParameterSetting::known(0.172));      // [N m per unit of u]
+  model.set("contact_stiffness", ParameterSetting::sought(1300.0));  // [N m/rad]
+  model.set("contact_damping", ParameterSetting::sought(0.171));     // [N m s/rad]
+  for (const char* unknown : {"motor_damping", "mass_ratio", "gap", "load_damping", "load_coulomb_friction"})
+    model.set(unknown, ParameterSetting::sought());
   return model;
 }
 

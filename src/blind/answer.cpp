@@ -72,11 +72,11 @@ BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
           d.group,
           d.where.headline,
           blind::told_place(d.where),
-          d.gap.before,
-          d.gap.after,
-          d.gap.floor,
-          d.gap.shrink,
-          d.gap.shrink_ci95,
+          d.mismatch.before,
+          d.mismatch.after,
+          d.mismatch.floor,
+          d.mismatch.shrink,
+          d.mismatch.shrink_ci95,
           d.evidence,
           ""};
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "config/model_reader.h"
-#include "gapscope/plant/effect_hooks.h"
 #include "gapscope/simulation/simulate.h"
 
 namespace gapscope {

@@ -26,14 +26,15 @@ ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry) {
 }
 
 /// A fitted model once more with more work, from where it stands.
-Fitted refined(std::span<const MotorTrace> train, const Fitted& from, const FitOptions& options, double hz) {
+FittedModel refined(std::span<const MotorTrace> train, const FittedModel& from, const FitOptions& options,
+                    double hz) {
   const ModelFit fit(train, from.model, options, hz);
   return fitted_at(fit, fit.refine(fit.point_of(from.model, from.starts), kRetry));
 }
 
 }  // namespace
 
-std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,
+std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const FittedModel& nominal,
                                        const ReferenceModel& sheet, const FitOptions& options, double hz) {
   const ModelFit fit(train, nominal.model, options, hz);
   std::vector<FitLinearisation> bases;
@@ -43,10 +44,10 @@ std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const 
   return bases;
 }
 
-Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal,
-                     std::span<const FitLinearisation> bases, const EffectEntry& entry,
-                     std::span<const EffectStart> starts, const Fitted* parent, const FitOptions& options,
-                     double hz) {
+FittedModel fit_candidate(std::span<const MotorTrace> train, const FittedModel& nominal,
+                          std::span<const FitLinearisation> bases, const EffectEntry& entry,
+                          std::span<const EffectStart> starts, const FittedModel* parent,
+                          const FitOptions& options, double hz) {
   const ModelFit fit(train, with_effect(nominal.model, entry), options, hz);
   const std::size_t shrinking = replaces_last(nominal.model, entry) ? 1 : 0;  // the base has the first one
   Race race(fit, nominal, bases);
@@ -61,14 +62,15 @@ Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal,
   return fitted_at(fit, race.best());
 }
 
-Fitted led_by_faster_observer(std::span<const MotorTrace> train, const Fitted& candidate,
-                              const FitOptions& options, double hz) {
-  const Fitted led = refined(train, candidate, options, kFastHz);
+FittedModel led_by_faster_observer(std::span<const MotorTrace> train, const FittedModel& candidate,
+                                   const FitOptions& options, double hz) {
+  const FittedModel led = refined(train, candidate, options, kFastHz);
   return led.mean_square < kInfinity ? refined(train, led, options, hz) : led;
 }
 
-Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& other,
-             const ReferenceModel& sheet, const FitOptions& options, double hz) {
+FittedModel retry(std::span<const MotorTrace> train, const FittedModel& candidate,
+                  const ReferenceModel& other, const ReferenceModel& sheet, const FitOptions& options,
+                  double hz) {
   const EffectEntry* mine = candidate.model.effects.back().entry;
   const EffectEntry* others = other.effects.back().entry;
   ReferenceModel moved = with_drive(candidate.model, other);
@@ -76,8 +78,8 @@ Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const F
     moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
   // By the numbers of the model without the effect the load may have seemed to start elsewhere.
   const std::vector<RecordingStart> settled = settled_starts(train, candidate.model, hz);
-  Fitted best = candidate;
-  const auto take = [&](Fitted found) {
+  FittedModel best = candidate;
+  const auto take = [&](FittedModel found) {
     if (found.mean_square < kFurther * best.mean_square) best = std::move(found);
   };
   for (const ReferenceModel& values : {candidate.model, moved, with_drive(candidate.model, sheet)})

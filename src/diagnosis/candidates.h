@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "diagnosis/effect_starts.h"
-#include "diagnosis/fitted.h"
+#include "diagnosis/fitted_model.h"
 
 namespace gapscope::internal::diagnosis {
 
 /// Points of the fitted model's parameters with its residuals and their derivatives there: what every
 /// candidate's race borrows, since a small effect hardly changes how the drive's own numbers act. They lie at
 /// the fitted values and at those of the sheet; the latter is left out where the motion diverges.
-std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const Fitted& nominal,
+std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const FittedModel& nominal,
                                        const ReferenceModel& sheet, const FitOptions& options,
                                        double observer_hz);
 
@@ -21,22 +21,23 @@ std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const 
 /// @param starts of the effect, in units of its scales; without any, or without a base, nothing is fitted and
 ///   the mean square stays infinite
 /// @param parent a fitted model with the simpler effect that this one contains as its last; may be nullptr
-Fitted fit_candidate(std::span<const MotorTrace> train, const Fitted& nominal,
-                     std::span<const FitLinearisation> bases, const EffectEntry& entry,
-                     std::span<const EffectStart> starts, const Fitted* parent, const FitOptions& options,
-                     double observer_hz);
+FittedModel fit_candidate(std::span<const MotorTrace> train, const FittedModel& nominal,
+                          std::span<const FitLinearisation> bases, const EffectEntry& entry,
+                          std::span<const EffectStart> starts, const FittedModel* parent,
+                          const FitOptions& options, double observer_hz);
 
 /// A fitted candidate once more, from where a faster observer's fit leads: that forgets sooner what came
 /// before, and there are fewer minima to end in.
-Fitted led_by_faster_observer(std::span<const MotorTrace> train, const Fitted& candidate,
-                              const FitOptions& options, double observer_hz);
+FittedModel led_by_faster_observer(std::span<const MotorTrace> train, const FittedModel& candidate,
+                                   const FitOptions& options, double observer_hz);
 
 /// A fitted candidate once more with more work, from where it stands and with its effect on the numbers of
 /// another one's drive and of the sheet's, from which numbers that the recordings hardly determine have
 /// drifted; where one of the two effects contains the other's, also from its size. Where none of that comes
 /// to the floor, also led by a faster observer.
-Fitted retry(std::span<const MotorTrace> train, const Fitted& candidate, const FittedModel& other,
-             const ReferenceModel& sheet, const FitOptions& options, double observer_hz);
+FittedModel retry(std::span<const MotorTrace> train, const FittedModel& candidate,
+                  const ReferenceModel& other, const ReferenceModel& sheet, const FitOptions& options,
+                  double observer_hz);
 
 /// Whether the effect can be added to this model at all: contact effects need a contact, backlash a drive
 /// without, and what the fit estimates anyway cannot be missing.

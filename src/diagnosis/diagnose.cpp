@@ -1,3 +1,5 @@
+#include "diagnosis/diagnose.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,9 +10,9 @@
 #include "diagnosis/evidence.h"
 #include "diagnosis/further.h"
 #include "diagnosis/mismatch_size.h"
-#include "diagnosis/pipeline.h"
 #include "diagnosis/repeatability.h"
 #include "diagnosis/report_back.h"
+#include "diagnosis/step.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/require.h"
@@ -25,7 +27,7 @@ constexpr double kAsGood = 0.05;         ///< S: as good a fit
 constexpr double kNearlyWhole = 0.97;    ///< shrink
 constexpr double kFarBetter = 0.5;       ///< of the mean square
 
-Judged judged_nominal(const Study& study) {
+ScoredModel scored_nominal(const Study& study) {
   return judge(nullptr, fit_nominal(study.train, study.sheet, study.options.fit, study.observer_hz),
                study.held_out, study.observer_hz);
 }
@@ -34,21 +36,21 @@ Judged judged_nominal(const Study& study) {
 ///
 /// A fit leaves undetermined what its recordings do not ask for, and may miss others by that alone. Then
 /// nothing is missing, as long as the other numbers explain what was fitted as well as the fit did.
-std::optional<Judged> explained_together(const Study& study, const Judged& nominal) {
+std::optional<ScoredModel> explained_together(const Study& study, const ScoredModel& nominal) {
   if (!(nominal.fitted.mean_square < kNearFloor)) return {};
   const double hz = study.observer_hz;
   const std::vector<MotorTrace> all = everything(study);
   const HeldOut own = fitted_as_held_out(study);
   const double alone = judge(nullptr, nominal.fitted, own, hz).score;
-  const auto explains = [&](const Judged& held_out) {
+  const auto explains = [&](const ScoredModel& held_out) {
     if (!at_floor(held_out)) return false;
-    const Judged fitted = judge(nullptr, held_out.fitted, own, hz);
+    const ScoredModel fitted = judge(nullptr, held_out.fitted, own, hz);
     return at_floor(fitted) && fitted.score < alone + kAsGood;
   };
-  Judged together =
+  ScoredModel together =
       judge(nullptr, fit_near(all, nominal.fitted.model, study.options.fit, hz), study.held_out, hz);
   if (explains(together)) return together;
-  const Fitted other = fit_nominal(study.held_out.traces, study.sheet, study.options.fit, hz);
+  const FittedModel other = fit_nominal(study.held_out.traces, study.sheet, study.options.fit, hz);
   together = judge(nullptr, other, study.held_out, hz);
   if (explains(together)) return together;
   together = judge(nullptr, fit_near(all, other.model, study.options.fit, hz), study.held_out, hz);
@@ -57,7 +59,7 @@ std::optional<Judged> explained_together(const Study& study, const Judged& nomin
 }
 
 /// On what is held out, else on what was fitted.
-Repeatability repeatability(const Study& study, const FittedModel& model) {
+Repeatability repeatability(const Study& study, const ReferenceModel& model) {
   const Repeatability seen =
       repeatability_of(play(model, study.held_out, study.observer_hz, false), study.held_out);
   if (!std::isnan(seen.innovation)) return seen;
@@ -66,7 +68,7 @@ Repeatability repeatability(const Study& study, const FittedModel& model) {
 }
 
 /// Whether the drive's own repetition is the floor; then the study is changed to that.
-bool take_repeatability(Study& study, const Judged& nominal) {
+bool take_repeatability(Study& study, const ScoredModel& nominal) {
   HeldOut& held = study.held_out;
   const Repeatability seen = repeatability(study, nominal.fitted.model);
   const double floor = *std::max_element(held.floors.begin(), held.floors.end());
@@ -81,17 +83,17 @@ bool take_repeatability(Study& study, const Judged& nominal) {
 
 /// The nominal model from the drive of the best candidate, where that leads to a far better fit: the first
 /// one had ended in a minimum that the best candidate, not its effect, has left.
-std::optional<Judged> nominal_near(const Study& study, const Findings& found) {
+std::optional<ScoredModel> nominal_near(const Study& study, const Findings& found) {
   if (found.candidates.empty() || !std::isfinite(found.candidates.front().score)) return {};
-  FittedModel model = found.before.fitted.model;
+  ReferenceModel model = found.before.fitted.model;
   model.parameters = found.candidates.front().fitted.model.parameters;
-  Fitted fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
+  FittedModel fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
   if (!(fitted.mean_square < kFarBetter * found.before.fitted.mean_square)) return {};
   return judge(nullptr, std::move(fitted), study.held_out, study.observer_hz);
 }
 
 /// The simpler effect that the first candidate contains, where it is none itself.
-const EffectEntry* excluded_parent(const Study& study, const std::vector<Judged>& ranked) {
+const EffectEntry* excluded_parent(const Study& study, const std::vector<ScoredModel>& ranked) {
   const EffectEntry* parent = ranked.empty() ? nullptr : contained_effect(*ranked.front().entry);
   const auto& all = study.catalogue;
   return std::find(all.begin(), all.end(), parent) == all.end() ? parent : nullptr;
@@ -100,16 +102,16 @@ const EffectEntry* excluded_parent(const Study& study, const std::vector<Judged>
 Findings first_look(Study& study) {
   Findings found;
   study.options.progress("fitting the nominal model");
-  found.before = judged_nominal(study);
+  found.before = scored_nominal(study);
   if (at_floor(found.before)) return found;
-  if (std::optional<Judged> together = explained_together(study, found.before)) {
+  if (std::optional<ScoredModel> together = explained_together(study, found.before)) {
     found.alone = std::max(found.before.median_free, found.before.median_innovation);
     found.before = std::move(*together);
     return found;
   }
   const HeldOut by_encoder = study.held_out;
   if (take_repeatability(study, found.before)) {
-    Judged repeated = judged_nominal(study);
+    ScoredModel repeated = scored_nominal(study);
     if (at_floor(repeated)) {  // what does not repeat is all there is, and that is no model's
       study.held_out = by_encoder;
       study.observer_hz = kSlowHz;
@@ -118,7 +120,7 @@ Findings first_look(Study& study) {
     }
   }
   found.candidates = candidates_of(study, found.before, study.catalogue);
-  if (std::optional<Judged> better = nominal_near(study, found)) {
+  if (std::optional<ScoredModel> better = nominal_near(study, found)) {
     found.before = std::move(*better);
     found.candidates.clear();
     if (at_floor(found.before)) return found;
@@ -134,7 +136,7 @@ Findings first_look(Study& study) {
 /// Mean square that the best fit leaves of what was fitted [floor²].
 double least_left(const Findings& found) {
   double least = found.before.fitted.mean_square;
-  for (const Judged& c : found.candidates) least = std::min(least, c.fitted.mean_square);
+  for (const ScoredModel& c : found.candidates) least = std::min(least, c.fitted.mean_square);
   return least;
 }
 
@@ -142,7 +144,7 @@ double least_left(const Findings& found) {
 /// what the others need, neither of the drive nor of the effect.
 bool asked_too_little(const Study& study, const Findings& found) {
   if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
-  const Judged& best = found.candidates.front();
+  const ScoredModel& best = found.candidates.front();
   if (at_floor(best)) return false;
   if (found.decision.accepted && !(shrink_of(found.before.median_free, best.median_free) < kNearlyWhole))
     return false;

@@ -9,7 +9,7 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-ModelEvidence evidence_of(const Judged& model, const Judged& before) {
+ModelEvidence evidence_of(const ScoredModel& model, const ScoredModel& before) {
   return {model.entry != nullptr ? model.entry->name : "",
           model.score,
           model.fitted.mean_square,
@@ -18,8 +18,8 @@ ModelEvidence evidence_of(const Judged& model, const Judged& before) {
           share_of_windows_better(before, model)};
 }
 
-Judged judged_by(const ModelEvidence& e) {
-  Judged j;
+ScoredModel judged_by(const ModelEvidence& e) {
+  ScoredModel j;
   j.entry = e.effect.empty() ? nullptr : find_effect(e.effect);
   j.fitted.mean_square = e.mean_square;
   j.score = e.score;
@@ -39,8 +39,9 @@ StepEvidence evidence_of(const Study& study, const Findings& found) {
   e.nominal = evidence_of(found.before, found.before);
   e.alone = found.alone;
   e.repeats_badly = study.repeats_badly();
-  for (const Judged& c : found.candidates) e.candidates.push_back(evidence_of(c, found.before));
-  for (const Judged& c : found.excluded_parents) e.excluded_parents.push_back(evidence_of(c, found.before));
+  for (const ScoredModel& c : found.candidates) e.candidates.push_back(evidence_of(c, found.before));
+  for (const ScoredModel& c : found.excluded_parents)
+    e.excluded_parents.push_back(evidence_of(c, found.before));
   return e;
 }
 
@@ -52,15 +53,15 @@ double StepEvidence::before() const {
 
 StepOutcome decide_again(const StepEvidence& evidence, const std::vector<std::string>& excluded) {
   using namespace internal::diagnosis;
-  const Judged before = judged_by(evidence.nominal);
-  std::vector<Judged> candidates, parents;
+  const ScoredModel before = judged_by(evidence.nominal);
+  std::vector<ScoredModel> candidates, parents;
   for (const ModelEvidence& e : evidence.candidates)
     (contains(excluded, e.effect) ? parents : candidates).push_back(judged_by(e));
   for (const ModelEvidence& e : evidence.excluded_parents) parents.push_back(judged_by(e));
   rank(candidates, before, evidence.repeats_badly);
   const Decision decision = decide_alone(candidates, before, evidence.repeats_badly, parents);
   StepOutcome out;
-  for (const Judged& c : candidates) out.ranking.push_back(c.entry->name);
+  for (const ScoredModel& c : candidates) out.ranking.push_back(c.entry->name);
   for (const EffectEntry* entry : decision.group) out.group.push_back(entry->name);
   out.accepted = decision.accepted;
   out.rel = decision.rel, out.margin = decision.margin, out.gain = decision.gain;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/pipeline.h"
+#include "diagnosis/diagnose.h"
 #include "gapscope/diagnosis/evidence.h"
 
 namespace gapscope::internal::diagnosis {

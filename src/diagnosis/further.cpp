@@ -5,6 +5,7 @@
 
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/probability.h"
+#include "diagnosis/step.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -29,8 +30,8 @@ constexpr double kHardlyAnything = 0.99;  ///< of the free runs' error explained
 constexpr double kSureMargin = 0.9;  ///< … first step, with a second one that beats all others by this S
 
 /// The model so far as the one to add to. An effect that others contain comes last: they take its place.
-Judged base_of(const Judged& model) {
-  Judged base = model;
+ScoredModel base_of(const ScoredModel& model) {
+  ScoredModel base = model;
   base.entry = nullptr;
   base.score = log_score(model.windows);
   std::stable_partition(
@@ -42,12 +43,12 @@ Judged base_of(const Judged& model) {
   return base;
 }
 
-bool worth_following(const Judged& before, const Judged& after) {
+bool worth_following(const ScoredModel& before, const ScoredModel& after) {
   return before.score - after.score >= kWorthFollowing &&
          share_of_windows_better(before, after) >= kWorthFollowingWindows;
 }
 
-FurtherStep next_step(const Study& study, const Judged& model) {
+FurtherStep next_step(const Study& study, const ScoredModel& model) {
   FurtherStep step{base_of(model), {}, {}, {}};
   std::vector<const EffectEntry*> catalogue = study.catalogue;
   std::erase_if(catalogue, [&](const EffectEntry* e) { return contains(model.fitted.model, e); });
@@ -61,12 +62,12 @@ FurtherStep next_step(const Study& study, const Judged& model) {
   return step;
 }
 
-FittedModel without(FittedModel model, const EffectEntry* entry) {
+ReferenceModel without(ReferenceModel model, const EffectEntry* entry) {
   std::erase_if(model.effects, [&](const ModelEffect& e) { return e.entry == entry; });
   return model;
 }
 
-Judged refitted(const Study& study, const FittedModel& model) {
+ScoredModel refitted(const Study& study, const ReferenceModel& model) {
   return judge(nullptr, fit_near(study.train, model, study.options.fit, study.observer_hz), study.held_out,
                study.observer_hz);
 }
@@ -76,7 +77,7 @@ void drop_stand_ins(const Study& study, Additions& a) {
   const EffectEntry* last = a.effects.back().entry;
   const auto superfluous = [&](const Addition& effect) {
     if (effect.entry == last || !contains(a.after.fitted.model, effect.entry)) return false;
-    const Judged less = refitted(study, without(a.after.fitted.model, effect.entry));
+    const ScoredModel less = refitted(study, without(a.after.fitted.model, effect.entry));
     if (!(less.score < log_score(a.after.windows) + kStandIn)) return false;
     a.after = less;
     a.steps.back().dropped.push_back(effect.entry);
@@ -93,8 +94,8 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
     std::vector<const EffectEntry*> alike{effect.entry};
     for (const EffectEntry* e : study.catalogue)
       if (look_alike(*e, *effect.entry) && !contains(a.after.fitted.model, e)) alike.push_back(e);
-    const Judged less = refitted(study, without(a.after.fitted.model, effect.entry));
-    std::vector<Judged> ranked = candidates_of(study, base_of(less), alike, false);
+    const ScoredModel less = refitted(study, without(a.after.fitted.model, effect.entry));
+    std::vector<ScoredModel> ranked = candidates_of(study, base_of(less), alike, false);
     if (ranked.empty() || ranked.front().entry == effect.entry) continue;
     if (!(ranked.front().score < log_score(a.after.windows) - kClearlyBetter)) continue;
     a.steps.back().dropped.push_back(effect.entry);
@@ -105,23 +106,23 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
 
 /// Whether one set of numbers leaves nothing to explain, though those of the fitted recordings alone leave
 /// something on the others: these asked for what the fitted ones do not determine.
-bool explained_together(const Study& study, const Judged& model) {
+bool explained_together(const Study& study, const ScoredModel& model) {
   if (study.repeats_badly() || !(model.fitted.mean_square < kExplained)) return false;
-  const Judged together =
+  const ScoredModel together =
       judge(nullptr, fit_near(everything(study), model.fitted.model, study.options.fit, study.observer_hz),
             study.held_out, study.observer_hz);
   return at_floor(together) && together.fitted.mean_square < kExplained;
 }
 
 /// Whether the fitted recordings leave nothing to ask, or far less than those held out.
-bool asks_elsewhere(const Study& study, const Judged& model) {
+bool asks_elsewhere(const Study& study, const ScoredModel& model) {
   const double fitted = model.fitted.mean_square;
   return may_fit_half_of_the_held_out(study) &&
          (fitted < kNearFloor || leaves_far_more_held_out(model, fitted));
 }
 
 /// The same model by what is held out now.
-void judge_again(const Study& study, Judged& model) {
+void judge_again(const Study& study, ScoredModel& model) {
   model = judge(model.entry, std::move(model.fitted), study.held_out, study.observer_hz);
 }
 
@@ -129,24 +130,24 @@ void judge_again(const Study& study, Judged& model) {
 void keep_wider(const Study& study, const Findings& found, std::size_t steps_before, Additions& a) {
   for (std::size_t i = 0; i < steps_before; ++i) {
     judge_again(study, a.steps[i].before);
-    for (Judged& c : a.steps[i].candidates) judge_again(study, c);
+    for (ScoredModel& c : a.steps[i].candidates) judge_again(study, c);
   }
   a.wider = {study.train, study.held_out, found.before};
   judge_again(study, a.wider->nominal);
 }
 
 /// Where one branch has led so far, others are not followed.
-bool leaves_little(const Judged& nominal, const Judged& after) {
+bool leaves_little(const ScoredModel& nominal, const ScoredModel& after) {
   return at_floor(after) || shrink_of(nominal.median_free, after.median_free) >= kHardlyAnything;
 }
 
 /// Forward from a candidate of the first step.
-Additions follow(Study study, const Findings& found, const Judged& first,
+Additions follow(Study study, const Findings& found, const ScoredModel& first,
                  std::vector<const EffectEntry*> group) {
   Additions a;
   a.after = first;
   a.effects = {{first.entry, std::move(group)}};
-  std::optional<Judged> narrow;  // the model so far, before half of what is held out was fitted
+  std::optional<ScoredModel> narrow;  // the model so far, before half of what is held out was fitted
   std::size_t steps_before = 0;
   while (a.steps.size() + 1 < kMostEffects && !at_floor(a.after)) {
     a.explained = explained_together(study, a.after);
@@ -177,29 +178,29 @@ Additions follow(Study study, const Findings& found, const Judged& first,
 
 }  // namespace
 
-const Judged& nominal_of(const Findings& found, const Additions& a) {
+const ScoredModel& nominal_of(const Findings& found, const Additions& a) {
   return a.wider ? a.wider->nominal : found.before;
 }
 
-bool contains(const FittedModel& model, const EffectEntry* entry) {
+bool contains(const ReferenceModel& model, const EffectEntry* entry) {
   return std::any_of(model.effects.begin(), model.effects.end(),
                      [&](const ModelEffect& e) { return e.entry == entry; });
 }
 
-bool clearly_better(const Judged& before, const Judged& best, const Decision& d) {
+bool clearly_better(const ScoredModel& before, const ScoredModel& best, const Decision& d) {
   const double left = best.fitted.mean_square / before.fitted.mean_square;
   const double windows = left < kFitCollapses ? kWorthFollowingWindows : kLaterWindows;
   return d.gain >= kLaterGain && d.windows_better >= windows && d.margin >= kLaterMargin && left < kAskedFor;
 }
 
-bool refines(const Judged& before, const Judged& best, const Decision& d) {
+bool refines(const ScoredModel& before, const ScoredModel& best, const Decision& d) {
   const EffectEntry* contained = contained_effect(*best.entry);
   return contained != nullptr && contains(before.fitted.model, contained) && d.gain >= kRefinedGain &&
          d.margin >= kRefinedGain && d.windows_better >= kWorthFollowingWindows &&
          best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
 }
 
-bool borne_out(const Judged& nominal, const Additions& a) {
+bool borne_out(const ScoredModel& nominal, const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
   if (a.explained || at_floor(a.after)) return true;
   return a.steps.front().decision.margin >= kSureMargin &&
@@ -207,14 +208,14 @@ bool borne_out(const Judged& nominal, const Additions& a) {
           shrink_of(nominal.median_free, a.after.median_free) >= kMostOfTheSize);
 }
 
-std::vector<const Judged*> branches(const Findings& found) {
-  std::vector<const Judged*> chosen;
-  for (const Judged& c : found.candidates)
+std::vector<const ScoredModel*> branches(const Findings& found) {
+  std::vector<const ScoredModel*> chosen;
+  for (const ScoredModel& c : found.candidates)
     if (chosen.size() < kBranches && worth_following(found.before, c)) chosen.push_back(&c);
-  std::vector<const Judged*> fitted;
-  for (const Judged& c : found.candidates)
+  std::vector<const ScoredModel*> fitted;
+  for (const ScoredModel& c : found.candidates)
     if (c.fitted.mean_square < kMuchOfTheFit * found.before.fitted.mean_square) fitted.push_back(&c);
-  std::stable_sort(fitted.begin(), fitted.end(), [](const Judged* a, const Judged* b) {
+  std::stable_sort(fitted.begin(), fitted.end(), [](const ScoredModel* a, const ScoredModel* b) {
     return a->fitted.mean_square < b->fitted.mean_square;
   });
   for (std::size_t i = 0; i < std::min(fitted.size(), kFittedBranches); ++i)
@@ -232,7 +233,7 @@ Additions add_further(const Study& study, const Findings& found) {
     return a;
   }
   Additions best;
-  for (const Judged* first : branches(found)) {
+  for (const ScoredModel* first : branches(found)) {
     const bool is_best = first == &ranked.front();
     Additions a = follow(study, found, *first, is_best ? sure.group : std::vector{first->entry});
     a.accepted = borne_out(nominal_of(found, a), a) || (is_best && sure.in_part && a.effects.size() > 1);

@@ -3,14 +3,14 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/pipeline.h"
+#include "diagnosis/diagnose.h"
 
 namespace gapscope::internal::diagnosis {
 
 /// A step after the first: every candidate on top of what was added before it.
 struct FurtherStep {
-  Judged before;                   ///< the model so far; its score counts no parameters
-  std::vector<Judged> candidates;  ///< best first
+  ScoredModel before;                   ///< the model so far; its score counts no parameters
+  std::vector<ScoredModel> candidates;  ///< best first
   Decision decision;
   std::vector<const EffectEntry*> dropped;  ///< earlier effects that its first candidate made superfluous
 };
@@ -25,7 +25,7 @@ struct Addition {
 struct Wider {
   std::vector<MotorTrace> train;
   HeldOut held_out;
-  Judged nominal;  ///< by what is still held out
+  ScoredModel nominal;  ///< by what is still held out
 };
 
 /// What the search for several effects came to.
@@ -33,7 +33,7 @@ struct Additions {
   bool accepted = false;
   bool explained = false;  ///< what is left on the held-out recordings is the drive's numbers, not an effect
   std::vector<Addition> effects;   ///< those that stay, in the order in which they were found
-  Judged after;                    ///< with all of them
+  ScoredModel after;               ///< with all of them
   std::vector<FurtherStep> steps;  ///< the last one may not have been taken
   std::optional<Wider> wider;
 };
@@ -50,7 +50,7 @@ struct Additions {
 Additions add_further(const Study& study, const Findings& found);
 
 /// The model without any effect, by what the additions are judged by.
-const Judged& nominal_of(const Findings& found, const Additions& additions);
+const ScoredModel& nominal_of(const Findings& found, const Additions& additions);
 
 /// All steps.
 struct Search {
@@ -64,22 +64,22 @@ Search search(Study& study);
 /// First steps to follow where the best is unsure in itself: those that gain on what is held out, then those
 /// that explain most of what was fitted. Where half of the cause is still missing, the numbers of the other
 /// half are often so wrong that no held-out recording shows its worth.
-std::vector<const Judged*> branches(const Findings& found);
+std::vector<const ScoredModel*> branches(const Findings& found);
 
 /// Whether a later step counts that does not come far towards the floor, since an earlier effect's law is
 /// another than the real one's and keeps it away.
-bool clearly_better(const Judged& before, const Judged& best, const Decision& decision);
+bool clearly_better(const ScoredModel& before, const ScoredModel& best, const Decision& decision);
 
 /// Whether an effect of the model should have the more general law that contains it, as Stribeck friction
 /// contains Coulomb's: no new cause, so how far it leads to the floor does not matter.
-bool refines(const Judged& before, const Judged& best, const Decision& decision);
+bool refines(const ScoredModel& before, const ScoredModel& best, const Decision& decision);
 
 /// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
 /// themselves and come far towards it, or leave little of the free runs' size. A first step that is there
 /// alone has been decided upon.
-bool borne_out(const Judged& nominal, const Additions& additions);
+bool borne_out(const ScoredModel& nominal, const Additions& additions);
 
 /// Whether the effect is in the model.
-bool contains(const FittedModel& model, const EffectEntry* entry);
+bool contains(const ReferenceModel& model, const EffectEntry* entry);
 
 }  // namespace gapscope::internal::diagnosis

@@ -92,7 +92,7 @@ bool play_ripple(const PlantModel<double>& model, const DriveState<double>& star
 }
 
 /// Every number given, nothing estimated.
-FittedModel all_fixed(FittedModel model) {
+ReferenceModel all_fixed(ReferenceModel model) {
   for (ParameterSetting& p : model.parameters) p.estimate = false;
   for (ModelEffect& e : model.effects)
     for (ParameterSetting& p : e.parameters) p.estimate = false;
@@ -121,8 +121,8 @@ std::size_t HeldOut::restart(std::size_t r) const {
   return 2 * std::max<std::size_t>(5, static_cast<std::size_t>(0.5 * length / traces[r].dt + 0.5));
 }
 
-std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings, const FittedModel& model,
-                                           double observer_hz) {
+std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
+                                           const ReferenceModel& model, double observer_hz) {
   const ModelFit fit(recordings, all_fixed(model), {}, observer_hz);
   const FitPoint given = fit.given_point();
   const FitPoint placed = fit.with_loads_placed(given).value_or(given);
@@ -130,11 +130,12 @@ std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recording
   return better.usable() ? better.starts : placed.starts;
 }
 
-PlantModel<double> stepper_of(const FittedModel& model, std::span<const MotorTrace> like) {
+PlantModel<double> stepper_of(const ReferenceModel& model, std::span<const MotorTrace> like) {
   return ModelFit(like, all_fixed(model), {}, 0.0).run_at({}).plant;
 }
 
-std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all) {
+std::vector<Playback> play(const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
+                           bool all) {
   const ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
   const auto [plant, starts] = fit.run_at({{}, settled_starts(held_out.traces, model, observer_hz)});
   std::vector<Playback> playbacks(held_out.traces.size());

@@ -15,9 +15,6 @@ constexpr double kSlowHz = 3.0, kFastHz = 30.0;
 constexpr double kRippleHz = 150.0;
 inline double ripple_hz(double dt) { return std::min(kRippleHz, 0.15 / dt); }
 
-/// A model whose numbers are all known.
-using FittedModel = ReferenceModel;
-
 /// What is held out: whole recordings, or the last part of each (the model is run from its beginning then).
 struct HeldOut {
   std::vector<MotorTrace> traces;
@@ -53,16 +50,17 @@ struct Windows {
 };
 
 /// Initial states of recordings that suit a model whose numbers are all known.
-std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings, const FittedModel& model,
-                                           double observer_hz);
+std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
+                                           const ReferenceModel& model, double observer_hz);
 
 /// What the simulator takes a model for whose numbers are all known.
 /// @param like recordings that its scales are taken from
-PlantModel<double> stepper_of(const FittedModel& model, std::span<const MotorTrace> like);
+PlantModel<double> stepper_of(const ReferenceModel& model, std::span<const MotorTrace> like);
 
 /// Plays a model on what is held out, the load's initial position fitted. Empty if the motion diverges.
 /// @param all false: only what the score needs, innovations and free runs
-std::vector<Playback> play(const FittedModel& model, const HeldOut& held_out, double observer_hz, bool all);
+std::vector<Playback> play(const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
+                           bool all);
 
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
 

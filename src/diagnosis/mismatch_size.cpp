@@ -72,7 +72,7 @@ double judged_floor(const Study& study) {
   return study.repeats_badly() ? std::max(encoder, study.held_out.innovation_repeats) : encoder;
 }
 
-MismatchSize mismatch_size(const Study& study, const Judged& before, const Judged& after) {
+MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const ScoredModel& after) {
   const HeldOut& held = study.held_out;
   const bool predicted = study.repeats_badly();
   const auto windows = judged_windows(study);
@@ -120,7 +120,7 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
            study.options.rotation ? "N m" : "N", median_size(b.torque), median_size(a.torque), kNaN}};
 }
 
-double weight_of(const Judged& candidate, const Judged& best) {
+double weight_of(const ScoredModel& candidate, const ScoredModel& best) {
   return std::isfinite(candidate.score)
              ? std::exp(-std::max(0.0, candidate.score - best.score) / kTemperature)
              : 0.0;

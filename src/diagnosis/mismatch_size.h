@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/pipeline.h"
+#include "diagnosis/study.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -14,13 +14,13 @@ double shrink_of(double before, double after);
 std::vector<double> Windows::*judged_windows(const Study& study);
 double judged_floor(const Study& study);
 
-MismatchSize mismatch_size(const Study& study, const Judged& before, const Judged& after);
+MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const ScoredModel& after);
 
 /// Restarted free runs, innovations at both gains and the residual torque, side by side.
 std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<Playback>& before,
                                          const std::vector<Playback>& after);
 
 /// Weight of a candidate against the best one: exp(−ΔS/T).
-double weight_of(const Judged& candidate, const Judged& best);
+double weight_of(const ScoredModel& candidate, const ScoredModel& best);
 
 }  // namespace gapscope::internal::diagnosis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/step.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::diagnosis {
@@ -166,7 +167,7 @@ std::vector<double> given_periods(const DiagnosisKnowledge& known) {
   return n;
 }
 
-std::vector<PeriodicTorque> periodic_torques(const Study& study, const FittedModel& model,
+std::vector<PeriodicTorque> periodic_torques(const Study& study, const ReferenceModel& model,
                                              const std::vector<Playback>& held_out) {
   const std::vector<Values> fitted = ripples_of(play_on_train(study, model));
   const std::vector<Values> held = ripples_of(held_out);

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "diagnosis/harmonics.h"
-#include "diagnosis/pipeline.h"
+#include "diagnosis/study.h"
 
 namespace gapscope::internal::diagnosis {
 
 /// The lines of a model's residual torque over the motor angle: those whose period was given, and those that
 /// stand out where the model was fitted and hold on what is held out.
 /// @param held_out playbacks of the model
-std::vector<PeriodicTorque> periodic_torques(const Study& study, const FittedModel& model,
+std::vector<PeriodicTorque> periodic_torques(const Study& study, const ReferenceModel& model,
                                              const std::vector<Playback>& held_out);
 
 /// N of every period that was given.

@@ -36,18 +36,18 @@ double later_probability(double rel, double margin, double gain) {
   return probability(kLater, rel, margin, gain);
 }
 
-Shares probability_shares(const std::vector<Judged>& ranked, const Decision& decision, double outside) {
+Shares probability_shares(const std::vector<ScoredModel>& ranked, const Decision& decision, double outside) {
   Shares shares;
   shares.candidates.assign(ranked.size(), 0.0);
   if (!std::isfinite(decision.probability)) return {std::vector<double>(ranked.size(), kNaN), kNaN};
   const double inside = 1.0 / odds(outside);
   const double group = from_odds(odds(decision.probability) * inside);
   const double mistaken = (1.0 - group) * from_odds(odds(kMistakenOrder) * inside);
-  const auto in_group = [&](const Judged& c) {
+  const auto in_group = [&](const ScoredModel& c) {
     return std::find(decision.group.begin(), decision.group.end(), c.entry) != decision.group.end();
   };
   double of_group = 0.0, of_others = 0.0;
-  for (const Judged& c : ranked) (in_group(c) ? of_group : of_others) += weight_of(c, ranked.front());
+  for (const ScoredModel& c : ranked) (in_group(c) ? of_group : of_others) += weight_of(c, ranked.front());
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     const double weight = weight_of(ranked[i], ranked.front());
     const bool grouped = in_group(ranked[i]);

@@ -21,6 +21,6 @@ struct Shares {
 
 /// The group shares its probability by the scores, the other candidates what is left to a mistaken order.
 /// @param outside how likely the catalogue lacks what is missing before any recording; in (0, 1)
-Shares probability_shares(const std::vector<Judged>& ranked, const Decision& decision, double outside);
+Shares probability_shares(const std::vector<ScoredModel>& ranked, const Decision& decision, double outside);
 
 }  // namespace gapscope::internal::diagnosis

@@ -22,7 +22,7 @@ ReferenceModel with_values(ReferenceModel model, const std::vector<double>& effe
 
 }  // namespace
 
-Race::Race(const ModelFit& fit, const Fitted& nominal, std::span<const FitLinearisation> bases)
+Race::Race(const ModelFit& fit, const FittedModel& nominal, std::span<const FitLinearisation> bases)
     : fit_(fit), nominal_(nominal), bases_(bases) {}
 
 Interval Race::bounds(std::size_t i) const {
@@ -54,7 +54,7 @@ void Race::run_from(const std::vector<double>& effect, const FitLinearisation& b
 }
 
 /// The parent's fit carried over: its drive, and its first parameter for ours.
-void Race::run_on(const Fitted& parent, std::vector<double> effect) {
+void Race::run_on(const FittedModel& parent, std::vector<double> effect) {
   effect[0] = parent.model.effects.back().parameters[0].value;
   const ReferenceModel values = with_values(with_drive(fit_.model(), parent.model), effect);
   field_.push_back(
@@ -74,7 +74,7 @@ void Race::enter_sines(const EffectStart& typical) {
       run_from({sine->amplitude, sine->phase}, base);
 }
 
-void Race::enter_on(const Fitted& parent, const EffectStart& start) {
+void Race::enter_on(const FittedModel& parent, const EffectStart& start) {
   if (bases_.empty()) return;
   std::vector<double> effect = physical(start);
   run_on(parent, effect);

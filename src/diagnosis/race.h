@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnosis/effect_starts.h"
-#include "diagnosis/fitted.h"
+#include "diagnosis/fitted_model.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -14,7 +14,7 @@ class Race {
  public:
   /// @param fit of the fitted model with the effect as its last
   /// @param nominal the fitted model without it
-  Race(const ModelFit& fit, const Fitted& nominal, std::span<const FitLinearisation> bases);
+  Race(const ModelFit& fit, const FittedModel& nominal, std::span<const FitLinearisation> bases);
 
   /// A start from every base.
   void enter(const EffectStart& start);
@@ -22,7 +22,7 @@ class Race {
   void enter_sines(const EffectStart& typical);
   /// A start on the drive of a fitted model whose last effect this one contains, and a weaker one, which is
   /// nearly that model itself.
-  void enter_on(const Fitted& parent, const EffectStart& start);
+  void enter_on(const FittedModel& parent, const EffectStart& start);
   /// Weaker and weaker starts from the first base while the last one entered leaves more than the model
   /// without the effect: one far smaller than the start only hurts there.
   /// @param i the parameter that is made weaker
@@ -42,11 +42,11 @@ class Race {
   std::vector<double> physical(const EffectStart& start) const;
   double weaker(std::size_t i, double value) const;
   void run_from(const std::vector<double>& effect, const FitLinearisation& base);
-  void run_on(const Fitted& parent, std::vector<double> effect);
+  void run_on(const FittedModel& parent, std::vector<double> effect);
   RefinedFit follow(const AdjustedFit& from) const;
 
   const ModelFit& fit_;
-  const Fitted& nominal_;
+  const FittedModel& nominal_;
   std::span<const FitLinearisation> bases_;
   std::vector<Entrant> field_;
 };

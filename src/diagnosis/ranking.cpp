@@ -36,7 +36,7 @@ bool names(std::span<const char* const> list, std::string_view name) {
 
 /// Whether such an effect leaves more than a trace of the free runs' error: it is then at best a part of the
 /// cause.
-bool leaves_a_part(const Judged& after, const Judged& before) {
+bool leaves_a_part(const ScoredModel& after, const ScoredModel& before) {
   return after.entry->law_is_fixed && !at_floor(after) &&
          after.median_free - 1.0 > kTrace * (before.median_free - 1.0);
 }
@@ -58,8 +58,8 @@ bool look_alike(const EffectEntry& a, const EffectEntry& b) {
   return names(a.look_alikes, b.name) || names(b.look_alikes, a.name);
 }
 
-Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, double hz) {
-  Judged j;
+ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& held_out, double hz) {
+  ScoredModel j;
   j.entry = entry;
   if (fitted.mean_square < kInfinity) {
     if (const auto playbacks = play(fitted.model, held_out, hz, false); !playbacks.empty()) {
@@ -74,30 +74,33 @@ Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, d
   return j;
 }
 
-bool at_floor(const Judged& j) { return j.median_free < kFloorRatio && j.median_innovation < kFloorRatio; }
+bool at_floor(const ScoredModel& j) {
+  return j.median_free < kFloorRatio && j.median_innovation < kFloorRatio;
+}
 
-bool leaves_far_more_held_out(const Judged& model, double fitted_mean_square) {
+bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_square) {
   return model.median_free > kFarMore * std::sqrt(fitted_mean_square);
 }
 
-double relative_gain(const Judged& before, const Judged& after) {
+double relative_gain(const ScoredModel& before, const ScoredModel& after) {
   return (before.score - after.score) / std::max(before.score - kFloorScore, kLeastDistance);
 }
 
-double share_of_windows_better(const Judged& before, const Judged& after) {
+double share_of_windows_better(const ScoredModel& before, const ScoredModel& after) {
   if (after.windows.free.empty()) return after.windows_better;
   const double free = share_better(before.windows.free, after.windows.free);
   return std::isnan(free) ? share_better(before.windows.innovation, after.windows.innovation) : free;
 }
 
-void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_badly) {
+void rank(std::vector<ScoredModel>& candidates, const ScoredModel& before, bool repeats_badly) {
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Judged& a, const Judged& b) { return a.score < b.score; });
+                   [](const ScoredModel& a, const ScoredModel& b) { return a.score < b.score; });
   if (candidates.empty()) return;
-  const Judged& best = candidates.front();
+  const ScoredModel& best = candidates.front();
   const EffectEntry* parent = contained_effect(*best.entry);
-  const auto found = std::find_if(candidates.begin(), candidates.end(),
-                                  [&](const Judged& c) { return parent != nullptr && c.entry == parent; });
+  const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const ScoredModel& c) {
+    return parent != nullptr && c.entry == parent;
+  });
   if (found == candidates.end()) return;
   if (at_floor(best)) {
     if (at_floor(*found) && found->score - best.score < kParentAsGood)
@@ -113,17 +116,17 @@ void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_ba
     std::rotate(candidates.begin(), found, std::next(found));
 }
 
-Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
-                std::span<const Judged> excluded_parents) {
+Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& before, bool repeats_badly,
+                std::span<const ScoredModel> excluded_parents) {
   Decision d;
   if (ranked.empty() || !std::isfinite(ranked.front().score)) return d;
-  const Judged& best = ranked.front();
+  const ScoredModel& best = ranked.front();
   d.gain = before.score - best.score;
   d.rel = relative_gain(before, best);
   d.windows_better = share_of_windows_better(before, best);
   const double left = repeats_badly ? 0.0 : std::max(best.score - kFloorScore, 0.0);
   double other = before.score;
-  for (const Judged& c : ranked) {
+  for (const ScoredModel& c : ranked) {
     if (contained_effect(*c.entry) == best.entry) continue;  // it contains the best: parsimony has decided
     const bool alike = &c == &best || look_alike(*c.entry, *best.entry);
     if (c.score - best.score < (alike ? kAlike + kAlikeOfLeft * left : kIndistinct))
@@ -143,14 +146,14 @@ Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool re
   const double share = fitted < kExplained ? kAskedForAtFloor : kAskedFor;
   const bool asked_for = reads_counts(*best.entry) || fitted < share * before.fitted.mean_square;
   d.accepted = enough && asked_for && d.margin >= kLeastMargin;
-  for (const Judged& parent : excluded_parents)
+  for (const ScoredModel& parent : excluded_parents)
     if (contained_effect(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)
       d.accepted = false;
   return d;
 }
 
-Decision decide_alone(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
-                      std::span<const Judged> excluded_parents) {
+Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, bool repeats_badly,
+                      std::span<const ScoredModel> excluded_parents) {
   Decision d = decide(ranked, before, repeats_badly, excluded_parents);
   d.in_part = d.accepted && !repeats_badly && leaves_a_part(ranked.front(), before);
   d.accepted = d.accepted && !d.in_part;

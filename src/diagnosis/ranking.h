@@ -10,9 +10,9 @@
 namespace gapscope::internal::diagnosis {
 
 /// A fitted model with what it does on held-out data.
-struct Judged {
+struct ScoredModel {
   const EffectEntry* entry = nullptr;  ///< the last effect; nullptr: the model before
-  Fitted fitted;
+  FittedModel fitted;
   Windows windows;
   double score = kInfinity;   ///< S, extra parameters included
   double median_free = kNaN;  ///< [floor]
@@ -20,7 +20,7 @@ struct Judged {
   double windows_better = kNaN;  ///< of a model known by its numbers alone, without windows
 };
 
-Judged judge(const EffectEntry* entry, Fitted fitted, const HeldOut& held_out, double observer_hz);
+ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& held_out, double observer_hz);
 
 /// Whether the table of the catalogue names one as a look-alike of the other.
 bool look_alike(const EffectEntry& a, const EffectEntry& b);
@@ -31,10 +31,10 @@ inline constexpr double kNearFloor = 4.0;
 inline constexpr double kExplained = kFloorRatio * kFloorRatio;  ///< mean square of a fit [floor²]
 
 /// Both medians within 1.3 floors.
-bool at_floor(const Judged& judged);
+bool at_floor(const ScoredModel& judged);
 
 /// Whether a model leaves far more of what is held out than the mean square that was left of what was fitted.
-bool leaves_far_more_held_out(const Judged& model, double fitted_mean_square);
+bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_square);
 
 /// How sure a step is.
 struct Decision {
@@ -51,23 +51,23 @@ struct Decision {
 /// Best first: by score; a nested parent goes before its child unless the child gains much more.
 /// @param repeats_badly the floor is the drive's repeatability: no child is right to the floor, so a parent
 ///   that takes most of the error goes first and the rest is left to a further step
-void rank(std::vector<Judged>& candidates, const Judged& before, bool repeats_badly);
+void rank(std::vector<ScoredModel>& candidates, const ScoredModel& before, bool repeats_badly);
 
 /// Whether the first candidate is what is missing. A step is taken that closes much of the log distance to
 /// the floor and stands clear of all others; or, where no model can reach the floor, one that gains clearly
 /// and nearly everywhere and stands clear.
 /// @param excluded_parents simpler effects that are no candidates, fitted all the same: a child that does no
 ///   better than its parent alone is the parent under another name, and is not accepted
-Decision decide(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
-                std::span<const Judged> excluded_parents);
+Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& before, bool repeats_badly,
+                std::span<const ScoredModel> excluded_parents);
 
 /// The same of an effect that is to be all that is missing. A law that is fixed but for its size leaves
 /// nothing where it is the cause: where it leaves more than a trace, it is at best a part.
-Decision decide_alone(const std::vector<Judged>& ranked, const Judged& before, bool repeats_badly,
-                      std::span<const Judged> excluded_parents);
+Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, bool repeats_badly,
+                      std::span<const ScoredModel> excluded_parents);
 
-double relative_gain(const Judged& before, const Judged& after);
+double relative_gain(const ScoredModel& before, const ScoredModel& after);
 /// Of the free runs above the floor; of the innovations where none is.
-double share_of_windows_better(const Judged& before, const Judged& after);
+double share_of_windows_better(const ScoredModel& before, const ScoredModel& after);
 
 }  // namespace gapscope::internal::diagnosis

@@ -20,7 +20,7 @@ std::string words_on(double innovation, double free) {
 
 }  // namespace
 
-std::string remark_on(const Judged& c, const Judged& before) {
+std::string remark_on(const ScoredModel& c, const ScoredModel& before) {
   if (!std::isfinite(c.score)) return "the motion with it diverges";
   const std::string words = words_on(mean_log(c.windows.innovation) - mean_log(before.windows.innovation),
                                      mean_log(c.windows.free) - mean_log(before.windows.free));

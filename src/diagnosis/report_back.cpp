@@ -32,14 +32,14 @@ std::vector<NamedValue> effect_values(const ModelEffect& effect) {
   return values;
 }
 
-std::vector<RankedEffect> ranking_of(const Study& study, const Judged& before,
-                                     const std::vector<Judged>& candidates, const Decision& decision) {
+std::vector<RankedEffect> ranking_of(const Study& study, const ScoredModel& before,
+                                     const std::vector<ScoredModel>& candidates, const Decision& decision) {
   std::vector<RankedEffect> ranking;
   const double floor = judged_floor(study);
   const auto windows = judged_windows(study);
   const double size_before = median_size(before.windows.*windows);
   const Shares shares = probability_shares(candidates, decision, study.options.known.outside_catalogue);
-  for (const Judged& c : candidates) {
+  for (const ScoredModel& c : candidates) {
     RankedEffect r;
     r.effect = c.entry->name;
     r.score = c.score;
@@ -58,7 +58,7 @@ std::vector<RankedEffect> ranking_of(const Study& study, const Judged& before,
   return ranking;
 }
 
-std::vector<BlameShift> blame_of(const Judged& before, const Judged& after) {
+std::vector<BlameShift> blame_of(const ScoredModel& before, const ScoredModel& after) {
   std::vector<BlameShift> blame;
   for (std::size_t i = 0; i < kDriveParameterCount; ++i) {
     const ParameterSetting& p = before.fitted.model.parameters[i];
@@ -102,21 +102,21 @@ std::vector<std::string> names_of(const std::vector<const EffectEntry*>& entries
   return names;
 }
 
-std::string place_left_by(const Study& study, const FittedModel& model) {
+std::string place_left_by(const Study& study, const ReferenceModel& model) {
   const double km = model.parameters[place::kTorqueConstant].value;
   const auto played = play(model, study.held_out, study.observer_hz, true);
   return place_of(played, study.held_out, km, study.options.rotation, nullptr).headline;
 }
 
 /// @param after the model that the step has led to
-DiagnosisStep step_of(const Study& study, const FurtherStep& step, const Judged& after, bool added) {
+DiagnosisStep step_of(const Study& study, const FurtherStep& step, const ScoredModel& after, bool added) {
   DiagnosisStep s;
   for (const ModelEffect& e : step.before.fitted.model.effects) s.on_top_of.push_back(e.entry->name);
   if (step.candidates.empty()) return s;
   s.effect = step.candidates.front().entry->name;
   s.accepted = added && step.decision.accepted;
   s.dropped = names_of(step.dropped);
-  s.gap = mismatch_size(study, step.before, after);
+  s.mismatch = mismatch_size(study, step.before, after);
   s.ranking = ranking_of(study, step.before, step.candidates, step.decision);
   if (!s.accepted) return s;
   s.group = names_of(step.decision.group);
@@ -127,7 +127,7 @@ DiagnosisStep step_of(const Study& study, const FurtherStep& step, const Judged&
 /// The effect as the first step has fitted it, alone.
 const ModelEffect& alone(const Findings& found, const EffectEntry* entry) {
   const auto at = std::find_if(found.candidates.begin(), found.candidates.end(),
-                               [&](const Judged& c) { return c.entry == entry; });
+                               [&](const ScoredModel& c) { return c.entry == entry; });
   return (at == found.candidates.end() ? found.candidates.front() : *at).fitted.model.effects.back();
 }
 
@@ -138,20 +138,20 @@ void tell_steps(const Study& study, const Additions& added, Diagnosis& d) {
   for (std::size_t i = 0; i < added.steps.size(); ++i) {
     const bool last = i + 1 == added.steps.size();
     const bool taken = added.steps[i].decision.accepted || added.steps[i].candidates.empty();
-    const Judged& after = !last   ? added.steps[i + 1].before
-                          : taken ? added.after
-                                  : added.steps[i].candidates.front();
+    const ScoredModel& after = !last   ? added.steps[i + 1].before
+                               : taken ? added.after
+                                       : added.steps[i].candidates.front();
     d.steps.push_back(step_of(study, added.steps[i], after, added.accepted));
   }
 }
 
 /// The best candidate of a step and the next one that the data hardly tells from it; none where it is clear.
 /// What contains the best is no rival: parsimony has decided; nor is what explains far less.
-std::vector<Rival> rivals_of(const std::vector<Judged>& candidates, const Judged& before,
+std::vector<Rival> rivals_of(const std::vector<ScoredModel>& candidates, const ScoredModel& before,
                              const Decision& decision) {
   if (decision.accepted && decision.group.size() < 2 && decision.margin >= kClearMargin) return {};
   std::vector<Rival> rivals;
-  for (const Judged& c : candidates) {
+  for (const ScoredModel& c : candidates) {
     if (rivals.size() == kMostRivals || !std::isfinite(c.score)) break;
     if (before.score - c.score < std::max(kRivalGain, kRivalShare * decision.gain)) break;
     const bool contains_best = contained_effect(*c.entry) == candidates.front().entry;
@@ -179,8 +179,8 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   d.verdict = verdict_of(found, additions);
   d.observer_hz = study.observer_hz;
   const bool added = d.verdict == DiagnosisVerdict::kEffect;
-  const Judged& nominal = added ? nominal_of(found, additions) : found.before;
-  const Judged& after = added ? additions.after : nominal;
+  const ScoredModel& nominal = added ? nominal_of(found, additions) : found.before;
+  const ScoredModel& after = added ? additions.after : nominal;
   tell_steps(study, additions, d);
   if (added) d.blame = blame_of(nominal, after);
   d.ranking = ranking_of(study, found.before, found.candidates, found.decision);
@@ -192,7 +192,7 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   if (!found.candidates.empty())
     d.outside_probability =
         probability_shares(found.candidates, found.decision, study.options.known.outside_catalogue).outside;
-  d.gap = mismatch_size(study, nominal, after);
+  d.mismatch = mismatch_size(study, nominal, after);
   d.measures = measures_of(study, before_played, after_played);
   d.where = place_of(before_played, study.held_out, km, study.options.rotation,
                      added ? &alone(found, additions.effects.front().entry) : nullptr);

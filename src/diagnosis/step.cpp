@@ -1,3 +1,5 @@
+#include "diagnosis/step.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <set>
 
 #include "diagnosis/periodic_torque.h"
-#include "diagnosis/pipeline.h"
 #include "diagnosis/ranking.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
@@ -43,7 +44,7 @@ std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback
 }
 
 /// Starts of every candidate; those of periodic effects from the residual torque of the model so far.
-std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judged& before,
+std::vector<std::vector<EffectStart>> all_starts(const Study& study, const ScoredModel& before,
                                                  std::span<const EffectEntry* const> entries) {
   const std::vector<Playback> playbacks = play_on_train(study, before.fitted.model);
   const std::vector<TorqueLine> standing = standing_lines(ripples_of(playbacks), study.train);
@@ -62,7 +63,7 @@ std::vector<std::vector<EffectStart>> all_starts(const Study& study, const Judge
 }
 
 /// A coarser encoder is seen on the samples themselves; nothing is fitted.
-Fitted with_quantum(Fitted nominal, const EffectEntry& entry, double quantum) {
+FittedModel with_quantum(FittedModel nominal, const EffectEntry& entry, double quantum) {
   ModelEffect effect;
   effect.entry = &entry;
   effect.parameters[0].value = quantum;
@@ -73,12 +74,12 @@ Fitted with_quantum(Fitted nominal, const EffectEntry& entry, double quantum) {
 
 /// Candidates that are not at the floor are fitted once more.
 template <class Fit>
-void once_more(const Study& study, const Judged& before, const std::vector<std::size_t>& places,
-               std::vector<Judged>& ranked, const Fit& fit) {
+void once_more(const Study& study, const ScoredModel& before, const std::vector<std::size_t>& places,
+               std::vector<ScoredModel>& ranked, const Fit& fit) {
   parallel_for(places.size(), study.options.threads, [&](std::size_t k) {
-    Judged& candidate = ranked[places[k]];
+    ScoredModel& candidate = ranked[places[k]];
     if (!std::isfinite(candidate.score) || at_floor(candidate)) return;
-    Fitted fitted = fit(candidate.fitted);
+    FittedModel fitted = fit(candidate.fitted);
     if (fitted.mean_square < candidate.fitted.mean_square)
       candidate = judge(candidate.entry, std::move(fitted), study.held_out, study.observer_hz);
   });
@@ -88,9 +89,10 @@ void once_more(const Study& study, const Judged& before, const std::vector<std::
 /// First the best few, also from the numbers of the very best; so do, wherever they came, the simpler effect
 /// that the best contains and those that contain the best. Where none of these explains much, all others.
 /// @param all false, in a later step: only those that are near the best or easily mistaken for it
-void further_rounds(const Study& study, const Judged& before, std::vector<Judged>& ranked, bool all) {
+void further_rounds(const Study& study, const ScoredModel& before, std::vector<ScoredModel>& ranked,
+                    bool all) {
   if (ranked.empty() || !std::isfinite(ranked.front().score)) return;
-  const FittedModel first = ranked.front().fitted.model;
+  const ReferenceModel first = ranked.front().fitted.model;
   const EffectEntry* best = ranked.front().entry;
   const double near = ranked.front().score + (at_floor(ranked.front()) ? 0.0 : kLostClearly);
   std::vector<std::size_t> few, rest;
@@ -103,31 +105,31 @@ void further_rounds(const Study& study, const Judged& before, std::vector<Judged
     tried.insert(entry);
   }
   const FitOptions& options = study.options.fit;
-  once_more(study, before, few, ranked, [&](const Fitted& candidate) {
+  once_more(study, before, few, ranked, [&](const FittedModel& candidate) {
     return retry(study.train, candidate, first, study.sheet, options, study.observer_hz);
   });
   if (!all || relative_gain(before, ranked.front()) > kExplainsMuch || study.repeats_badly()) return;
   for (std::size_t i = 0; i < ranked.size(); ++i)
     if (!tried.contains(ranked[i].entry)) rest.push_back(i);
-  once_more(study, before, rest, ranked, [&](const Fitted& candidate) {
+  once_more(study, before, rest, ranked, [&](const FittedModel& candidate) {
     return led_by_faster_observer(study.train, candidate, options, study.observer_hz);
   });
 }
 
 /// Look-alikes of a candidate begin once more, from the numbers of its drive: where the two are hard to tell
 /// apart, a poor minimum must not decide.
-void fit_look_alikes(const Study& study, const Judged& before, const Judged& best,
+void fit_look_alikes(const Study& study, const ScoredModel& before, const ScoredModel& best,
                      std::span<const EffectEntry* const> entries,
-                     const std::vector<std::vector<EffectStart>>& starts, std::vector<Judged>& ranked) {
+                     const std::vector<std::vector<EffectStart>>& starts, std::vector<ScoredModel>& ranked) {
   const FitOptions& options = study.options.fit;
   const std::vector<FitLinearisation> bases =
       bases_of(study.train, before.fitted, best.fitted.model, options, study.observer_hz);
   if (bases.empty() || !(before.score - best.score > kWorthComparing)) return;
   parallel_for(ranked.size(), study.options.threads, [&](std::size_t k) {
-    Judged& c = ranked[k];
+    ScoredModel& c = ranked[k];
     if (!look_alike(*c.entry, *best.entry) || at_floor(c) || reads_counts(*c.entry)) return;
     const auto place = std::find(entries.begin(), entries.end(), c.entry) - entries.begin();
-    Fitted fitted =
+    FittedModel fitted =
         fit_candidate(study.train, before.fitted, {&bases.back(), 1}, *c.entry,
                       starts[static_cast<std::size_t>(place)], nullptr, options, study.observer_hz);
     if (fitted.mean_square < c.fitted.mean_square)
@@ -137,7 +139,7 @@ void fit_look_alikes(const Study& study, const Judged& before, const Judged& bes
 
 }  // namespace
 
-std::vector<Playback> play_on_train(const Study& study, const FittedModel& model) {
+std::vector<Playback> play_on_train(const Study& study, const ReferenceModel& model) {
   HeldOut own;
   own.traces = study.train;
   own.scored_from.assign(own.traces.size(), 0);
@@ -145,8 +147,8 @@ std::vector<Playback> play_on_train(const Study& study, const FittedModel& model
   return play(model, own, study.observer_hz, true);
 }
 
-std::vector<Judged> candidates_of(const Study& study, const Judged& before,
-                                  const std::vector<const EffectEntry*>& catalogue, bool first_step) {
+std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& before,
+                                       const std::vector<const EffectEntry*>& catalogue, bool first_step) {
   std::vector<const EffectEntry*> entries;
   for (const EffectEntry* entry : catalogue)
     if (reads_counts(*entry) ? study.seen_quantum > 0.0 : is_candidate(*entry, before.fitted.model))
@@ -154,17 +156,17 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
   const auto starts = all_starts(study, before, entries);
   const std::vector<FitLinearisation> bases =
       bases_of(study.train, before.fitted, study.sheet, study.options.fit, study.observer_hz);
-  std::vector<Judged> judged(entries.size());
+  std::vector<ScoredModel> judged(entries.size());
   std::mutex saying;
-  const auto run = [&](std::size_t i, const Fitted* parent) {
+  const auto run = [&](std::size_t i, const FittedModel* parent) {
     {
       const std::lock_guard lock(saying);
       study.options.progress(fmt::format("fitting {}", entries[i]->name));
     }
-    Fitted fitted = reads_counts(*entries[i])
-                        ? with_quantum(before.fitted, *entries[i], study.seen_quantum)
-                        : fit_candidate(study.train, before.fitted, bases, *entries[i], starts[i], parent,
-                                        study.options.fit, study.observer_hz);
+    FittedModel fitted = reads_counts(*entries[i])
+                             ? with_quantum(before.fitted, *entries[i], study.seen_quantum)
+                             : fit_candidate(study.train, before.fitted, bases, *entries[i], starts[i],
+                                             parent, study.options.fit, study.observer_hz);
     judged[i] = judge(entries[i], std::move(fitted), study.held_out, study.observer_hz);
   };
   const auto place_of = [&](const EffectEntry* entry) {
@@ -183,8 +185,9 @@ std::vector<Judged> candidates_of(const Study& study, const Judged& before,
   wave(false);
   wave(true);
   rank(judged, before, study.repeats_badly());
-  const std::vector<Judged> best(judged.begin(), judged.begin() + std::min<std::size_t>(2, judged.size()));
-  for (const Judged& b : best) fit_look_alikes(study, before, b, entries, starts, judged);
+  const std::vector<ScoredModel> best(judged.begin(),
+                                      judged.begin() + std::min<std::size_t>(2, judged.size()));
+  for (const ScoredModel& b : best) fit_look_alikes(study, before, b, entries, starts, judged);
   rank(judged, before, study.repeats_badly());
   further_rounds(study, before, judged, first_step);
   return judged;

@@ -1,7 +1,8 @@
+#include "diagnosis/study.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/pipeline.h"
 #include "gapscope/base/require.h"
 #include "signals/encoder.h"
 #include "signals/period.h"

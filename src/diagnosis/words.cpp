@@ -47,22 +47,22 @@ std::string listed(const Diagnosis& d) {
 }
 
 std::string ratio(double value, const Diagnosis& d) {
-  return std::isfinite(value) ? fmt::format("{:.3g} times the {}", value, floor_name(d.gap.floor_from))
+  return std::isfinite(value) ? fmt::format("{:.3g} times the {}", value, floor_name(d.mismatch.floor_from))
                               : "unknown";
 }
 
 std::string effect_sentence(const Diagnosis& d) {
   std::string text = fmt::format("The model lacks {}", listed(d));
-  if (std::isfinite(d.gap.shrink))
+  if (std::isfinite(d.mismatch.shrink))
     text += fmt::format(": with {} the held-out error shrinks by {:.0f} % of what is above the floor",
-                        d.effects.size() > 1 ? "them" : "it", 100.0 * d.gap.shrink);
-  return text + fmt::format(", to {}.", ratio(d.gap.remains, d));
+                        d.effects.size() > 1 ? "them" : "it", 100.0 * d.mismatch.shrink);
+  return text + fmt::format(", to {}.", ratio(d.mismatch.remains, d));
 }
 
 std::string unknown_sentence(const Diagnosis& d) {
   std::string text =
       fmt::format("Something is missing that the catalogue does not explain: the held-out error is {}, {}",
-                  ratio(d.gap.before / d.gap.floor, d), d.where.headline);
+                  ratio(d.mismatch.before / d.mismatch.floor, d), d.where.headline);
   if (!d.ranking.empty() && d.ranking.front().rel > 0.0)
     text += fmt::format(
         "; {} comes nearest and closes {:.0f} % of the distance to it, which is not enough to blame "
@@ -79,7 +79,7 @@ std::string sentence_of(const Diagnosis& d, bool) {
       return effect_sentence(d);
     case DiagnosisVerdict::kNone:
       return fmt::format("Nothing is missing that this recording could show: the held-out error is {}.",
-                         ratio(d.gap.before / d.gap.floor, d));
+                         ratio(d.mismatch.before / d.mismatch.floor, d));
     case DiagnosisVerdict::kUnknown:
       return unknown_sentence(d);
     case DiagnosisVerdict::kNotRun:

@@ -2,13 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "gapscope/base/require.h"
 #include "reference/search.h"
 #include "reference/starts.h"
 
 namespace gapscope {
 
 using namespace internal::reference;
+
+ParameterSetting ParameterSetting::known(double value) {
+  ParameterSetting setting;
+  setting.value = value;
+  return setting;
+}
+
+ParameterSetting ParameterSetting::sought(double start) {
+  ParameterSetting setting = known(start);
+  setting.estimate = true;
+  return setting;
+}
+
+void ReferenceModel::set(std::string_view key, const ParameterSetting& setting) {
+  const auto* spec = std::find_if(std::begin(kDriveParameters), std::end(kDriveParameters),
+                                  [&](const DriveParameterSpec& p) { return key == p.key; });
+  GAPSCOPE_REQUIRE(spec != std::end(kDriveParameters));
+  parameters[static_cast<std::size_t>(spec - kDriveParameters)] = setting;
+}
 
 ParameterSetting& setting_of(ReferenceModel& model, ParameterId id) {
   const auto index = static_cast<std::size_t>(id.index);

@@ -142,7 +142,7 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   Panel input = time_panel("Held-out recording", "displacement $x_1$", length_unit(r), *t);
   input.series.push_back(over_time("", measured_style(), *t, t->x1));
   figure.panels.push_back(input);
-  const MismatchSize& g = r.diagnosis.gap;
+  const MismatchSize& g = r.diagnosis.mismatch;
   figure.reading = fmt::format("On {} the error is {} (median over windows), the floor {}", t->file,
                                quantity(g.before, length_unit(r)), quantity(g.floor, length_unit(r)));
   figure.reading +=
@@ -173,7 +173,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   }
   panel.series.push_back(s);
   panel.x_marks.push_back({0.0, guide_style(), ""});
-  panel.x_marks.push_back({1.0, guide_style(), floor_name(r.diagnosis.gap.floor_from)});
+  panel.x_marks.push_back({1.0, guide_style(), floor_name(r.diagnosis.mismatch.floor_from)});
   panel.height = 80.0 + 70.0 * static_cast<double>(s.x.size());
   figure.panels.push_back(panel);
   figure.reading =

@@ -18,7 +18,7 @@ std::string measures_table(const DiagnosisResult& r) {
   for (const MismatchMeasure& m : r.diagnosis.measures)
     text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, m.unit),
                         quantity(m.after, m.unit), std::isfinite(m.floor) ? quantity(m.floor, m.unit) : "–");
-  const MismatchSize& g = r.diagnosis.gap;
+  const MismatchSize& g = r.diagnosis.mismatch;
   text += fmt::format("\nThe answer is of the {}. Its floor, {}, is the {}{}{}.", g.measure,
                       quantity(g.floor, r.rotation ? "rad" : "m"), floor_name(g.floor_from),
                       g.floor_of.empty() ? "" : ": ", g.floor_of);
@@ -48,7 +48,7 @@ std::string parameters_of(const RankedEffect& e, bool rotation) {
 /// What the probabilities are worth here.
 std::string probability_words(const Diagnosis& d) {
   if (!std::isfinite(d.outside_probability)) return "";
-  if (d.gap.floor_from == FloorSource::kRepeatability)
+  if (d.mismatch.floor_from == FloorSource::kRepeatability)
     return " Probabilities were learned on simulated drives that are judged by the encoder floor. This one "
            "is "
            "judged by its repeatability floor, where only their order counts: the verdict rests on the "
@@ -88,8 +88,9 @@ std::string steps_table(const DiagnosisResult& r) {
     std::erase(others, s.effect);
     text += fmt::format("| {} | `{}` | {} | {} | {} | {} | {} | {} | {} | {} |\n", names_list(s.on_top_of),
                         s.effect, s.accepted ? "added" : "not added", names_list(others),
-                        quantity(s.gap.before, unit), quantity(s.gap.after, unit), rounded(s.gap.shrink),
-                        parameters_of(s.ranking.front(), r.rotation), names_list(s.dropped), s.remaining);
+                        quantity(s.mismatch.before, unit), quantity(s.mismatch.after, unit),
+                        rounded(s.mismatch.shrink), parameters_of(s.ranking.front(), r.rotation),
+                        names_list(s.dropped), s.remaining);
   }
   if (text.empty()) return "";
   return "\n## Further steps\n\nEvery candidate was refitted on top of what was found before it.\n\n| on top "

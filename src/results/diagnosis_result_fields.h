@@ -69,7 +69,7 @@ void fields(Archive& archive, DiagnosisStep& s) {
   archive("accepted", s.accepted);
   archive("group", s.group);
   archive("dropped", s.dropped);
-  archive.single("gap", s.gap);
+  archive.single("gap", s.mismatch);
   archive("remaining", s.remaining);
   archive.list("ranking", s.ranking);
 }
@@ -178,7 +178,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
                                          {DiagnosisVerdict::kUnknown, "unknown"}});
   archive("effects", g.effects);
   archive("group", g.group);
-  archive.single("gap", g.gap);
+  archive.single("gap", g.mismatch);
   archive.list("ranking", g.ranking);
   archive("outside_catalogue_probability", g.outside_probability);
   archive.list("steps", g.steps);

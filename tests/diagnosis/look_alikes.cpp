@@ -45,11 +45,12 @@ LookAlikes look_alikes(const std::string& truth, const std::string& other, std::
   give_effect(pair.drive, truth, kSeverity, seed);
   pair.recording = simulate_blind(pair.drive).recording;
   const MotorTrace train[] = {pair.recording.motor_trace()};
-  const Fitted nominal = fit_nominal(train, sheet, {}, kHz);
+  const FittedModel nominal = fit_nominal(train, sheet, {}, kHz);
   const std::vector<FitLinearisation> bases = bases_of(train, nominal, sheet, {}, kHz);
   for (const std::string& name : {truth, other}) {
     const EffectEntry& entry = *find_effect(name);
-    const Fitted fitted = fit_candidate(train, nominal, bases, entry, effect_starts(entry), nullptr, {}, kHz);
+    const FittedModel fitted =
+        fit_candidate(train, nominal, bases, entry, effect_starts(entry), nullptr, {}, kHz);
     pair.rivals.push_back({name, fitted.model});
   }
   return pair;
@@ -59,7 +60,7 @@ double seen_excess(const LookAlikes& pair, const Recording& recorded) {
   const MotorTrace seen[] = {recorded.motor_trace()};
   double left[2];
   for (std::size_t i = 0; i < 2; ++i) left[i] = fit_near(seen, pair.rivals[i].model, {}, kHz).mean_square;
-  FittedModel moved = pair.rivals[1].model;  // the other effect on the drive that the truth has found
+  ReferenceModel moved = pair.rivals[1].model;  // the other effect on the drive that the truth has found
   moved.parameters = fit_near(seen, pair.rivals[0].model, {}, kHz).model.parameters;
   left[1] = std::min(left[1], fit_near(seen, moved, {}, kHz).mean_square);
   return std::sqrt(std::max(0.0, left[1] - left[0]));

@@ -45,18 +45,18 @@ bool among(const std::vector<const EffectEntry*>& list, const std::string& name)
   return std::any_of(list.begin(), list.end(), [&](const EffectEntry* e) { return e->name == name; });
 }
 
-double left(const Judged& j) { return std::max(j.median_free, j.median_innovation); }
+double left(const ScoredModel& j) { return std::max(j.median_free, j.median_innovation); }
 
 /// Least that any one of the true effects leaves alone [floor].
 double left_by_one(const Findings& f, const Names& truth) {
   double least = kInfinity;
-  for (const Judged& c : f.candidates)
+  for (const ScoredModel& c : f.candidates)
     if (std::find(truth.begin(), truth.end(), c.entry->name) != truth.end() && std::isfinite(left(c)))
       least = std::min(least, left(c));
   return std::isfinite(least) ? least : left(f.before);
 }
 
-std::string describe(const Judged& before, const std::vector<Judged>& ranked, const Decision& d) {
+std::string describe(const ScoredModel& before, const std::vector<ScoredModel>& ranked, const Decision& d) {
   std::string text = fmt::format(
       "[{:.3g}/{:.3g} S {:.2f}; rel {:.2f} mar {:.2f} gain {:.2f} win {:.2f} fit {:.2f} of {:.3g} {}:",
       before.median_free, before.median_innovation, before.score, d.rel, d.margin, d.gain, d.windows_better,
@@ -81,8 +81,8 @@ std::string judgements(const FurtherStep& step, const Names& truth) {
   const bool right = std::any_of(missing.begin(), missing.end(),
                                  [&](const std::string& t) { return among(step.decision.group, t); });
   std::string text = fmt::format("{{later {}: {}}} ", right ? "right" : "wrong", numbers(step.decision));
-  std::vector<Judged> others = step.candidates;
-  std::erase_if(others, [&](const Judged& c) {
+  std::vector<ScoredModel> others = step.candidates;
+  std::erase_if(others, [&](const ScoredModel& c) {
     return std::any_of(missing.begin(), missing.end(), [&](const std::string& t) {
       return c.entry == find_effect(t) || look_alike(*c.entry, *find_effect(t));
     });

@@ -15,10 +15,10 @@
 
 #include "blind/blind_pair.h"
 #include "blind/expected_place.h"
+#include "diagnosis/diagnose.h"
 #include "diagnosis/look_alikes.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/pair_study.h"
-#include "diagnosis/pipeline.h"
 #include "diagnosis/study_row.h"
 #include "diagnosis/where.h"
 #include "gapscope/base/parallel.h"
@@ -45,7 +45,7 @@ std::vector<std::string> effects_of(const std::string& kind) {
   return names;
 }
 
-std::size_t place_of_truth(const std::vector<Judged>& ranked, const std::string& effect) {
+std::size_t place_of_truth(const std::vector<ScoredModel>& ranked, const std::string& effect) {
   for (std::size_t i = 0; i < ranked.size(); ++i)
     if (ranked[i].entry->name == effect) return i;
   return ranked.size();
@@ -57,19 +57,19 @@ struct Removed {
 };
 
 /// The decision without the true effect and its look-alikes.
-Removed without(const std::string& effect, std::vector<Judged> candidates, const Judged& before) {
+Removed without(const std::string& effect, std::vector<ScoredModel> candidates, const ScoredModel& before) {
   const EffectEntry* truth = find_effect(effect);
-  std::vector<Judged> parents;
-  for (const Judged& c : candidates)
+  std::vector<ScoredModel> parents;
+  for (const ScoredModel& c : candidates)
     if (c.entry->name == std::string("motor_coulomb_friction")) parents.push_back(c);
-  std::erase_if(candidates, [&](const Judged& c) {
+  std::erase_if(candidates, [&](const ScoredModel& c) {
     bool out = c.entry->name == effect;
     if (truth != nullptr)
       for (const char* alike : truth->look_alikes) out = out || c.entry->name == std::string(alike);
     return out;
   });
   rank(candidates, before, false);
-  std::erase_if(parents, [&](const Judged& p) {
+  std::erase_if(parents, [&](const ScoredModel& p) {
     return place_of_truth(candidates, p.entry->name) < candidates.size();
   });
   Removed removed{decide_alone(candidates, before, false, parents), ""};
@@ -89,7 +89,7 @@ std::string describe(const Findings& f, const std::string& effect) {
   if (std::isfinite(f.alone)) text += fmt::format(" (alone {:.3g})", f.alone);
   text += fmt::format(" rel {:.2f} margin {:.2f} gain {:.2f} better {:.2f};", f.decision.rel,
                       f.decision.margin, f.decision.gain, f.decision.windows_better);
-  const auto add = [&](const Judged& c) {
+  const auto add = [&](const ScoredModel& c) {
     text += fmt::format(" {} {:.2f} ({:.2g})", c.entry->name, c.score, std::sqrt(c.fitted.mean_square));
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(4, f.candidates.size()); ++i) add(f.candidates[i]);
@@ -107,8 +107,8 @@ std::string covers(const Study& study, const Findings& f, const blind::BlindPair
   const Interval interval = mismatch_size(study, f.before, f.candidates.front()).shrink_ci95;
   const MotorTrace next[] = {pair.next.motor_trace()};
   const Study other = make_study(study.train, next, pair.sheet, study.options);
-  const Judged before = judge(nullptr, f.before.fitted, other.held_out, study.observer_hz);
-  const Judged after = judge(nullptr, f.candidates.front().fitted, other.held_out, study.observer_hz);
+  const ScoredModel before = judge(nullptr, f.before.fitted, other.held_out, study.observer_hz);
+  const ScoredModel after = judge(nullptr, f.candidates.front().fitted, other.held_out, study.observer_hz);
   const double shrink = shrink_of(before.median_free, after.median_free);
   details += fmt::format(" next {:.3g} to {:.3g}, shrink {:.4g} of [{:.4g}, {:.4g}]", before.median_free,
                          after.median_free, shrink, interval.low, interval.high);
@@ -117,7 +117,7 @@ std::string covers(const Study& study, const Findings& f, const blind::BlindPair
 }
 
 std::string places(const Study& study, const Findings& f, const blind::BlindPair& pair, bool told) {
-  const FittedModel& fitted = f.candidates.front().fitted.model;
+  const ReferenceModel& fitted = f.candidates.front().fitted.model;
   const auto played = play(f.before.fitted.model, study.held_out, study.observer_hz, true);
   const MismatchPlace place =
       place_of(played, study.held_out, fitted.parameters[place::kTorqueConstant].value, true,

@@ -5,7 +5,7 @@
 
 #include "blind/blind_pair.h"
 #include "diagnosis/one_inertia.h"
-#include "diagnosis/pipeline.h"
+#include "diagnosis/study.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording.h"
@@ -40,14 +40,14 @@ TEST(Diagnosis, FindsNothingMissingWhereNothingIs) {
   const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "none", 0.0, 500001));
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kNone) << d.sentence;
   EXPECT_TRUE(d.effects.empty());
-  EXPECT_LT(d.gap.before, 1.3 * d.gap.floor);
-  EXPECT_TRUE(std::isnan(d.gap.shrink));
+  EXPECT_LT(d.mismatch.before, 1.3 * d.mismatch.floor);
+  EXPECT_TRUE(std::isnan(d.mismatch.shrink));
 }
 
 TEST(Diagnosis, BlamesNothingForWhatTheFittedRecordingLeavesOpen) {
   const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "none", 0.0, 400253));
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kNone) << d.sentence;
-  EXPECT_LT(d.gap.before, 1.3 * d.gap.floor);
+  EXPECT_LT(d.mismatch.before, 1.3 * d.mismatch.floor);
   EXPECT_EQ(d.warnings.size(), 1u);
 }
 
@@ -76,9 +76,9 @@ TEST(Diagnosis, NamesMotorFrictionAndWhatTookTheBlameForIt) {
   ASSERT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
   EXPECT_EQ(d.effects, std::vector<std::string>{"motor_coulomb_friction"});
   EXPECT_EQ(d.group.front(), "motor_coulomb_friction");
-  EXPECT_GT(d.gap.shrink, 0.9);
-  EXPECT_LE(d.gap.shrink_ci95.low, d.gap.shrink);
-  EXPECT_GE(d.gap.shrink_ci95.high, d.gap.shrink);
+  EXPECT_GT(d.mismatch.shrink, 0.9);
+  EXPECT_LE(d.mismatch.shrink_ci95.low, d.mismatch.shrink);
+  EXPECT_GE(d.mismatch.shrink_ci95.high, d.mismatch.shrink);
   EXPECT_EQ(d.blame.size(), 5u);  // one row for each estimated parameter of the drive
   EXPECT_EQ(d.fitted.effects.size(), 1u);
 }
@@ -179,9 +179,10 @@ TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
   give_effect(truth, "encoder_eccentricity", 0.5, 400012);
   const blind::BlindPair pair = blind::blind_pair("paper", "encoder_eccentricity", 0.5, 400012);
   const MotorTrace train[] = {pair.train.motor_trace()};
-  const internal::diagnosis::Fitted nominal = internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
+  const internal::diagnosis::FittedModel nominal =
+      internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectStart far{0.02, 0.0};
-  const internal::diagnosis::Fitted found = internal::diagnosis::fit_candidate(
+  const internal::diagnosis::FittedModel found = internal::diagnosis::fit_candidate(
       train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0),
       *find_effect("encoder_eccentricity"), {&far, 1}, nullptr, {}, 3.0);
   const auto& values = found.model.effects.back().parameters;
@@ -202,7 +203,7 @@ TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
     options.threads = threads;
     const Diagnosis other = diagnosis_of(pair, options);
     EXPECT_EQ(other.effects, one.effects);
-    EXPECT_EQ(other.gap.after, one.gap.after);
+    EXPECT_EQ(other.mismatch.after, one.mismatch.after);
     ASSERT_EQ(other.ranking.size(), one.ranking.size());
     for (std::size_t i = 0; i < one.ranking.size(); ++i) {
       EXPECT_EQ(other.ranking[i].effect, one.ranking[i].effect);
@@ -214,9 +215,10 @@ TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
 TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
   const blind::BlindPair pair = blind::blind_pair("geared", "none", 0.0, 500001);
   const MotorTrace train[] = {pair.train.motor_trace()};
-  const internal::diagnosis::Fitted nominal = internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
+  const internal::diagnosis::FittedModel nominal =
+      internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectEntry* cogging = find_effect("cogging_torque");
-  const internal::diagnosis::Fitted without_a_line = internal::diagnosis::fit_candidate(
+  const internal::diagnosis::FittedModel without_a_line = internal::diagnosis::fit_candidate(
       train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0), *cogging, {},
       nullptr, {}, 3.0);
   EXPECT_EQ(without_a_line.mean_square, kInfinity);
@@ -240,7 +242,7 @@ TEST(Diagnosis, FindsTwoEffectsOneAfterTheOther) {
   EXPECT_EQ(d.effects.size(), 2u) << d.sentence;
   EXPECT_TRUE(contains(d.effects, "motor_coulomb_friction")) << d.sentence;
   EXPECT_TRUE(contains(d.effects, "cogging_torque")) << d.sentence;
-  EXPECT_GT(d.gap.shrink, 0.9);
+  EXPECT_GT(d.mismatch.shrink, 0.9);
 }
 
 // The load seemed to start elsewhere without friction, and that outweighed all else in what was fitted.

@@ -6,8 +6,8 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-Judged model(double score, double median, double mean_square) {
-  Judged j;
+ScoredModel model(double score, double median, double mean_square) {
+  ScoredModel j;
   j.score = score;
   j.median_free = j.median_innovation = median;
   j.fitted.mean_square = mean_square;
@@ -21,7 +21,7 @@ Decision step(double gain, double margin, double windows_better) {
 }
 
 /// Two effects, the second one accepted or not, that leave `after`.
-Additions two(bool second_accepted, const Judged& after, double margin = 2.0) {
+Additions two(bool second_accepted, const ScoredModel& after, double margin = 2.0) {
   Additions a;
   a.effects.resize(2);
   a.steps.resize(1);
@@ -32,7 +32,7 @@ Additions two(bool second_accepted, const Judged& after, double margin = 2.0) {
 }
 
 TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloorOrFarTowardsIt) {
-  const Judged before = model(7.0, 180.0, 1e4);
+  const ScoredModel before = model(7.0, 180.0, 1e4);
   EXPECT_TRUE(borne_out(before, two(true, model(1.7, 2.5, 4.0))));
   EXPECT_TRUE(borne_out(before, two(true, model(0.3, 1.1, 1.0))));
   EXPECT_TRUE(borne_out(before, two(true, model(0.3, 1.1, 1.0), 0.4)));
@@ -42,7 +42,7 @@ TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloorOrFarTowards
 }
 
 TEST(FurtherSteps, BearOutAnUnsureFirstOneWhereTheyLeaveLittleOfTheSize) {
-  const Judged before = model(15.2, 3300.0, 1e4);
+  const ScoredModel before = model(15.2, 3300.0, 1e4);
   EXPECT_TRUE(borne_out(before, two(true, model(10.2, 280.0, 4.0))));
   EXPECT_FALSE(borne_out(before, two(true, model(10.2, 900.0, 4.0))));
   EXPECT_FALSE(borne_out(before, two(true, model(10.2, 280.0, 4.0), 0.4)))
@@ -54,7 +54,7 @@ TEST(FurtherSteps, BeginWhereTheHeldOutErrorShrinksOrWhereMuchOfTheFitIsExplaine
   found.before = model(12.0, 1600.0, 1e4);
   found.candidates = {model(11.0, 1500.0, 9.5e3), model(11.95, 1550.0, 9e3), model(12.0, 1300.0, 6e3),
                       model(12.1, 2400.0, 5e3), model(12.2, 2400.0, 4e3)};
-  for (Judged& c : found.candidates) c.windows_better = 1.0;
+  for (ScoredModel& c : found.candidates) c.windows_better = 1.0;
   const auto chosen = branches(found);
   ASSERT_EQ(chosen.size(), 3u);
   EXPECT_EQ(chosen[0], &found.candidates[0]);
@@ -75,7 +75,7 @@ TEST(FurtherSteps, BearOutTheFirstOneWhereOneSetOfNumbersExplainsAllRecordings) 
 }
 
 TEST(FurtherSteps, TakeTheMoreGeneralLawOfAnEffectWithoutAskingHowFarItLeads) {
-  Judged before = model(3.0, 11.0, 100.0), best = model(2.6, 9.0, 70.0);
+  ScoredModel before = model(3.0, 11.0, 100.0), best = model(2.6, 9.0, 70.0);
   before.fitted.model.effects.emplace_back().entry = find_effect("motor_coulomb_friction");
   best.entry = find_effect("stribeck_friction");
   EXPECT_TRUE(refines(before, best, step(0.4, 0.4, 0.8)));
@@ -92,7 +92,7 @@ TEST(FurtherSteps, TakeTheMoreGeneralLawOfAnEffectWithoutAskingHowFarItLeads) {
 }
 
 TEST(FurtherSteps, CountFarFromTheFloorOnlyWhereTheyAreClearInEveryRespect) {
-  const Judged before = model(7.0, 110.0, 5000.0), best = model(6.1, 60.0, 1300.0);
+  const ScoredModel before = model(7.0, 110.0, 5000.0), best = model(6.1, 60.0, 1300.0);
   EXPECT_TRUE(clearly_better(before, best, step(0.9, 0.87, 0.9)));
   EXPECT_FALSE(clearly_better(before, best, step(0.25, 0.87, 0.9))) << "gain";
   EXPECT_FALSE(clearly_better(before, best, step(0.9, 0.2, 0.9))) << "margin";

@@ -10,8 +10,8 @@ namespace gapscope::internal::diagnosis {
 namespace {
 
 /// Two candidates that the data hardly tells apart, and a third one far behind.
-std::vector<Judged> ranked() {
-  std::vector<Judged> candidates(3);
+std::vector<ScoredModel> ranked() {
+  std::vector<ScoredModel> candidates(3);
   const char* names[] = {"cogging_torque", "torque_ripple", "input_delay"};
   for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].entry = find_effect(names[i]);
   candidates[0].score = 1.0, candidates[1].score = 1.1, candidates[2].score = 4.0;

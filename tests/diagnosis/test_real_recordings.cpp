@@ -30,7 +30,7 @@ void expect_friction(const Diagnosis& d) {
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
   ASSERT_FALSE(d.effects.empty());
   EXPECT_EQ(d.effects.front(), "motor_coulomb_friction");
-  EXPECT_EQ(d.gap.floor_from, FloorSource::kRepeatability);
+  EXPECT_EQ(d.mismatch.floor_from, FloorSource::kRepeatability);
   ASSERT_FALSE(d.ranking.empty());
   EXPECT_GE(d.ranking.front().shrink, 0.55);
   for (const char* wrong : {"backlash", "input_delay", "actuator_lag", "measurement_lag"}) {
@@ -48,10 +48,10 @@ void expect_asymmetry_next(const Diagnosis& d) {
   EXPECT_EQ(second.on_top_of, std::vector<std::string>{"motor_coulomb_friction"});
   EXPECT_EQ(std::count(either.begin(), either.end(), d.effects[1]), 1) << d.sentence;
   EXPECT_TRUE(second.accepted);
-  EXPECT_GT(second.gap.shrink, 0.3);
+  EXPECT_GT(second.mismatch.shrink, 0.3);
   EXPECT_FALSE(second.remaining.empty());
-  EXPECT_GE(d.gap.shrink, 0.85);
-  EXPECT_GT(d.gap.remains, 1.3);  // what remains repeats: physics that the catalogue does not have
+  EXPECT_GE(d.mismatch.shrink, 0.85);
+  EXPECT_GT(d.mismatch.remains, 1.3);  // what remains repeats: physics that the catalogue does not have
 }
 
 TEST(RealRecordings, ABallScrewAxisLacksCoulombFrictionAndNoBacklash) {
@@ -77,7 +77,7 @@ TEST(RealRecordings, WhereCoulombFrictionAloneDoesNotHelpItsAsymmetryIsNamed) {
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
   ASSERT_FALSE(d.effects.empty());
   EXPECT_EQ(d.effects.front(), "friction_asymmetry") << d.sentence;
-  EXPECT_GE(d.gap.shrink, 0.85);
+  EXPECT_GE(d.mismatch.shrink, 0.85);
 }
 
 TEST(RealRecordings, TheSameOnARecordingWithForcePulses) {

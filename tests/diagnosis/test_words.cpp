@@ -13,7 +13,7 @@ std::string sentence(std::vector<std::string> effects) {
   Diagnosis d;
   d.verdict = DiagnosisVerdict::kEffect;
   d.effects = std::move(effects);
-  d.gap.shrink = 0.9;
+  d.mismatch.shrink = 0.9;
   return internal::diagnosis::sentence_of(d, true);
 }
 

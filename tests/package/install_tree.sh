@@ -7,11 +7,13 @@ cmake --install "$build" --prefix "$work/tree" >/dev/null
 says '^gapscope [0-9]' "$work/tree/bin/gapscope" --version
 cmp "$work/tree/share/gapscope/schemas/result.schema.json" <("$work/tree/bin/gapscope" schema result) || fail "other schemas"
 
-# The example asks for the detector and the fit, which need no library for figures, files, stores or hashes.
+# The example asks for the estimators, which need no library for figures, files, stores or hashes.
 build_project "$source/docs/example" example "$work/tree" -DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_yaml-cpp=ON -DCMAKE_DISABLE_FIND_PACKAGE_SQLite3=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenSSL=ON
 says '^gap 2[123]\.[0-9]+ mrad' "$work/example/measure_gap" "$source/configs/03_recording.csv"
 says '^gap \[rad\] .* 0\.021[789]' "$work/example/fit_drive" "$source/configs/03_recording.csv"
+says '12000 samples' "$work/example/simulate_drive" "$work/drive.csv"
+says '^The model lacks ' "$work/example/diagnose_drive" "$work/drive.csv"
 awk 'BEGIN { print "t,u,x1"; for (i = 0; i < 100; ++i) print i / 1000 ",0,0" }' >"$work/rest.csv"
 says '^inconclusive: .+' "$work/example/measure_gap" "$work/rest.csv"
 

@@ -29,8 +29,8 @@ DiagnosisResult sample(DiagnosisVerdict verdict) {
   d.verdict = verdict;
   d.sentence = "The model lacks cogging torque.";
   if (verdict == DiagnosisVerdict::kEffect) d.effects = d.group = {"cogging_torque"};
-  d.gap = {"free run restarted every 0.5 s",         2e-3, 3e-5,       2e-5, FloorSource::kEncoder,
-           "the quantum of the encoder in held.csv", 0.99, {0.9, 1.0}, 1.5};
+  d.mismatch = {"free run restarted every 0.5 s",         2e-3, 3e-5,       2e-5, FloorSource::kEncoder,
+                "the quantum of the encoder in held.csv", 0.99, {0.9, 1.0}, 1.5};
   d.measures = {{"free run restarted every 0.5 s", "rad", 2e-3, 3e-5, 2e-5},
                 {"residual torque", "N m", 0.1, 0.01, kNaN}};
   for (const char* name : {"cogging_torque", "torque_ripple", "input_delay"}) {
@@ -94,8 +94,8 @@ TEST(DiagnosisReport, NamesTheFloorAndWhereItComesFrom) {
   EXPECT_NE(text.find("with 0.57 the catalogue lacks"), std::string::npos);
   EXPECT_NE(text.find("- *closed share*: "), std::string::npos);
   EXPECT_EQ(text.find("- *repeatability floor*: "), std::string::npos) << "a word that does not occur";
-  r.diagnosis.gap.floor_from = FloorSource::kRepeatability;
-  r.diagnosis.gap.floor_of = "3.9 periods of 6.24 s in held.csv";
+  r.diagnosis.mismatch.floor_from = FloorSource::kRepeatability;
+  r.diagnosis.mismatch.floor_of = "3.9 periods of 6.24 s in held.csv";
   text = written();
   EXPECT_NE(text.find("is the repeatability floor: 3.9 periods of 6.24 s in held.csv."), std::string::npos);
   EXPECT_EQ(text.find("0.57"), std::string::npos) << "learned on other drives";

@@ -30,8 +30,8 @@ DiagnosisResult sample() {
   d.sentence = "The model lacks cogging torque.";
   d.effects = {"cogging_torque"};
   d.group = {"cogging_torque", "torque_ripple"};
-  d.gap = {"free run", 3e-3 * kThird, 1e-5, kThird * 1e-6, FloorSource::kNoise, "the noise of x1",
-           0.9,        {0.8, 1.1},    1.5};
+  d.mismatch = {"free run", 3e-3 * kThird, 1e-5, kThird * 1e-6, FloorSource::kNoise, "the noise of x1",
+                0.9,        {0.8, 1.1},    1.5};
   d.measures = {{"free run", "rad", 1.0, kThird, kNaN}};
   RankedEffect first;
   first.effect = "cogging_torque";
@@ -46,7 +46,7 @@ DiagnosisResult sample() {
   step.effect = "input_delay";
   step.accepted = true;
   step.group = {"input_delay", "actuator_lag"};
-  step.gap.shrink = kThird;
+  step.mismatch.shrink = kThird;
   step.remaining = "in the gap";
   step.ranking = {last};
   d.steps = {step};
@@ -84,8 +84,8 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.verdict, a.verdict);
   EXPECT_EQ(b.effects, a.effects);
   EXPECT_EQ(b.group, a.group);
-  EXPECT_EQ(b.gap.before, a.gap.before);
-  EXPECT_EQ(b.gap.floor_from, a.gap.floor_from);
+  EXPECT_EQ(b.mismatch.before, a.mismatch.before);
+  EXPECT_EQ(b.mismatch.floor_from, a.mismatch.floor_from);
   ASSERT_EQ(b.ranking.size(), 2u);
   EXPECT_EQ(b.ranking[0].parameters[0].value, kThird);
   EXPECT_EQ(b.ranking[0].parameters[1].unit, "1/rev");
@@ -94,7 +94,7 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   ASSERT_EQ(b.steps.size(), 1u);
   EXPECT_EQ(b.steps[0].on_top_of, a.steps[0].on_top_of);
   EXPECT_EQ(b.steps[0].group, a.steps[0].group);
-  EXPECT_EQ(b.steps[0].gap.shrink, kThird);
+  EXPECT_EQ(b.steps[0].mismatch.shrink, kThird);
   EXPECT_EQ(b.steps[0].ranking[0].effect, "input_delay");
   EXPECT_EQ(b.outside_probability, 0.05);
   ASSERT_EQ(b.periodic.size(), 1u);
@@ -124,7 +124,7 @@ TEST(DiagnosisResult, IsReadWithoutWhatEarlierVersionsDidNotStore) {
   before.erase("configuration");
   ASSERT_EQ(before["gap"].erase("floor_of"), 1u);
   std::ofstream(file) << before;
-  EXPECT_EQ(read_diagnosis_result(scratch.path.string()).diagnosis.gap.floor_of, "");
+  EXPECT_EQ(read_diagnosis_result(scratch.path.string()).diagnosis.mismatch.floor_of, "");
 }
 
 TEST(DiagnosisResult, WritesTheSameTextAgain) {

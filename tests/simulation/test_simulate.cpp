@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/plant/effect_hooks.h"
 #include "gapscope/simulation/simulate.h"
 #include "simulation/drives.h"
 

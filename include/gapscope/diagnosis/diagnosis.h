@@ -58,7 +58,7 @@ struct MismatchSize {
 struct RankedEffect {
   std::string effect;
   double probability = kNaN;     ///< of being the missing effect; see Diagnosis::outside_probability
-  double held_out = kNaN;        ///< the gap's measure with this effect [rad]
+  double held_out = kNaN;        ///< the measure of the mismatch with this effect [rad]
   double shrink = kNaN;          ///< of that measure
   double score = kNaN;           ///< S, see diagnose(); lower is better
   double rel = kNaN;             ///< share of the log distance to the floor
@@ -109,7 +109,7 @@ struct DiagnosisStep {
   bool accepted = false;               ///< it was added
   std::vector<std::string> group;    ///< all that it cannot be told from, itself included; empty unless added
   std::vector<std::string> dropped;  ///< earlier effects that it made superfluous
-  MismatchSize gap;                  ///< of this step alone
+  MismatchSize mismatch;             ///< of this step alone
   std::string remaining;  ///< place of what the model leaves after it, in words; empty unless added
   std::vector<RankedEffect> ranking;
 };
@@ -131,7 +131,7 @@ struct Diagnosis {
   std::string sentence = "diagnose() was not called.";
   std::vector<std::string> effects;  ///< what was added, in order
   std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
-  MismatchSize gap;
+  MismatchSize mismatch;
   std::vector<MismatchMeasure> measures;
   std::vector<RankedEffect> ranking;     ///< first step, best first
   double outside_probability = kNaN;     ///< that no effect of the catalogue is what is missing first

@@ -70,13 +70,4 @@ const EffectHooks<T>& hooks_of(const EffectEntry& entry) {
   return std::get<EffectHooks<T>>(entry.laws->hooks);
 }
 
-/// Puts an effect in force: applies its shape and appends it. Parameters in the order of the specification.
-template <class T>
-void add_effect(PlantModel<T>& plant, const EffectEntry& entry, std::span<const T> parameters);
-
-extern template void add_effect(PlantModel<double>&, const EffectEntry&, std::span<const double>);
-extern template void add_effect(PlantModel<Jet<4>>&, const EffectEntry&, std::span<const Jet<4>>);
-extern template void add_effect(PlantModel<Jet<8>>&, const EffectEntry&, std::span<const Jet<8>>);
-extern template void add_effect(PlantModel<Jet<12>>&, const EffectEntry&, std::span<const Jet<12>>);
-
 }  // namespace gapscope

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "gapscope/plant/effect.h"
@@ -34,5 +35,9 @@ struct PlantModel {
   bool load_sticks = true;    ///< false: no set-valued friction on the load
   std::vector<ActiveEffect<T>> effects;
 };
+
+/// Puts an effect in force: applies its shape and appends it. Parameters in the order of the specification.
+template <class T>
+void add_effect(PlantModel<T>& plant, const EffectEntry& entry, std::span<const T> parameters);
 
 }  // namespace gapscope

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "gapscope/base/fields.h"
@@ -33,6 +34,9 @@ struct ParameterSetting {
   double low = kNaN;
   double high = kNaN;
   std::optional<Prior> prior;
+
+  static ParameterSetting known(double value);          ///< fixed
+  static ParameterSetting sought(double start = kNaN);  ///< estimated; NaN: the recordings suggest a start
 };
 
 /// An effect of the catalogue that the model contains, its parameters in the order of the specification. A
@@ -50,6 +54,9 @@ struct ReferenceModel {
   DriveStructure structure;
   std::array<ParameterSetting, kDriveParameterCount> parameters;  ///< in the order of kDriveParameters
   std::vector<ModelEffect> effects;
+
+  /// @param key  of kDriveParameters ("gap")  @throws std::logic_error for any other
+  void set(std::string_view key, const ParameterSetting& setting);
 };
 
 struct FitOptions {

@@ -33,28 +33,4 @@ std::vector<MotorTrace> everything(const Study& study);
 bool may_fit_half_of_the_held_out(const Study& study);
 void fit_half_of_the_held_out(Study& study);
 
-/// Every effect of a list that the model could have, refitted and judged, best first.
-/// @param first_step false: candidates that have lost clearly are not tried again
-std::vector<Judged> candidates_of(const Study& study, const Judged& before,
-                                  const std::vector<const EffectEntry*>& catalogue, bool first_step = true);
-
-/// The model beside what it was fitted to, see play().
-std::vector<Playback> play_on_train(const Study& study, const FittedModel& model);
-
-/// What the steps came to.
-struct Findings {
-  Judged before;
-  double alone =
-      kNaN;  ///< held-out size without any held-out recording in the fit, where they are in it [floor]
-  std::vector<Judged> candidates;        ///< best first; empty at the floor
-  std::vector<Judged> excluded_parents;  ///< of the first candidate
-  Decision decision;
-};
-/// A drive that repeats its own motion far worse than its encoder reads cannot be explained to the encoder's
-/// floor by any model: the study goes on with its repeatability as the floor and a faster observer.
-///
-/// Where the fitted recordings are explained and the others are not, they ask too little: the first half of
-/// what is held out is then fitted with them, and only the second half judges.
-Findings investigate(Study& study);
-
 }  // namespace gapscope::internal::diagnosis

@@ -1,4 +1,4 @@
-#include "diagnosis/fitted.h"
+#include "diagnosis/fitted_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +20,15 @@ std::vector<std::string> at_bounds(const ModelFit& fit, const FitPoint& at) {
 
 }  // namespace
 
-Fitted fitted_at(const ModelFit& fit, const RefinedFit& best) {
+FittedModel fitted_at(const ModelFit& fit, const RefinedFit& best) {
   const auto is_number = [](double q) { return std::isfinite(q); };
   if (!best.usable() || !std::all_of(best.q.begin(), best.q.end(), is_number))
     return {fit.model(), {}, kInfinity, {}};
   return {fit.model_at(best), best.starts, best.mean_cost, at_bounds(fit, best)};
 }
 
-Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
-                   double hz) {
+FittedModel fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model,
+                        const FitOptions& options, double hz) {
   const ModelFit fit(train, model, options, hz);
   RefinedFit best;
   if (fit.values_are_given()) best = fit.refine_with_loads_placed(fit.given_point(), kNominal);
@@ -40,8 +40,8 @@ Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& mode
   return fitted_at(fit, best);
 }
 
-Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
-                double hz, const RefineEffort& effort) {
+FittedModel fit_near(std::span<const MotorTrace> recordings, const ReferenceModel& from,
+                     const FitOptions& options, double hz, const RefineEffort& effort) {
   const ModelFit fit(recordings, from, options, hz);
   FitPoint point = fit.given_point();
   point.starts =

@@ -9,26 +9,27 @@
 namespace gapscope::internal::diagnosis {
 
 /// A model fitted to the training recordings, and the state that each of them begins with.
-struct Fitted {
-  FittedModel model;
+struct FittedModel {
+  ReferenceModel model;
   std::vector<RecordingStart> starts;
   double mean_square = kInfinity;     ///< what it leaves: RefinedFit::mean_cost [floor²]
   std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
 };
 
 /// The model where a refinement has led; infinite if that failed.
-Fitted fitted_at(const ModelFit& fit, const RefinedFit& best);
+FittedModel fitted_at(const ModelFit& fit, const RefinedFit& best);
 
 /// Mean square [floor²] at which no other start can be better.
 inline constexpr double kFloorSquare = 1.25;
 
 /// The nominal model, from the given values and, where needed, others.
-Fitted fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model, const FitOptions& options,
-                   double observer_hz);
+FittedModel fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model,
+                        const FitOptions& options, double observer_hz);
 
 /// The nominal model from the values of a fit to other recordings, and nowhere else.
-Fitted fit_near(std::span<const MotorTrace> recordings, const FittedModel& from, const FitOptions& options,
-                double observer_hz, const RefineEffort& effort = {8, 40, 1e-5});
+FittedModel fit_near(std::span<const MotorTrace> recordings, const ReferenceModel& from,
+                     const FitOptions& options, double observer_hz,
+                     const RefineEffort& effort = {8, 40, 1e-5});
 
 /// A model with the values of another drive: its own effects stay.
 ReferenceModel with_drive(ReferenceModel model, const ReferenceModel& drive);

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/study.h"
+
+namespace gapscope::internal::diagnosis {
+
+/// Every effect of a list that the model could have, refitted and judged, best first.
+/// @param first_step false: candidates that have lost clearly are not tried again
+std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& before,
+                                       const std::vector<const EffectEntry*>& catalogue,
+                                       bool first_step = true);
+
+/// The model beside what it was fitted to, see play().
+std::vector<Playback> play_on_train(const Study& study, const ReferenceModel& model);
+
+}  // namespace gapscope::internal::diagnosis
