@@ -7,6 +7,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/inspection/inspection.h"
+#include "inspection/inspected.h"
 #include "inspection/rows.h"
 #include "support/data.h"
 #include "support/reading.h"
@@ -15,47 +16,20 @@
 namespace gapscope {
 namespace {
 
+using test::changed;
+using test::finding;
+using test::good;
+using test::inspected;
+using test::noise_of;
+using test::rules_with;
+using test::scale;
 using testing::closed_loop;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 using testing::rig;
 using testing::Rows;
 using testing::TemporaryFile;
-
-Inspection inspected(const Rows& rows, const ReadOptions& options = {}, bool rotation = true) {
-  const TemporaryFile file(rows.csv());
-  return inspect(file.path(), options, rotation);
-}
-
-const Finding& finding(const Inspection& inspection, const std::string& rule) {
-  const auto found = std::find_if(inspection.findings.begin(), inspection.findings.end(),
-                                  [&](const Finding& f) { return f.rule == rule; });
-  if (found == inspection.findings.end()) throw std::logic_error("no rule " + rule);
-  return *found;
-}
-
-std::vector<std::string> rules_with(const Inspection& inspection, Severity severity) {
-  std::vector<std::string> rules;
-  for (const Finding& f : inspection.findings)
-    if (f.severity == severity) rules.push_back(f.rule);
-  return rules;
-}
-
-double trapezoid(double t) { return 0.6 * std::clamp(2.5 * std::sin(6.283185307179586 * t), -1.0, 1.0); }
-double ramped(double t) {  // straight flanks, flat tops
-  const double phase = t - std::floor(t), up = phase < 0.5 ? phase : 0.5 - (phase - 0.5);
-  return 0.6 * std::clamp(8.0 * (up - 0.25), -1.0, 1.0);
-}
-double two_tones(double t) { return 0.5 * std::sin(6.283185307179586 * t) + 0.3 * std::sin(21.3 * t); }
-
-double noise_of(std::size_t i) { return std::sin(1e4 * static_cast<double>(i * i % 7919)); }
-
-const Rows& good() {
-  static const Rows rows = rig();
-  return rows;
-}
 
 TEST(Inspection, AGoodRecordingIsTold) {
   const Inspection i = inspected(good());
@@ -95,16 +69,6 @@ TEST_P(FaultTest, IsNamedAndNothingElse) {
   EXPECT_THAT(f.found + " -> " + f.advice, HasSubstr(GetParam().words));
   EXPECT_FALSE(f.advice.empty());
   EXPECT_TRUE(i.spoilt());
-}
-
-Rows changed(Rows rows, const std::function<void(Rows&)>& change) {
-  change(rows);
-  return rows;
-}
-Rows changed(const std::function<void(Rows&)>& change) { return changed(good(), change); }
-
-void scale(std::vector<double>& values, double factor) {
-  for (double& v : values) v *= factor;
 }
 
 const std::vector<Fault> kFaults = {
@@ -195,106 +159,6 @@ const std::vector<Fault> kFaults = {
 };
 
 INSTANTIATE_TEST_SUITE_P(Inspection, FaultTest, ::testing::ValuesIn(kFaults),
-                         [](const auto& tested) { return std::string(tested.param.name); });
-
-struct Harmless {
-  const char* name;
-  std::function<Rows()> make;
-  const char* rule;
-  Severity severity;
-  const char* words;
-};
-
-void PrintTo(const Harmless& h, std::ostream* out) { *out << h.name; }
-
-class HarmlessTest : public ::testing::TestWithParam<Harmless> {};
-
-TEST_P(HarmlessTest, SpoilsNothing) {
-  const Inspection i = inspected(GetParam().make());
-  EXPECT_THAT(rules_with(i, Severity::kSpoils), IsEmpty()) << i.report();
-  const Finding& f = finding(i, GetParam().rule);
-  EXPECT_EQ(f.severity, GetParam().severity) << i.report();
-  EXPECT_THAT(f.found, HasSubstr(GetParam().words));
-  EXPECT_EQ(f.advice.empty(), f.severity == Severity::kFine);
-}
-
-const std::vector<Harmless> kHarmless = {
-    {"jitter_within_a_thousandth",
-     [] {
-       return changed([](Rows& r) {
-         for (std::size_t i = 0; i < r.t.size(); ++i) r.t[i] += 4e-7 * noise_of(i);
-       });
-     },
-     "time", Severity::kFine, "uniform"},
-    {"positions_without_steps",
-     [] {
-       return changed([](Rows& r) {
-         for (std::size_t i = 0; i < r.x1.size(); ++i) r.x1[i] += 1e-5 * noise_of(i);
-       });
-     },
-     "encoder", Severity::kNote, "no smallest step is seen"},
-    {"ramps_and_flat_tops", [] { return rig(ramped); }, "clipping", Severity::kFine, "as it was commanded"},
-    {"cut_off", [] { return rig(trapezoid); }, "clipping", Severity::kNote,
-     "u is cut off at 0.6 in 16 plateaus"},
-    {"rounded_crests",
-     [] {
-       return changed([](Rows& r) {
-         for (double& u : r.u) u = std::round(1e3 * u) / 1e3;
-       });
-     },
-     "clipping", Severity::kFine, "does not stay"},
-    {"positions_of_four_decimals",
-     [] {
-       return changed([](Rows& r) {
-         for (double& x : r.x1) x = std::round(1e4 * x) / 1e4;
-       });
-     },
-     "encoder", Severity::kNote, "so many decimals"},
-    {"two_frequencies", [] { return rig(two_tones); }, "spectrum", Severity::kFine, "90 % of the power"},
-    {"input_in_percent",
-     [] {
-       return changed([](Rows& r) {
-         for (double& u : r.u) u = std::round(100.0 * u);
-       });
-     },
-     "input", Severity::kNote, "whole numbers"},
-    {"a_weight_on_the_input",
-     [] {
-       return changed([](Rows& r) {
-         for (double& u : r.u) u += 1.0;
-       });
-     },
-     "input", Severity::kNote, "never changes its sign"},
-    {"coarse_encoder", [] { return rig(sine(0.5814, 1.0), {}, 12); }, "speed", Severity::kNote,
-     "steps of the encoder per sample"},
-    {"closed_loop", closed_loop, "feedback", Severity::kNote, "a closed loop"},
-    {"measured_current",
-     [] {
-       return changed([](Rows& r) {
-         for (std::size_t i = 0; i < r.u.size(); ++i) r.u[i] += 0.01 * noise_of(i);
-       });
-     },
-     "feedback", Severity::kFine, "does not answer"},
-    {"inertia_measured_late",
-     [] {
-       TestDrive heavy;
-       heavy.m2 = 0.0, heavy.d1 = 1e-4;
-       return changed(rig([](double t) { return 0.5 * std::cos(94.25 * t); }, heavy), [](Rows& r) {
-         r.x1.insert(r.x1.begin(), 3, r.x1.front());
-         r.x1.resize(r.u.size());
-       });
-     },
-     "sign", Severity::kNote, "late"},
-    {"a_motion_that_dwells",
-     [] {
-       return rig([](double t) {
-         return std::abs(std::sin(3.14159 * t)) < 0.7 ? 0.0 : 0.6 * std::copysign(1.0, std::sin(3.14159 * t));
-       });
-     },
-     "standstill", Severity::kFine, "x1 rests"},
-};
-
-INSTANTIATE_TEST_SUITE_P(Inspection, HarmlessTest, ::testing::ValuesIn(kHarmless),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST(Inspection, AnInputThatDoesNotRepeatLeavesTheDiagnosisTheEncoderAlone) {

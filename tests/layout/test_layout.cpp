@@ -125,7 +125,8 @@ TEST(Layout, NoModuleIncludesAPrivateHeaderOfAnother) {
   for (const Include& i : includes()) {
     const std::string used = own_module(i.header);
     if (used.empty() || used == i.module || i.header.starts_with("gapscope/")) continue;
-    const bool for_sources_only = !fs::exists(kRoot / "include/gapscope" / used);  // a module without another door
+    const bool for_sources_only =
+        !fs::exists(kRoot / "include/gapscope" / used);  // a module without another door
     if (!for_sources_only) seen[i.module].insert(i.header);
   }
   EXPECT_EQ(seen, kPrivateHeadersStillSeen);
@@ -258,6 +259,15 @@ TEST(Layout, WhatIsPrivateIsInTheNamespaceOfItsModule) {
         EXPECT_TRUE(own.contains(match[1])) << relative << " opens " << match[1];
       }
   }
+}
+
+TEST(Layout, NoFileIsLongerThanThreeHundredLines) {
+  for (const char* top : {"include", "src", "tests", "docs"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      std::ifstream in(entry.path());
+      EXPECT_LE(std::count(std::istreambuf_iterator<char>(in), {}, '\n'), 300) << entry.path();
+    }
 }
 
 TEST(Layout, TopLevelHoldsNothingThatWasNotAgreed) {
