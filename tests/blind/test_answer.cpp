@@ -242,10 +242,10 @@ TEST(BlindCheck, RefusesAChangedLabel) {
   EXPECT_THAT(check.score(), HasSubstr("has another label of case_001 than the one that was sealed"));
 }
 
-/// GAPSCOPE_BLIND_CASES sets the number of cases, 30 if it is not set.
+/// GAPSCOPE_BLIND_CASES sets the number of cases, 10 if it is not set.
 int cases_wanted() {
   const char* given = std::getenv("GAPSCOPE_BLIND_CASES");
-  return given != nullptr ? std::max(4, std::atoi(given)) : 30;
+  return given != nullptr ? std::max(4, std::atoi(given)) : 10;
 }
 
 TEST(BlindCheck, OfSmallRecordingsNamesMostEffectsAndBlamesNothingWhereNothingIs) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "cli/written_json.h"
@@ -73,5 +74,14 @@ class Workplace {
   TemporaryFile place_;
   std::set<std::string> own_;  ///< files of the test itself
 };
+
+/// All effects but these, as options: a diagnosis in a second or two.
+inline std::string excluding_all_but(const std::set<std::string>& kept) {
+  std::istringstream names(Workplace().run("effects").out);
+  std::string options;
+  for (std::string name; std::getline(names, name);)
+    if (!kept.contains(name)) options += " --exclude " + name;
+  return options;
+}
 
 }  // namespace gapscope::testing

@@ -75,15 +75,6 @@ class BadDay : public ::testing::Test {
 
 Workplace* BadDay::start_ = nullptr;
 
-/// All effects but one, as options: a diagnosis in a second.
-std::string but_one_effect() {
-  std::istringstream names(Workplace().run("effects").out);
-  std::string options, name;
-  for (std::getline(names, name); std::getline(names, name);)
-    options += " --exclude " + name.substr(0, name.find(' '));
-  return options;
-}
-
 TEST_F(BadDay, AFullDiskIsToldAndWhatWasThereStays) {
   const std::pair<const char*, int> commands[] = {// with how many blocks of 512 bytes there are left
                                                   {"run c.yaml -o r", 1},
@@ -170,7 +161,7 @@ class KilledWork : public BadDay, public ::testing::WithParamInterface<int> {
       case 0:
         return {"run", "run c.yaml -o r", 3};
       case 1:
-        return {"diagnose", "diagnose c.yaml -o r" + but_one_effect(), 2};
+        return {"diagnose", "diagnose c.yaml -o r" + testing::excluding_all_but({"actuator_lag"}), 2};
       case 2:
         return {"report", "report r", 2};
       case 3:

@@ -98,7 +98,9 @@ TEST(ResolvedConfiguration, LiesBesideItsResultWithTheHashThatTheResultTells) {
     SCOPED_TRACE(command);
     const std::string config = std::string(command) == "blind run" ? "check.yaml" : "c.yaml";
     const std::string out = config == "check.yaml" ? "checked" : "out";
-    ASSERT_EQ(place.run(std::string(command) + " " + config + " -o " + out).status, 0);
+    const bool diagnoses = std::string(command) == "diagnose";
+    const std::string few = diagnoses ? testing::excluding_all_but({"motor_coulomb_friction"}) : "";
+    ASSERT_EQ(place.run(std::string(command) + " " + config + " -o " + out + few).status, 0);
     const json made = read(place, out + "/" + result);
     EXPECT_EQ(made["configuration"]["sha256"], sha256sum(place, out + "/resolved.yaml"));
     EXPECT_EQ(made["configuration"]["resolved"], text_of(place.folder() / out / "resolved.yaml"));

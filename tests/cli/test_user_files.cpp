@@ -218,10 +218,7 @@ TEST_F(UserFiles, AReportIsOfOneDrive) {
   place_.file("held.csv", text_of(at("drive.csv")));
   place_.file("d.yaml", "name: rig\nrecording: {file: drive.csv, held_out: held.csv}\nmodel: " +
                             std::string(testing::kPaperModel));
-  std::string most;  // of the effects, so that a diagnosis takes a moment
-  std::istringstream names(place_.run("effects").out);
-  for (std::string name; names >> name; std::getline(names, name))
-    if (name != "input_delay") most += " --exclude " + name;
+  const std::string most = testing::excluding_all_but({"input_delay"});
   ASSERT_EQ(place_.run("diagnose d.yaml -o both" + most).status, 0);
   ASSERT_EQ(place_.run("detect d.yaml -o both").status, 0);
   EXPECT_TRUE(fs::exists(at("both/diagnosis.json"))) << "of the same files";
