@@ -6,22 +6,12 @@
 #include "report/error_scale.h"
 #include "report/fig6_one_period.h"
 #include "report/figures.h"
+#include "report/full_run.h"
 #include "report/sample_run.h"
 #include "report/signals.h"
 
 namespace gapscope::internal::report {
 namespace {
-
-const RunResult& full_run() {
-  static const RunResult run = sample_run();
-  return run;
-}
-
-const Series& labelled(const Panel& panel, const std::string& part) {
-  for (const Series& s : panel.series)
-    if (s.label.find(part) != std::string::npos) return s;
-  throw std::runtime_error("no series " + part);
-}
 
 TEST(Estimates, ShowsEveryEstimateWithItsInterval) {
   const FigureData figure = estimates(ReportView(full_run()));
