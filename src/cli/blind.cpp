@@ -58,7 +58,7 @@ void add_make(CommandLine& blind) {
       "up to 20 %, and manifest.json: SHA-256 of every file and, salted, of every label. All follows from "
       "the "
       "seeds:\n"
-      "who shall not know the labels must not know these.\n\n"
+      "keep them from everybody from whom the labels are kept.\n\n"
       "Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
   command.action([a] { make(*a); });
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 90;   ///< of a configuration, before the suffix
 constexpr std::size_t kFirstSamples = 20;  ///< the first speed is read in so many or more
-constexpr double kReadQuanta = 50.0;       ///< over which it is read, lest it be a toggling count
+constexpr double kReadQuanta = 50.0;       ///< over which it is read: fewer may be one count that toggles
 constexpr std::size_t kLargestPart = 50;   ///< of the recording for that: one in so many
 
 /// Half the rate at which the input changes its sign, at least one period over the recording.

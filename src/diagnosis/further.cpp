@@ -13,21 +13,25 @@ namespace {
 constexpr std::size_t kMostEffects = 4;
 constexpr double kWorthFollowing = 0.3;         ///< S that an unsure first step gains
 constexpr double kWorthFollowingWindows = 0.6;  ///< share of the windows that it improves
-constexpr std::size_t kBranches = 2;            ///< first steps that are followed where the best is unsure,
-constexpr std::size_t kFittedBranches = 2;      ///< and those that explain most of what was fitted,
-constexpr double kMuchOfTheFit = 0.7;           ///< that is, which leave less than this of its mean square
-constexpr double kClearlyBetter = 0.1;          ///< S, of a look-alike
-constexpr double kStandIn = 0.15;               ///< S that an earlier effect must still be worth
+constexpr std::size_t kBranches = 2;            ///< first steps that are followed where the best is unsure
+constexpr std::size_t kFittedBranches = 2;      ///< of them, those that explain most of what was fitted
+constexpr double kMuchOfTheFit = 0.7;   ///< "most": they leave less than this of the fitted mean square
+constexpr double kClearlyBetter = 0.1;  ///< S by which a look-alike takes the place of a finding
+constexpr double kStandIn = 0.15;       ///< S that an earlier effect must still be worth
 constexpr double kLaterGain = 0.5;     ///< S of a later step that stays far from the floor for an earlier law
-constexpr double kLaterWindows = 0.8;  ///< share of the windows that it improves
-constexpr double kLaterMargin = 0.5;   ///< S by which it beats all others
+constexpr double kLaterWindows = 0.8;  ///< share of the windows that such a step improves
+constexpr double kLaterMargin = 0.5;   ///< S by which such a step beats all others
 constexpr double kRefinedGain = 0.3;   ///< S of a law that contains an earlier one's, also over all others
-constexpr double kFitCollapses = 0.1;  ///< of the mean square that was fitted: then fewer windows will do
-constexpr double kAskedFor = 0.85;     ///< of the mean square that was fitted
-constexpr double kMuchOfTheWay = 0.4;  ///< share of the log distance to the floor that makes up for an unsure
-constexpr double kMostOfTheSize = 0.8;    ///< of the free runs' error: the same
+constexpr double kFitCollapses =
+    0.1;  ///< of the fitted mean square that a step leaves: fewer windows then suffice
+constexpr double kAskedFor = 0.85;  ///< of the fitted mean square that a step leaves at most
+constexpr double kMuchOfTheWay =
+    0.4;  ///< share of the log distance to the floor that two steps close, where the first was unsure
+constexpr double kMostOfTheSize =
+    0.8;  ///< of the free runs' error that two steps take, where the first was unsure
 constexpr double kHardlyAnything = 0.99;  ///< of the free runs' error explained: no other branch is followed
-constexpr double kSureMargin = 0.9;  ///< … first step, with a second one that beats all others by this S
+constexpr double kSureMargin =
+    0.9;  ///< S by which the second step beats all others, where the first was unsure
 
 /// The model so far as the one to add to. An effect that others contain comes last: they take its place.
 ScoredModel base_of(const ScoredModel& model) {

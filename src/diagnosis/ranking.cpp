@@ -9,25 +9,28 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kAlike = 0.3;              ///< S between look-alikes that the data does not separate,
-constexpr double kAlikeOfLeft = 0.15;       ///< and per S that the best leaves: a missing law's, not noise
-constexpr double kIndistinct = 0.08;        ///< the same for effects that no table calls alike
-constexpr double kLeastRel = 0.4;           ///< share of the log distance to the floor that a step closes
-constexpr double kLeastMargin = 0.3;        ///< S by which it beats all others
-constexpr double kOtherFormRel = 0.2;       ///< the same of an effect whose real law is another than ours,
-constexpr double kOtherFormMargin = 1.5;    ///< which stands far above all others all the same
-constexpr double kOtherFormShrink = 0.7;    ///< and leaves little of the free runs' size
-constexpr double kLeastGain = 0.3;          ///< S, of a step that cannot reach the floor
-constexpr double kLeastWindows = 0.6;       ///< share of the windows that such a step improves
-constexpr double kAskedFor = 0.85;          ///< of the mean square that was fitted: luck on held-out data is
-constexpr double kAskedForAtFloor = 0.99;   ///< no finding
-constexpr double kNestedShare = 0.8;        ///< of the child's gain: the parent is enough
-constexpr double kNestedMargin = 0.6;       ///< S by which the child may be better all the same
-constexpr double kNestedShareOfSize = 0.5;  ///< the same of what the prediction error shrinks by
-constexpr double kLeastDistance = 0.3;      ///< S to the floor of which a share can be told
-constexpr double kTrace = 0.02;             ///< share of the free runs' size that such a law may leave
-constexpr double kParentAsGood = 0.1;       ///< S, at the floor
-constexpr double kFarMore = 20.0;           ///< times the size that is left of what was fitted
+constexpr double kAlike = 0.3;         ///< S between look-alikes that the data does not separate
+constexpr double kAlikeOfLeft = 0.15;  ///< added to it for each S that the best leaves
+constexpr double kIndistinct = 0.08;   ///< S between any two effects that the data does not separate
+constexpr double kLeastRel = 0.4;      ///< share of the log distance to the floor that a step closes
+constexpr double kLeastMargin = 0.3;   ///< S by which it beats all others
+constexpr double kOtherFormRel =
+    0.2;  ///< the same where the margin below says that only the form of the law differs
+constexpr double kOtherFormMargin = 1.5;  ///< S by which such an effect beats all others
+constexpr double kOtherFormShrink = 0.7;  ///< share of the free runs' size that such an effect takes
+constexpr double kLeastGain = 0.3;        ///< S, of a step that cannot reach the floor
+constexpr double kLeastWindows = 0.6;     ///< share of the windows that such a step improves
+constexpr double kAskedFor =
+    0.85;  ///< of the fitted mean square that a step leaves at most: held-out luck is no finding
+constexpr double kAskedForAtFloor = 0.99;  ///< the same of a step that comes to the floor
+constexpr double kNestedShare = 0.8;       ///< of the child's gain: the parent is enough
+constexpr double kNestedMargin = 0.6;      ///< S from which on the child is better nevertheless
+constexpr double kNestedShareOfSize =
+    0.5;  ///< share of the prediction error's decrease above which the parent is enough
+constexpr double kLeastDistance = 0.3;  ///< S to the floor of which a share can be told
+constexpr double kTrace = 0.02;         ///< share of the free runs' size that such a law may leave
+constexpr double kParentAsGood = 0.1;   ///< S, at the floor
+constexpr double kFarMore = 20.0;       ///< times the size that is left of what was fitted
 const double kFloorScore = std::log(1.0 + kScoreOffset);
 
 bool names(std::span<const char* const> list, std::string_view name) {

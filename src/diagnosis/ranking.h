@@ -26,7 +26,7 @@ ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& h
 bool look_alike(const EffectEntry& a, const EffectEntry& b);
 
 inline constexpr double kFloorRatio = 1.3;  ///< medians within it: at the floor
-/// Mean square [floor²] of a fit that may only have missed the best one.
+/// Mean square [floor²] up to which a fit may have ended in a minimum beside the best one.
 inline constexpr double kNearFloor = 4.0;
 inline constexpr double kExplained = kFloorRatio * kFloorRatio;  ///< mean square of a fit [floor²]
 

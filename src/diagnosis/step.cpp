@@ -86,8 +86,8 @@ void once_more(const Study& study, const ScoredModel& before, const std::vector<
   rank(ranked, before, study.repeats_badly());
 }
 
-/// First the best few, also from the numbers of the very best; so do, wherever they came, the simpler effect
-/// that the best contains and those that contain the best. Where none of these explains much, all others.
+/// Fits the best few once more, also from the best candidate's values; the effect that the best contains and
+/// those that contain it are among them at any rank. Where none of these explains much, all others follow.
 /// @param all false, in a later step: only those that are near the best or easily mistaken for it
 void further_rounds(const Study& study, const ScoredModel& before, std::vector<ScoredModel>& ranked,
                     bool all) {

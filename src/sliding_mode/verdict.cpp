@@ -15,7 +15,7 @@ namespace {
 constexpr double kVisible =
     0.4;  ///< largest share of the travel that a statement on smaller gaps may leave open
 
-constexpr double kStriking = 2.5;     ///< contrast that is no friction's
+constexpr double kStriking = 2.5;     ///< contrast from which on a passage is not that of friction
 constexpr double kFewStriking = 0.3;  ///< of the half periods
 
 constexpr double kSystematic = 0.53;  ///< standard deviation, over the half width of a passage: calibrated
@@ -25,12 +25,13 @@ constexpr std::size_t kFewest = 2;        ///< passages in each direction
 constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
 constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
 
-constexpr double kMostHidden = 0.07;     ///< of a gap, that the motor may go on before its impact shows
-constexpr double kMostOfTravel = 0.8;    ///< that a gap may be
-constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
-constexpr double kLeastMoving = 0.1;     ///< … that is to be checked by the other direction
+constexpr double kMostHidden = 0.07;   ///< of a gap, that the motor may go on before its impact shows
+constexpr double kMostOfTravel = 0.8;  ///< largest gap, as a share of the travel
+constexpr double kFarthest = 2.0;      ///< that a load may travel, in gaps, if the rest is to be a gap
+constexpr double kLeastMoving =
+    0.1;  ///< travel of the load, in gaps, from which on one direction alone is not believed
 constexpr double kFewMoving = 0.2;       ///< passages refused for it, over those that are used
-constexpr double kFewestMoving = 100.0;  ///< … where the load travels far within it
+constexpr double kFewestMoving = 100.0;  ///< quanta in a gap within which the load travels far
 
 struct Pool {
   std::vector<const Transition*> accepted;

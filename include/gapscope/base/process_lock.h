@@ -5,7 +5,7 @@
 namespace gapscope {
 
 /// Tells processes apart that would work on the same file or folder: it is held for as long as this lives.
-/// The system lets go of it when the process dies, however it dies. Nothing is locked where nothing is there.
+/// The system releases it when the process ends, in whatever way. Nothing is locked where nothing is there.
 class ProcessLock {
  public:
   explicit ProcessLock(const std::string& path);

@@ -19,7 +19,7 @@ using BlindProgress = std::function<void(std::size_t done, std::size_t all)>;
 /// Writes, for each case of the configuration, <case>_train.csv, <case>_held_out.csv (t, u, x1) and
 /// <case>.yaml (a data sheet that `gapscope diagnose` takes as it is) into `folder`, the labels into the file
 /// `labels`, and seals them. Cases are numbered in an order that says nothing of them. Everything follows
-/// from the configuration: whoever shall not know the labels must not be able to guess its seeds.
+/// from the configuration: nobody from whom the labels are kept may be able to guess its seeds.
 /// @throws ConfigError where the labels would lie in the folder that is handed out, std::runtime_error where
 /// a file cannot be written, Interrupted.
 void make_blind_check(const BlindConfig& config, const std::string& folder, const std::string& labels,

@@ -72,7 +72,7 @@ struct DriveChanges {
   bool rotation = true;
   std::vector<std::string> reports;  ///< their folders
   std::vector<DriveQuantity>
-      quantities;    ///< what at least one report tells or denies; what was given is no finding
+      quantities;    ///< that at least one report gives or denies; what was given to it does not count
   int compared = 0;  ///< differences that have a p
   std::vector<std::string> warnings;  ///< why values may differ though the drive does not
 
