@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <ostream>
 
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -11,7 +10,6 @@
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
-#include "gapscope/base/whole_file.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/report_folder.h"
 #include "gapscope/run/run_pipeline.h"
@@ -114,18 +112,6 @@ std::string fit_details() {
 }
 
 }  // namespace
-
-void write_text(const std::string& path, const std::string& text, const Replaceable& found) {
-  write_whole_file(
-      path, [&](std::ostream& out) { out << text; }, found);
-}
-
-void add_work_options(CommandLine& command, int& threads, bool& quiet) {
-  command.add_option("-j,--threads", threads, "threads (default: all cores); the results do not depend on it")
-      .within(1, 1024)
-      .value("N");
-  command.add_flag("--quiet", quiet, "no progress");
-}
 
 void add_run(CommandLine& app) {
   add(app, "run", "Both estimators, their comparison, and a report with figures",

@@ -9,6 +9,7 @@
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
+#include "sliding_mode/verdict.h"
 #include "sliding_mode/words.h"
 
 namespace gapscope {
@@ -29,9 +30,7 @@ std::vector<PaperReading> read_all(std::span<const MotorTrace> recordings,
 
 GapEstimate decide_paper(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
                          double bound) {
-  GapEstimate estimate;
-  internal::sliding_mode::decide_with_bound(analyses, read_all(recordings, analyses, bound), estimate);
-  return estimate;
+  return internal::sliding_mode::decide_with_bound(analyses, read_all(recordings, analyses, bound));
 }
 
 struct Reading {
@@ -160,8 +159,8 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
     means.push_back(internal::sliding_mode::analyse_mean(folded, recording));
     intervals.push_back(folded.dt);
   }
-  GapEstimate reading;
-  if (!means.empty()) internal::sliding_mode::decide_gap(means, intervals, reading);
+  if (means.empty()) return;
+  GapEstimate reading = internal::sliding_mode::decide_gap(means, intervals);
   if (reading.verdict != GapVerdict::kBacklash &&
       (reading.verdict != GapVerdict::kNone || estimate.verdict == GapVerdict::kNone))
     return;
@@ -185,7 +184,7 @@ GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const Detector
     analyses.push_back(internal::sliding_mode::analyse_frozen(recording));
     intervals.push_back(recording.dt);
   }
-  internal::sliding_mode::decide_gap(analyses, intervals, estimate);
+  estimate = internal::sliding_mode::decide_gap(analyses, intervals);
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
   estimate.bound_t1 = typical_bound(analyses, &ImpactAnalysis::sliding);
   keep_traces(recordings, analyses, estimate.bound_t1, Discretisation::kForwardEuler, estimate);
@@ -213,7 +212,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
     keep_map(recordings, facts, options, estimate);
     return estimate;
   }
-  internal::sliding_mode::decide_gap(analyses, intervals, estimate);
+  estimate = internal::sliding_mode::decide_gap(analyses, intervals);
   if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
   if (estimate.verdict != GapVerdict::kBacklash)
     if (auto quasi_static = internal::sliding_mode::read_lost_motion(recordings, facts)) return *quasi_static;

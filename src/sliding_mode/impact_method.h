@@ -28,11 +28,4 @@ struct ImpactAnalysis {
 ImpactAnalysis analyse(const MotorTrace& trace, const signals::SignalFacts& facts);
 ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace& whole);
 
-/// A passage as it is told.
-GapEvent event_of(const Transition& passage);
-
-/// Verdict and estimate from all recordings together. Median per direction, mean of both.
-void decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
-                GapEstimate& estimate);
-
 }  // namespace gapscope::internal::sliding_mode

@@ -189,8 +189,9 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
 
 }  // namespace
 
-void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const PaperReading> readings,
-                       GapEstimate& estimate) {
+GapEstimate decide_with_bound(std::span<const ImpactAnalysis> analyses,
+                              std::span<const PaperReading> readings) {
+  GapEstimate estimate;
   estimate.method = GapMethod::kPaper;
   estimate.verdict = GapVerdict::kInconclusive;
   estimate.reason = words::no_recording();
@@ -204,9 +205,10 @@ void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const
     estimate.events.insert(estimate.events.end(), readings[i].events.begin(), readings[i].events.end());
     add(pool, analyses[i], readings[i]);
   }
-  if (pool.half_periods == 0.0) return;
+  if (pool.half_periods == 0.0) return estimate;
   estimate.reason = objection(pool);
   if (estimate.reason.empty()) fill_estimate(pool, estimate);
+  return estimate;
 }
 
 }  // namespace gapscope::internal::sliding_mode

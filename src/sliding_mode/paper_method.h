@@ -24,7 +24,7 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
 
 /// Steps S5 and S6 over all recordings: |x1(t2) − x1(t1)|, averaged robustly over passages of both
 /// directions.
-void decide_with_bound(std::span<const ImpactAnalysis> analyses, std::span<const PaperReading> readings,
-                       GapEstimate& estimate);
+GapEstimate decide_with_bound(std::span<const ImpactAnalysis> analyses,
+                              std::span<const PaperReading> readings);
 
 }  // namespace gapscope::internal::sliding_mode

@@ -2,6 +2,7 @@
 
 #include "gapscope/base/require.h"
 #include "sliding_mode/frozen_search.h"
+#include "sliding_mode/verdict.h"
 
 namespace gapscope {
 
@@ -49,8 +50,7 @@ std::vector<GapEvent> StreamDetector::take() {
 
 GapEstimate StreamDetector::estimate() const {
   const internal::sliding_mode::ImpactAnalysis analysis = state_->search.summary();
-  GapEstimate estimate;
-  internal::sliding_mode::decide_gap({&analysis, 1}, {&state_->dt, 1}, estimate);
+  GapEstimate estimate = internal::sliding_mode::decide_gap({&analysis, 1}, {&state_->dt, 1});
   if (has_learnt()) estimate.bound = analysis.run.bounds[analysis.deciding];
   estimate.events.clear();
   return estimate;

@@ -1,3 +1,5 @@
+#include "sliding_mode/verdict.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -5,7 +7,6 @@
 
 #include "gapscope/base/statistics.h"
 #include "signals/encoder.h"
-#include "sliding_mode/impact_method.h"
 #include "sliding_mode/visible_gap.h"
 #include "sliding_mode/words.h"
 
@@ -208,28 +209,29 @@ GapEvent event_of(const Transition& t) {
   return event;
 }
 
-void decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals,
-                GapEstimate& estimate) {
+GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals) {
+  GapEstimate estimate;
+  estimate.verdict = GapVerdict::kInconclusive;
   estimate.method = GapMethod::kImpact;
   for (const ImpactAnalysis& a : analyses)
     for (const Transition& t : a.passages) estimate.events.push_back(event_of(t));
   const Pool pool = collect(analyses, intervals);
   if (pool.half_periods == 0.0) {
-    estimate.verdict = GapVerdict::kInconclusive;
     estimate.reason =
         analyses.empty() ? words::no_recording() : words::signal_defect(analyses.front().facts.defect);
-    return;
+    return estimate;
   }
   estimate.smallest_visible_gap = std::isfinite(pool.visible) ? pool.visible : kNaN;
   const Remark against = objection(pool);
-  if (against.empty()) return fill_estimate(pool, estimate);
-  if (shows_nothing(pool)) {
+  if (against.empty()) {
+    fill_estimate(pool, estimate);
+  } else if (shows_nothing(pool)) {
     estimate.verdict = GapVerdict::kNone;
     estimate.reason = words::no_impact(kSmallestMassRatio, pool.half_periods);
-    return;
+  } else {
+    estimate.reason = too_slow(pool) ? words::too_slow(pool.visible) : against;
   }
-  estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = too_slow(pool) ? words::too_slow(pool.visible) : against;
+  return estimate;
 }
 
 }  // namespace gapscope::internal::sliding_mode
