@@ -74,7 +74,7 @@ ReferenceModel sheet_model(const independent_plant::BlindDrive& true_drive, std:
   set(model, place::kMassRatio, sheet.load_inertia / sheet.motor_inertia, true);
   set(model, place::kGap, sheet.gap, true);
   set(model, place::kLoadDamping, sheet.load_damping, true);
-  set(model, place::kLoadCoulomb, sheet.load_coulomb, true);
+  set(model, place::kLoadCoulombFriction, sheet.load_coulomb, true);
   set(model, place::kContactStiffness, true_drive.contact_stiffness, false);
   set(model, place::kContactDamping, true_drive.contact_damping, false);
   return model;

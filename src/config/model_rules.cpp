@@ -14,13 +14,6 @@ constexpr double kSmallestRatio = 1e-3;  ///< of an estimated mass ratio: 0 is a
 
 }  // namespace
 
-int drive_parameter_index(const std::string& key) {
-  const auto found = std::find_if(std::begin(kDriveParameters), std::end(kDriveParameters),
-                                  [&](const DriveParameterSpec& spec) { return key == spec.key; });
-  GAPSCOPE_REQUIRE(found != std::end(kDriveParameters));
-  return static_cast<int>(found - std::begin(kDriveParameters));
-}
-
 namespace internal::config {
 namespace {
 
@@ -44,7 +37,7 @@ const char* reason_of_absence(const DriveStructure& structure) {
 ParameterSetting absent_parameter(int index) {
   ParameterSetting p;
   p.estimate = index == place::kGap || index == place::kMotorDamping || index == place::kMassRatio;
-  if (index == place::kLoadDamping || index == place::kLoadCoulomb || index == place::kContactDamping)
+  if (index == place::kLoadDamping || index == place::kLoadCoulombFriction || index == place::kContactDamping)
     p.value = 0.0;
   return p;
 }

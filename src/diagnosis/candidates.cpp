@@ -8,8 +8,8 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr RefineEffort kRetry{8, 40, 1e-4};  ///< of the few that came nearest
-constexpr double kFurther = 0.995;           ///< of the mean square: a retry that got further
+constexpr reference::RefineEffort kRetry{8, 40, 1e-4};  ///< of the few that came nearest
+constexpr double kFurther = 0.995;                      ///< of the mean square: a retry that got further
 
 /// Whether the model's last effect is the simpler one that this one contains, and so takes the place of.
 bool replaces_last(const ReferenceModel& model, const EffectEntry& entry) {
@@ -28,27 +28,28 @@ ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry) {
 /// A fitted model once more with more work, from where it stands.
 FittedModel refined(std::span<const MotorTrace> train, const FittedModel& from, const FitOptions& options,
                     double hz) {
-  const ModelFit fit(train, from.model, options, hz);
+  const reference::ModelFit fit(train, from.model, options, hz);
   return fitted_at(fit, fit.refine(fit.point_of(from.model, from.starts), kRetry));
 }
 
 }  // namespace
 
-std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const FittedModel& nominal,
-                                       const ReferenceModel& sheet, const FitOptions& options, double hz) {
-  const ModelFit fit(train, nominal.model, options, hz);
-  std::vector<FitLinearisation> bases;
+std::vector<reference::FitLinearisation> bases_of(std::span<const MotorTrace> train,
+                                                  const FittedModel& nominal, const ReferenceModel& sheet,
+                                                  const FitOptions& options, double hz) {
+  const reference::ModelFit fit(train, nominal.model, options, hz);
+  std::vector<reference::FitLinearisation> bases;
   for (const ReferenceModel& values : {nominal.model, with_drive(nominal.model, sheet)})
-    if (std::optional<FitLinearisation> base = fit.linearise(fit.point_of(values, nominal.starts)))
+    if (std::optional<reference::FitLinearisation> base = fit.linearise(fit.point_of(values, nominal.starts)))
       bases.push_back(std::move(*base));
   return bases;
 }
 
 FittedModel fit_candidate(std::span<const MotorTrace> train, const FittedModel& nominal,
-                          std::span<const FitLinearisation> bases, const EffectEntry& entry,
+                          std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
                           std::span<const EffectStart> starts, const FittedModel* parent,
                           const FitOptions& options, double hz) {
-  const ModelFit fit(train, with_effect(nominal.model, entry), options, hz);
+  const reference::ModelFit fit(train, with_effect(nominal.model, entry), options, hz);
   const std::size_t shrinking = replaces_last(nominal.model, entry) ? 1 : 0;  // the base has the first one
   Race race(fit, nominal, bases);
   if (entry.start_search == StartSearch::kSine && !starts.empty()) race.enter_sines(starts.front());
@@ -77,7 +78,7 @@ FittedModel retry(std::span<const MotorTrace> train, const FittedModel& candidat
   if (contained_effect(*others) == mine || contained_effect(*mine) == others)
     moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
   // By the numbers of the model without the effect the load may have seemed to start elsewhere.
-  const std::vector<RecordingStart> settled = settled_starts(train, candidate.model, hz);
+  const std::vector<reference::RecordingStart> settled = settled_starts(train, candidate.model, hz);
   FittedModel best = candidate;
   const auto take = [&](FittedModel found) {
     if (found.mean_square < kFurther * best.mean_square) best = std::move(found);

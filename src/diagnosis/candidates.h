@@ -11,9 +11,9 @@ namespace gapscope::internal::diagnosis {
 /// Points of the fitted model's parameters with its residuals and their derivatives there: what every
 /// candidate's race borrows, since a small effect hardly changes how the drive's own numbers act. They lie at
 /// the fitted values and at those of the sheet; the latter is left out where the motion diverges.
-std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const FittedModel& nominal,
-                                       const ReferenceModel& sheet, const FitOptions& options,
-                                       double observer_hz);
+std::vector<reference::FitLinearisation> bases_of(std::span<const MotorTrace> train,
+                                                  const FittedModel& nominal, const ReferenceModel& sheet,
+                                                  const FitOptions& options, double observer_hz);
 
 /// One effect added to a fitted model and everything refitted.
 ///
@@ -22,7 +22,7 @@ std::vector<FitLinearisation> bases_of(std::span<const MotorTrace> train, const 
 ///   the mean square stays infinite
 /// @param parent a fitted model with the simpler effect that this one contains as its last; may be nullptr
 FittedModel fit_candidate(std::span<const MotorTrace> train, const FittedModel& nominal,
-                          std::span<const FitLinearisation> bases, const EffectEntry& entry,
+                          std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
                           std::span<const EffectStart> starts, const FittedModel* parent,
                           const FitOptions& options, double observer_hz);
 

@@ -6,21 +6,21 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr RefineEffort kNominal{8, 40, 1e-5};
+constexpr reference::RefineEffort kNominal{8, 40, 1e-5};
 
 /// Keys of the last effect's parameters that have ended at a bound.
-std::vector<std::string> at_bounds(const ModelFit& fit, const FitPoint& at) {
+std::vector<std::string> at_bounds(const reference::ModelFit& fit, const reference::FitPoint& at) {
   std::vector<std::string> keys;
   const std::vector<ModelEffect>& effects = fit.model().effects;
-  for (const ParameterId& id : fit.at_bound(at))
-    if (id.effect != ParameterId::kDrive && id.effect + 1 == std::ssize(effects))
+  for (const reference::ParameterId& id : fit.at_bound(at))
+    if (id.effect != reference::ParameterId::kDrive && id.effect + 1 == std::ssize(effects))
       keys.emplace_back(effects.back().entry->parameters[static_cast<std::size_t>(id.index)].key);
   return keys;
 }
 
 }  // namespace
 
-FittedModel fitted_at(const ModelFit& fit, const RefinedFit& best) {
+FittedModel fitted_at(const reference::ModelFit& fit, const reference::RefinedFit& best) {
   const auto is_number = [](double q) { return std::isfinite(q); };
   if (!best.usable() || !std::all_of(best.q.begin(), best.q.end(), is_number))
     return {fit.model(), {}, kInfinity, {}};
@@ -29,21 +29,21 @@ FittedModel fitted_at(const ModelFit& fit, const RefinedFit& best) {
 
 FittedModel fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model,
                         const FitOptions& options, double hz) {
-  const ModelFit fit(train, model, options, hz);
-  RefinedFit best;
+  const reference::ModelFit fit(train, model, options, hz);
+  reference::RefinedFit best;
   if (fit.values_are_given()) best = fit.refine_with_loads_placed(fit.given_point(), kNominal);
   if (best.mean_cost <= kFloorSquare) return fitted_at(fit, best);
-  if (const std::optional<FitPoint> found = fit.search())
-    if (const RefinedFit other = fit.refine_with_loads_placed(*found, kNominal);
+  if (const std::optional<reference::FitPoint> found = fit.search())
+    if (const reference::RefinedFit other = fit.refine_with_loads_placed(*found, kNominal);
         other.mean_cost < best.mean_cost)
       best = other;
   return fitted_at(fit, best);
 }
 
 FittedModel fit_near(std::span<const MotorTrace> recordings, const ReferenceModel& from,
-                     const FitOptions& options, double hz, const RefineEffort& effort) {
-  const ModelFit fit(recordings, from, options, hz);
-  FitPoint point = fit.given_point();
+                     const FitOptions& options, double hz, const reference::RefineEffort& effort) {
+  const reference::ModelFit fit(recordings, from, options, hz);
+  reference::FitPoint point = fit.given_point();
   point.starts =
       settled_starts(recordings, from, hz);  // else the numbers would move for the load's first place
   return fitted_at(fit, fit.refine_with_loads_placed(point, effort));

@@ -11,13 +11,13 @@ namespace gapscope::internal::diagnosis {
 /// A model fitted to the training recordings, and the state that each of them begins with.
 struct FittedModel {
   ReferenceModel model;
-  std::vector<RecordingStart> starts;
-  double mean_square = kInfinity;     ///< what it leaves: RefinedFit::mean_cost [floor²]
+  std::vector<reference::RecordingStart> starts;
+  double mean_square = kInfinity;     ///< what it leaves: reference::RefinedFit::mean_cost [floor²]
   std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
 };
 
 /// The model where a refinement has led; infinite if that failed.
-FittedModel fitted_at(const ModelFit& fit, const RefinedFit& best);
+FittedModel fitted_at(const reference::ModelFit& fit, const reference::RefinedFit& best);
 
 /// Mean square [floor²] at which no other start can be better.
 inline constexpr double kFloorSquare = 1.25;
@@ -29,7 +29,7 @@ FittedModel fit_nominal(std::span<const MotorTrace> train, const ReferenceModel&
 /// The nominal model from the values of a fit to other recordings, and nowhere else.
 FittedModel fit_near(std::span<const MotorTrace> recordings, const ReferenceModel& from,
                      const FitOptions& options, double observer_hz,
-                     const RefineEffort& effort = {8, 40, 1e-5});
+                     const reference::RefineEffort& effort = {8, 40, 1e-5});
 
 /// A model with the values of another drive: its own effects stay.
 ReferenceModel with_drive(ReferenceModel model, const ReferenceModel& drive);

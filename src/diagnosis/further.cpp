@@ -14,7 +14,8 @@ constexpr std::size_t kMostEffects = 4;
 constexpr double kWorthFollowing = 0.3;         ///< S that an unsure first step gains
 constexpr double kWorthFollowingWindows = 0.6;  ///< share of the windows that it improves
 constexpr std::size_t kBranches = 2;            ///< first steps that are followed where the best is unsure
-constexpr std::size_t kFittedBranches = 2;      ///< of them, those that explain most of what was fitted
+constexpr std::size_t kFittedBranches =
+    2;                                  ///< added to these: first steps that explain most of what was fitted
 constexpr double kMuchOfTheFit = 0.7;   ///< "most": they leave less than this of the fitted mean square
 constexpr double kClearlyBetter = 0.1;  ///< S by which a look-alike takes the place of a finding
 constexpr double kStandIn = 0.15;       ///< S that an earlier effect must still be worth

@@ -19,11 +19,6 @@ const MapShare& largest(const std::vector<MapShare>& map) {
                            [](const MapShare& a, const MapShare& b) { return a.share < b.share; });
 }
 
-/// Of the bins of a map of modes, in the order of ContactPhase.
-ContactPhase phase_of(const std::vector<MapShare>& mode, const MapShare& bin) {
-  return static_cast<ContactPhase>(&bin - mode.data());
-}
-
 std::string phase_words(const MismatchPlace& place, bool rotation) {
   static constexpr const char* kWhere[] = {"in the gap", "in engagement", "at impacts"};
   if (!place.phase) return "";
@@ -81,7 +76,7 @@ std::optional<ContactPhase> densest_phase(const std::vector<MapShare>& mode) {
         m.share / m.expected > chosen->share / std::max(chosen->expected, 1e-9))
       chosen = &m;
   if (chosen->expected >= 1.0) return {};
-  return phase_of(mode, *chosen);
+  return static_cast<ContactPhase>(chosen - mode.data());  // the bins are in its order
 }
 
 double cycles_of(const ModelEffect& effect) {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/reference/observer.h"
+#include "reference/observer.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr double kRestart = 0.5;       ///< [s]
 constexpr double kFewestRestarts = 8;  ///< short recordings are divided into so many
-constexpr RefineEffort kStateEffort{3, 8, 1e-3};
+constexpr reference::RefineEffort kStateEffort{3, 8, 1e-3};
 constexpr double kMostSquare = 1e12;  ///< of a window, in floors squared: as wrong as can be
 
 /// What an error is beyond the half count that a coarser encoder explains.
@@ -28,34 +28,35 @@ double model_quantum(const PlantModel<double>& model) {
 
 bool play_scored(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                  std::size_t restart, double hz, Playback& out) {
-  const ObserverGain gain = ObserverGain::poles(hz, trace.dt);
+  const reference::ObserverGain gain = reference::ObserverGain::poles(hz, trace.dt);
   const double quantum = model_quantum(model);
   DriveStepper<double> runner(model, trace.dt);
   out.innovation.resize(trace.size());
   out.free.resize(trace.size());
   const auto [low, high] = std::minmax_element(trace.x1.begin(), trace.x1.end());
   const double lost = *high - *low;  // the error of a free run that diverges
-  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
-    if (i % restart == 0) runner = observer;
-    out.innovation[i] = beyond_count(trace.x1[i] - observer.measured(), quantum);
-    out.free[i] = runner.healthy() ? beyond_count(trace.x1[i] - runner.measured(), quantum) : lost;
-    if (runner.healthy()) runner.step(trace.u[i]);
-  });
+  return reference::roll_out(
+      model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+        if (i % restart == 0) runner = observer;
+        out.innovation[i] = beyond_count(trace.x1[i] - observer.measured(), quantum);
+        out.free[i] = runner.healthy() ? beyond_count(trace.x1[i] - runner.measured(), quantum) : lost;
+        if (runner.healthy()) runner.step(trace.u[i]);
+      });
 }
 
 bool play_slow(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
   const double quantum = model_quantum(model);
-  return roll_out(model, start, trace, ObserverGain::poles(kSlowHz, trace.dt),
-                  [&](std::size_t i, const DriveStepper<double>& observer) {
-                    out.slow.push_back(beyond_count(trace.x1[i] - observer.measured(), quantum));
-                  });
+  return reference::roll_out(model, start, trace, reference::ObserverGain::poles(kSlowHz, trace.dt),
+                             [&](std::size_t i, const DriveStepper<double>& observer) {
+                               out.slow.push_back(beyond_count(trace.x1[i] - observer.measured(), quantum));
+                             });
 }
 
 /// Residual torque of an observer's innovation.
 class ResidualTorque {
  public:
-  ResidualTorque(const PlantModel<double>& model, const ObserverGain& gain, double dt)
+  ResidualTorque(const PlantModel<double>& model, const reference::ObserverGain& gain, double dt)
       : motor_(model.drive.motor_inertia * gain.speed / dt), both_(motor_) {
     if (model.structure.has_load && model.structure.load == LoadKind::kFree)
       both_ *= 1.0 + model.drive.mass_ratio;
@@ -70,25 +71,27 @@ class ResidualTorque {
 
 bool play_fast(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
-  const ObserverGain gain = ObserverGain::poles(kFastHz, trace.dt);
+  const reference::ObserverGain gain = reference::ObserverGain::poles(kFastHz, trace.dt);
   const double quantum = model_quantum(model);
   const ResidualTorque torque(model, gain, trace.dt);
-  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
-    const double e = beyond_count(trace.x1[i] - observer.measured(), quantum);
-    out.fast.push_back(e);
-    out.torque.push_back(torque(observer, e));
-    out.w1.push_back(observer.state().w1);
-    out.mode.push_back(model.structure.has_load ? mode_of(observer) : Mode::kEngagementPlus);
-  });
+  return reference::roll_out(
+      model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+        const double e = beyond_count(trace.x1[i] - observer.measured(), quantum);
+        out.fast.push_back(e);
+        out.torque.push_back(torque(observer, e));
+        out.w1.push_back(observer.state().w1);
+        out.mode.push_back(model.structure.has_load ? mode_of(observer) : Mode::kEngagementPlus);
+      });
 }
 
 bool play_ripple(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                  Playback& out) {
-  const ObserverGain gain = ObserverGain::poles(ripple_hz(trace.dt), trace.dt);
+  const reference::ObserverGain gain = reference::ObserverGain::poles(ripple_hz(trace.dt), trace.dt);
   const ResidualTorque torque(model, gain, trace.dt);
-  return roll_out(model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
-    out.ripple.push_back(torque(observer, trace.x1[i] - observer.measured()));
-  });
+  return reference::roll_out(model, start, trace, gain,
+                             [&](std::size_t i, const DriveStepper<double>& observer) {
+                               out.ripple.push_back(torque(observer, trace.x1[i] - observer.measured()));
+                             });
 }
 
 /// Every number given, nothing estimated.
@@ -121,22 +124,22 @@ std::size_t HeldOut::restart(std::size_t r) const {
   return 2 * std::max<std::size_t>(5, static_cast<std::size_t>(0.5 * length / traces[r].dt + 0.5));
 }
 
-std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
-                                           const ReferenceModel& model, double observer_hz) {
-  const ModelFit fit(recordings, all_fixed(model), {}, observer_hz);
-  const FitPoint given = fit.given_point();
-  const FitPoint placed = fit.with_loads_placed(given).value_or(given);
-  const RefinedFit better = fit.refine(placed, kStateEffort);
+std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
+                                                      const ReferenceModel& model, double observer_hz) {
+  const reference::ModelFit fit(recordings, all_fixed(model), {}, observer_hz);
+  const reference::FitPoint given = fit.given_point();
+  const reference::FitPoint placed = fit.with_loads_placed(given).value_or(given);
+  const reference::RefinedFit better = fit.refine(placed, kStateEffort);
   return better.usable() ? better.starts : placed.starts;
 }
 
 PlantModel<double> stepper_of(const ReferenceModel& model, std::span<const MotorTrace> like) {
-  return ModelFit(like, all_fixed(model), {}, 0.0).run_at({}).plant;
+  return reference::ModelFit(like, all_fixed(model), {}, 0.0).run_at({}).plant;
 }
 
 std::vector<Playback> play(const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
                            bool all) {
-  const ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
+  const reference::ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
   const auto [plant, starts] = fit.run_at({{}, settled_starts(held_out.traces, model, observer_hz)});
   std::vector<Playback> playbacks(held_out.traces.size());
   for (std::size_t r = 0; r < playbacks.size(); ++r) {

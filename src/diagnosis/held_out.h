@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/reference/model_fit.h"
+#include "reference/model_fit.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -50,8 +50,8 @@ struct Windows {
 };
 
 /// Initial states of recordings that suit a model whose numbers are all known.
-std::vector<RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
-                                           const ReferenceModel& model, double observer_hz);
+std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
+                                                      const ReferenceModel& model, double observer_hz);
 
 /// What the simulator takes a model for whose numbers are all known.
 /// @param like recordings that its scales are taken from

@@ -18,7 +18,7 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-constexpr RefineEffort kScreening{4, 16, 1e-3};
+constexpr reference::RefineEffort kScreening{4, 16, 1e-3};
 constexpr std::uint64_t kSeed = 1;     ///< of phases, levels and noise
 constexpr int kHalvings = 5;           ///< of an input that travels too far
 constexpr double kSeparated = 1.0;     ///< σ

@@ -6,11 +6,11 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr int kRaceSteps = 2;                   ///< to tell which start is worth more
-constexpr RefineEffort kLight{2, 8, 1e-3};      ///< to tell whether a candidate helps at all
-constexpr RefineEffort kThorough{5, 25, 3e-4};  ///< of those that do
-constexpr double kPromising = 0.9;              ///< of the mean square without the effect
-constexpr double kSmallSine = 0.1;              ///< of the start: there it acts in proportion
+constexpr int kRaceSteps = 2;                              ///< to tell which start is worth more
+constexpr reference::RefineEffort kLight{2, 8, 1e-3};      ///< to tell whether a candidate helps at all
+constexpr reference::RefineEffort kThorough{5, 25, 3e-4};  ///< of those that do
+constexpr double kPromising = 0.9;                         ///< of the mean square without the effect
+constexpr double kSmallSine = 0.1;                         ///< of the start: there it acts in proportion
 constexpr int kWeakenings = 2;
 constexpr double kWeaker = 0.15;  ///< of the start
 constexpr double kClose = 30.0;   ///< a start from elsewhere is followed while it is within this ratio
@@ -22,7 +22,8 @@ ReferenceModel with_values(ReferenceModel model, const std::vector<double>& effe
 
 }  // namespace
 
-Race::Race(const ModelFit& fit, const FittedModel& nominal, std::span<const FitLinearisation> bases)
+Race::Race(const reference::ModelFit& fit, const FittedModel& nominal,
+           std::span<const reference::FitLinearisation> bases)
     : fit_(fit), nominal_(nominal), bases_(bases) {}
 
 Interval Race::bounds(std::size_t i) const {
@@ -47,8 +48,8 @@ double Race::weaker(std::size_t i, double value) const {
   return std::isfinite(absent) ? absent + kWeaker * (value - absent) : std::min(value / kWeaker, high);
 }
 
-void Race::run_from(const std::vector<double>& effect, const FitLinearisation& base) {
-  const FitPoint point = fit_.point_of(with_values(fit_.model(), effect), nominal_.starts);
+void Race::run_from(const std::vector<double>& effect, const reference::FitLinearisation& base) {
+  const reference::FitPoint point = fit_.point_of(with_values(fit_.model(), effect), nominal_.starts);
   field_.push_back({fit_.adjust(point.beginning_with(base.q()), base, kRaceSteps),
                     static_cast<std::size_t>(&base - bases_.data())});
 }
@@ -63,13 +64,13 @@ void Race::run_on(const FittedModel& parent, std::vector<double> effect) {
 
 void Race::enter(const EffectStart& start) {
   const std::vector<double> effect = physical(start);
-  for (const FitLinearisation& base : bases_) run_from(effect, base);
+  for (const reference::FitLinearisation& base : bases_) run_from(effect, base);
 }
 
 void Race::enter_sines(const EffectStart& typical) {
   const double small = kSmallSine * physical(typical)[0];
-  const FitPoint point = fit_.point_of(fit_.model(), nominal_.starts);
-  for (const FitLinearisation& base : bases_)
+  const reference::FitPoint point = fit_.point_of(fit_.model(), nominal_.starts);
+  for (const reference::FitLinearisation& base : bases_)
     if (const auto sine = fit_.sine_start(point.beginning_with(base.q()), base, small))
       run_from({sine->amplitude, sine->phase}, base);
 }
@@ -94,28 +95,29 @@ void Race::weaken(const EffectStart& start, std::size_t i) {
 }
 
 /// A refinement that goes on only while it promises to beat the model without the effect.
-RefinedFit Race::follow(const AdjustedFit& from) const {
-  const RefinedFit light = fit_.refine(from, kLight);
+reference::RefinedFit Race::follow(const reference::AdjustedFit& from) const {
+  reference::RefinedFit light = fit_.refine(from, kLight);
   // Where no refinement succeeds the race's own residuals stand for the cost, without priors and widths.
   if (!light.usable()) return {from, from.residual_mean_square, false, light.simulations};
   if (!(light.mean_cost < kPromising * nominal_.mean_square)) return light;
-  const RefinedFit found = fit_.refine(light, kThorough);
+  reference::RefinedFit found = fit_.refine(light, kThorough);
+  found.simulations = light.simulations += found.simulations;
   return found.mean_cost < light.mean_cost ? found : light;
 }
 
-RefinedFit Race::best() {
+reference::RefinedFit Race::best() {
   std::stable_sort(field_.begin(), field_.end(), [](const Entrant& a, const Entrant& b) {
     return a.at.residual_mean_square < b.at.residual_mean_square;
   });
   if (field_.empty() || !field_.front().at.usable()) return {};
   const Entrant& first = field_.front();
-  RefinedFit best = follow(first.at);
+  reference::RefinedFit best = follow(first.at);
   for (const Entrant& other : field_) {
     if (best.mean_cost < kFloorSquare) break;
     if (other.origin == first.origin ||
         other.at.residual_mean_square > kClose * first.at.residual_mean_square)
       continue;
-    const RefinedFit found = follow(other.at);
+    const reference::RefinedFit found = follow(other.at);
     if (found.mean_cost < best.mean_cost) best = found;
     break;
   }

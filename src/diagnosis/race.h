@@ -14,7 +14,8 @@ class Race {
  public:
   /// @param fit of the fitted model with the effect as its last
   /// @param nominal the fitted model without it
-  Race(const ModelFit& fit, const FittedModel& nominal, std::span<const FitLinearisation> bases);
+  Race(const reference::ModelFit& fit, const FittedModel& nominal,
+       std::span<const reference::FitLinearisation> bases);
 
   /// A start from every base.
   void enter(const EffectStart& start);
@@ -29,11 +30,11 @@ class Race {
   void weaken(const EffectStart& start, std::size_t i);
 
   /// Follows the best, then the best from elsewhere. Infinite without anything that has entered.
-  RefinedFit best();
+  reference::RefinedFit best();
 
  private:
   struct Entrant {
-    AdjustedFit at;
+    reference::AdjustedFit at;
     std::size_t origin = 0;  ///< the base that it set out from; their number: none
   };
 
@@ -41,13 +42,13 @@ class Race {
   Interval bounds(std::size_t i) const;
   std::vector<double> physical(const EffectStart& start) const;
   double weaker(std::size_t i, double value) const;
-  void run_from(const std::vector<double>& effect, const FitLinearisation& base);
+  void run_from(const std::vector<double>& effect, const reference::FitLinearisation& base);
   void run_on(const FittedModel& parent, std::vector<double> effect);
-  RefinedFit follow(const AdjustedFit& from) const;
+  reference::RefinedFit follow(const reference::AdjustedFit& from) const;
 
-  const ModelFit& fit_;
+  const reference::ModelFit& fit_;
   const FittedModel& nominal_;
-  std::span<const FitLinearisation> bases_;
+  std::span<const reference::FitLinearisation> bases_;
   std::vector<Entrant> field_;
 };
 

@@ -199,7 +199,7 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   d.remaining = place_of(after_played, study.held_out, km, study.options.rotation, nullptr);
   d.traces = traces_of(study, before_played, after_played);
   d.rivals = open_question(found, additions);
-  d.sentence = sentence_of(d, study.options.rotation);
+  d.sentence = sentence_of(d);
   return d;
 }
 

@@ -122,7 +122,7 @@ void fit_look_alikes(const Study& study, const ScoredModel& before, const Scored
                      std::span<const EffectEntry* const> entries,
                      const std::vector<std::vector<EffectStart>>& starts, std::vector<ScoredModel>& ranked) {
   const FitOptions& options = study.options.fit;
-  const std::vector<FitLinearisation> bases =
+  const std::vector<reference::FitLinearisation> bases =
       bases_of(study.train, before.fitted, best.fitted.model, options, study.observer_hz);
   if (bases.empty() || !(before.score - best.score > kWorthComparing)) return;
   parallel_for(ranked.size(), study.options.threads, [&](std::size_t k) {
@@ -154,7 +154,7 @@ std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& be
     if (reads_counts(*entry) ? study.seen_quantum > 0.0 : is_candidate(*entry, before.fitted.model))
       entries.push_back(entry);
   const auto starts = all_starts(study, before, entries);
-  const std::vector<FitLinearisation> bases =
+  const std::vector<reference::FitLinearisation> bases =
       bases_of(study.train, before.fitted, study.sheet, study.options.fit, study.observer_hz);
   std::vector<ScoredModel> judged(entries.size());
   std::mutex saying;

@@ -115,11 +115,14 @@ void normalise(std::vector<MapShare>& map) {
 void fill_maps(const std::vector<Sample>& samples, bool rotation, MismatchPlace& place) {
   const char* speed = rotation ? "rad/s" : "m/s";
   const char* angle = rotation ? "rad" : "m";
-  place.mode = class_map(samples, {"gap", "engagement", "impact"}, [](const Sample& s) -> std::size_t {
-    return static_cast<std::size_t>(s.mode == Mode::kGap      ? ContactPhase::kGap
-                                    : s.mode == Mode::kImpact ? ContactPhase::kImpact
-                                                              : ContactPhase::kEngagement);
-  });
+  place.mode = class_map(
+      samples,
+      {to_string(ContactPhase::kGap), to_string(ContactPhase::kEngagement), to_string(ContactPhase::kImpact)},
+      [](const Sample& s) -> std::size_t {
+        return static_cast<std::size_t>(s.mode == Mode::kGap      ? ContactPhase::kGap
+                                        : s.mode == Mode::kImpact ? ContactPhase::kImpact
+                                                                  : ContactPhase::kEngagement);
+      });
   place.direction = class_map(samples, {"backward", "forward"},
                               [](const Sample& s) -> std::size_t { return s.w1 > 0.0 ? 1 : 0; });
   place.speed = range_map(

@@ -73,7 +73,7 @@ std::string unknown_sentence(const Diagnosis& d) {
 
 }  // namespace
 
-std::string sentence_of(const Diagnosis& d, bool) {
+std::string sentence_of(const Diagnosis& d) {
   switch (d.verdict) {
     case DiagnosisVerdict::kEffect:
       return effect_sentence(d);

@@ -7,6 +7,6 @@
 namespace gapscope::internal::diagnosis {
 
 /// The answer in one sentence.
-std::string sentence_of(const Diagnosis& diagnosis, bool rotation);
+std::string sentence_of(const Diagnosis& diagnosis);
 
 }  // namespace gapscope::internal::diagnosis

@@ -71,10 +71,10 @@ Finding check_periods(const Material& m, RecordingFacts& facts) {
   facts.half_periods = static_cast<int>(s.half_periods);
   if (s.half_periods > 0) facts.period = 2.0 * s.half_period;
   if (!s.defect.empty())
-    return {"reversals", Severity::kSpoils,
+    return {kReversalsRule, Severity::kSpoils,
             fmt::format("{} half periods of motion: the detector will be inconclusive", s.half_periods),
             s.defect};
-  return {"reversals", Severity::kFine,
+  return {kReversalsRule, Severity::kFine,
           fmt::format("{} strokes of {:.3g} s: {} passages of a gap can be expected", s.half_periods + 1,
                       s.half_period, s.half_periods + 1),
           ""};

@@ -37,7 +37,7 @@ std::array<double, kDriveParameterCount> suggested(const signals::OneBody& rough
   s[kMassRatio] = given(kMassRatio, std::clamp(inertia / s[kMotorInertia] - 1.0, 0.1, 10.0));
   s[kGap] = (locked ? 0.5 : 0.2) * travel;
   s[kLoadDamping] = 0.5 * damping;
-  s[kLoadCoulomb] = std::clamp(km * rough.friction, 0.02 * peak, 0.6 * peak);
+  s[kLoadCoulombFriction] = std::clamp(km * rough.friction, 0.02 * peak, 0.6 * peak);
   s[kContactStiffness] = (free_load ? 30.0 : 4.0) * peak / travel;
   const double mu = s[kMassRatio];
   const double reduced = s[kMotorInertia] * (free_load ? mu / (1.0 + mu) : 1.0);
@@ -145,7 +145,7 @@ void add_drive(FitProblem& problem, const ReferenceModel& model,
     const double most = visible(n, sizes, model.structure, problem.recordings.front().dt);
     problem.parameters.push_back(parameter_of_drive(n, model.parameters[i], sizes[i], most, problem.rough));
     const Parameter& p = problem.parameters.back();
-    if (n == kLoadCoulomb) problem.load_may_stick = p.estimated || p.start > 0.0;
+    if (n == kLoadCoulombFriction) problem.load_may_stick = p.estimated || p.start > 0.0;
   }
 }
 

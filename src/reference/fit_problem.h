@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/reference/model_fit.h"
 #include "gapscope/simulation/stepper.h"
 #include "reference/coordinate.h"
+#include "reference/model_fit.h"
 #include "signals/one_body.h"
 
 namespace gapscope::internal::reference {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
-#include "gapscope/reference/observer.h"
+#include "reference/observer.h"
 
 namespace gapscope::internal::reference {
 namespace {

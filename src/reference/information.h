@@ -18,9 +18,9 @@ struct Correlation {
 /// What the recordings say about the free numbers at a point, in solver units. Columns: the free
 /// parameters, then the free initial numbers of each recording. Residuals are in floors.
 struct Information {
-  bool valid = false;      ///< false: the motion diverged there
-  Eigen::MatrixXd normal;  ///< JᵀJ with the priors (n × n)
-  Eigen::MatrixXd windows;  ///< Σ over windows of score·scoreᵀ, score = Σ of J r within the window (n × n)
+  bool valid = false;       ///< false: the motion diverged there
+  Eigen::MatrixXd normal;   ///< JᵀJ with the priors (n × n)
+  Eigen::MatrixXd windows;  ///< Σ over windows of score·scoreᵀ, score = Jᵀr of the window (n × n)
   Eigen::MatrixXd
       quantiser;  ///< score·scoreᵀ of the quantiser's error, averaged over where the counts lie (n × n)
   double variance = 1.0;   ///< of a residual [floor²], never below the quantiser's

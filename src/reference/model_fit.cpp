@@ -1,35 +1,13 @@
-#include "gapscope/reference/model_fit.h"
+#include "reference/model_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "gapscope/base/require.h"
 #include "reference/search.h"
 #include "reference/starts.h"
 
-namespace gapscope {
-
-using namespace internal::reference;
-
-ParameterSetting ParameterSetting::known(double value) {
-  ParameterSetting setting;
-  setting.value = value;
-  return setting;
-}
-
-ParameterSetting ParameterSetting::sought(double start) {
-  ParameterSetting setting = known(start);
-  setting.estimate = true;
-  return setting;
-}
-
-void ReferenceModel::set(std::string_view key, const ParameterSetting& setting) {
-  const auto* spec = std::find_if(std::begin(kDriveParameters), std::end(kDriveParameters),
-                                  [&](const DriveParameterSpec& p) { return key == p.key; });
-  GAPSCOPE_REQUIRE(spec != std::end(kDriveParameters));
-  parameters[static_cast<std::size_t>(spec - kDriveParameters)] = setting;
-}
+namespace gapscope::internal::reference {
 
 ParameterSetting& setting_of(ReferenceModel& model, ParameterId id) {
   const auto index = static_cast<std::size_t>(id.index);
@@ -55,9 +33,9 @@ ModelFit::ModelFit(std::span<const MotorTrace> recordings, const ReferenceModel&
 ModelFit::~ModelFit() = default;
 ModelFit::ModelFit(ModelFit&&) noexcept = default;
 
-bool ModelFit::values_are_given() const { return internal::reference::values_are_given(*problem_); }
+bool ModelFit::values_are_given() const { return reference::values_are_given(*problem_); }
 
-FitPoint ModelFit::given_point() const { return internal::reference::given_point(*problem_); }
+FitPoint ModelFit::given_point() const { return reference::given_point(*problem_); }
 
 FitPoint ModelFit::point_of(const ReferenceModel& values, std::vector<RecordingStart> starts) const {
   FitPoint point{{}, std::move(starts)};
@@ -84,32 +62,36 @@ std::optional<FitPoint> ModelFit::search() const {
 }
 
 RefinedFit ModelFit::refine(const FitPoint& from, const RefineEffort& effort) const {
-  return internal::reference::refine(*problem_, from, observer_hz_, effort);
+  return reference::refine(*problem_, from, observer_hz_, effort);
 }
 
 RefinedFit ModelFit::refine_with_loads_placed(const FitPoint& from, const RefineEffort& effort) const {
-  RefinedFit found = refine(with_loads_placed(from).value_or(from), effort);
+  const Placement first = choose_variants(*problem_, from, observer_hz_);
+  RefinedFit found = refine({from.q, first.starts}, effort);
+  found.simulations += first.simulations;
   if (!found.usable()) return found;
-  const std::optional<FitPoint> placed = with_loads_placed(found);
-  if (!placed) return found;
-  static_cast<FitPoint&>(found) = *placed;
-  const RefinedFit again = refine(found, effort);
+  const Placement then = choose_variants(*problem_, found, observer_hz_);
+  found.simulations += then.simulations;
+  if (!then.changed) return found;
+  found.starts = then.starts;
+  RefinedFit again = refine(found, effort);
+  again.simulations = found.simulations += again.simulations;
   return again.mean_cost < found.mean_cost ? again : found;
 }
 
 AdjustedFit ModelFit::adjust(const FitPoint& from, const FitLinearisation& borrowed, int steps) const {
-  return internal::reference::adjust(*problem_, from, *borrowed.recordings_, observer_hz_, steps);
+  return reference::adjust(*problem_, from, *borrowed.recordings_, observer_hz_, steps);
 }
 
 std::optional<FitLinearisation> ModelFit::linearise(const FitPoint& at) const {
-  std::vector<LinearResiduals> recordings = internal::reference::linearise(*problem_, at, observer_hz_);
+  std::vector<LinearResiduals> recordings = reference::linearise(*problem_, at, observer_hz_);
   if (recordings.empty()) return {};
   return FitLinearisation(at.q, std::move(recordings));
 }
 
 std::optional<SineStart> ModelFit::sine_start(const FitPoint& at, const FitLinearisation& borrowed,
                                               double small) const {
-  return internal::reference::sine_start(*problem_, at, *borrowed.recordings_, small, observer_hz_);
+  return reference::sine_start(*problem_, at, *borrowed.recordings_, small, observer_hz_);
 }
 
 ReferenceModel ModelFit::model_at(const FitPoint& at) const {
@@ -139,4 +121,4 @@ Interval ModelFit::bounds(ParameterId id) const {
   return {};
 }
 
-}  // namespace gapscope
+}  // namespace gapscope::internal::reference

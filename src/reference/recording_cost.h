@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gapscope/reference/observer.h"
 #include "reference/fit_problem.h"
+#include "reference/observer.h"
 
 namespace gapscope::internal::reference {
 

@@ -37,7 +37,7 @@ inline bool leaves_less(const Solution& a, const Solution& b) {
 Solution solve(const FitProblem& problem, const FitPoint& from, double observer_hz, const Effort& effort);
 
 /// Derivatives are exact at first and wherever the model of the cost fails; in between they follow the motion
-/// by Broyden's rank-one formula, since a Jet run costs five to twenty plain ones.
+/// by Broyden's rank-one formula, since a Jet run costs three to nine plain ones.
 RefinedFit refine(const FitProblem& problem, const FitPoint& from, double observer_hz,
                   const RefineEffort& effort);
 

@@ -17,7 +17,7 @@ std::vector<std::string> spoiling(const Configuration& c, const std::vector<Reco
   std::vector<std::string> warnings;
   for (const RecordedFile& file : files)
     for (const Finding& f : inspect(file.path, c.recording->reading, c.rotation).findings)
-      if (f.severity == Severity::kSpoils && f.rule != "reversals")
+      if (f.severity == Severity::kSpoils && f.rule != kReversalsRule)
         warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
   return warnings;
 }

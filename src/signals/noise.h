@@ -5,11 +5,11 @@
 
 namespace gapscope::internal::signals {
 
-/// y[i] − 4 y[i−1] + 6 y[i−2] − 4 y[i−3] + y[i−4]: smooth motion drops out, of white noise of σ √70 σ is
-/// left.
+/// y[i] − 4 y[i−1] + 6 y[i−2] − 4 y[i−3] + y[i−4] [unit of y]: smooth motion drops out; white noise of
+/// standard deviation σ leaves one of √70 σ.
 std::vector<double> fourth_differences(std::span<const double> y);
 
-/// σ of white noise on a signal: the median size of its fourth differences.
+/// σ of white noise on a signal [unit of y]: the median size of its fourth differences.
 double noise_from_differences(std::span<const double> y);
 
 /// The same, of their spread about their median: what they have in common is none of the noise.

@@ -25,7 +25,7 @@ using namespace internal::reference;
 using namespace test;
 
 constexpr int kRepetitions = 7;
-constexpr int kFree[] = {kGap, kMotorDamping, kMassRatio, kLoadDamping, kLoadCoulomb};
+constexpr int kFree[] = {kGap, kMotorDamping, kMassRatio, kLoadDamping, kLoadCoulombFriction};
 
 double seconds(const std::function<void()>& work) {
   const std::clock_t start = std::clock();
@@ -66,7 +66,7 @@ struct Solved {
 };
 
 /// Observer, then free run, by Ceres alone.
-Solved solve_both(const FitProblem& problem, const FitPoint& from, bool jets) {
+Solved solve_both(const FitProblem& problem, const internal::reference::FitPoint& from, bool jets) {
   std::vector<double> shared = from.q;
   Solved solved;
   for (const double hz : {2.5, 0.0}) {
@@ -105,7 +105,7 @@ void compare(bool sine, const char* file) {
   const MotorTrace trace = recording.motor_trace();
   const ReferenceModel model = wrong_model(r.drive);
   const FitProblem problem = make_problem({&trace, 1}, model, {});
-  const FitPoint from = given_point(problem);
+  const internal::reference::FitPoint from = given_point(problem);
   double plain = kInfinity, jets = kInfinity, numeric = kInfinity, whole = kInfinity;
   Solved by_jets, by_differences;
   FitSummary summary;

@@ -46,7 +46,7 @@ LookAlikes look_alikes(const std::string& truth, const std::string& other, std::
   pair.recording = simulate_blind(pair.drive).recording;
   const MotorTrace train[] = {pair.recording.motor_trace()};
   const FittedModel nominal = fit_nominal(train, sheet, {}, kHz);
-  const std::vector<FitLinearisation> bases = bases_of(train, nominal, sheet, {}, kHz);
+  const std::vector<internal::reference::FitLinearisation> bases = bases_of(train, nominal, sheet, {}, kHz);
   for (const std::string& name : {truth, other}) {
     const EffectEntry& entry = *find_effect(name);
     const FittedModel fitted =

@@ -26,8 +26,8 @@ using namespace test;
 
 constexpr double kFarthest = 3.0;    ///< starts are wrong by a factor up to this, either way
 constexpr double kSameCost = 1.001;  ///< against a fit started at the truth
-constexpr int kOrder[] = {kGap,         kMotorDamping,     kMassRatio,     kLoadDamping,
-                          kLoadCoulomb, kContactStiffness, kContactDamping};
+constexpr int kOrder[] = {
+    kGap, kMotorDamping, kMassRatio, kLoadDamping, kLoadCoulombFriction, kContactStiffness, kContactDamping};
 
 struct Case {
   std::string rig, waveform;

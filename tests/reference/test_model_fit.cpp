@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gapscope/reference/model_fit.h"
+#include "reference/model_fit.h"
 #include "reference/rigs.h"
 #include "reference/solvers.h"
 

@@ -44,8 +44,14 @@ BlindRig short_run() {
 
 ReferenceModel freed(int count) {
   ReferenceModel model = known_model({});
-  const int order[] = {kGap,           kMotorDamping,     kMassRatio,      kLoadDamping,
-                       kLoadCoulomb,   kContactStiffness, kContactDamping, kMotorInertia,
+  const int order[] = {kGap,
+                       kMotorDamping,
+                       kMassRatio,
+                       kLoadDamping,
+                       kLoadCoulombFriction,
+                       kContactStiffness,
+                       kContactDamping,
+                       kMotorInertia,
                        kTorqueConstant};
   for (int i = 0; i < count; ++i) model.parameters[order[i]].estimate = true;
   return model;

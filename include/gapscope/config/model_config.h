@@ -41,7 +41,4 @@ struct SimulatedPlant {
   PlantModel<double> plant_model() const;
 };
 
-/// Place of a key in kDriveParameters.  @throws std::logic_error for any other.
-int drive_parameter_index(const std::string& key);
-
 }  // namespace gapscope

@@ -8,6 +8,9 @@
 
 namespace gapscope {
 
+/// The rule on reversals of the motion: the one that concerns the detector alone.
+inline constexpr const char* kReversalsRule = "reversals";
+
 /// What a finding means for the estimates: nothing, worth knowing, or they will be wrong or refused.
 enum class Severity { kFine, kNote, kSpoils };
 

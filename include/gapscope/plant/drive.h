@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 namespace gapscope {
 
 /// What the fields of DriveParameters are called in YAML and JSON, in their order there.
@@ -53,12 +55,15 @@ enum : int {
   kMassRatio,
   kGap,
   kLoadDamping,
-  kLoadCoulomb,
+  kLoadCoulombFriction,
   kContactStiffness,
   kContactDamping
 };
 static_assert(kContactDamping + 1 == kDriveParameterCount);
 }  // namespace place
+
+/// Place of a key in kDriveParameters.  @throws std::logic_error for any other.
+int drive_parameter_index(std::string_view key);
 
 /// The parameter with the given place in kDriveParameters.
 template <class T>

@@ -83,12 +83,10 @@ struct FitOptions {
 ///    both bodies alike while in contact. Least squares of e has a wide basin at f = 2 to 3 Hz. Levenberg–
 ///    Marquardt from several starts; exact derivatives through every event.
 /// 2. Polish, when the innovations are at the encoder's floor: the same at zero gain, the free run. Values
-/// and
-///    intervals come from here.
+///    and intervals come from here.
 /// 3. Otherwise the model is not the drive and a free run would bend inertia and friction to hide drift:
-/// values
-///    come from the observer at rejected_hz, intervals from the scatter of windows and from how far the
-///    values move between that gain and a third of it. A warning says so.
+///    values come from the observer at rejected_hz, intervals from the scatter of windows and from how far
+///    the values move between that gain and a third of it. A warning says so.
 ///
 /// A rollout that diverges is never a residual: the step is refused. Intervals are widened for autocorrelated
 /// residuals and for the quantiser (an undithered one repeats its error, it does not average out).

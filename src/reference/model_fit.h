@@ -9,7 +9,7 @@
 #include "gapscope/plant/plant_model.h"
 #include "gapscope/reference/fit.h"
 
-namespace gapscope {
+namespace gapscope::internal::reference {
 
 /// One number of a model.
 struct ParameterId {
@@ -90,9 +90,7 @@ struct ModelRun {
   std::vector<DriveState<double>> starts;
 };
 
-namespace internal::reference {
 struct FitProblem;
-}
 
 /// A model beside recordings, to be fitted again and again by other modules: from here, with this effort. The
 /// whole fit, with intervals and what they rest on, is fit().
@@ -143,14 +141,12 @@ class ModelFit {
   Interval bounds(ParameterId id) const;  ///< NaN for a number that the model's structure does not have
 
  private:
-  std::unique_ptr<const internal::reference::FitProblem> problem_;
+  std::unique_ptr<const FitProblem> problem_;
   ReferenceModel model_;
   double observer_hz_;
 };
 
-namespace internal::reference {
 struct LinearResiduals;
-}
 
 /// Cheap to copy: what it holds is shared and never changes.
 class FitLinearisation {
@@ -160,10 +156,10 @@ class FitLinearisation {
 
  private:
   friend class ModelFit;
-  FitLinearisation(std::vector<double> q, std::vector<internal::reference::LinearResiduals> recordings);
+  FitLinearisation(std::vector<double> q, std::vector<LinearResiduals> recordings);
 
   std::vector<double> q_;
-  std::shared_ptr<const std::vector<internal::reference::LinearResiduals>> recordings_;
+  std::shared_ptr<const std::vector<LinearResiduals>> recordings_;
 };
 
-}  // namespace gapscope
+}  // namespace gapscope::internal::reference

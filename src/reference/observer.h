@@ -6,7 +6,7 @@
 #include "gapscope/recording/recording.h"
 #include "gapscope/simulation/stepper.h"
 
-namespace gapscope {
+namespace gapscope::internal::reference {
 
 /// Output injection of the model run as an observer: x1 += l1 e, w1 += l2 e/dt.
 /// Both poles of the position error of a free mass lie at exp(−2π f dt).
@@ -53,4 +53,4 @@ bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const Moto
   return true;
 }
 
-}  // namespace gapscope
+}  // namespace gapscope::internal::reference

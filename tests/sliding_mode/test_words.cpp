@@ -1,0 +1,77 @@
+// Every sentence of the detector can be put together, on both axes.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sliding_mode/words.h"
+
+namespace gapscope::internal::sliding_mode {
+namespace {
+
+std::vector<Remark> all_remarks() {
+  const Remark more = words::more_periods();
+  const std::vector<words::Play> plays = {{0.01, 0.2, 3}, {0.02, 0.4, 5}};
+  return {words::no_recording(),
+          words::signal_defect("no motion"),
+          words::no_impact_stands_out(),
+          words::no_reversal_before_impacts(),
+          words::passages_few_quanta_wide(),
+          words::load_hits_motor(),
+          words::few_samples_around_impacts(),
+          words::release_not_located(),
+          words::load_moves(),
+          more,
+          words::few_passages_each_way(1, 2, more),
+          words::few_passages(3, 4.0, 5, 6.0, more),
+          words::passages_scatter(30.0),
+          words::directions_contradict(0.01, 0.02),
+          words::most_of_travel(0.3, 0.4),
+          words::gap_few_quanta(0.01, 7.0),
+          words::soft_contact(20.0),
+          words::too_slow(0.1),
+          words::too_slow(kNaN),
+          words::passages_used(5, 6, 1),
+          words::gap_uncertain(0.01, 40.0),
+          words::no_impact(0.3, 12.0),
+          words::play_depends_on_level(plays),
+          words::play_at_one_level(),
+          words::play_read(plays, 0.03),
+          words::no_free_run(plays),
+          words::small_ramps(0.1, 0.2),
+          words::sticks_and_leaps(),
+          words::play_at_some_levels(),
+          words::error_never_at_rest(),
+          words::bound_above_gap_mode(),
+          words::bound_below_engaged(),
+          words::flank_late(10.0),
+          words::passages_contradict(),
+          words::reversals_read(5.0, 6.0, 4.1),
+          words::paper_bound_misses(98.0, more),
+          words::no_single_bound(),
+          words::bound_to_try(4.0),
+          words::bounds_to_try(4.0, 5.0)};
+}
+
+TEST(Words, ArePutTogetherOnBothAxes) {
+  std::set<std::string> texts;
+  for (const Remark& remark : all_remarks()) {
+    EXPECT_FALSE(remark.code().empty());
+    for (const bool rotation : {true, false}) {
+      const std::string text = remark.text(rotation);
+      EXPECT_EQ(text.find_first_of("{}[]"), std::string::npos) << text;
+      if (!rotation) EXPECT_EQ(text.find(" rad"), std::string::npos) << text;
+    }
+    EXPECT_TRUE(texts.insert(remark.text()).second) << "said twice: " << remark.text();
+  }
+}
+
+TEST(Words, ListPlaysWithTheirLevels) {
+  const std::vector<words::Play> plays = {{0.01, 0.2, 3}, {0.02, 0.4, 5}};
+  EXPECT_EQ(
+      words::no_free_run(plays).text(false),
+      "quasi-static loop without a free run: hysteresis of friction and compliance, 0.01 m at |u| = 0.2 (3 "
+      "loops), 0.02 m at |u| = 0.4 (5 loops)");
+}
+
+}  // namespace
+}  // namespace gapscope::internal::sliding_mode
