@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/move_file.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/whole_file.h"
 #include "gapscope/results/blind_files.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/base/whole_file.h"
+#include "gapscope/base/move_file.h"
 #include "gapscope/results/sha256.h"
 
 namespace gapscope::internal::campaign {

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/move_file.h"
 #include "gapscope/base/shown.h"
 
 namespace gapscope::cli {

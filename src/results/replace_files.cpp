@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/base/whole_file.h"
+#include "gapscope/base/move_file.h"
 #include "results/folder_content.h"
 
 namespace gapscope::internal::results {

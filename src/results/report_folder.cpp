@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/move_file.h"
 #include "gapscope/base/version.h"
-#include "gapscope/base/whole_file.h"
 #include "gapscope/results/sha256.h"
 #include "results/file_list.h"
 #include "results/folder_content.h"

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/move_file.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/whole_file.h"
 #include "support/reading.h"
