@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -112,6 +114,34 @@ TEST(WholeFile, TakesThePlaceOfWhatItFoundAlone) {
     fs::rename(place.folder() / "other", place.path());
   };
   EXPECT_THROW(write_whole_file(place.path(), moved_over), ConfigError);
+  EXPECT_EQ(text_of(place.path()), "mine");
+}
+
+TEST(WholeFile, IsReadByThoseWhoMightReadTheOneBefore) {
+  const testing::TemporaryFile place("old");
+  for (const int mode : {0600, 0640, 0444}) {
+    fs::permissions(place.path(), fs::perms(mode));
+    write_whole_file(place.path(), [](std::ostream& out) { out << "new"; });
+    EXPECT_EQ(fs::status(place.path()).permissions(), fs::perms(mode));
+  }
+}
+
+TEST(WholeFile, GoesOnWhereAHandleStands) {
+  const testing::TemporaryFile place("first,");
+  const auto write = [](std::ostream& out) { out << "second," << std::string(1, 'x') << 3; };
+  const int handle = open(place.path().c_str(), O_WRONLY | O_APPEND);
+  for (const char* folder : {"/dev/fd/", "/proc/self/fd/"})
+    write_whole_file(folder + std::to_string(handle), write);
+  close(handle);
+  EXPECT_EQ(text_of(place.path()), "first,second,x3second,x3");
+}
+
+TEST(WholeFile, WritesNothingThroughAHandleThatIsForReading) {
+  const testing::TemporaryFile place("mine");
+  const int handle = open(place.path().c_str(), O_RDONLY);
+  const std::string path = "/dev/fd/" + std::to_string(handle);
+  EXPECT_THROW(write_whole_file(path, [](std::ostream& out) { out << "new"; }), std::runtime_error);
+  close(handle);
   EXPECT_EQ(text_of(place.path()), "mine");
 }
 

@@ -131,6 +131,15 @@ TEST_F(UserFiles, AFileIsOnlyWrittenOverByTheCommandThatWroteIt) {
   expect_refused("simulate trace.yaml -o new.csv", "new.csv: is the input itself");
 }
 
+TEST_F(UserFiles, WhatTheShellHasOpenedIsWrittenAsItWasOpened) {
+  for (int again = 0; again < 2; ++again)
+    EXPECT_EQ(place_.run("simulate c.yaml -o /dev/fd/7 7>>all.csv").status, 0);
+  ASSERT_EQ(place_.run("simulate c.yaml -o one.csv").status, 0);
+  EXPECT_EQ(text_of(at("all.csv")), text_of(at("one.csv")) + text_of(at("one.csv")));
+  EXPECT_EQ(place_.run("simulate c.yaml -o /dev/fd/7 7<all.csv").status, 1);
+  EXPECT_EQ(text_of(at("all.csv")).size(), 2 * text_of(at("one.csv")).size());
+}
+
 TEST_F(UserFiles, FilesAsideAreTheUsersUnlessTheyAreGapscopes) {
   place_.file("out.csv.part", "mine");
   fs::create_symlink("drive.csv", at("link.csv"));

@@ -16,8 +16,9 @@ std::string new_file_beside(const std::string& path);
 using Replaceable = std::optional<std::string>;
 
 /// Writes a file aside, under a name of its own, and gives it its name when it is complete: nobody ever finds
-/// a part of it, what was there before stays until then, and of two that write the same file one is whole. A
-/// pipe or a device is written as it is.
+/// a part of it, what was there before stays until then, and of two that write the same file one is whole.
+/// Who may read the one before may read this one. A pipe or a device is written as it is, and so is what the
+/// process has open anyway (/dev/stdout, /dev/fd/N): where that is written to next, as its handle allows.
 /// @throws std::runtime_error where it cannot be written, ConfigError for a link to another file, which would
 /// be lost; nothing is left of it
 /// @param found  whatever else is there by then stays, and is told
