@@ -1,5 +1,7 @@
 #include "results/folder_content.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -152,13 +154,54 @@ std::vector<std::string> files_left_alone(const fs::path& folder, const std::str
   return files;
 }
 
+std::string shown_again(const fs::path& aside, const fs::path& to) {
+  rmdir((aside / "traces").c_str());  // folders that are empty, nothing else
+  rmdir(aside.c_str());
+  if (!is_there(aside)) return "";
+  const std::string hidden = aside.parent_path().filename().string();
+  constexpr std::size_t kRandom = 6;
+  const fs::path place =
+      to / ("not_put_back_" + hidden.substr(hidden.size() - std::min(kRandom, hidden.size())));
+  std::error_code problem;
+  fs::rename(aside, place, problem);
+  return problem ? aside.string() : place.string();
+}
+
+namespace {
+
+/// @returns whether nothing is left there
+bool removed_replaced(const fs::path& partial, const fs::path& to) {
+  const fs::path aside = partial / kReplaced;
+  if (!is_there(aside)) return true;
+  std::error_code problem;
+  if (const std::optional<FileList> own = read_file_list(partial / kOwn))
+    for (const FileHash& f : own->files)
+      if (own->wrote(aside, f.file)) fs::remove(aside / f.file, problem);
+  shown_again(aside, to);
+  return !is_there(aside);
+}
+
+}  // namespace
+
+/// The mark goes last, and only where nothing else is left.
+void remove_partial(const fs::path& partial, const fs::path& to) noexcept try {
+  if (!removed_replaced(partial, to)) return;
+  std::vector<fs::path> content;
+  for (const fs::directory_entry& entry : fs::directory_iterator(partial)) content.push_back(entry.path());
+  for (const fs::path& path : content)
+    if (path.filename() != kMark) fs::remove_all(path);
+  fs::remove(partial / kMark);
+  rmdir(partial.c_str());
+} catch (const std::exception&) {  // the next report tries again
+}
+
 void remove_left_behind(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     if (!is_partial(entry)) continue;
     std::ifstream in(entry.path() / kMark);
     if (std::string(std::istreambuf_iterator<char>(in), {}) == kMarkText)
-      fs::remove_all(entry.path(), ignored);
+      remove_partial(entry.path(), folder);
     else
       fs::remove(entry.path(), ignored);  // if it is empty: killed before the mark came, or after it went
   }

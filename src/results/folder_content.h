@@ -11,7 +11,9 @@
 namespace gapscope::internal::results {
 
 inline constexpr const char* kPartial = ".gapscope-partial-";  ///< begins the name of a folder being written
-inline constexpr const char* kMark = ".made-by-gapscope";      ///< a file in it
+inline constexpr const char* kReplaced = ".replaced";          ///< a folder in it: what went out of the way
+inline constexpr const char* kOwn = ".own";  ///< a folder in it: lists what of that is gapscope's own
+inline constexpr const char* kMark = ".made-by-gapscope";  ///< a file in it
 inline constexpr const char* kMarkText =
     "A report that is being written; may be removed when nobody writes it.\n";
 
@@ -31,6 +33,14 @@ bool is_stored(const std::string& file);
 bool is_left_alone(const std::string& kind, const std::string& file);
 std::vector<std::string> files_left_alone(const std::filesystem::path& folder,
                                           const std::string& kind);  ///< there are
+
+/// Gives what is in a hidden folder a name in another one that shows: it could not be put back.
+/// @returns that name; empty where there was nothing
+std::string shown_again(const std::filesystem::path& aside, const std::filesystem::path& to);
+
+/// Removes a folder that was being written into another one, but nothing that is not gapscope's own: that is
+/// shown again. What cannot be removed now keeps its mark, and goes with the next report.
+void remove_partial(const std::filesystem::path& partial, const std::filesystem::path& to) noexcept;
 
 /// Removes what processes left that were killed while they wrote into the folder.
 void remove_left_behind(const std::filesystem::path& folder);

@@ -17,20 +17,18 @@ namespace fs = std::filesystem;
 /// Renames that can be taken back.
 class Moves {
  public:
-  /// Nothing may be at the new place.
-  void move(const fs::path& from, const fs::path& to) {
-    std::error_code error;
-    fs::create_directories(to.parent_path(), error);
-    if (error) throw std::runtime_error(from.string() + ": cannot be replaced: " + error.message());
-    if (!moved_where_nothing_is(from, to))
-      throw ConfigError(to.string(), "came to be there meanwhile, expected that it stays free");
-    done_.push_back({from, to, identity_of(to)});
-  }
+  /// Nothing may be at the new place. What is moved away is put back whatever it is: it was there.
+  void move_away(const fs::path& from, const fs::path& to) { move(from, to, ""); }
+  void move_in(const fs::path& from, const fs::path& to) { move(from, to, content_identity(from)); }
+
   /// What came or changed meanwhile stays where it is, and so does what that stands in the way of.
   void take_back() noexcept {
     for (; !done_.empty(); done_.pop_back()) try {
         const Done& last = done_.back();
-        if (identity_of(last.to) == last.identity) moved_where_nothing_is(last.to, last.from);
+        if (last.own.empty())
+          moved_where_nothing_is(last.to, last.from);
+        else
+          moved_if_still(last.own, last.to, last.from);
       } catch (const std::runtime_error&) {
       }
   }
@@ -38,22 +36,20 @@ class Moves {
  private:
   struct Done {
     fs::path from, to;
-    std::string identity;  ///< of the file at its new place
+    std::string own;  ///< identity of a file of the new report; empty: one that was there
   };
+
+  void move(const fs::path& from, const fs::path& to, std::string own) {
+    std::error_code error;
+    fs::create_directories(to.parent_path(), error);
+    if (error) throw std::runtime_error(from.string() + ": cannot be replaced: " + error.message());
+    if (!moved_where_nothing_is(from, to))
+      throw ConfigError(to.string(), "came to be there meanwhile, expected that it stays free");
+    done_.push_back({from, to, std::move(own)});
+  }
+
   std::vector<Done> done_;
 };
-
-/// What could not be put back gets a name that shows: the hidden folder goes.
-/// @returns that name; empty where everything is back
-std::string shown_again(const fs::path& aside, const fs::path& to) {
-  if (files_below(aside).empty()) return "";
-  const std::string hidden = aside.parent_path().filename().string();
-  const fs::path place =
-      to / ("not_put_back_" + hidden.substr(hidden.size() - std::min<std::size_t>(6, hidden.size())));
-  std::error_code problem;
-  fs::rename(aside, place, problem);
-  return problem ? aside.string() : place.string();
-}
 
 }  // namespace
 
@@ -63,7 +59,7 @@ void replace_files(const fs::path& from, const fs::path& to, const std::vector<s
   Moves moves;
   const auto away = [&](const std::string& file) {
     if (!is_there(to / file)) return;
-    moves.move(to / file, aside / file);
+    moves.move_away(to / file, aside / file);
     if (before == nullptr || !before->wrote(aside, file))  // it changed since the last look at it
       throw ConfigError((to / file).string(), "changed meanwhile, expected it as it was");
   };
@@ -72,7 +68,7 @@ void replace_files(const fs::path& from, const fs::path& to, const std::vector<s
       for (const auto* files : {&fresh, &stale})
         for (const std::string& file : *files)
           if (is_result(file) == results) away(file);
-    for (const std::string& file : fresh) moves.move(from / file, to / file);
+    for (const std::string& file : fresh) moves.move_in(from / file, to / file);
   } catch (const std::runtime_error& error) {
     moves.take_back();
     const std::string left = shown_again(aside, to);

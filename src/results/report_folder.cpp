@@ -144,19 +144,9 @@ void ReportFolder::make_partial() {
   if (!mark.flush()) refuse_to_write(final_, "no room for a file");
 }
 
-/// The mark goes last, and needs no more handles than there are: where they ran out, it still goes.
 void ReportFolder::clear() noexcept {
   lock_.reset();
-  std::error_code ignored;
-  if (!partial_.empty()) {
-    std::vector<fs::path> content;
-    for (const fs::directory_entry& entry : fs::directory_iterator(partial_, ignored))
-      content.push_back(entry.path());
-    for (const fs::path& path : content)
-      if (path.filename() != internal::results::kMark) fs::remove_all(path, ignored);
-    fs::remove(partial_ + "/" + internal::results::kMark, ignored);
-    rmdir(partial_.c_str());
-  }
+  if (!partial_.empty()) internal::results::remove_partial(partial_, final_);
   partial_.clear();
   for (; !made_.empty(); made_.pop_back())
     rmdir(made_.back().c_str());  // a folder that is empty, nothing else
@@ -205,18 +195,30 @@ std::string ReportFolder::hash_of_list() const {
   return fs::exists(fs::symlink_status(path, problem)) ? sha256_of_file(path) : "";
 }
 
-void ReportFolder::write_list(const char* place, const FileList& list) const {
-  const fs::path folder = fs::path(partial_) / place;
-  fs::create_directory(folder);
-  internal::results::write_file_list(folder, list);
+/// Takes the place of the list that was found.  @returns its content identity
+std::string ReportFolder::put_list(const FileList& list, const std::string& found) const {
+  const fs::path written = fs::path(partial_) / ".list",
+                 aside = fs::path(partial_) / internal::results::kReplaced;
+  for (const fs::path& folder : {written, aside}) fs::create_directory(folder);
+  internal::results::write_file_list(written, list);
+  const fs::path fresh = aside / internal::results::kFileList;  // where the one that was found ends up
+  fs::rename(written / internal::results::kFileList, fresh);
+  std::string moved = content_identity(fresh);
+  replace_file(found, fresh, fs::path(final_) / internal::results::kFileList);
+  return moved;
 }
 
-/// @returns the content identity of the list that is there then
-std::string ReportFolder::move_list(const char* place, const std::string& found) const {
-  const fs::path list = fs::path(partial_) / place / internal::results::kFileList;
-  std::string moved = content_identity(list);
-  replace_file(found, list, fs::path(final_) / internal::results::kFileList);
-  return moved;
+/// What is gapscope's own of what goes out of the way; anything else there came meanwhile.
+void ReportFolder::write_own(const FileList& meanwhile, const FileList& after) const {
+  const fs::path own = fs::path(partial_) / internal::results::kOwn;
+  fs::create_directory(own);
+  FileList list = before_ ? *before_ : FileList{after.version, after.kind, "", {}};
+  if (before_) list.files.push_back({internal::results::kFileList, list_hash_});
+  for (const FileList* one : {&meanwhile, &after}) {
+    internal::results::write_file_list(own, *one);
+    list.files.push_back(listed(own, internal::results::kFileList));
+  }
+  internal::results::write_file_list(own, list);
 }
 
 /// What the folder will list, and what of the earlier report goes.
@@ -249,23 +251,22 @@ void ReportFolder::commit() {
   const FileList after = list_after(fresh, stale);
   FileList meanwhile = after;  // whatever ends this process on the way, what is ours is known
   if (before_) meanwhile.files.insert(meanwhile.files.end(), before_->files.begin(), before_->files.end());
-  write_list(".meanwhile", meanwhile);
-  write_list(".after", after);
+  write_own(meanwhile, after);
   const std::string list = final_ + "/" + internal::results::kFileList;
   const std::string found = content_identity(list);
   if (hash_of_list() != list_hash_) throw ConfigError(list, "changed during the work, expected it as it was");
   internal::results::require_out_of_the_way(final_, before_.get(), fresh);
-  const std::string moved = move_list(".meanwhile", found);
+  const std::string moved = put_list(meanwhile, found);
   made_.clear();
   try {
-    internal::results::replace_files(partial_, final_, fresh, stale, partial_ + "/.replaced", is_result,
+    internal::results::replace_files(partial_, final_, fresh, stale,
+                                     fs::path(partial_) / internal::results::kReplaced, is_result,
                                      before_.get());
   } catch (...) {
-    if (before_) write_list(".after", *before_);
-    if (before_) move_list(".after", moved);
+    if (before_) put_list(*before_, moved);
     throw;
   }
-  move_list(".after", moved);
+  put_list(after, moved);
   clear();
 }
 

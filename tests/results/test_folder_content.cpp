@@ -10,6 +10,7 @@
 #include "results/folder_content.h"
 #include "results/replace_files.h"
 #include "results/scratch_folder.h"
+#include "support/company.h"
 #include "support/reading.h"
 
 namespace gapscope {
@@ -62,6 +63,39 @@ TEST(FolderContent, TakesNoFileOfTheUserForAnEmptyFolder) {
   internal::results::replace_files(
       from, to, {"a"}, {}, from / ".replaced", [](const std::string&) { return false; }, nullptr);
   EXPECT_EQ(text_of(to / "traces"), "mine");
+}
+
+/// What is somebody else's, wherever it is below a folder.
+int holding(const fs::path& folder, const std::string& text) {
+  int count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (fs::is_regular_file(entry.symlink_status()) && text_of(entry.path()).find(text) != std::string::npos)
+      ++count;
+  return count;
+}
+
+TEST(FolderContent, ALineThatWasAppendedAtAnyMomentIsThereAfterwards) {
+  if (!testing::company_can_come()) GTEST_SKIP() << "no filter of system calls here";
+  for (int when = 1, moments = 1; when <= moments; ++when) {
+    ScratchFolder scratch;
+    const fs::path from = scratch.path / "from", to = scratch.path / "to";
+    for (const fs::path& folder : {from, to}) fs::create_directory(folder);
+    for (const char* file : {"a", "b"}) std::ofstream(from / file) << "new";
+    for (const char* file : {"a", "b"}) std::ofstream(to / file) << "old";
+    const internal::results::FileList before{"", "drive", "", {{"a", sha256("old")}, {"b", sha256("old")}}};
+    const auto company = [&](int moment, long) {
+      if (moment == when) std::ofstream(to / "a", std::ios::app) << "mine";
+      if (moment > when && !fs::exists(to / "b")) std::ofstream(to / "b") << "in the way";
+      return 0;
+    };
+    moments = testing::in_company(company, [&] {
+                internal::results::replace_files(
+                    from, to, {"a", "b"}, {}, from / ".replaced", [](const std::string&) { return false; },
+                    &before);
+              }).moments;
+    fs::remove_all(from);
+    EXPECT_EQ(holding(to, "mine"), 1) << "moment " << when;
+  }
 }
 
 }  // namespace

@@ -70,8 +70,9 @@ class ReportFolder {
   void keep(const char* result, const std::vector<const char*>& others, bool held_out_traces);
   void take_over(const std::string& file);
   std::string hash_of_list() const;
-  void write_list(const char* place, const internal::results::FileList& list) const;
-  std::string move_list(const char* place, const std::string& found) const;
+  std::string put_list(const internal::results::FileList& list, const std::string& found) const;
+  void write_own(const internal::results::FileList& meanwhile,
+                 const internal::results::FileList& after) const;
   internal::results::FileList list_after(const std::vector<std::string>& fresh,
                                          std::vector<std::string>& stale) const;
   void clear() noexcept;
