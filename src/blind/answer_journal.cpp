@@ -1,5 +1,7 @@
 #include "blind/answer_journal.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <stdexcept>
 
@@ -8,8 +10,14 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/base/whole_file.h"
 #include "gapscope/results/blind_files.h"
+#include "gapscope/results/sha256.h"
 
 namespace gapscope::blind {
+namespace {
+
+std::string head_of(const std::string& check) { return "gapscope.answers_so_far/2, " + check; }
+
+}  // namespace
 
 AnswerJournal::AnswerJournal(std::string path, const std::string& check) : path_(std::move(path)) {
   require_alone();
@@ -18,16 +26,15 @@ AnswerJournal::AnswerJournal(std::string path, const std::string& check) : path_
   const std::string whole = new_file_beside(path_);
   out_.open(whole, std::ios::binary);
   lock_.emplace(whole);
-  out_ << check << '\n';
-  for (const auto& [name, answer] : answers_) out_ << line_of(answer) << '\n';
-  try {
-    if (!out_.flush()) throw std::runtime_error(path_ + ": cannot be written");
-    replace_file(found, whole, path_);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(whole, ignored);
-    throw;
+  const std::string head = head_of(check);
+  out_ << head << '\n';
+  chain_ = sha256(head);
+  for (const auto& [name, answer] : answers_) write(answer);
+  if (!out_.flush()) {
+    unlink(whole.c_str());
+    throw std::runtime_error(path_ + ": cannot be written");
   }
+  replace_file(found, whole, path_);
 }
 
 void AnswerJournal::require_alone() const {
@@ -48,30 +55,49 @@ void AnswerJournal::read(const std::string& check) {
   };
   const bool begun = static_cast<bool>(std::getline(in, line));
   require_read();
-  if (!begun || line != check)
+  const std::string head = head_of(check);
+  if (!begun || line != head)
     throw ConfigError(
         path_, 1,
-        "answers " + shown(line, 200) + ", expected " + shown(check, 200) + "; remove it to begin anew");
-  for (int number = 2; std::getline(in, line) && !in.eof(); ++number) {
-    BlindAnswer answer = blind_answer_of(line, path_ + ":" + std::to_string(number));
-    answers_.insert_or_assign(answer.name, answer);
-  }
+        "begins with " + shown(line, 200) + ", expected " + shown(head, 200) + "; remove it to begin anew");
+  chain_ = sha256(head);
+  for (int number = 2; std::getline(in, line) && !in.eof(); ++number) take(line, number);
   require_read();  // or answers that are there would be given again
 }
 
+void AnswerJournal::take(const std::string& line, int number) {
+  const std::size_t end = line.find(' ');
+  const std::string text = end == line.npos ? "" : line.substr(end + 1);
+  chain_ = sha256(chain_ + "\n" + text + "\n");
+  if (line.substr(0, end) != chain_)
+    throw ConfigError(path_, number,
+                      "is not as it was written, or follows another line than it did, expected it and those "
+                      "before it unchanged; remove the file to begin anew");
+  const BlindAnswer answer = blind_answer_of(text, path_ + ":" + std::to_string(number));
+  if (!answers_.emplace(answer.name, answer).second)
+    throw ConfigError(path_, number,
+                      "answers " + shown(answer.name) + " again, expected one answer to each case");
+}
+
+void AnswerJournal::write(const BlindAnswer& answer) {
+  const std::string text = line_of(answer);
+  chain_ = sha256(chain_ + "\n" + text + "\n");
+  out_ << chain_ + ' ' + text + '\n';
+}
+
 void AnswerJournal::add(const BlindAnswer& answer) {
-  const std::string line = line_of(answer) + '\n';
   const std::lock_guard lock(adding_);
-  out_ << line;
+  write(answer);
   if (!out_.flush()) throw std::runtime_error(path_ + ": cannot be written");
   answers_.insert_or_assign(answer.name, answer);
 }
 
 void AnswerJournal::remove() {
   out_.close();
+  const std::string found = content_identity(path_);
   std::error_code gone;
   if (std::filesystem::equivalent("/proc/self/fd/" + std::to_string(lock_->handle()), path_, gone))
-    std::filesystem::remove(path_);
+    remove_file(found, path_);
 }
 
 }  // namespace gapscope::blind

@@ -11,7 +11,8 @@
 
 namespace gapscope::blind {
 
-/// The answers so far, a line each in the order in which they came. A line that a kill has torn is dropped.
+/// The answers so far, a line each in the order in which they came, after the SHA-256 of it and of all that
+/// stands before it: what was changed since is refused. A line that a kill has torn is dropped.
 class AnswerJournal {
  public:
   /// @param check  names what is answered by whom; @throws ConfigError where the file has another one, or
@@ -25,7 +26,9 @@ class AnswerJournal {
  private:
   void require_alone() const;
   void read(const std::string& check);
-  std::string path_;
+  void take(const std::string& line, int number);
+  void write(const BlindAnswer& answer);
+  std::string path_, chain_;  ///< chain: of all lines so far
   std::map<std::string, BlindAnswer> answers_;
   std::ofstream out_;
   std::optional<ProcessLock> lock_;

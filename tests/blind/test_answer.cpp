@@ -1,15 +1,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <thread>
 
+#include "blind/answer_journal.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/blind/blind_check.h"
@@ -54,16 +59,18 @@ class Answered {
   testing::TemporaryFile place_{""};
 };
 
+/// What a journal of these answers begins with.
+std::string check_of(const BlindAnswers& answers) {
+  return "manifest " + answers.manifest_sha256 + ", gapscope " + answers.version;
+}
+
 TEST(BlindAnswer, IsTheSameOnOneThreadAndAfterAKill) {
   const Answered check;
   const std::string journal = check.path("again.json") + ".partial";
   const BlindAnswers whole = check.answers();
-  {  // one answer is there, of a second the kill left half a line
-    std::ofstream out(journal, std::ios::binary);
-    out << "manifest " << whole.manifest_sha256 << ", gapscope " << whole.version << "\n"
-        << line_of(whole.cases[1]) << "\n"
-        << line_of(whole.cases[0]).substr(0, 100);
-  }
+  blind::AnswerJournal(journal, check_of(whole)).add(whole.cases[1]);
+  std::ofstream(journal, std::ios::app)
+      << line_of(whole.cases[0]).substr(0, 100);  // of a second, half a line
   std::size_t first = 0;
   answer_blind_check(check.path("cases"), check.path("again.json"), 1, [&](std::size_t done, std::size_t) {
     if (first == 0) first = done;
@@ -109,6 +116,7 @@ TEST(BlindAnswer, AStopLeavesNoAnswerThatAWholeRunWouldNotGive) {
     std::string line;
     std::getline(journal, line);  // of what check
     while (std::getline(journal, line)) {
+      line.erase(0, line.find(' ') + 1);  // the hash of all before it
       const BlindAnswer answer = blind_answer_of(line, "journal");
       EXPECT_EQ(line, whole.at(answer.name)) << after << " ms";
     }
@@ -151,9 +159,8 @@ TEST(BlindAnswer, KeepsNoAnswerThatWasPutIntoItsJournal) {
   for (const auto change : changes) {
     BlindAnswer forged = whole.cases[0];
     change(forged);
-    std::ofstream(check.path("again.json.partial"))
-        << "manifest " << whole.manifest_sha256 << ", gapscope " << whole.version << "\n"
-        << line_of(forged) << "\n";
+    fs::remove(check.path("again.json.partial"));
+    blind::AnswerJournal(check.path("again.json.partial"), check_of(whole)).add(forged);
     EXPECT_THAT(refusal([&] { answer_blind_check(check.path("cases"), check.path("again.json"), 1); }),
                 HasSubstr("again.json.partial: "));
   }
@@ -170,6 +177,32 @@ TEST(BlindAnswer, TakesNoRecordingThatWasNotSealed) {
 }
 
 TEST(BlindCheck, ScoresWhatNobodyChanged) { EXPECT_EQ(Answered().score(), ""); }
+
+/// How often a file is opened meanwhile.
+template <class Action>
+int openings(const std::string& file, Action action) {
+  const int watch = inotify_init1(IN_NONBLOCK);
+  inotify_add_watch(watch, file.c_str(), IN_OPEN | IN_CLOSE);
+  action();
+  alignas(inotify_event) std::array<char, 4096> events{};
+  const ssize_t size = read(watch, events.data(), events.size());
+  close(watch);
+  int count = 0;
+  for (ssize_t at = 0; at < size; at += static_cast<ssize_t>(sizeof(inotify_event))) {  // of a file: no names
+    inotify_event event{};
+    std::memcpy(&event, events.data() + at, sizeof(event));
+    count += (event.mask & IN_OPEN) != 0 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(BlindCheck, ReadsItsManifestOnceSoThatWhatIsJudgedIsWhatIsHashed) {
+  const Answered check;
+  const std::string manifest = check.path("cases/manifest.json");
+  EXPECT_EQ(openings(manifest, [&] { EXPECT_EQ(check.score(), ""); }), 1);
+  const auto answer = [&] { answer_blind_check(check.path("cases"), check.path("again.json"), 1); };
+  EXPECT_EQ(openings(manifest, answer), 1);
+}
 
 TEST(BlindCheck, RefusesAChangedAnswer) {
   const Answered check;
