@@ -110,9 +110,9 @@ void require_answer(const BlindAnswer& a, const std::string& file) {
 
 /// Answers may be given again; those to another check stay, and so does any other file.
 std::string require_replaceable(const std::string& path, const BlindManifest& manifest,
-                                const std::string& sealed) {
+                                const std::string& manifest_sha256) {
   std::string found = content_identity(path);
-  if (found.empty() || is_answers_file(path, sha256_of_file(sealed))) return found;
+  if (found.empty() || is_answers_file(path, manifest_sha256)) return found;
   throw ConfigError(path, "is there and holds no answers to " + manifest.name + ", expected another name");
 }
 
@@ -120,10 +120,11 @@ std::string require_replaceable(const std::string& path, const BlindManifest& ma
 
 BlindAnswers answer_blind_check(const std::string& folder, const std::string& path, int threads,
                                 const BlindProgress& progress) {
-  const BlindManifest manifest = read_blind_manifest(folder + "/manifest.json");
+  const ReadManifest read = read_manifest_once(folder + "/manifest.json");
+  const BlindManifest& manifest = read.manifest;
   verify_recordings(manifest, folder);
-  require_replaceable(path, manifest, folder + "/manifest.json");
-  BlindAnswers answers{manifest.name, version(), sha256_of_file(folder + "/manifest.json"), {}};
+  require_replaceable(path, manifest, read.sha256);
+  BlindAnswers answers{manifest.name, version(), read.sha256, {}};
   const std::string head = sha256(head_line_of(answers));
   if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty())
     std::filesystem::create_directories(parent);
@@ -150,7 +151,7 @@ BlindAnswers answer_blind_check(const std::string& folder, const std::string& pa
     answer.seal = sealed_after(answers.cases.empty() ? head : answers.seal(), answer);
     answers.cases.push_back(std::move(answer));
   }
-  write_blind_answers(path, answers, require_replaceable(path, manifest, folder + "/manifest.json"));
+  write_blind_answers(path, answers, require_replaceable(path, manifest, read.sha256));
   journal.remove();
   return answers;
 }

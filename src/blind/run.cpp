@@ -36,12 +36,13 @@ bool is_answered(const std::string& cases, const std::string& answers) {
 BlindScore score_blind_check(const std::string& folder, const std::string& labels, const std::string& answers,
                              const std::string& seal) {
   const std::string public_file = folder + "/manifest.json";
-  const BlindManifest manifest = read_blind_manifest(public_file);
+  const ReadManifest read = read_manifest_once(public_file);
+  const BlindManifest& manifest = read.manifest;
   verify_recordings(manifest, folder);
   const BlindLabels opened = read_blind_labels(labels);
   verify_labels(manifest, opened, labels);
   const BlindAnswers given = read_blind_answers(answers);
-  if (given.manifest_sha256 != sha256_of_file(public_file))
+  if (given.manifest_sha256 != read.sha256)
     throw ConfigError(answers, "answers another manifest, expected that of " + public_file);
   verify_answers(manifest, given, answers);
   if (!seal.empty() && given.seal() != seal)

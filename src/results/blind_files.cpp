@@ -1,6 +1,7 @@
 #include "gapscope/results/blind_files.h"
 
 #include "gapscope/base/errors.h"
+#include "gapscope/results/sha256.h"
 #include "results/file_hash_fields.h"
 #include "results/json_document.h"
 #include "results/json_schema.h"
@@ -67,6 +68,12 @@ void write_blind_manifest(const std::string& path, const BlindManifest& manifest
 }
 BlindManifest read_blind_manifest(const std::string& path) {
   return internal::results::read_document<BlindManifest>(path, internal::results::kManifest);
+}
+
+ReadManifest read_manifest_once(const std::string& path) {
+  const std::string text = internal::results::text_of_file(path);
+  return {internal::results::parsed_document<BlindManifest>(text, path, internal::results::kManifest),
+          sha256(text)};
 }
 
 bool is_labels_file(const std::string& path, const std::string& name, const std::string& configuration) {

@@ -40,19 +40,6 @@ namespace {
 constexpr std::size_t kDeepest = 32;               ///< levels; no stored result has as many
 constexpr std::uintmax_t kMostBytes = 256u << 20;  ///< of a stored result; its traces are in other files
 
-std::string text_of_file(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code problem;
-  const fs::file_status there = fs::status(path, problem);
-  if (fs::exists(there) && !fs::is_regular_file(there))
-    throw ConfigError(path, "is no regular file, expected a stored result");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw ConfigError(path, "there is no such file, expected a stored result");
-  if (fs::file_size(path) > kMostBytes)
-    throw ConfigError(path, "is larger than 256 MiB, expected a stored result");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A key that an object has twice would be read as one by us and as the other by somebody else.
 class KeysOnce {
  public:
@@ -80,6 +67,19 @@ std::string quoted_number(const Json::out_of_range& error) {
 }
 
 }  // namespace
+
+std::string text_of_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code problem;
+  const fs::file_status there = fs::status(path, problem);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw ConfigError(path, "is no regular file, expected a stored result");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw ConfigError(path, "there is no such file, expected a stored result");
+  if (fs::file_size(path) > kMostBytes)
+    throw ConfigError(path, "is larger than 256 MiB, expected a stored result");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 Json parsed_json(const std::string& text, const std::string& file) {
   const auto refusal = [&](std::size_t byte, const std::string& what) {

@@ -37,6 +37,8 @@ std::string text_of(const Json& json, int indent);
 
 /// Text of a JSON document with a final newline; doubles come out shortest and read back the same.
 void save_json(const std::string& path, const Json& json, const Replaceable& found = {});
+/// @throws ConfigError where the file is missing or too large for a stored result
+std::string text_of_file(const std::string& path);
 /// @throws ConfigError where the file is missing or no JSON.
 Json load_json(const std::string& path);
 /// @param file for messages  @throws ConfigError where the text is no JSON

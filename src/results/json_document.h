@@ -16,15 +16,20 @@ void write_document(const std::string& path, std::string schema, Struct value,
   save_json(path, writer.json, found);
 }
 
-/// @throws ConfigError for another schema or a damaged file.
+/// @param text  of the file  @throws ConfigError for another schema or a damaged file.
 template <class Struct>
-Struct read_document(const std::string& path, const std::string& expected) {
-  const Json json = load_json(path);
+Struct parsed_document(const std::string& text, const std::string& path, const std::string& expected) {
+  const Json json = parsed_json(text, path);
   JsonReader reader(json, path, "");
   reader.schema(expected);
   Struct value;
   fields(reader, value);
   return value;
+}
+
+template <class Struct>
+Struct read_document(const std::string& path, const std::string& expected) {
+  return parsed_document<Struct>(text_of_file(path), path, expected);
 }
 
 }  // namespace gapscope::internal::results

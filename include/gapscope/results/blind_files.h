@@ -17,6 +17,13 @@ void write_blind_manifest(const std::string& path, const BlindManifest& manifest
                           const Replaceable& found = {});
 BlindManifest read_blind_manifest(const std::string& path);
 
+/// A manifest and what it is known by, of one reading.
+struct ReadManifest {
+  BlindManifest manifest;
+  std::string sha256;  ///< of the file
+};
+ReadManifest read_manifest_once(const std::string& path);
+
 void write_blind_answers(const std::string& path, const BlindAnswers& answers, const Replaceable& found = {});
 BlindAnswers read_blind_answers(const std::string& path);
 
