@@ -61,8 +61,9 @@ void require_own_beside(const std::string& file) {
   const fs::file_status index = fs::symlink_status(file + "-shm", problem);
   if (fs::exists(index) && !fs::is_regular_file(index))
     throw ConfigError(file + "-shm", "is not what SQLite keeps beside a store, expected it elsewhere");
-  constexpr std::uintmax_t kUnit = 32768;  // of its index of the log
-  if (const auto size = fs::file_size(file + "-shm", problem); !problem && size % kUnit != 0)
+  constexpr std::uintmax_t kBegun = 3, kUnit = 4096;  // its index of the log grows by these steps
+  if (const auto size = fs::file_size(file + "-shm", problem);
+      !problem && size != kBegun && size % kUnit != 0)
     throw ConfigError(file + "-shm", "is not what SQLite keeps beside a store, expected it elsewhere");
 }
 
@@ -114,6 +115,18 @@ std::string selection(const CampaignHeader& header, bool configurations) {
       fmt::join(columns, ", "));
 }
 
+/// Before anything is changed in what may be another's.
+void require_same(Database& database, const CampaignHeader& header) {
+  const CampaignHeader stored = internal::campaign::read_header(database, database.file());
+  if (const std::string what = internal::campaign::header_difference(stored, header); !what.empty())
+    throw ConfigError(database.file(), what);
+  if (to_string(stored.shard) != to_string(header.shard))
+    throw ConfigError(database.file(),
+                      fmt::format("holds shard {}, expected {} (each shard has a folder of its own)",
+                                  to_string(stored.shard), to_string(header.shard)));
+  database.require_sound();
+}
+
 }  // namespace
 
 std::string to_string(const CampaignShard& shard) { return fmt::format("{}/{}", shard.number, shard.of); }
@@ -140,20 +153,12 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
     require_own_beside(file);
   connection_ = std::make_unique<Connection>(file, std::move(lock));
   Database& database = connection_->database;
-  const bool is_new = internal::campaign::is_empty(database);
-  if (!is_new) {
-    internal::campaign::require_campaign(database, file);
-    internal::campaign::read_header(database, file);  // before anything is changed in what may be another's
-  }
+  if (internal::campaign::is_empty(database))
+    internal::campaign::create_tables(database, header);  // all at once: a kill leaves an empty file, or all
+  else
+    require_same(database, header);
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
-  if (is_new) internal::campaign::create_tables(database, header);
-  const CampaignHeader stored = internal::campaign::read_header(database, file);
-  if (const std::string what = internal::campaign::header_difference(stored, header); !what.empty())
-    throw ConfigError(file, what);
-  if (to_string(stored.shard) != to_string(header.shard))
-    throw ConfigError(file, fmt::format("holds shard {}, expected {} (each shard has a folder of its own)",
-                                        to_string(stored.shard), to_string(header.shard)));
   connection_->insert_run = std::make_unique<Statement>(
       database, insertion("runs", internal::campaign::run_columns(header).size()));
   connection_->insert_timing = std::make_unique<Statement>(database, insertion("timing", 4));

@@ -154,13 +154,10 @@ std::vector<std::string> run_columns(const CampaignHeader& header) {
 }
 
 bool is_empty(Database& database) {
-  Statement select(database, "SELECT name FROM sqlite_master");
-  return !select.step();
-}
-
-void require_campaign(Database& database, const std::string& file) {
-  if (!has_tables(database))
-    throw ConfigError(file, "holds no campaign, expected a store that `campaign` wrote");
+  Statement count(database, "PRAGMA page_count");
+  std::int64_t pages = 0;
+  if (count.step()) count.read(pages);
+  return pages == 0;
 }
 
 void create_tables(Database& database, const CampaignHeader& h) {
@@ -192,7 +189,8 @@ void create_tables(Database& database, const CampaignHeader& h) {
 }
 
 CampaignHeader read_header(Database& database, const std::string& file) {
-  require_campaign(database, file);
+  if (!has_tables(database))
+    throw ConfigError(file, "holds no campaign, expected a store that `campaign` wrote");
   if (const std::string schema = fact(database, file, "schema"); schema != kSchema)
     throw ConfigError(file, fmt::format("has the schema {}, expected '{}'", shown(schema), kSchema));
   CampaignHeader h;

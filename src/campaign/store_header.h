@@ -10,11 +10,9 @@ namespace gapscope::internal::campaign {
 /// Makes the tables of an empty database and writes the header, all at once.
 void create_tables(Database& database, const CampaignHeader& header);
 
-bool is_empty(Database& database);  ///< has no tables at all
-/// @throws ConfigError for a database of something else
-void require_campaign(Database& database, const std::string& file);
+bool is_empty(Database& database);  ///< a file without a byte, as a new one is
 
-/// @throws ConfigError for another schema
+/// @throws ConfigError for a database of something else, or of another schema
 CampaignHeader read_header(Database& database, const std::string& file);
 
 /// Names of the columns of `runs`: run, axes, drawn, fields of a row.

@@ -174,5 +174,66 @@ TEST(CampaignStore, LeavesAUsersFileBesideItAlone) {
   }
 }
 
+/// What SQLite has made of its index when it is killed, or the disk is full: it begins with three bytes and
+/// grows by pages of 4096.
+TEST(CampaignStore, GoesOnWhereTheIndexOfTheLogWasOnlyBegun) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  { CampaignStore(small.place("store"), campaign_header(small.config, {})); }
+  for (const std::size_t size : {0, 3, 4096, 8192, 28672, 32768, 36864}) {
+    std::ofstream(small.place("store/results.sqlite-shm")) << std::string(size, '\0');
+    EXPECT_EQ(testing::refusal(
+                  [&] { CampaignStore(small.place("store"), campaign_header(small.config, {})).done(); }),
+              "")
+        << size;
+  }
+}
+
+/// As an empty file, and as a database that somebody has begun.
+TEST(CampaignStore, TakesADatabaseWithoutTablesForNoStoreOfItsOwn) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  std::filesystem::create_directory(small.place("store"));
+  const std::string file = small.place("store/results.sqlite");
+  execute(file, "PRAGMA user_version = 7");
+  const std::string before = testing::text_of(file);
+  EXPECT_THAT(
+      testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
+      HasSubstr("results.sqlite: holds no campaign"));
+  EXPECT_EQ(testing::text_of(file), before);
+  std::ofstream(file).close();
+  EXPECT_EQ(testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
+            "");
+}
+
+TEST(CampaignStore, IsNotChangedWhereItIsRefused) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  const SmallCampaign other("axes: {encoder.bits: [16, 20]}\n");
+  small.run("store", 1);
+  const std::string file = small.place("store/results.sqlite");
+  execute(file, "PRAGMA journal_mode = DELETE");
+  const std::string before = testing::text_of(file);
+  EXPECT_THAT(
+      testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(other.config, {})); }),
+      HasSubstr("belongs to another campaign"));
+  EXPECT_THAT(testing::refusal([&] {
+                CampaignStore(small.place("store"), campaign_header(small.config, {1, 2}));
+              }),
+              HasSubstr("holds shard 1/1"));
+  EXPECT_EQ(testing::text_of(file), before);
+}
+
+/// A page that belongs to no table: only a look at all of the file tells.
+TEST(DamagedStore, IsNotGoneOnWith) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  small.run("store", 1);
+  const std::string file = small.place("store/results.sqlite");
+  execute(file,
+          "CREATE INDEX added ON runs (run); PRAGMA writable_schema = ON; "
+          "DELETE FROM sqlite_master WHERE name = 'added'");
+  EXPECT_THAT(testing::refusal([&] { CampaignStore(small.place("store")); }), HasSubstr("is damaged"));
+  EXPECT_THAT(
+      testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
+      HasSubstr("is damaged"));
+}
+
 }  // namespace
 }  // namespace gapscope
