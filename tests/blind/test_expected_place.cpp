@@ -1,6 +1,6 @@
-#include "blind/expected_place.h"
-
 #include <gtest/gtest.h>
+
+#include "blind/expected_place.h"
 
 namespace gapscope {
 namespace {
