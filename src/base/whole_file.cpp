@@ -25,8 +25,7 @@ std::runtime_error cannot_write(const std::string& name) {
 
 /// Who may read and write the file that is there may read and write the new one.
 void keep_mode(const std::string& before, const std::string& aside) {
-  struct stat old {
-  }, fresh{};
+  struct stat old = {}, fresh = {};
   if (lstat(before.c_str(), &old) != 0 || lstat(aside.c_str(), &fresh) != 0) return;
   constexpr mode_t kMode = 0777;
   if (old.st_mode == fresh.st_mode) return;
