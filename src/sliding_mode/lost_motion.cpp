@@ -19,6 +19,7 @@ constexpr double kMostly = 0.5;     ///< share of the play over which x1 runs fr
 constexpr double kLeaps =
     1.5;  ///< x1 runs free over more than this share of the play: it leaps elsewhere too
 constexpr double kFinest = 30.0;  ///< smallest play that is read, in standard deviations of one position
+constexpr double kSurely = 1.96;  ///< standard errors of a play to either side: 95 %
 constexpr std::size_t kFewestLoops = 2;
 
 /// Two successive zeros of the input.
@@ -40,12 +41,17 @@ struct TorqueLevel {
   std::vector<double> plays, widths;  ///< of the loops [rad]
   double play = kNaN, std = kNaN;     ///< P and its standard error [rad]
   double free_run = 0.0;              ///< travel over which x1 runs free, median over the branches [rad]
+  double travel = 0.0;                ///< of x1 on a branch, median over them [rad]
   double visible = kInfinity;         ///< smallest gap that would have stood out [rad]
   double resolution = 0.0;            ///< of one position [rad]
   bool shows_play() const {
     return free_run >= kMostly * play && free_run <= kLeaps * play && play > kFinest * resolution;
   }
   bool leaps() const { return free_run > kLeaps * play && play > kFinest * resolution; }
+  /// As far as a gap that would have stood out: it stood out.
+  bool runs_free() const { return free_run >= visible; }
+  /// Friction and gaps lag behind u; only a u that is late itself leads.
+  bool runs_backwards() const { return play + kSurely * std < 0.0; }
 };
 
 /// The play of each pair of zeros of the input, one after a positive and one after a negative half cycle.
@@ -96,9 +102,19 @@ std::vector<TorqueLevel> levels_of(std::vector<Loop>& loops) {
   return levels;
 }
 
+/// Range of x1 from one extreme of the input over the next.
+double travel_of(const Branch& b) {
+  const auto& all = b.cycles->crossings;
+  const std::size_t from = b.crossing > 0 ? all[b.crossing - 1].sample : 0;
+  const std::size_t to = b.crossing + 1 < all.size() ? all[b.crossing + 1].sample : b.trace->size();
+  const auto [low, high] = std::ranges::minmax(b.trace->x1.subspan(from, to - from));
+  return high - low;
+}
+
 void read_branches(TorqueLevel& level, const std::vector<Branch>& branches) {
   std::vector<std::vector<double>> steps;  // travel within each bin, along the branch
   std::vector<double> flanks;              // the same of the last one: the loaded flank
+  std::vector<double> travels;
   for (const Branch& b : branches) {
     if (!within(b.amplitude, 0.999 * level.amplitude)) continue;
     const auto x = signals::branch_positions(*b.trace, *b.cycles, b.crossing, 0.98 * level.amplitude, kBins);
@@ -106,6 +122,7 @@ void read_branches(TorqueLevel& level, const std::vector<Branch>& branches) {
     steps.emplace_back();
     for (std::size_t k = 0; k < kBins; ++k) steps.back().push_back(x[k + 1] - x[k]);
     flanks.push_back(steps.back().back());
+    travels.push_back(travel_of(b));
   }
   if (steps.empty()) return;
   const double least = kFree * std::max(median(flanks), 0.0) + 3.0 * level.resolution;  // within one bin
@@ -116,6 +133,7 @@ void read_branches(TorqueLevel& level, const std::vector<Branch>& branches) {
     runs.push_back(run);
   }
   level.free_run = median(runs);
+  level.travel = median(travels);
   level.visible = std::max(2.0 * least, kFinest * level.resolution);  // a gap may end in the next bin
 }
 
@@ -141,10 +159,11 @@ bool disagree(const TorqueLevel& a, const TorqueLevel& b) {
 }
 
 /// Limit on a gap: it cannot exceed the play at any level, and would have stood out where nothing runs free.
+/// A play is never less than none, so one that was read so limits a gap by its error alone.
 double limit_of(const std::vector<TorqueLevel>& levels) {
   double limit = kInfinity;
   for (const TorqueLevel& level : levels) {
-    const double most = std::max(level.play + 1.96 * level.std, kFinest * level.resolution);
+    const double most = std::max(std::max(level.play, 0.0) + kSurely * level.std, kFinest * level.resolution);
     limit = std::min(limit, level.shows_play() ? most : std::min(most, level.visible));
   }
   return limit;
@@ -165,7 +184,7 @@ void report_play(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) 
   estimate.smallest_visible_gap = levels.front().visible;
   estimate.gap = sum;
   estimate.std = std::sqrt(variance);
-  estimate.ci95 = {std::max(sum - 1.96 * estimate.std, 0.0), sum + 1.96 * estimate.std};
+  estimate.ci95 = {std::max(sum - kSurely * estimate.std, 0.0), sum + kSurely * estimate.std};
   if (levels.size() == 1) estimate.warnings.push_back(words::play_at_one_level());
   estimate.reason = words::play_read(plays_of(levels), levels.front().free_run);
 }
@@ -176,8 +195,27 @@ void report_none(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) 
   estimate.reason = words::no_free_run(plays_of(levels));
 }
 
-/// @param travel  of the motor in all [rad]
-void decide_gap(const std::vector<TorqueLevel>& levels, double travel, GapEstimate& estimate) {
+bool any(const std::vector<TorqueLevel>& levels, bool (TorqueLevel::*is)() const) {
+  return std::any_of(levels.begin(), levels.end(), [&](const TorqueLevel& level) { return (level.*is)(); });
+}
+
+/// Least travel on the branches of a level: where the motor stands still, nothing shows.
+double least_travel(const std::vector<TorqueLevel>& levels) {
+  double least = kInfinity;
+  for (const TorqueLevel& level : levels) least = std::min(least, level.travel);
+  return least;
+}
+
+/// Why levels without a play do not deny a gap; empty where they do.
+Remark doubt(const std::vector<TorqueLevel>& levels, double visible) {
+  if (any(levels, &TorqueLevel::leaps)) return words::sticks_and_leaps();
+  if (any(levels, &TorqueLevel::runs_free))
+    return words::free_run_without_play(plays_of(levels), levels.front().free_run);
+  const double travel = least_travel(levels);
+  return visible < travel ? Remark() : words::small_ramps(travel, visible);
+}
+
+void decide_gap(const std::vector<TorqueLevel>& levels, GapEstimate& estimate) {
   estimate.smallest_visible_gap = limit_of(levels);
   if (!std::isfinite(estimate.smallest_visible_gap)) estimate.smallest_visible_gap = kNaN;
   for (const TorqueLevel& a : levels)
@@ -186,15 +224,18 @@ void decide_gap(const std::vector<TorqueLevel>& levels, double travel, GapEstima
   const auto shown =
       std::count_if(levels.begin(), levels.end(), [](const TorqueLevel& l) { return l.shows_play(); });
   if (shown == static_cast<std::ptrdiff_t>(levels.size())) return report_play(levels, estimate);
-  const bool leaps =
-      std::any_of(levels.begin(), levels.end(), [](const TorqueLevel& l) { return l.leaps(); });
-  if (shown == 0 && !leaps && estimate.smallest_visible_gap < travel) return report_none(levels, estimate);
   estimate.verdict = GapVerdict::kInconclusive;
-  if (shown == 0 && !leaps) {
-    estimate.reason = words::small_ramps(travel, estimate.smallest_visible_gap);
+  if (any(levels, &TorqueLevel::runs_backwards)) {
+    estimate.reason = words::loop_runs_backwards(plays_of(levels));
     return;
   }
-  estimate.reason = leaps ? words::sticks_and_leaps() : words::play_at_some_levels();
+  if (shown > 0) {
+    estimate.reason =
+        any(levels, &TorqueLevel::leaps) ? words::sticks_and_leaps() : words::play_at_some_levels();
+    return;
+  }
+  estimate.reason = doubt(levels, estimate.smallest_visible_gap);
+  if (estimate.reason.empty()) report_none(levels, estimate);
 }
 
 }  // namespace
@@ -204,7 +245,7 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
   std::vector<signals::TorqueCycles> cycles;
   std::vector<Loop> loops;
   std::vector<Branch> branches;
-  double resolution = 0.0, travel = 0.0;
+  double resolution = 0.0;
   cycles.reserve(recordings.size());  // branches point into it
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const MotorTrace& trace = recordings[i];
@@ -212,7 +253,6 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
     if (cycles.back().following < kFollowing) return std::nullopt;
     if (!facts[i].moves()) return std::nullopt;
     resolution = std::max(resolution, facts[i].noise);
-    travel = std::max(travel, facts[i].travel);
     for (Loop& loop : loops_of(trace, cycles.back())) loops.push_back(std::move(loop));
     for (const Branch& branch : branches_of(trace, cycles.back())) branches.push_back(branch);
   }
@@ -227,7 +267,7 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
     read_branches(level, branches);
     summarise(level);
   }
-  decide_gap(levels, travel, estimate);
+  decide_gap(levels, estimate);
   return estimate;
 }
 

@@ -150,8 +150,8 @@ Remark no_free_run(std::span<const Play> levels) {
 }
 Remark small_ramps(double travel, double visible) {
   return {"small_ramps",
-          "the motor moves by {:.3g} [rad] in all, and a gap would show from {:.3g} [rad]: ramp to a larger "
-          "torque",
+          "on a ramp the motor moves by {:.3g} [rad], and a gap would show from {:.3g} [rad]: ramp to a "
+          "larger torque",
           {travel, visible}};
 }
 Remark sticks_and_leaps() {
@@ -163,6 +163,20 @@ Remark play_at_some_levels() {
   return {
       "play_at_some_levels",
       "x1 runs free at some torque levels only; ramp the torque further beyond the friction of the motor"};
+}
+Remark loop_runs_backwards(std::span<const Play> levels) {
+  return Remark("loop_runs_backwards", "the lost-motion loop runs backwards, x1 moves before u does: ") +
+         listed(levels) +
+         Remark("advice", "; record u and x1 at the same instants: u is late, or its sign is wrong");
+}
+Remark free_run_without_play(std::span<const Play> levels, double free_run) {
+  return Remark(
+             "free_run_without_play",
+             "on each ramp x1 runs free over {:.3g} [rad], which the play does not bear out: ", {free_run}) +
+         listed(levels) +
+         Remark("advice",
+                "; a gap that is passed without friction, hard stops and a soft drive look alike: free the "
+                "output and use the impacts");
 }
 
 Remark error_never_at_rest() {

@@ -43,9 +43,11 @@ Remark play_depends_on_level(std::span<const Play> levels);
 Remark play_at_one_level();
 Remark play_read(std::span<const Play> levels, double free_run);
 Remark no_free_run(std::span<const Play> levels);
-Remark small_ramps(double travel, double visible);
+Remark small_ramps(double travel, double visible);  ///< travel of a ramp
 Remark sticks_and_leaps();
 Remark play_at_some_levels();
+Remark loop_runs_backwards(std::span<const Play> levels);
+Remark free_run_without_play(std::span<const Play> levels, double free_run);
 
 // One bound, as published.
 Remark error_never_at_rest();

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/simulate.h"
 #include "sliding_mode/lost_motion.h"
@@ -160,6 +162,55 @@ TEST(LostMotion, DeniesNothingWhereTheMotorHardlyMoves) {
   counts.quantum = 2.4e-5;
   const GapEstimate estimate = detect({counts});
   EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
+}
+
+/// Gapless, with hysteresis of friction.
+Recording hysteresis() {
+  independent_plant::BlindDrive coulomb = locked(0.0);
+  coulomb.effects.motor.friction.level_nm = 0.08;
+  return ramps(coulomb);
+}
+
+TEST(LostMotion, DeniesNothingWhereTheMotorMovesOnOneRampOnly) {
+  const Recording whole = hysteresis();
+  ASSERT_EQ(detect({whole}).verdict, GapVerdict::kNone);
+  Recording late = whole, jump = whole;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (i < whole.size() * 17 / 20) late.x1[i] = whole.x1[whole.size() * 17 / 20];
+    jump.x1[i] = i < whole.size() / 2 ? 0.01 : 0.0;  // as u falls
+  }
+  for (const Recording& once : {late, jump}) {
+    const GapEstimate estimate = detect({once});
+    EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
+    EXPECT_THAT(estimate.reason.text(), HasSubstr("on a ramp the motor moves by 0 rad"));
+  }
+}
+
+TEST(LostMotion, AnInputThatIsLateTurnsTheLoopRoundAndDeniesNothing) {
+  const Recording whole = ramps(locked(0.02));
+  bool told = false;
+  for (std::size_t samples = 0; samples <= 120; samples += 10) {
+    Recording late = whole;
+    for (std::size_t i = 0; i < late.size(); ++i) late.u[i] = whole.u[i - std::min(i, samples)];
+    const GapEstimate estimate = detect({late});
+    EXPECT_NE(estimate.verdict, GapVerdict::kNone) << samples << ": " << estimate.brief_report();
+    told = told || estimate.reason.text().find("runs backwards") != std::string::npos;
+  }
+  EXPECT_TRUE(told);
+}
+
+TEST(LostMotion, AFreeRunWithoutAPlayIsNotDenied) {
+  Recording sign = hysteresis(), half = sign, saturated = sign;
+  for (std::size_t i = 0; i < sign.size(); ++i) {
+    sign.x1[i] = sign.u[i] > 0.0 ? 0.1 : 0.0;
+    half.x1[i] = 0.1 * std::max(sign.u[i], 0.0);
+    saturated.x1[i] = 0.05 * std::clamp(sign.u[i], -0.1, 0.1);
+  }
+  for (const Recording& free : {sign, half, saturated}) {
+    const GapEstimate estimate = detect({free});
+    EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
+    EXPECT_THAT(estimate.reason.text(), HasSubstr("which the play does not bear out"));
+  }
 }
 
 }  // namespace
