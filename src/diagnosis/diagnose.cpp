@@ -10,6 +10,7 @@
 #include "diagnosis/evidence.h"
 #include "diagnosis/further.h"
 #include "diagnosis/mismatch_size.h"
+#include "diagnosis/motion.h"
 #include "diagnosis/repeatability.h"
 #include "diagnosis/report_back.h"
 #include "diagnosis/step.h"
@@ -183,15 +184,6 @@ std::optional<Findings> look_wider(Study& study, const Findings& found) {
   return wider;
 }
 
-/// What stands still is explained by any friction.
-void require_motion(const MotorTrace& t) {
-  const auto [low, high] = std::minmax_element(t.x1.begin(), t.x1.end());
-  if (*high - *low > 2.0 * t.quantum) return;
-  throw ConfigError(
-      t.file,
-      fmt::format("x1 does not move ({:.3g} in all), expected the recording of a motion", *high - *low));
-}
-
 }  // namespace
 
 Findings investigate(Study& study) {
@@ -232,6 +224,8 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   Study study = make_study(train, held_out, model, options);
   const auto [found, added] = search(study);
   Diagnosis diagnosis = report_back(study, found, added);
+  if (diagnosis.verdict != DiagnosisVerdict::kUnknown)
+    require_explained_motion(study.held_out, added.accepted ? added.after : found.before);
   diagnosis.evidence = evidence_of(study, found);
   if (held_out.empty())
     diagnosis.warnings.push_back(

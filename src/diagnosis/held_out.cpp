@@ -113,6 +113,12 @@ void append_windows(const std::vector<double>& errors, std::size_t from, std::si
   }
 }
 
+/// The first restart is left to the observer, which does not know the load's place yet.
+std::size_t first_window(const HeldOut& held_out, std::size_t r) {
+  const std::size_t restart = held_out.restart(r);
+  return (held_out.scored_from[r] + restart) / restart * restart;
+}
+
 }  // namespace
 
 std::size_t HeldOut::restart(std::size_t r) const {
@@ -158,8 +164,7 @@ Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_o
   Windows w;
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
     const std::size_t restart = held_out.restart(r), half = restart / 2;
-    // The first restart is left to the observer, which does not know the load's place yet.
-    const std::size_t from = (held_out.scored_from[r] + restart) / restart * restart;
+    const std::size_t from = first_window(held_out, r);
     append_windows(playbacks[r].innovation, from, half, held_out.innovation_floor(r), w.innovation);
     append_windows(playbacks[r].free, from, restart, held_out.free_floor(r), w.free);
     append_windows(playbacks[r].slow, from, half, held_out.floors[r], w.slow);
@@ -167,6 +172,21 @@ Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_o
     append_windows(playbacks[r].torque, from, half, 1.0, w.torque);
   }
   return w;
+}
+
+std::vector<double> still_windows(const HeldOut& held_out) {
+  std::vector<double> squares;
+  for (std::size_t r = 0; r < held_out.traces.size(); ++r) {
+    const std::span<const double> x1 = held_out.traces[r].x1;
+    const std::size_t length = held_out.restart(r), from = first_window(held_out, r);
+    std::vector<double> away(x1.size(), 0.0);
+    for (std::size_t i = from; i + length <= x1.size(); i += length) {
+      const double centre = mean(x1.subspan(i, length));
+      for (std::size_t k = i; k < i + length; ++k) away[k] = x1[k] - centre;
+    }
+    append_windows(away, from, length, held_out.free_floor(r), squares);
+  }
+  return squares;
 }
 
 double mean_log(const std::vector<double>& squares) {

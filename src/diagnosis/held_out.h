@@ -64,6 +64,9 @@ std::vector<Playback> play(const ReferenceModel& model, const HeldOut& held_out,
 
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
 
+/// The windows of the free runs for a drive that stands still: x1 about its mean [free_floor²].
+std::vector<double> still_windows(const HeldOut& held_out);
+
 /// Mean of log(W + 0.3).
 double mean_log(const std::vector<double>& mean_squares);
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "diagnosis/study.h"
+
+namespace gapscope::internal::diagnosis {
+
+/// What stands still is explained by any friction, so its recording asks nothing.
+/// @throws ConfigError naming the file unless x1 moves beyond its encoder's noise and counts
+void require_motion(const MotorTrace& recording);
+
+/// Share of the motion that a model leaves: error of its free runs over x1 about its mean, rms over a window,
+/// median over the windows in which x1 moves. A drive that stands still leaves 1. NaN: x1 moves in no window.
+double unexplained_motion(const HeldOut& held_out, const ScoredModel& model);
+
+/// A model that is hardly better than a drive that stands still says nothing of the real one, however small
+/// its errors are.
+/// @throws ConfigError naming the first of the recordings that judge
+void require_explained_motion(const HeldOut& held_out, const ScoredModel& model);
+
+}  // namespace gapscope::internal::diagnosis
