@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/random.h"
 #include "gapscope/base/require.h"
 #include "gapscope/simulation/stepper.h"
@@ -34,6 +35,7 @@ Recording simulate(const PlantModel<double>& model, std::span<const double> u,
   DriveStepper<double> stepper(model, r.dt);
   stepper.reset(options.initial);
   for (const double input : u) {
+    stop_point();  // a stiff drive takes its time for a single sample
     double x1 = stepper.measured();
     if (options.encoder.noise > 0.0) x1 += options.encoder.noise * normal(noise);
     if (quantum > 0.0) x1 = quantum * std::nearbyint(x1 / quantum);

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/simulation/simulate.h"
 #include "simulation/drives.h"
 
@@ -66,6 +68,13 @@ TEST(Simulate, ModesTellGapEngagementAndImpact) {
     ++count[static_cast<int>(r.mode[i]) + 1];
   }
   for (const int n : count) EXPECT_GT(n, 1);
+}
+
+TEST(Simulate, StopsBetweenTwoSamples) {
+  request_stop();
+  EXPECT_THROW(simulate(kRig, kInput, options(0.0, 0.0)), Interrupted);
+  clear_stop_request();
+  EXPECT_NO_THROW(simulate(kRig, kInput, options(0.0, 0.0)));
 }
 
 }  // namespace
