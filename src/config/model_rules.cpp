@@ -10,7 +10,7 @@
 namespace gapscope {
 namespace {
 
-constexpr double kSmallestRatio = 1e-3;  ///< of an estimated mass ratio: 0 is another structure
+constexpr double kSmallestRatio = 1e-3;  ///< of the inertias, load over motor [-]: 0 is another structure
 
 }  // namespace
 
@@ -23,6 +23,9 @@ DriveStructure structure_of(const WrittenModel& written) {
   if (written.load) s.load = *written.load;
   const auto& ratio = written.parameters[place::kMassRatio];
   s.has_load = !(ratio && ratio->value == 0.0 && !ratio->estimate.value_or(false));
+  if (s.has_load && ratio && ratio->value && *ratio->value > 0.0 && *ratio->value < kSmallestRatio)
+    ratio->place.fail(
+        fmt::format("is {}, expected 0 (no load) or at least {}", *ratio->value, kSmallestRatio));
   if (!s.has_load && s.load == LoadKind::kLocked)
     ratio->place.fail("is 0, which is a drive without a load, expected a load to be there with load: locked");
   return s;

@@ -174,6 +174,8 @@ const std::vector<BadConfig> kBadModels = {
     {"ratio_starts_at_zero",
      recorded("{value: 1.2, estimate: true, bounds: [0.05, 20]}", "{value: 0, estimate: true}"),
      "c.yaml:17: model.parameters.mass_ratio starts at 0"},
+    {"ratio_next_to_zero", simulated("mass_ratio: 2", "mass_ratio: 1e-9"),
+     "c.yaml:11: model.parameters.mass_ratio is 1e-09, expected 0 (no load) or at least 0.001"},
     {"no_load_gap", recorded("{value: 1.2, estimate: true, bounds: [0.05, 20]}", "0"),
      "c.yaml:18: model.parameters.gap is estimated"},
     {"locked_ratio", recorded("load: free", "load: locked"),
