@@ -27,6 +27,12 @@ constexpr int kPatience = 100;  ///< milliseconds from Ctrl-C to the answer, whe
 /// Nobody reads standard output any more.
 struct Closed {};
 
+/// Until a slow reader has taken what is there already.
+void wait_for_reader() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  ::poll(&output, 1, -1);
+}
+
 void write_line(const std::string& line) {
   for (std::size_t done = 0; done < line.size();) {
     const ssize_t n = ::write(STDOUT_FILENO, line.data() + done, line.size() - done);
@@ -34,6 +40,8 @@ void write_line(const std::string& line) {
       done += static_cast<std::size_t>(n);
     else if (errno == EPIPE)
       throw Closed{};
+    else if (errno == EAGAIN)
+      wait_for_reader();
     else if (errno != EINTR)
       throw std::runtime_error(std::string("standard output cannot be written: ") + std::strerror(errno));
   }

@@ -1,6 +1,9 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -133,6 +136,26 @@ TEST_F(Stream, AReaderThatLeavesIsNoFault) {
   EXPECT_EQ(text("status"), "0\n");
   EXPECT_EQ(text("err"), "");
   EXPECT_EQ(lines(text("first")).at(0)["kind"], "settings");
+}
+
+TEST_F(Stream, ASlowReaderOfAPipeThatDoesNotBlockGetsAllOfIt) {
+  constexpr int kOutput = 9;  // one digit, for the shell
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_NONBLOCK), 0);
+  ASSERT_GT(::fcntl(ends[1], F_SETPIPE_SZ, 4096), 0);  // [byte]: less than what is told
+  ASSERT_EQ(::dup2(ends[1], kOutput), kOutput);
+  shell("rm -f status; (" GAPSCOPE_EXECUTABLE " detect --stream <r.csv >&9 2>err; echo $? >status) &");
+  ::close(ends[1]), ::close(kOutput);
+  std::string told;
+  std::array<char, 256> piece;
+  for (ssize_t n = -1; n != 0; n = ::read(ends[0], piece.data(), piece.size())) {
+    if (n > 0) told.append(piece.data(), static_cast<std::size_t>(n));
+    ::usleep(n > 0 ? 1000 : 100000);  // [µs]: the pipe is full when it is read first
+  }
+  ::close(ends[0]);
+  EXPECT_EQ(text("status"), "0\n") << text("err");
+  EXPECT_GT(told.size(), 4096u);
+  EXPECT_EQ(lines(told).back()["kind"], "summary");
 }
 
 }  // namespace
