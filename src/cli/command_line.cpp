@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 
 #include "cli/command_tree.h"
 
@@ -72,9 +73,8 @@ Option& Option::within(int low, int high) {
 
 Option& Option::within(double low, double high) {
   return accepts([low, high](const std::string& text) {
-    double value = 0.0;
-    const bool number = CLI::detail::lexical_cast(text, value);
-    return number && value >= low && value <= high
+    const std::optional<double> value = decimal(text);
+    return value && *value >= low && *value <= high
                ? std::string()
                : fmt::format("expected a number from {:g} to {:g}", low, high);
   });
@@ -82,6 +82,14 @@ Option& Option::within(double low, double high) {
 
 Option& Option::accepts(const std::function<std::string(const std::string& text)>& what_is_wrong) {
   return option_->check(unnamed(what_is_wrong)), *this;
+}
+
+std::optional<double> decimal(const std::string& text) {
+  const char *begin = text.data(), *last = begin + text.size();
+  if (begin != last && *begin == '+') ++begin;
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(begin, last, value);
+  return problem == std::errc() && end == last ? std::optional(value) : std::nullopt;
 }
 
 CommandLine CommandLine::add_command(const char* name, const char* doc) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,9 @@ struct ExitStatus {
 
 /// Thrown by an action, which the command line has not told enough for.
 [[noreturn]] void throw_missing(const char* name);
+
+/// A number as configurations write it, too: decimal, nothing before or after it.
+std::optional<double> decimal(const std::string& text);
 
 /// What the program is, and its commands.
 struct Program {

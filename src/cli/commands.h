@@ -57,6 +57,8 @@ struct RecordingArguments {
   EncoderConfig encoder() const;
   RecordingConfig configuration() const;  ///< @throws ConfigError naming the option
 };
+/// @throws ConfigError where two of time, input and position are one column
+void require_three_columns(const RecordingColumns& columns);
 void add_recording_arguments(CommandLine& command, RecordingArguments& arguments);
 
 /// -j and --quiet.

@@ -93,7 +93,7 @@ void add_streaming(CommandLine& detect, const std::shared_ptr<Arguments>& a) {
       .within(1e-15, 1e3)
       .needs(stream);
   detect.action([a, config] {
-    if (a->stream) return detect_stream(a->columns, a->quantum);
+    if (a->stream) return require_three_columns(a->columns), detect_stream(a->columns, a->quantum);
     if (!config.given()) throw_missing("CONFIG");
     estimate(*a, {true, false});
   });

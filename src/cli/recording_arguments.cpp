@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "cli/commands.h"
@@ -23,9 +22,6 @@ RecordingConfig RecordingArguments::configuration() const {
         "gapscope: --position-unit is counts, expected --bits of a rotary encoder beside it, or the size of "
         "one "
         "count as a number");
-  if (time == input || time == position || input == position)
-    throw ConfigError(
-        "gapscope: --time, --input and --position name one column twice, expected three columns");
   RecordingConfig c;
   c.files = {{file, file, 0}};
   c.units = units;
@@ -34,6 +30,7 @@ RecordingConfig RecordingArguments::configuration() const {
   o.columns.time = time;
   o.columns.input = input;
   o.columns.position = position;
+  require_three_columns(o.columns);
   o.columns.scales =
       declared_scales(units, gear, encoder(), !translation, [&](const std::string& key, auto& expected) {
         const std::string& unit = key == "time" ? units.time : key == "input" ? units.input : units.position;
@@ -63,7 +60,7 @@ void add_unit_options(CommandLine& command, RecordingArguments& a) {
                   "turns of the encoder per turn of the axis to be looked at")
       .value("RATIO")
       .accepts([](const std::string& text) {
-        const double ratio = std::abs(std::strtod(text.c_str(), nullptr));
+        const double ratio = std::abs(decimal(text).value_or(0.0));
         return std::string(ratio >= 1e-6 && ratio <= 1e6 ? "" : "expected 1e-6 to 1e6, or as much below 0");
       });
 }
@@ -84,6 +81,12 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
       .within(1e-3, 1e7);
   add_unit_options(command, a);
   command.add_flag("--translation", a.translation, "positions in m and forces in N instead of rad and N m");
+}
+
+void require_three_columns(const RecordingColumns& c) {
+  if (c.time == c.input || c.time == c.position || c.input == c.position)
+    throw ConfigError(
+        "gapscope: --time, --input and --position name one column twice, expected three columns");
 }
 
 std::string require_file_name(const std::string& file, const std::vector<std::string>& sources,

@@ -210,6 +210,9 @@ TEST_F(UserFiles, NumbersOfTheCommandLineAndNamesInAConfigurationAreSound) {
   expect_refused("check drive.csv --resample nan", "--resample: expected a number from");
   expect_refused("check drive.csv --window nan 2", "--window: expected a number from");
   expect_refused("detect --stream --quantum nan", "--quantum: expected a number from");
+  expect_refused("detect --stream --quantum 0x1p-10", "--quantum: expected a number from");
+  expect_refused("check drive.csv --gear-ratio 0x10", "--gear-ratio: expected 1e-6 to 1e6");
+  expect_refused("detect --stream --position t", "name one column twice, expected three columns");
   place_.file("nul.yaml", "recording: {file: \"drive.csv\\0x\"}\n");
   expect_refused("detect nul.yaml",
                  "nul.yaml:1: recording.file is 'drive.csv?x', expected a text without control");
