@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "diagnosis/study.h"
 
 namespace gapscope::internal::diagnosis {
@@ -12,9 +14,9 @@ void require_motion(const MotorTrace& recording);
 /// median over the windows in which x1 moves. A drive that stands still leaves 1. NaN: x1 moves in no window.
 double unexplained_motion(const HeldOut& held_out, const ScoredModel& model);
 
-/// A model that is hardly better than a drive that stands still says nothing of the real one, however small
-/// its errors are.
-/// @throws ConfigError naming the first of the recordings that judge
-void require_explained_motion(const HeldOut& held_out, const ScoredModel& model);
+/// What such a model leaves, in words, where it is hardly better than a drive that stands still: it says
+/// nothing of the real one, however small its errors are. Empty where it explains the motion.
+/// @throws ConfigError naming the first of the recordings that judge, where none of them moves
+std::string motion_left(const HeldOut& held_out, const ScoredModel& model);
 
 }  // namespace gapscope::internal::diagnosis
