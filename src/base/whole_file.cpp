@@ -1,6 +1,7 @@
 #include "gapscope/base/whole_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,11 +24,14 @@ std::runtime_error cannot_write(const std::string& name) {
   return std::runtime_error(name + ": cannot be written, expected a writable place with room for it");
 }
 
-/// Who may read and write the file that is there may read and write the new one.
+/// Who may read and write the file that is there may read and write the new one. Where its owner cannot be
+/// given the new one, the mode stays that of any new file.
 void keep_mode(const std::string& before, const std::string& aside) {
   struct stat old = {}, fresh = {};
   if (lstat(before.c_str(), &old) != 0 || lstat(aside.c_str(), &fresh) != 0) return;
   constexpr mode_t kMode = 0777;
+  const bool same_owner = old.st_uid == fresh.st_uid && old.st_gid == fresh.st_gid;
+  if (!same_owner && chown(aside.c_str(), old.st_uid, old.st_gid) != 0) return;
   if (old.st_mode == fresh.st_mode) return;
   if (chmod(aside.c_str(), old.st_mode & kMode) != 0) throw cannot_write(before);
 }
@@ -54,8 +58,11 @@ class HandleBuffer : public std::streambuf {
     std::streamsize done = 0;
     while (done < size) {
       const ssize_t n = ::write(handle_, bytes + done, static_cast<std::size_t>(size - done));
-      if (n < 0 && errno != EINTR) break;
       if (n > 0) done += n;
+      if (n >= 0 || errno == EINTR) continue;
+      if (errno != EAGAIN) break;
+      pollfd reader{handle_, POLLOUT, 0};  // a pipe that does not block, and is full
+      poll(&reader, 1, -1);
     }
     return done;
   }
