@@ -41,15 +41,17 @@ struct TorqueLevel {
   std::vector<double> plays, widths;  ///< of the loops [rad]
   double play = kNaN, std = kNaN;     ///< P and its standard error [rad]
   double free_run = 0.0;              ///< travel over which x1 runs free, median over the branches [rad]
+  double sure_run = 0.0;              ///< the same where noise and counting cannot feign it [rad]
   double travel = 0.0;                ///< of x1 on a branch, median over them [rad]
   double visible = kInfinity;         ///< smallest gap that would have stood out [rad]
   double resolution = 0.0;            ///< of one position [rad]
+  double least_way = 0.0;             ///< that is surely none of noise and counting [rad]
   bool shows_play() const {
     return free_run >= kMostly * play && free_run <= kLeaps * play && play > kFinest * resolution;
   }
   bool leaps() const { return free_run > kLeaps * play && play > kFinest * resolution; }
   /// As far as a gap that would have stood out: it stood out.
-  bool runs_free() const { return free_run >= visible; }
+  bool runs_free() const { return sure_run >= visible; }
   /// Friction and gaps lag behind u; only a u that is late itself leads.
   bool runs_backwards() const { return play + kSurely * std < 0.0; }
 };
@@ -111,6 +113,17 @@ double travel_of(const Branch& b) {
   return high - low;
 }
 
+/// Travel within the bins in which x1 moves by more than `least`, median over the branches.
+double run_beyond(double least, const std::vector<std::vector<double>>& steps) {
+  std::vector<double> runs;
+  for (const auto& branch : steps) {
+    double run = 0.0;
+    for (const double step : branch) run += step > least ? step : 0.0;
+    runs.push_back(run);
+  }
+  return median(runs);
+}
+
 void read_branches(TorqueLevel& level, const std::vector<Branch>& branches) {
   std::vector<std::vector<double>> steps;  // travel within each bin, along the branch
   std::vector<double> flanks;              // the same of the last one: the loaded flank
@@ -126,13 +139,8 @@ void read_branches(TorqueLevel& level, const std::vector<Branch>& branches) {
   }
   if (steps.empty()) return;
   const double least = kFree * std::max(median(flanks), 0.0) + 3.0 * level.resolution;  // within one bin
-  std::vector<double> runs;
-  for (const auto& branch : steps) {
-    double run = 0.0;
-    for (const double step : branch) run += step > least ? step : 0.0;
-    runs.push_back(run);
-  }
-  level.free_run = median(runs);
+  level.free_run = run_beyond(least, steps);
+  level.sure_run = run_beyond(std::max(least, level.least_way), steps);
   level.travel = median(travels);
   level.visible = std::max(2.0 * least, kFinest * level.resolution);  // a gap may end in the next bin
 }
@@ -210,7 +218,7 @@ double least_travel(const std::vector<TorqueLevel>& levels) {
 Remark doubt(const std::vector<TorqueLevel>& levels, double visible) {
   if (any(levels, &TorqueLevel::leaps)) return words::sticks_and_leaps();
   if (any(levels, &TorqueLevel::runs_free))
-    return words::free_run_without_play(plays_of(levels), levels.front().free_run);
+    return words::free_run_without_play(plays_of(levels), levels.front().sure_run);
   const double travel = least_travel(levels);
   return visible < travel ? Remark() : words::small_ramps(travel, visible);
 }
@@ -245,7 +253,7 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
   std::vector<signals::TorqueCycles> cycles;
   std::vector<Loop> loops;
   std::vector<Branch> branches;
-  double resolution = 0.0;
+  double resolution = 0.0, least_way = 0.0;
   cycles.reserve(recordings.size());  // branches point into it
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const MotorTrace& trace = recordings[i];
@@ -253,6 +261,7 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
     if (cycles.back().following < kFollowing) return std::nullopt;
     if (!facts[i].moves()) return std::nullopt;
     resolution = std::max(resolution, facts[i].noise);
+    least_way = std::max(least_way, facts[i].least_way());
     for (Loop& loop : loops_of(trace, cycles.back())) loops.push_back(std::move(loop));
     for (const Branch& branch : branches_of(trace, cycles.back())) branches.push_back(branch);
   }
@@ -264,6 +273,7 @@ std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordin
   if (levels.empty()) return std::nullopt;
   for (TorqueLevel& level : levels) {
     level.resolution = resolution;
+    level.least_way = least_way;
     read_branches(level, branches);
     summarise(level);
   }

@@ -199,6 +199,14 @@ TEST(LostMotion, AnInputThatIsLateTurnsTheLoopRoundAndDeniesNothing) {
   EXPECT_TRUE(told);
 }
 
+TEST(LostMotion, CountsThatFollowOneAnotherAreNoFreeRun) {
+  Recording counts = hysteresis();
+  counts.quantum = 1e-4;
+  for (std::size_t i = 0; i < counts.size(); ++i)  // ten counts of a soft drive
+    counts.x1[i] = counts.quantum * std::round(4.75 * counts.u[i] / 1.17);
+  EXPECT_EQ(detect({counts}).verdict, GapVerdict::kNone) << detect({counts}).brief_report();
+}
+
 TEST(LostMotion, AFreeRunWithoutAPlayIsNotDenied) {
   Recording sign = hysteresis(), half = sign, saturated = sign;
   for (std::size_t i = 0; i < sign.size(); ++i) {
