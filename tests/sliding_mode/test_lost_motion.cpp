@@ -203,7 +203,7 @@ TEST(LostMotion, CountsThatFollowOneAnotherAreNoFreeRun) {
   Recording counts = hysteresis();
   counts.quantum = 1e-4;
   for (std::size_t i = 0; i < counts.size(); ++i)  // ten counts of a soft drive
-    counts.x1[i] = counts.quantum * std::round(4.75 * counts.u[i] / 1.17);
+    counts.x1[i] = counts.quantum * std::round(5.2 * counts.u[i] / 1.163);
   EXPECT_EQ(detect({counts}).verdict, GapVerdict::kNone) << detect({counts}).brief_report();
 }
 
