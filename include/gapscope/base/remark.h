@@ -20,8 +20,8 @@ class Remark {
 
   Remark() = default;
   /// @param code   in lower case, with underscores: what a program can go by
-  /// @param words  a format (fmt) of the values in their order; units of a rotation in brackets: "{:.3g}
-  /// [rad]"
+  /// @param words  a format (fmt) of the values in their order
+  ///   units of a rotation stand in brackets, "{:.3g} [rad]"
   Remark(std::string code, std::string words, std::vector<Value> values = {});
   /// One that has been put into words already, as it is stored.
   static Remark said(std::string text);
