@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "gapscope/base/units.h"
+#include "gapscope/base/text.h"
 #include "gapscope/plant/drive.h"
 
 namespace gapscope::internal::campaign {
@@ -37,12 +37,12 @@ const DriveParameterSpec* drive_parameter_at(const std::string& path) {
 
 }  // namespace
 
-AxisName axis_name(const std::string& path, bool rotation) {
+AxisName axis_name(const std::string& path, Coordinates coordinates) {
   if (const auto found = plain_names().find(path); found != plain_names().end())
-    return {found->second.name, shown_unit(found->second.unit, rotation)};
+    return {found->second.name, coordinates.shown_unit(found->second.unit)};
   if (const DriveParameterSpec* spec = drive_parameter_at(path)) {
-    const std::string name = replaced(spec->key, "_", " ");
-    return {path.starts_with("model.") ? "model's " + name : name, shown_unit(spec->unit, rotation)};
+    const std::string name = readable(spec->key);
+    return {path.starts_with("model.") ? "model's " + name : name, coordinates.shown_unit(spec->unit)};
   }
   if (path.find("excitation.") != path.npos && path.ends_with(".frequency")) return {"frequency", "Hz"};
   if (path.find("excitation.") != path.npos && path.ends_with(".amplitude")) return {"amplitude", ""};

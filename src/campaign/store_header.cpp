@@ -20,7 +20,7 @@ CampaignHeader campaign_header(const CampaignConfig& c, const CampaignShard& sha
   h.version = version();
   h.name = c.name;
   h.identity = campaign_identity(c) + internal::campaign::recorded_data(c);
-  h.rotation = campaign_run(c, 0).rotation;
+  h.coordinates = campaign_run(c, 0).coordinates;
   h.model_free = c.model_free;
   h.reference = c.reference;
   h.runs = c.runs();
@@ -176,7 +176,7 @@ void create_tables(Database& database, const CampaignHeader& h) {
   write_fact(database, "version", h.version);
   write_fact(database, "name", h.name);
   write_fact(database, "identity", h.identity);
-  write_fact(database, "coordinates", h.rotation ? "rotation" : "translation");
+  write_fact(database, "coordinates", h.coordinates.name());
   write_fact(database, "estimators",
              h.model_free && h.reference ? "both"
              : h.model_free              ? "model_free"
@@ -197,7 +197,8 @@ CampaignHeader read_header(Database& database, const std::string& file) {
   h.version = fact(database, file, "version");
   h.name = fact(database, file, "name");
   h.identity = fact(database, file, "identity");
-  h.rotation = fact(database, file, "coordinates") == "rotation";
+  h.coordinates =
+      fact(database, file, "coordinates") == "rotation" ? Coordinates::kRotation : Coordinates::kTranslation;
   const std::string estimators = fact(database, file, "estimators");
   h.model_free = estimators != "reference";
   h.reference = estimators != "model_free";

@@ -49,8 +49,8 @@ double at_share(const CampaignAxis& axis, double share) {
                           : axis.range.low + share * (axis.range.high - axis.range.low);
 }
 
-Binning binning_of(const CampaignAxis& axis, std::size_t place, bool rotation) {
-  const auto [name, unit] = axis_name(axis.path, rotation);
+Binning binning_of(const CampaignAxis& axis, std::size_t place, Coordinates coordinates) {
+  const auto [name, unit] = axis_name(axis.path, coordinates);
   Binning b{{axis.path, name, {}}, place, {}, axis.range, axis.logarithmic};
   for (const AxisValue& v : axis.values)
     if (b.listed.emplace(v.yaml, static_cast<int>(b.axis.bins.size())).second)
@@ -66,7 +66,7 @@ Binning binning_of(const CampaignAxis& axis, std::size_t place, bool rotation) {
 std::vector<Binning> binnings(const CampaignHeader& header) {
   std::vector<Binning> all;
   for (std::size_t i = 0; i < header.axes.size(); ++i)
-    if (!header.axes[i].repeat) all.push_back(binning_of(header.axes[i], i, header.rotation));
+    if (!header.axes[i].repeat) all.push_back(binning_of(header.axes[i], i, header.coordinates));
   return all;
 }
 

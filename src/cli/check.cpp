@@ -25,7 +25,7 @@ Configuration reading_of(const RecordingArguments& r) {
   c.recording = r.configuration();
   c.recording->files.front().given = std::filesystem::path(r.file).filename().string();
   c.encoder = r.encoder();
-  c.rotation = !r.translation;
+  c.coordinates = r.coordinates();
   return c;
 }
 
@@ -34,7 +34,7 @@ void check_recording(const Arguments& a) {
   const auto look = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
   if (!a.output.empty()) look();  // before the work
   const Configuration c = reading_of(r);
-  const Inspection inspection = inspect(r.file, c.recording->reading, c.rotation);
+  const Inspection inspection = inspect(r.file, c.recording->reading, c.coordinates);
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, look());
   fmt::print("{}", a.json ? json : inspection.report());

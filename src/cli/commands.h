@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/whole_file.h"
 #include "gapscope/config/data_config.h"
 
@@ -55,6 +56,7 @@ struct RecordingArguments {
   int bits = 0;  ///< of the encoder; 0: not given
 
   EncoderConfig encoder() const;
+  Coordinates coordinates() const { return translation ? Coordinates::kTranslation : Coordinates::kRotation; }
   RecordingConfig configuration() const;  ///< @throws ConfigError naming the option
 };
 /// @throws ConfigError where two of time, input and position are one column

@@ -7,17 +7,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "gapscope/base/units.h"
-
 namespace gapscope::cli {
 namespace {
 
 void line(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
-
-/// 18.80 mrad: four digits, in thousandths of the coordinate.
-std::string milli(double value, bool rotation) {
-  return std::isnan(value) ? "-" : fmt::format("{:.4g} {}", 1e3 * value, rotation ? "mrad" : "mm");
-}
 
 /// Decimals that show two digits of the interval's half width, all in thousandths.
 int decimals(const Interval& ci95) {
@@ -25,42 +18,43 @@ int decimals(const Interval& ci95) {
   return half > 0.0 ? static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 5.0)) : 4;
 }
 
-std::string estimate(double value, const Interval& ci95, bool rotation) {
-  const char* unit = rotation ? "mrad" : "mm";
-  if (std::isnan(ci95.low)) return fmt::format("{:<17} {:<22}", milli(value, rotation), "no interval");
+std::string estimate(double value, const Interval& ci95, Coordinates coordinates) {
+  if (std::isnan(ci95.low))
+    return fmt::format("{:<17} {:<22}", coordinates.thousandths(value), "no interval");
   const int d = decimals(ci95);
-  return fmt::format("{:<17} {:<22}", fmt::format("{:.{}f} {}", 1e3 * value, d, unit),
+  return fmt::format("{:<17} {:<22}", fmt::format("{:.{}f} m{}", 1e3 * value, d, coordinates.position_unit()),
                      fmt::format("[{:.{}f}, {:.{}f}]", 1e3 * ci95.low, d, 1e3 * ci95.high, d));
 }
 
-std::string model_free_line(const GapEstimate& g, bool rotation) {
+std::string model_free_line(const GapEstimate& g, Coordinates coordinates) {
   if (g.verdict == GapVerdict::kBacklash)
-    return fmt::format("{} {} ({}, {} events)", estimate(g.gap, g.ci95, rotation),
+    return fmt::format("{} {} ({}, {} events)", estimate(g.gap, g.ci95, coordinates),
                        g.quantity == GapQuantity::kGap ? "backlash" : "play at zero torque",
                        to_string(g.method), g.events.size());
   if (g.verdict == GapVerdict::kNone)
-    return fmt::format("none: a gap above {} would have shown", milli(g.smallest_visible_gap, rotation));
+    return fmt::format("none: a gap above {} would have shown",
+                       coordinates.thousandths(g.smallest_visible_gap));
   return fmt::format("{}: {}", to_string(g.verdict), g.reason.text());
 }
 
-std::string reference_line(const FitSummary& f, bool rotation) {
-  const std::string quality =
-      fmt::format("{}, rmse {}", f.converged() ? "converged" : "not converged", milli(f.rmse, rotation));
+std::string reference_line(const FitSummary& f, Coordinates coordinates) {
+  const std::string quality = fmt::format("{}, rmse {}", f.converged() ? "converged" : "not converged",
+                                          coordinates.thousandths(f.rmse));
   const FittedParameter* gap = f.find("gap");
   if (gap == nullptr) return "no gap in this model (" + quality + ")";
-  if (!gap->estimated) return fmt::format("{} fixed ({})", milli(gap->value, rotation), quality);
+  if (!gap->estimated) return fmt::format("{} fixed ({})", coordinates.thousandths(gap->value), quality);
   if (!gap->identifiable)
-    return fmt::format("{} not identifiable ({})", milli(gap->value, rotation), quality);
-  return fmt::format("{} {}", estimate(gap->value, gap->ci95, rotation), quality);
+    return fmt::format("{} not identifiable ({})", coordinates.thousandths(gap->value), quality);
+  return fmt::format("{} {}", estimate(gap->value, gap->ci95, coordinates), quality);
 }
 
 /// Every number that the fit found, but for the gap.
-void print_parameters(const FitSummary& f, bool rotation) {
+void print_parameters(const FitSummary& f, Coordinates coordinates) {
   std::size_t width = 23;
   for (const FittedParameter& p : f.parameters) width = std::max(width, p.key.size());
   for (const FittedParameter& p : f.parameters) {
     if (!p.estimated || p.key == "gap") continue;
-    const std::string unit = p.unit == "-" ? "" : " " + axis_unit(p.unit, rotation);
+    const std::string unit = p.unit == "-" ? "" : " " + coordinates.unit(p.unit);
     const std::string interval = !p.identifiable ? "not identifiable"
                                  : std::isnan(p.ci95.low)
                                      ? "no interval"
@@ -70,11 +64,11 @@ void print_parameters(const FitSummary& f, bool rotation) {
   }
 }
 
-std::string comparison_line(const Comparison& c, bool rotation) {
+std::string comparison_line(const Comparison& c, Coordinates coordinates) {
   if (std::isnan(c.difference)) return "-";
   const char* word = !c.agree ? "not comparable" : *c.agree ? "agree" : "disagree";
-  return fmt::format("{:<17} {} (joint standard error {})", milli(c.difference, rotation), word,
-                     milli(c.joint_std, rotation));
+  return fmt::format("{:<17} {} (joint standard error {})", coordinates.thousandths(c.difference), word,
+                     coordinates.thousandths(c.joint_std));
 }
 
 }  // namespace
@@ -90,14 +84,14 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 void print_headline(const std::string& folder, const RunResult& r) {
   line("report", folder);
-  if (r.model_free) line("model-free", model_free_line(*r.model_free, r.rotation));
-  if (r.reference) line("reference", reference_line(*r.reference, r.rotation));
-  if (r.reference && !r.model_free) print_parameters(*r.reference, r.rotation);
-  if (r.comparison) line("difference", comparison_line(*r.comparison, r.rotation));
+  if (r.model_free) line("model-free", model_free_line(*r.model_free, r.coordinates));
+  if (r.reference) line("reference", reference_line(*r.reference, r.coordinates));
+  if (r.reference && !r.model_free) print_parameters(*r.reference, r.coordinates);
+  if (r.comparison) line("difference", comparison_line(*r.comparison, r.coordinates));
   if (r.comparison && !std::isnan(r.comparison->map_width))
     line("load side",
-         fmt::format("{:<17} width of the x1-x2 map", milli(r.comparison->map_width, r.rotation)));
-  if (!std::isnan(r.simulated_gap)) line("simulated", milli(r.simulated_gap, r.rotation));
+         fmt::format("{:<17} width of the x1-x2 map", r.coordinates.thousandths(r.comparison->map_width)));
+  if (!std::isnan(r.simulated_gap)) line("simulated", r.coordinates.thousandths(r.simulated_gap));
 }
 
 void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {

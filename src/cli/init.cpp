@@ -31,7 +31,7 @@ void write_starter(const Arguments& a) {
   const std::string output = a.output.empty() ? fs::path(r.file).stem().string() + ".yaml" : a.output;
   require_file_name(output, {r.file}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
-  const Starter starter = starter_configuration(r.configuration(), r.encoder(), !r.translation,
+  const Starter starter = starter_configuration(r.configuration(), r.encoder(), r.coordinates(),
                                                 parent.empty() ? "." : parent.string(), model_of(a.model));
   write_text(output, starter.yaml, "");
   print_warnings(starter.spoiling);

@@ -32,7 +32,7 @@ RecordingConfig RecordingArguments::configuration() const {
   o.columns.position = position;
   require_three_columns(o.columns);
   o.columns.scales =
-      declared_scales(units, gear, encoder(), !translation, [&](const std::string& key, auto& expected) {
+      declared_scales(units, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
         const std::string& unit = key == "time" ? units.time : key == "input" ? units.input : units.position;
         throw ConfigError(
             fmt::format("gapscope: --{}-unit {} is not known, expected {}", key, shown(unit), expected));

@@ -64,7 +64,7 @@ BlindConfig load_blind_config(const std::string& path) {
 }
 
 std::string resolved_yaml(const BlindConfig& check) {
-  internal::config::YamlWriter out(true);
+  internal::config::YamlWriter out(Coordinates::kRotation);
   internal::config::FieldWriter fields(out);
   const auto write_part = [&](const char* key, BlindPartConfig part) {
     out.open(key);

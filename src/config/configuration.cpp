@@ -93,7 +93,7 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
   if (!recording && !simulation) root.require("recording", "either recording or simulation");
   if (recording) {
     c.recording = read_recording_block(*recording, std::filesystem::path(c.file).parent_path().string(),
-                                       c.encoder, c.rotation);
+                                       c.encoder, c.coordinates);
     return;
   }
   c.simulation = read_simulation(*simulation, std::filesystem::path(c.file).parent_path().string());
@@ -128,8 +128,9 @@ Configuration read_configuration(const Value& document) {
   c.file = document.file();
   c.name = read_name(root, c.file);
   if (const auto coordinates = root.find("coordinates"))
-    c.rotation = coordinates->word({"rotation", "translation"}) == 0;
-  if (const auto encoder = root.find("encoder")) c.encoder = read_encoder(*encoder, c.rotation);
+    c.coordinates = coordinates->word({"rotation", "translation"}) == 0 ? Coordinates::kRotation
+                                                                        : Coordinates::kTranslation;
+  if (const auto encoder = root.find("encoder")) c.encoder = read_encoder(*encoder, c.coordinates);
   if (const auto detector = root.find("detector")) c.detector = read_detector(*detector);
   WrittenModel model;
   if (const auto given = root.find("model")) model = read_model(*given);
@@ -180,7 +181,7 @@ DiagnosisOptions diagnosis_options(const Configuration& c) {
   options.fit = c.fit;
   options.known = c.diagnosis;
   options.excluded = c.excluded;
-  options.rotation = c.rotation;
+  options.coordinates = c.coordinates;
   return options;
 }
 

@@ -97,7 +97,7 @@ void require_sensible_size(const SimulationConfig& s, const Section& section) {
 }  // namespace
 
 RecordingConfig read_recording_block(const Value& value, const std::string& folder,
-                                     const EncoderConfig& encoder, bool rotation) {
+                                     const EncoderConfig& encoder, Coordinates coordinates) {
   const Section section(value, {"file", "held_out", "columns", "units", "gear_ratio", "window", "resample"});
   RecordingConfig recording;
   std::set<std::string> seen;
@@ -105,7 +105,7 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
   if (const auto held_out = section.find("held_out"))
     recording.held_out = read_files(*held_out, folder, seen);
   if (const auto columns = section.find("columns")) recording.reading.columns = read_columns(*columns);
-  read_units(section, encoder, rotation, recording);
+  read_units(section, encoder, coordinates, recording);
   if (const auto window = section.find("window"))
     recording.reading.window = window->rising_pair({-kInfinity, kInfinity, "s"});
   if (const auto resample = section.find("resample"))
@@ -114,17 +114,18 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
   return recording;
 }
 
-EncoderConfig read_encoder(const Value& value, bool rotation) {
+EncoderConfig read_encoder(const Value& value, Coordinates coordinates) {
   const Section section(value, {"bits", "quantum"});
   const auto bits = section.find("bits"), quantum = section.find("quantum");
   EncoderConfig encoder;
   if (bits.has_value() == quantum.has_value())
     value.fail(fmt::format("has {} of bits and quantum, expected exactly one", bits ? "both" : "neither"));
   if (quantum) {
-    encoder.quantum = quantum->number({1e-15, 10.0, rotation ? "rad" : "m"});
+    encoder.quantum = quantum->number({1e-15, 10.0, coordinates.position_unit()});
     return encoder;
   }
-  if (!rotation) bits->fail("counts a revolution, expected quantum [m] with coordinates: translation");
+  if (!coordinates.rotational())
+    bits->fail("counts a revolution, expected quantum [m] with coordinates: translation");
   encoder.bits = static_cast<int>(bits->integer(1, 40));
   encoder.quantum = EncoderConfig::quantum_of(*encoder.bits);
   return encoder;

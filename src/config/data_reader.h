@@ -7,9 +7,9 @@ namespace gapscope::internal::config {
 
 /// @param folder  of the configuration, to which paths are relative
 RecordingConfig read_recording_block(const Value& value, const std::string& folder,
-                                     const EncoderConfig& encoder, bool rotation);
+                                     const EncoderConfig& encoder, Coordinates coordinates);
 
-EncoderConfig read_encoder(const Value& value, bool rotation);
+EncoderConfig read_encoder(const Value& value, Coordinates coordinates);
 
 /// All but the plant. `model` of the block is left to the caller.
 SimulationConfig read_simulation(const Value& value, const std::string& folder);

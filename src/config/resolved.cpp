@@ -158,13 +158,13 @@ void write_reading(YamlWriter& out, const Configuration& c) {
   } else if (c.encoder.quantum > 0.0) {
     out.quantity("encoder", fmt::format("{{quantum: {}}}", c.encoder.quantum), "rad");
   }
-  out.entry("coordinates", c.rotation ? "rotation" : "translation");
+  out.entry("coordinates", c.coordinates.name());
 }
 
 }  // namespace
 
 std::string resolved_reading(const Configuration& c) {
-  YamlWriter out(c.rotation);
+  YamlWriter out(c.coordinates);
   write_reading(out, c);
   return out.text();
 }
@@ -178,7 +178,7 @@ std::string yaml_of(const Configuration& c, const std::string& heading) {
   FitOptions fit = c.fit;
   ExperimentLimits limits = c.next_experiment;
   DiagnosisKnowledge known = c.diagnosis;
-  YamlWriter out(c.rotation);
+  YamlWriter out(c.coordinates);
   if (!heading.empty()) out.comment(heading);
   out.entry("name", yaml_text(c.name));
   write_reading(out, c);

@@ -10,7 +10,6 @@
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/base/plain_name.h"
-#include "gapscope/base/units.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/sliding_mode/detector.h"
 
@@ -28,8 +27,8 @@ struct Choice {
 };
 
 /// What the detector saw decides: a locked output is one whose position is a loop over the input.
-Choice as_seen(const MotorTrace& trace, bool rotation) {
-  const char* const unit = rotation ? "rad" : "m";
+Choice as_seen(const MotorTrace& trace, Coordinates coordinates) {
+  const char* const unit = coordinates.position_unit();
   const GapEstimate g = detect_gap(std::span(&trace, 1));
   if (g.method == GapMethod::kLostMotion)
     return {StarterModel::kLocked, "locked output: x1 follows u in a loop"};
@@ -40,13 +39,14 @@ Choice as_seen(const MotorTrace& trace, bool rotation) {
     return {StarterModel::kGap,
             fmt::format("gap and free load: the detector reads a gap of {:.3g} {}", g.gap, unit)};
   return {StarterModel::kGap,
-          "GUESS: gap and free load; the detector is inconclusive (" + g.reason.text(rotation) + ")", false};
+          "GUESS: gap and free load; the detector is inconclusive (" + g.reason.text(coordinates) + ")",
+          false};
 }
 
-Choice choose(StarterModel model, const MotorTrace& trace, bool rotation) {
+Choice choose(StarterModel model, const MotorTrace& trace, Coordinates coordinates) {
   switch (model) {
     case StarterModel::kAsSeen:
-      return as_seen(trace, rotation);
+      return as_seen(trace, coordinates);
     case StarterModel::kGap:
       return {model, "gap and free load, as asked for"};
     case StarterModel::kLocked:
@@ -98,18 +98,19 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
 
 /// @param gear  between the encoder and x1
 void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f, double gear,
-                   bool rotation) {
-  const char* unit = rotation ? "rad" : "m";
+                   Coordinates coordinates) {
   if (known.bits) return out.entry("encoder", fmt::format("{{bits: {}}}", *known.bits), "as told");
   f.quantum *= std::abs(gear);
   if (std::isnan(f.quantum))
-    return out.comment(rotation ? "encoder: {bits: 20}   # GUESS: no step is seen in x1; what the sheet says"
-                                : "encoder: {quantum: 1e-6}   # GUESS: no step is seen in x1; m");
+    return out.comment(coordinates.rotational()
+                           ? "encoder: {bits: 20}   # GUESS: no step is seen in x1; what the sheet says"
+                           : "encoder: {quantum: 1e-6}   # GUESS: no step is seen in x1; m");
   const double bits = std::log2(2.0 * std::numbers::pi / f.quantum);
-  const bool binary = rotation && std::abs(bits - std::round(bits)) < 1e-3;
+  const bool binary = coordinates.rotational() && std::abs(bits - std::round(bits)) < 1e-3;
   out.entry("encoder",
             binary ? fmt::format("{{bits: {:.0f}}}", bits) : fmt::format("{{quantum: {:.5g}}}", f.quantum),
-            fmt::format("read: {} steps by {:.5g} {}", gear == 1.0 ? "x1" : "the encoder", f.quantum, unit));
+            fmt::format("read: {} steps by {:.5g} {}", gear == 1.0 ? "x1" : "the encoder", f.quantum,
+                        coordinates.position_unit()));
 }
 
 /// {value: …, estimate: true} with a number that was read, else without.
@@ -119,18 +120,17 @@ void write_estimated(YamlWriter& out, const char* key, double value, const std::
             unit + (known ? "; read, as one body" : "; the fit finds its start"));
 }
 
-void write_motor(YamlWriter& out, const RecordingFacts& f, bool rotation, bool one_body) {
-  out.entry(
-      "torque_constant", "1",
-      fmt::format("GUESS: {} per unit of u; with 1 all torques are in units of u", rotation ? "N m" : "N"));
+void write_motor(YamlWriter& out, const RecordingFacts& f, Coordinates coordinates, bool one_body) {
+  out.entry("torque_constant", "1",
+            coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u"));
   write_estimated(out, "motor_inertia", one_body ? f.inertia : kNaN,
-                  std::string(rotation ? "kg m^2" : "kg") + " (over torque_constant); better the sheet's");
-  write_estimated(out, "motor_damping", one_body ? f.damping : kNaN, rotation ? "N m s/rad" : "N s/m");
+                  coordinates.with_units("[kg m^2] (over torque_constant); better the sheet's"));
+  write_estimated(out, "motor_damping", one_body ? f.damping : kNaN, coordinates.unit("N m s/rad"));
 }
 
-void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f, bool rotation) {
+void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f, Coordinates coordinates) {
   const bool load = choice.structure != StarterModel::kOneBody, free = choice.structure == StarterModel::kGap;
-  const std::string length = rotation ? "rad" : "m";
+  const std::string length = coordinates.position_unit();
   out.open("model");
   out.comment(choice.why);
   if (!choice.seen)
@@ -139,16 +139,16 @@ void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f,
   if (load) out.entry("contact", "compliant");
   if (load) out.entry("load", free ? "free" : "locked");
   out.open("parameters");
-  write_motor(out, f, rotation, !load);
+  write_motor(out, f, coordinates, !load);
   if (!load)
     out.entry("mass_ratio", "0",
               "one body; for a drive with a gap: {estimate: true}, and gap, contact_stiffness alike");
   if (free) write_estimated(out, "mass_ratio", kNaN, "load over motor");
   if (load) write_estimated(out, "gap", kNaN, (choice.seen ? "" : "GUESS that there is one; ") + length);
-  if (free) write_estimated(out, "load_damping", kNaN, rotation ? "N m s/rad" : "N s/m");
-  if (free) write_estimated(out, "load_coulomb_friction", kNaN, rotation ? "N m" : "N");
-  if (load) write_estimated(out, "contact_stiffness", kNaN, rotation ? "N m/rad" : "N/m");
-  if (load) write_estimated(out, "contact_damping", kNaN, rotation ? "N m s/rad" : "N s/m");
+  if (free) write_estimated(out, "load_damping", kNaN, coordinates.unit("N m s/rad"));
+  if (free) write_estimated(out, "load_coulomb_friction", kNaN, coordinates.torque_unit());
+  if (load) write_estimated(out, "contact_stiffness", kNaN, coordinates.unit("N m/rad"));
+  if (load) write_estimated(out, "contact_damping", kNaN, coordinates.unit("N m s/rad"));
   out.close();
   out.entry("effects", "[]", "what is known to be there beside it; `gapscope effects` lists them");
   out.close();
@@ -156,18 +156,18 @@ void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f,
 
 }  // namespace
 
-Starter starter_configuration(RecordingConfig config, const EncoderConfig& encoder, bool rotation,
+Starter starter_configuration(RecordingConfig config, const EncoderConfig& encoder, Coordinates coordinates,
                               const std::string& folder, StarterModel model) {
   const std::string& recording = config.files.front().path;
   ReadOptions& options = config.reading;
-  const Inspection seen = inspect(recording, options, rotation);
+  const Inspection seen = inspect(recording, options, coordinates);
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
-  const Choice choice = choose(model, r.motor_trace(), rotation);
+  const Choice choice = choose(model, r.motor_trace(), coordinates);
   Starter starter;
   starter.model = choice.why;
-  YamlWriter out(rotation);
+  YamlWriter out(coordinates);
   out.comment(
       "A first configuration, read off the recording. What is marked GUESS it does not tell: put in what");
   out.comment(
@@ -181,9 +181,9 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   }
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
   write_recording(out, named_from(folder, recording), config, irregular);
-  write_encoder(out, encoder, seen.facts, config.gear.position, rotation);
-  out.entry("coordinates", rotation ? "rotation" : "translation");
-  write_model(out, choice, seen.facts, rotation);
+  write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
+  out.entry("coordinates", coordinates.name());
+  write_model(out, choice, seen.facts, coordinates);
   out.entry("detector", "{bound: auto}");
   starter.yaml = out.text();
   return starter;

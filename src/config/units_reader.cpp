@@ -32,7 +32,7 @@ void GearRatios::fields(FieldVisitor& v) {
 }
 
 ColumnScales declared_scales(
-    const DeclaredUnits& units, const GearRatios& gear, const EncoderConfig& encoder, bool rotation,
+    const DeclaredUnits& units, const GearRatios& gear, const EncoderConfig& encoder, Coordinates coordinates,
     const std::function<void(const char* key, const std::string& expected)>& refuse) {
   const auto scale = [&](const char* key, const std::string& declared, Quantity quantity) {
     if (declared.empty()) return UnitScale{};
@@ -41,13 +41,13 @@ ColumnScales declared_scales(
     return known.value_or(UnitScale{});
   };
   const auto geared = [](UnitScale s, double ratio) { return UnitScale{s.factor, s.divisor * ratio}; };
-  const Quantity travel = rotation ? Quantity::kAngle : Quantity::kLength;
+  const Quantity travel = coordinates.rotational() ? Quantity::kAngle : Quantity::kLength;
   const bool counts = units.position == kCounts;
   if (counts && !(encoder.quantum > 0.0))
     refuse("position", "encoder: {bits: ...} or {quantum: ...} beside it, which says what one count is");
   ColumnScales scales;
   scales.time = scale("time", units.time, Quantity::kTime);
-  scales.input = scale("input", units.input, rotation ? Quantity::kTorque : Quantity::kForce);
+  scales.input = scale("input", units.input, coordinates.rotational() ? Quantity::kTorque : Quantity::kForce);
   scales.position = geared(
       counts ? UnitScale{encoder.quantum, 1.0} : scale("position", units.position, travel), gear.position);
   scales.load_position = geared(scale("load_position", units.load_position, travel), gear.load_position);
@@ -56,7 +56,7 @@ ColumnScales declared_scales(
 
 namespace internal::config {
 
-void read_units(const Section& section, const EncoderConfig& encoder, bool rotation,
+void read_units(const Section& section, const EncoderConfig& encoder, Coordinates coordinates,
                 RecordingConfig& recording) {
   if (const auto gear = section.find("gear_ratio")) {
     read_fields(*gear, recording.gear);
@@ -73,7 +73,7 @@ void read_units(const Section& section, const EncoderConfig& encoder, bool rotat
     Section(*units, keys.keys).find(key)->fail_expecting(expected);
   };
   recording.reading.columns.scales =
-      declared_scales(recording.units, recording.gear, encoder, rotation, refuse);
+      declared_scales(recording.units, recording.gear, encoder, coordinates, refuse);
 }
 
 void write_units(YamlWriter& out, const RecordingConfig& recording) {

@@ -7,7 +7,7 @@
 namespace gapscope::internal::config {
 
 /// `units` and `gear_ratio` of a recording, and the scales that follow.
-void read_units(const Section& section, const EncoderConfig& encoder, bool rotation,
+void read_units(const Section& section, const EncoderConfig& encoder, Coordinates coordinates,
                 RecordingConfig& recording);
 
 /// The same keys, as far as something was declared.

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/units.h"
-
 namespace gapscope::internal::config {
 namespace {
 
@@ -57,7 +55,7 @@ void YamlWriter::entry(const std::string& key, const std::string& value, const s
 }
 
 void YamlWriter::quantity(const std::string& key, const std::string& value, const std::string& unit) {
-  entry(key, value, axis_unit(unit, rotation_));
+  entry(key, value, coordinates_.unit(unit));
 }
 
 void YamlWriter::comment(const std::string& text) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/fields.h"
 
 namespace gapscope::internal::config {
@@ -15,8 +16,8 @@ std::string yaml_text(const std::string& text);
 /// Writes block-style YAML line by line.
 class YamlWriter {
  public:
-  /// @param rotation  of the axis whose units stand behind the values
-  explicit YamlWriter(bool rotation) : rotation_(rotation) {}
+  /// @param coordinates  whose units stand behind the values
+  explicit YamlWriter(Coordinates coordinates) : coordinates_(coordinates) {}
   void open(const std::string& key);  ///< a map begins
   void close() { --depth_; }
   void entry(const std::string& key, const std::string& value, const std::string& comment = "");
@@ -26,7 +27,7 @@ class YamlWriter {
   const std::string& text() const { return text_; }
 
  private:
-  bool rotation_;
+  Coordinates coordinates_;
   std::string text_;
   int depth_ = 0;
 };

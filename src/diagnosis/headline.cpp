@@ -19,12 +19,12 @@ const MapShare& largest(const std::vector<MapShare>& map) {
                            [](const MapShare& a, const MapShare& b) { return a.share < b.share; });
 }
 
-std::string phase_words(const MismatchPlace& place, bool rotation) {
+std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
   static constexpr const char* kWhere[] = {"in the gap", "in engagement", "at impacts"};
   if (!place.phase) return "";
   const auto phase = static_cast<std::size_t>(*place.phase);
   return fmt::format("{} ({:.0f} % of the squared residual {} in {:.0f} % of the time)", kWhere[phase],
-                     100.0 * place.mode[phase].share, rotation ? "torque" : "force",
+                     100.0 * place.mode[phase].share, coordinates.torque_word(),
                      100.0 * place.mode[phase].expected);
 }
 
@@ -36,19 +36,19 @@ std::string direction_words(const std::vector<MapShare>& direction) {
   return "following the direction of motion, alike forward and backward";
 }
 
-std::string angle_words(const MismatchPlace& p, bool rotation) {
-  const char* const along = rotation ? "motor angle" : "motor position";
+std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
+  const char* const along = coordinates.rotational() ? "motor angle" : "motor position";
   if (!std::isfinite(p.periods_per_turn))
     return fmt::format("along the {}, most at {}", along, largest(p.angle).bin);
-  if (!rotation)
+  if (!coordinates.rotational())
     return fmt::format("periodic in the motor position, every {:.4g} m", 2.0 * kPi / p.periods_per_turn);
   return fmt::format("periodic in the motor angle with {:.3g} cycles per turn", p.periods_per_turn);
 }
 
-std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, bool rotation) {
+std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coordinates coordinates) {
   switch (pattern) {
     case ResidualPattern::kAngle:
-      return angle_words(p, rotation);
+      return angle_words(p, coordinates);
     case ResidualPattern::kDirection:
       return direction_words(p.direction);
     case ResidualPattern::kSpeed:
@@ -58,7 +58,8 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, bool 
     case ResidualPattern::kTime:
       return fmt::format("changing over time, most at {}", largest(p.time).bin);
     case ResidualPattern::kInputSteps:
-      return fmt::format("where the torque changes, most at {}", largest(p.frequency).bin);
+      return fmt::format("where the {} changes, most at {}", coordinates.torque_word(),
+                         largest(p.frequency).bin);
     case ResidualPattern::kCounts:
       return "within the count of a coarser encoder";
     case ResidualPattern::kMode:
@@ -99,12 +100,12 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
   return followed;
 }
 
-std::string headline_of(const MismatchPlace& place, bool rotation) {
-  std::string text = phase_words(place, rotation);
+std::string headline_of(const MismatchPlace& place, Coordinates coordinates) {
+  std::string text = phase_words(place, coordinates);
   const auto add = [&text](const std::string& words) {
     text += text.empty() || words.empty() ? words : ", " + words;
   };
-  for (const ResidualPattern pattern : place.follows) add(pattern_words(pattern, place, rotation));
+  for (const ResidualPattern pattern : place.follows) add(pattern_words(pattern, place, coordinates));
   if (place.follows.empty())
     add("forward and backward, without a clear order in angle, speed, input or time");
   return text;

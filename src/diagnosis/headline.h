@@ -28,6 +28,6 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
                                                const ModelEffect* effect);
 
 /// The place of a mismatch in words.
-std::string headline_of(const MismatchPlace& place, bool rotation);
+std::string headline_of(const MismatchPlace& place, Coordinates coordinates);
 
 }  // namespace gapscope::internal::diagnosis

@@ -107,7 +107,7 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
   const double free = std::max(encoder, held.free_repeats);
   const auto row = [&](const std::string& name, double unit, double floor,
                        std::vector<double> Windows::*squares) {
-    return MismatchMeasure{name, study.options.rotation ? "rad" : "m", unit * median_size(b.*squares),
+    return MismatchMeasure{name, study.options.coordinates.position_unit(), unit * median_size(b.*squares),
                            unit * median_size(a.*squares), floor};
   };
   const double slow_floor = study.repeats_badly() ? kNaN : encoder * noise_gain(kSlowHz, dt);
@@ -116,8 +116,8 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
               free, free, &Windows::free),
           row(fmt::format("prediction at {:g} Hz", kSlowHz), encoder, slow_floor, &Windows::slow),
           row(fmt::format("prediction at {:g} Hz", kFastHz), encoder, fast_floor, &Windows::fast),
-          {study.options.rotation ? "residual torque" : "residual force",
-           study.options.rotation ? "N m" : "N", median_size(b.torque), median_size(a.torque), kNaN}};
+          {std::string("residual ") + study.options.coordinates.torque_word(),
+           study.options.coordinates.torque_unit(), median_size(b.torque), median_size(a.torque), kNaN}};
 }
 
 double weight_of(const ScoredModel& candidate, const ScoredModel& best) {

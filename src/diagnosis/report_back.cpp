@@ -105,7 +105,7 @@ std::vector<std::string> names_of(const std::vector<const EffectEntry*>& entries
 std::string place_left_by(const Study& study, const ReferenceModel& model) {
   const double km = model.parameters[place::kTorqueConstant].value;
   const auto played = play(model, study.held_out, study.observer_hz, true);
-  return place_of(played, study.held_out, km, study.options.rotation, nullptr).headline;
+  return place_of(played, study.held_out, km, study.options.coordinates, nullptr).headline;
 }
 
 /// @param after the model that the step has led to
@@ -194,9 +194,9 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
         probability_shares(found.candidates, found.decision, study.options.known.outside_catalogue).outside;
   d.mismatch = mismatch_size(study, nominal, after);
   d.measures = measures_of(study, before_played, after_played);
-  d.where = place_of(before_played, study.held_out, km, study.options.rotation,
+  d.where = place_of(before_played, study.held_out, km, study.options.coordinates,
                      added ? &alone(found, additions.effects.front().entry) : nullptr);
-  d.remaining = place_of(after_played, study.held_out, km, study.options.rotation, nullptr);
+  d.remaining = place_of(after_played, study.held_out, km, study.options.coordinates, nullptr);
   d.traces = traces_of(study, before_played, after_played);
   d.rivals = open_question(found, additions);
   d.sentence = sentence_of(d);

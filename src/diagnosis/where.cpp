@@ -37,12 +37,13 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
 
 using SampleValue = std::function<double(const Sample&)>;
 
-std::string range_key(double low, double high, int decimals, const char* unit) {
+std::string range_key(double low, double high, int decimals, const std::string& unit) {
   return fmt::format("{:.{}f}..{:.{}f} {}", low, decimals, high, decimals, unit);
 }
 
 /// Bins of equal width between the extremes.
-std::vector<MapShare> range_map(const std::vector<Sample>& samples, const SampleValue& of, const char* unit) {
+std::vector<MapShare> range_map(const std::vector<Sample>& samples, const SampleValue& of,
+                                const std::string& unit) {
   double low = kInfinity, high = -kInfinity;
   for (const Sample& s : samples) low = std::min(low, of(s)), high = std::max(high, of(s));
   constexpr double kNarrowest = 1e-9;
@@ -112,9 +113,7 @@ void normalise(std::vector<MapShare>& map) {
   }
 }
 
-void fill_maps(const std::vector<Sample>& samples, bool rotation, MismatchPlace& place) {
-  const char* speed = rotation ? "rad/s" : "m/s";
-  const char* angle = rotation ? "rad" : "m";
+void fill_maps(const std::vector<Sample>& samples, Coordinates coordinates, MismatchPlace& place) {
   place.mode = class_map(
       samples,
       {to_string(ContactPhase::kGap), to_string(ContactPhase::kEngagement), to_string(ContactPhase::kImpact)},
@@ -126,11 +125,11 @@ void fill_maps(const std::vector<Sample>& samples, bool rotation, MismatchPlace&
   place.direction = class_map(samples, {"backward", "forward"},
                               [](const Sample& s) -> std::size_t { return s.w1 > 0.0 ? 1 : 0; });
   place.speed = range_map(
-      samples, [](const Sample& s) { return std::abs(s.w1); }, speed);
+      samples, [](const Sample& s) { return std::abs(s.w1); }, coordinates.unit("rad/s"));
   place.angle = range_map(
-      samples, [](const Sample& s) { return s.x1; }, angle);
+      samples, [](const Sample& s) { return s.x1; }, coordinates.position_unit());
   place.input = range_map(
-      samples, [](const Sample& s) { return std::abs(s.u); }, rotation ? "N m" : "N");
+      samples, [](const Sample& s) { return std::abs(s.u); }, coordinates.torque_unit());
   place.time = range_map(
       samples, [](const Sample& s) { return s.time; }, "s");
 }
@@ -174,11 +173,11 @@ std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples, con
 }  // namespace
 
 MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& held_out,
-                       double torque_constant, bool rotation, const ModelEffect* effect) {
+                       double torque_constant, Coordinates coordinates, const ModelEffect* effect) {
   MismatchPlace place;
   if (playbacks.empty()) return place;
   const std::vector<Sample> samples = samples_of(playbacks, held_out, torque_constant);
-  fill_maps(samples, rotation, place);
+  fill_maps(samples, coordinates, place);
   place.frequency = frequency_map(playbacks, held_out);
   for (auto* map : {&place.mode, &place.direction, &place.speed, &place.angle, &place.input, &place.frequency,
                     &place.time})
@@ -189,7 +188,7 @@ MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& he
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.phase = densest_phase(place.mode);
   place.follows = followed_patterns(patterns_of(samples, place, line_explained), effect);
-  place.headline = headline_of(place, rotation);
+  place.headline = headline_of(place, coordinates);
   return place;
 }
 

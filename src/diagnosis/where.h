@@ -11,6 +11,6 @@ namespace gapscope::internal::diagnosis {
 /// puts into words what stands out against an error that is everywhere alike.
 /// @param effect that was found to explain it; nullptr: none
 MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& held_out,
-                       double torque_constant, bool rotation, const ModelEffect* effect);
+                       double torque_constant, Coordinates coordinates, const ModelEffect* effect);
 
 }  // namespace gapscope::internal::diagnosis

@@ -103,16 +103,16 @@ std::string Inspection::report() const {
   return text + fmt::format("{:<12}{}\n", "answer", sum_of(*this));
 }
 
-Inspection inspect(const std::string& path, const ReadOptions& options, bool rotation) {
+Inspection inspect(const std::string& path, const ReadOptions& options, Coordinates coordinates) {
   Material m;
   m.rows = internal::recording::read_window(path, options, internal::recording::EarlierRow::kSkipped);
   m.recording = on_grid(m.rows, options);
   m.resampled = options.resample_rate.has_value();
-  m.rotation = rotation;
+  m.coordinates = coordinates;
   m.signal = internal::signals::read_facts(m.recording.motor_trace());
   Inspection inspection;
   inspection.file = path;
-  inspection.rotation = rotation;
+  inspection.coordinates = coordinates;
   for (const Rule rule : kRules) inspection.findings.push_back(rule(m, inspection.facts));
   return inspection;
 }

@@ -81,15 +81,16 @@ std::vector<std::size_t> jumps(const Material& m) {
 
 Finding check_position_unit(const Material& m, RecordingFacts&) {
   const double q = m.recording.quantum, turn = 2.0 * std::numbers::pi;
-  const double speed = fastest(m), limit = m.rotation ? kFastestRotation : kFastestSlide;
+  const double speed = fastest(m), limit = m.coordinates.rotational() ? kFastestRotation : kFastestSlide;
   if (m.moves() && whole_numbers(m.rows.x1))
     return wrong_unit("all positions are whole numbers: counts?",
-                      m.rotation ? "declare it, units: {position: counts} beside encoder: {bits: ...}"
-                                 : "declare it, units: {position: counts} beside encoder: {quantum: ...}");
-  if (m.rotation && q > 0.0 && !is_usual(turn / q) && is_usual(360.0 / q))
+                      m.coordinates.rotational()
+                          ? "declare it, units: {position: counts} beside encoder: {bits: ...}"
+                          : "declare it, units: {position: counts} beside encoder: {quantum: ...}");
+  if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q) && is_usual(360.0 / q))
     return wrong_unit(fmt::format("x1 steps by 360/{:.0f}: degrees?", 360.0 / q),
                       "declare it, recording: units: {position: deg}");
-  if (m.rotation && q > 0.0 && !is_usual(turn / q) && is_power_of_two(1.0 / q))
+  if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q) && is_power_of_two(1.0 / q))
     return wrong_unit(fmt::format("x1 steps by 1/{:.0f}: turns?", 1.0 / q),
                       "declare it, recording: units: {position: rev}");
   const std::string speeds = fmt::format("up to {:.4g} {}/s", speed, m.unit());
@@ -107,23 +108,24 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
             fmt::format("no smallest step is seen; noise {:.3g} {} per position", noise, m.unit()),
             "if x1 was filtered, interpolated or computed, record the raw counts: filters blur the impacts"};
   facts.quantum = q;
-  if (m.rotation && is_round(q))
+  if (m.coordinates.rotational() && is_round(q))
     return {"encoder", Severity::kNote,
             fmt::format(
                 "x1 steps by {:.4g} rad, a round number: so many decimals, not the counts, or no angle", q),
             "write x1 with more digits, and give the real step as encoder: {bits: ...}; a linear axis in m: "
             "--translation"};
   const double per_turn = 2.0 * std::numbers::pi / q;
-  if (m.rotation ? per_turn > kMostCounts : q < kFinestSlide)
+  if (m.coordinates.rotational() ? per_turn > kMostCounts : q < kFinestSlide)
     return {"encoder", Severity::kNote,
             fmt::format("x1 steps by {:.4g} {}, finer than any encoder: another unit?", q, m.unit()),
             "declare it, recording: units: {position: ...}"};
-  return {"encoder", Severity::kFine,
-          fmt::format("x1 steps by {:.4g} {}{}, noise {:.2g} steps; a gap below {:.3g} {} (40 steps) is too "
-                      "coarse for the detector",
-                      q, m.unit(), m.rotation ? fmt::format(" ({:.0f} per turn)", per_turn) : "", noise / q,
-                      signals::kFewestGapQuanta * q, m.unit()),
-          ""};
+  return {
+      "encoder", Severity::kFine,
+      fmt::format("x1 steps by {:.4g} {}{}, noise {:.2g} steps; a gap below {:.3g} {} (40 steps) is too "
+                  "coarse for the detector",
+                  q, m.unit(), m.coordinates.rotational() ? fmt::format(" ({:.0f} per turn)", per_turn) : "",
+                  noise / q, signals::kFewestGapQuanta * q, m.unit()),
+      ""};
 }
 
 Finding check_jumps(const Material& m, RecordingFacts&) {
@@ -131,7 +133,8 @@ Finding check_jumps(const Material& m, RecordingFacts&) {
   if (found.empty()) return {"jumps", Severity::kFine, "x1 has none", ""};
   const std::size_t i = found.front();
   const double size = std::abs(m.rows.x1[i] - m.rows.x1[i - 1]), turns = size / (2.0 * std::numbers::pi);
-  const bool wraps = m.rotation && turns > 0.9 && std::abs(turns - std::round(turns)) < 0.05 * turns;
+  const bool wraps =
+      m.coordinates.rotational() && turns > 0.9 && std::abs(turns - std::round(turns)) < 0.05 * turns;
   return {"jumps", Severity::kSpoils,
           fmt::format("x1 jumps {} times, first by {:.4g} {} in {}", found.size(), size, m.unit(),
                       m.rows.place(m.rows.line[i])),

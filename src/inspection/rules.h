@@ -18,8 +18,8 @@ struct Material {
   Recording recording;           ///< the same on a uniform grid
   signals::SignalFacts signal;   ///< of its x1
   bool resampled = false;        ///< on request: irregular time is taken care of
-  bool rotation = true;
-  const char* unit() const { return rotation ? "rad" : "m"; }
+  Coordinates coordinates;
+  const char* unit() const { return coordinates.position_unit(); }
   bool moves() const { return signal.speed_rms > 0.0; }
 };
 

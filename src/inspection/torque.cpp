@@ -98,7 +98,7 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
             "x1 goes with u, as against a locked output: it says nothing about the inertia", ""};
   const signals::OneBody rough = signals::as_one_body(std::span(&trace, 1));
   facts.inertia = rough.inertia, facts.damping = rough.damping, facts.friction = rough.friction;
-  const char* const units = m.rotation ? "kg m^2, N m s, N m" : "kg, N s/m, N";
+  const char* const units = m.coordinates.rotational() ? "kg m^2, N m s, N m" : "kg, N s/m, N";
   const std::string inertia =
       rough.inertia > 0.0 ? fmt::format("{:.3g}", rough.inertia) : "too small to be seen";
   if (!(rough.inertia > 0.0) && !(rough.damping > 0.0))

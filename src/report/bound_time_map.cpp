@@ -65,8 +65,9 @@ Panel map_panel(const ReportView& view, const BoundMap& map) {
   const double half_step = 0.5 * (high - low) / static_cast<double>(map.bounds.size() - 1);
   panel.title = "|$e_x$| over its chatter floor";
   panel.x = view.time_axis(time_range(map));
-  panel.y = {"bound $L$", view.run.rotation ? "rad/s²" : "m/s²", {low - half_step, high + half_step}, {}, {},
-             {}};
+  panel.y = {
+      "bound $L$", view.run.coordinates.shown_unit("rad/s^2"), {low - half_step, high + half_step}, {}, {},
+      {}};
   panel.y.places = log_places(panel.y.range, {1.0, 2.0, 5.0});
   panel.height = 760.0;
   for (std::size_t j = 0; j < map.bounds.size(); ++j) add_row(panel, map, j, half_step);
@@ -133,7 +134,7 @@ double smallest_at_rest(const BoundMap& map) {
 }
 
 std::string reading(const ReportView& view, const BoundMap& map) {
-  const std::string unit = view.run.rotation ? " rad/s²" : " m/s²";
+  const std::string unit = " " + view.run.coordinates.shown_unit("rad/s^2");
   std::string text =
       fmt::format("e_x rests half of the time from L = {}{} on", rounded(smallest_at_rest(map), 2), unit);
   std::vector<double> passage, impact;

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <set>
 
-#include "gapscope/base/units.h"
 #include "report/changes_figure.h"
 #include "report/markdown.h"
 #include "report/report_files.h"
@@ -23,7 +22,7 @@ constexpr double kAside = 0.06;  ///< so that no mark hides the other
 bool is_gap(const DriveQuantity& q) { return q.key == "gap" || q.key == "play_at_zero_torque"; }
 
 std::string unit_of(const DriveChanges& all, const DriveQuantity& q) {
-  return shown_unit(q.unit, all.rotation);
+  return all.coordinates.shown_unit(q.unit);
 }
 
 std::string estimator(const DriveQuantity& q) { return q.from == "model_free" ? "model-free" : "reference"; }
@@ -100,7 +99,7 @@ FigureData gap_over_recordings(const DriveChanges& all) {
       "report, in the order given", "", {0.5, static_cast<double>(all.reports.size()) + 0.5}, {}, {}, {}};
   for (const std::string& name : short_names(all.reports))
     panel.x.places.push_back({static_cast<double>(panel.x.places.size() + 1), literal(name)});
-  panel.y.unit = all.rotation ? "rad" : "m";
+  panel.y.unit = all.coordinates.position_unit();
   for (const DriveQuantity& q : all.quantities)
     if (is_gap(q)) add_series(q, panel);
   const bool plays = all.find("model_free", "play_at_zero_torque") != nullptr;

@@ -23,10 +23,12 @@ const MismatchTrace* shown_trace(const DiagnosisResult& r) {
   return traces.empty() || traces.front().x1.size() < 2 ? nullptr : &traces.front();
 }
 
-std::string length_unit(const DiagnosisResult& r) { return r.rotation ? "rad" : "m"; }
-std::string torque_unit_of(const DiagnosisResult& r) { return r.rotation ? "N·m" : "N"; }
-std::string torque_word(const DiagnosisResult& r) { return r.rotation ? "torque" : "force"; }
-std::string angle_word(const DiagnosisResult& r) { return r.rotation ? "motor angle" : "displacement"; }
+std::string length_unit(const DiagnosisResult& r) { return r.coordinates.position_unit(); }
+std::string torque_unit_of(const DiagnosisResult& r) { return r.coordinates.shown_unit("N m"); }
+std::string torque_word(const DiagnosisResult& r) { return r.coordinates.torque_word(); }
+std::string angle_word(const DiagnosisResult& r) {
+  return r.coordinates.rotational() ? "motor angle" : "displacement";
+}
 bool added(const DiagnosisResult& r) { return !r.diagnosis.effects.empty(); }
 
 std::string readable(std::string name) {
@@ -110,8 +112,8 @@ std::string share_text(double share) {
 
 /// A cycle over the motor angle in words.
 std::string every(const DiagnosisResult& r, double periods_per_turn) {
-  return r.rotation ? rounded(periods_per_turn) + " cycles per turn"
-                    : "every " + quantity(2.0 * kPi / periods_per_turn, "m");
+  return r.coordinates.rotational() ? rounded(periods_per_turn) + " cycles per turn"
+                                    : "every " + quantity(2.0 * kPi / periods_per_turn, "m");
 }
 
 /// What repeats with the motor angle: in what the nominal model leaves, and in what is left in the end.
@@ -195,8 +197,8 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
       {"Mode", w.mode},
       {"Direction of motion", w.direction},
       {"Speed", w.speed},
-      {r.rotation ? "Motor angle" : "Displacement", w.angle},
-      {r.rotation ? "Torque of the input" : "Force of the input", w.input},
+      {r.coordinates.rotational() ? "Motor angle" : "Displacement", w.angle},
+      {r.coordinates.rotational() ? "Torque of the input" : "Force of the input", w.input},
       {"Frequency", w.frequency},
       {"Time", w.time}};
   for (const auto& [title, map] : maps)

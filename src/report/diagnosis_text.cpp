@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "gapscope/base/units.h"
 #include "report/diagnosis_figures.h"
 #include "report/markdown.h"
 #include "report/wording.h"
@@ -20,7 +19,7 @@ std::string measures_table(const DiagnosisResult& r) {
                         quantity(m.after, m.unit), std::isfinite(m.floor) ? quantity(m.floor, m.unit) : "–");
   const MismatchSize& g = r.diagnosis.mismatch;
   text += fmt::format("\nThe answer is of the {}. Its floor, {}, is the {}{}{}.", g.measure,
-                      quantity(g.floor, r.rotation ? "rad" : "m"), floor_name(g.floor_from),
+                      quantity(g.floor, r.coordinates.position_unit()), floor_name(g.floor_from),
                       g.floor_of.empty() ? "" : ": ", g.floor_of);
   if (std::isfinite(g.shrink)) {
     text += fmt::format(" The error shrinks by {}", rounded(g.shrink));
@@ -33,13 +32,13 @@ std::string measures_table(const DiagnosisResult& r) {
   return text + "\n";
 }
 
-std::string parameters_of(const RankedEffect& e, bool rotation) {
+std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
   std::vector<std::string> parts;
   for (const NamedValue& p : e.parameters) {
     const bool phase = p.key == "phase_rad";  // an angle on a linear axis, too
-    const std::string unit = shown_unit(p.unit, rotation || phase);
+    const std::string unit = (phase ? Coordinates() : coordinates).shown_unit(p.unit);
     parts.push_back(fmt::format("{} {}{}", p.key, rounded(p.value, 4), unit.empty() ? "" : " " + unit));
-    if (!rotation && p.key == "periods_per_turn")
+    if (!coordinates.rotational() && p.key == "periods_per_turn")
       parts.back() = "a period of " + quantity(2.0 * kPi / p.value, "m");
   }
   return fmt::format("{}", fmt::join(parts, ", "));
@@ -71,7 +70,7 @@ std::string ranking_table(const DiagnosisResult& r) {
     text +=
         fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", e.effect,
                     std::isfinite(e.probability) ? fmt::format("{:.2f}", e.probability) : "–", rounded(e.rel),
-                    rounded(e.shrink), rounded(e.windows_better), parameters_of(e, r.rotation), e.remark);
+                    rounded(e.shrink), rounded(e.windows_better), parameters_of(e, r.coordinates), e.remark);
   return text;
 }
 
@@ -80,7 +79,7 @@ std::string names_list(const std::vector<std::string>& names) {
 }
 
 std::string steps_table(const DiagnosisResult& r) {
-  const std::string unit = r.rotation ? "rad" : "m";
+  const std::string unit = r.coordinates.position_unit();
   std::string text;
   for (const DiagnosisStep& s : r.diagnosis.steps) {
     if (s.ranking.empty()) continue;
@@ -89,7 +88,7 @@ std::string steps_table(const DiagnosisResult& r) {
     text += fmt::format("| {} | `{}` | {} | {} | {} | {} | {} | {} | {} | {} |\n", names_list(s.on_top_of),
                         s.effect, s.accepted ? "added" : "not added", names_list(others),
                         quantity(s.mismatch.before, unit), quantity(s.mismatch.after, unit),
-                        rounded(s.mismatch.shrink), parameters_of(s.ranking.front(), r.rotation),
+                        rounded(s.mismatch.shrink), parameters_of(s.ranking.front(), r.coordinates),
                         names_list(s.dropped), s.remaining);
   }
   if (text.empty()) return "";
@@ -101,21 +100,21 @@ std::string steps_table(const DiagnosisResult& r) {
 
 std::string periodic_table(const DiagnosisResult& r) {
   if (r.diagnosis.periodic.empty()) return "";
-  const std::string angle = r.rotation ? "rad" : "m", torque = r.rotation ? "N·m" : "N";
-  std::string text = "\n## " + std::string(r.rotation ? "Torque" : "Force") +
+  const std::string angle = r.coordinates.position_unit(), torque = r.coordinates.shown_unit("N m");
+  std::string text = "\n## " + std::string(r.coordinates.rotational() ? "Torque" : "Force") +
                      " that repeats with the position\n\nIn what the model leaves with all that was added. "
                      "Listed, not added: `cogging_torque` and `torque_ripple` are candidates of every step, "
                      "which start at the "
                      "strongest lines and at given periods.\n\n| period | " +
-                     (r.rotation ? "cycles per turn | " : "") +
+                     (r.coordinates.rotational() ? "cycles per turn | " : "") +
                      "amplitude | over neighbouring periods | held-out windows better | holds there "
                      "|\n|---|---|---|---|---|" +
-                     (r.rotation ? "---|\n" : "\n");
+                     (r.coordinates.rotational() ? "---|\n" : "\n");
   for (const PeriodicTorque& p : r.diagnosis.periodic)
     text += fmt::format("| {} | {}{} | {} | {} of {} | {} |\n", quantity(p.period, angle),
-                        r.rotation ? rounded(p.periods_per_turn) + " | " : "", quantity(p.amplitude, torque),
-                        p.given ? "given" : rounded(p.stands_out) + " times", p.better, p.windows,
-                        p.holds ? "yes" : "no");
+                        r.coordinates.rotational() ? rounded(p.periods_per_turn) + " | " : "",
+                        quantity(p.amplitude, torque), p.given ? "given" : rounded(p.stands_out) + " times",
+                        p.better, p.windows, p.holds ? "yes" : "no");
   return text;
 }
 
@@ -127,8 +126,8 @@ std::string blame_table(const DiagnosisResult& r) {
   for (const BlameShift& b : r.diagnosis.blame) {
     const double percent = 100.0 * (b.without - b.with) / std::abs(b.with);
     text +=
-        fmt::format("| `{}` | {} | {} | {} |\n", b.key, quantity(b.without, shown_unit(b.unit, r.rotation)),
-                    quantity(b.with, shown_unit(b.unit, r.rotation)),
+        fmt::format("| `{}` | {} | {} | {} |\n", b.key, quantity(b.without, r.coordinates.shown_unit(b.unit)),
+                    quantity(b.with, r.coordinates.shown_unit(b.unit)),
                     std::isfinite(percent)
                         ? fmt::format("{} % {}", rounded(std::abs(percent)), percent > 0 ? "high" : "low")
                         : "–");
@@ -151,7 +150,7 @@ std::string experiment_table(const DiagnosisResult& r) {
   for (std::size_t i = 0; i < next.tried.front().separations.size(); ++i) text += "---|";
   text += "\n";
   for (const TriedInput& t : next.tried) {
-    text += fmt::format("| {} | {} |", t.input, quantity(t.travel, r.rotation ? "rad" : "m"));
+    text += fmt::format("| {} | {} |", t.input, quantity(t.travel, r.coordinates.position_unit()));
     for (const Separation& s : t.separations)
       text += s.contained ? " contained, nothing can tell |" : " " + rounded(s.excess) + " σ |";
     text += "\n";

@@ -12,7 +12,7 @@ DriveSignal drive_signal(const ReportView& view) {
   const FittedParameter* constant = parameter(view.run, "torque_constant");
   if (constant == nullptr || !std::isfinite(constant->value))
     return {view.recording->u, {"input $u$", "units of $u$", {}, {}, {}}, "input"};
-  const std::string name = view.run.rotation ? "torque" : "force";
+  const std::string name = view.run.coordinates.torque_word();
   return {times(view.recording->u, constant->value),
           {name + " $K_m u$", torque_unit(view.run), {}, {}, {}},
           name};

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/units.h"
 #include "report/rich_text.h"
 #include "report/wording.h"
 
@@ -17,8 +16,8 @@ std::string sentence(const std::string& text) {
   return text.empty() ? "" : text + (text.ends_with(".") ? " " : ". ");
 }
 
-std::string parameter_row(const FittedParameter& p, bool rotation) {
-  const std::string unit = shown_unit(p.unit, rotation);
+std::string parameter_row(const FittedParameter& p, Coordinates coordinates) {
+  const std::string unit = coordinates.shown_unit(p.unit);
   const char* known = !p.estimated ? "given" : p.identifiable ? "yes" : "no";
   const std::string start = p.estimated ? quantity(p.start, unit) : "";
   std::string remark = p.at_bound ? "at its bound" : "";
@@ -78,7 +77,7 @@ std::string comparison_line(const RunResult& run) {
 std::string bounds_line(const RunResult& run) {
   if (!run.model_free || !std::isfinite(run.model_free->bound)) return "";
   const GapEstimate& g = *run.model_free;
-  const char* unit = run.rotation ? "rad/s²" : "m/s²";
+  const std::string unit = run.coordinates.shown_unit("rad/s^2");
   std::string text = fmt::format("\nBounds: L = {} {} {}", rounded(g.bound), unit,
                                  g.method == GapMethod::kPaper ? "was given" : "decides t2");
   if (std::isfinite(g.bound_t1)) text += fmt::format(", L = {} {} shows t1", rounded(g.bound_t1), unit);
@@ -92,7 +91,7 @@ std::string parameter_table(const RunResult& run) {
   std::string text =
       "\n## Parameters of the reference\n\n| parameter | value (± half of the 95 % interval) | identifiable "
       "| start | remark |\n|---|---|---|---|---|\n";
-  for (const FittedParameter& p : run.reference->parameters) text += parameter_row(p, run.rotation);
+  for (const FittedParameter& p : run.reference->parameters) text += parameter_row(p, run.coordinates);
   const FitSummary& fit = *run.reference;
   text +=
       "\n" + sentence(fit.message.text()) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";

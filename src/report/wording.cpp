@@ -159,8 +159,8 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::string position_unit(const RunResult& run) { return run.rotation ? "rad" : "m"; }
-std::string torque_unit(const RunResult& run) { return run.rotation ? "N·m" : "N"; }
+std::string position_unit(const RunResult& run) { return run.coordinates.position_unit(); }
+std::string torque_unit(const RunResult& run) { return run.coordinates.shown_unit("N m"); }
 
 const FittedParameter* parameter(const RunResult& run, const std::string& key) {
   if (!run.reference) return nullptr;

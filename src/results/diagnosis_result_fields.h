@@ -193,7 +193,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("warnings", g.warnings);
   archive("name", d.result.name);
   archive("version", d.result.version);
-  archive.choice("coordinates", d.result.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
+  coordinates_field(archive, d.result.coordinates);
   archive.configuration(d.result.configuration);
   archive.added_list("sources", d.result.sources);
   archive.list("held_out", d.held_out);

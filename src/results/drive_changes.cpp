@@ -26,11 +26,11 @@ Observed told(double value, double std, const Interval& ci95) {
 Observed model_free(const DriveReport& report, GapQuantity quantity) {
   if (!report.model_free) return untold("not asked for");
   const GapEstimate& g = *report.model_free;
-  const char* unit = report.rotation ? "rad" : "m";
   if (g.verdict == GapVerdict::kInconclusive) return untold("inconclusive");
   if (g.verdict == GapVerdict::kNone) {
     if (quantity == GapQuantity::kPlayAtZeroTorque && g.quantity != quantity) return untold("not read");
-    Observed none = untold(fmt::format("none above {:.3g} {}", g.smallest_visible_gap, unit));
+    Observed none = untold(
+        fmt::format("none above {:.3g} {}", g.smallest_visible_gap, report.coordinates.position_unit()));
     none.ci95 = {0.0, g.smallest_visible_gap};
     return none;
   }
@@ -120,13 +120,13 @@ std::string unit_of(std::span<const DriveReport> reports, const std::string& key
   return "";
 }
 
-void require_one_axis(std::span<const DriveReport> reports) {
-  const auto axis = [](const DriveReport& r) { return r.rotation ? "rotation" : "translation"; };
+void require_same_coordinates(std::span<const DriveReport> reports) {
   for (const DriveReport& r : reports)
-    if (r.rotation != reports.front().rotation)
-      throw ConfigError(r.folder + "/result.json",
-                        fmt::format("has coordinates: {}, expected {} as in {}: reports of one drive",
-                                    axis(r), axis(reports.front()), reports.front().folder));
+    if (r.coordinates != reports.front().coordinates)
+      throw ConfigError(
+          r.folder + "/result.json",
+          fmt::format("has coordinates: {}, expected {} as in {}: reports of one drive", r.coordinates.name(),
+                      reports.front().coordinates.name(), reports.front().folder));
 }
 
 /// What the comparison is of, wherever the folders lie.
@@ -163,11 +163,11 @@ const DriveQuantity* DriveChanges::find(const std::string& from, const std::stri
 
 DriveChanges changes(std::span<const DriveReport> reports) {
   GAPSCOPE_REQUIRE(reports.size() >= 2);
-  require_one_axis(reports);
+  require_same_coordinates(reports);
   DriveChanges all;
   all.version = version();
   all.configuration = made_from(reports);
-  all.rotation = reports.front().rotation;
+  all.coordinates = reports.front().coordinates;
   for (const DriveReport& r : reports) all.reports.push_back(r.folder);
   for (const GapQuantity which : {GapQuantity::kGap, GapQuantity::kPlayAtZeroTorque}) {
     DriveQuantity q{to_string(which), "model_free", "rad", {}, {}};

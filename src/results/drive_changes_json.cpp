@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/base/units.h"
+#include "gapscope/base/text.h"
 #include "gapscope/results/drive_changes.h"
 #include "results/json_archive.h"
 #include "results/json_schema.h"
@@ -74,7 +74,7 @@ void document(Archive& archive, DriveChanges& d) {
   std::vector<StoredQuantity> quantities;
   for (const DriveQuantity& q : d.quantities) quantities.push_back({stored_name(q), q});
   archive("version", d.version);
-  archive.choice("coordinates", d.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
+  coordinates_field(archive, d.coordinates);
   archive("reports", d.reports);
   archive.named("quantities", quantities, &StoredQuantity::name);
   archive("compared", d.compared);

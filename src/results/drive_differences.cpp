@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/units.h"
-
 namespace gapscope::internal::results {
 namespace {
 
@@ -39,7 +37,7 @@ void compare_given(std::span<const DriveReport> all, const DriveReport& r, Lines
             "{}: {} was given as {:.6g} {}, in {} as {:.6g}: another drive or another configuration, and "
             "what is "
             "estimated beside it cannot be compared",
-            r.folder, p.key, p.value, axis_unit(p.unit, r.rotation), before.folder, first->value));
+            r.folder, p.key, p.value, r.coordinates.unit(p.unit), before.folder, first->value));
       break;
     }
   }
@@ -67,7 +65,7 @@ void compare_excitation(const DriveReport& first, const DriveReport& r, Lines& l
   add_if_other("input peak", "units of u", b.input_peak, a.input_peak, kSameInput, other);
   add_if_other("input frequency", "Hz", b.input_frequency, a.input_frequency, frequency_tolerance(a), other);
   add_if_other("sampling rate", "Hz", b.rate, a.rate, kSameInput, other);
-  add_if_other("encoder quantum", r.rotation ? "rad" : "m", b.quantum, a.quantum, kSameInput, other);
+  add_if_other("encoder quantum", r.coordinates.position_unit(), b.quantum, a.quantum, kSameInput, other);
   if (!other.empty())
     lines.push_back(fmt::format(
         "{}: another excitation or another encoder than in {} ({}): part of a change may be theirs", r.folder,

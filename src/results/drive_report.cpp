@@ -52,7 +52,7 @@ DriveReport read_drive_report(const std::string& folder) {
   report.name = run.name;
   report.version = run.version;
   report.configuration = std::move(run.configuration);
-  report.rotation = run.rotation;
+  report.coordinates = run.coordinates;
   report.model_free = std::move(run.model_free);
   if (report.model_free) report.model_free->traces.clear();
   report.reference = std::move(run.reference);

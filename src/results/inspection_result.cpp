@@ -62,7 +62,7 @@ void fields(Archive& archive, InspectionDocument& d) {
   bool spoilt = i.spoilt();
   archive("file", i.file);
   archive("version", d.version);
-  archive.choice("coordinates", i.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
+  coordinates_field(archive, i.coordinates);
   archive("spoilt", spoilt);
   archive.list("findings", i.findings);
   archive.single("facts", i.facts);

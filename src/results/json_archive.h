@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/remark.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/base/whole_file.h"
@@ -21,6 +22,14 @@ using Json = nlohmann::ordered_json;
 /// The words of an enum in the file.
 template <class Enum>
 using Words = std::initializer_list<std::pair<Enum, const char*>>;
+
+/// How every document says along what its drive moves.
+template <class Archive>
+void coordinates_field(Archive& archive, Coordinates& coordinates) {
+  archive.choice(
+      "coordinates", coordinates,
+      Words<Coordinates>{{Coordinates::kRotation, "rotation"}, {Coordinates::kTranslation, "translation"}});
+}
 
 inline constexpr const char* kConfiguration = "configuration";  ///< the key of every result
 

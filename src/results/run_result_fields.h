@@ -175,7 +175,7 @@ void fields(Archive& archive, Document& d) {
   archive("schema", d.schema);
   archive("name", d.run.name);
   archive("version", d.run.version);
-  archive.choice("coordinates", d.run.rotation, Words<bool>{{true, "rotation"}, {false, "translation"}});
+  coordinates_field(archive, d.run.coordinates);
   archive.part("model_free", d.run.model_free);
   archive.part("reference", d.run.reference);
   archive.part("comparison", d.run.comparison);

@@ -31,7 +31,7 @@ void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>&
   r.quantum = sheet;
   if (seen == 0.0 || (seen < 1.5 * sheet && seen > sheet / 1.5)) return;
   warnings.push_back(fmt::format("{}: positions step by {:.4g} {} where encoder: says {:.4g}", r.file, seen,
-                                 c.rotation ? "rad" : "m", sheet));
+                                 c.coordinates.position_unit(), sheet));
 }
 
 Recording read_one(const RecordedFile& file, const Configuration& c) {

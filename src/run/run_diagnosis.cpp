@@ -16,7 +16,7 @@ namespace {
 std::vector<std::string> spoiling(const Configuration& c, const std::vector<RecordedFile>& files) {
   std::vector<std::string> warnings;
   for (const RecordedFile& file : files)
-    for (const Finding& f : inspect(file.path, c.recording->reading, c.rotation).findings)
+    for (const Finding& f : inspect(file.path, c.recording->reading, c.coordinates).findings)
       if (f.severity == Severity::kSpoils && f.rule != kReversalsRule)
         warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
   return warnings;
@@ -61,7 +61,7 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   std::vector<std::string> warnings = std::move(recordings.train.warnings);
   for (const auto& more : {recordings.held_out.warnings, checked(c, options.progress)})
     warnings.insert(warnings.end(), more.begin(), more.end());
-  DiagnosisResult result{c.name, version(), resolved_yaml(c), c.rotation,
+  DiagnosisResult result{c.name, version(), resolved_yaml(c), c.coordinates,
                          diagnose_recordings(c, recordings, options)};
   result.sources = sources;
   Diagnosis& d = result.diagnosis;

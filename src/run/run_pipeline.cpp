@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "gapscope/base/interrupt.h"
-#include "gapscope/base/units.h"
 #include "gapscope/base/version.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/reference/fit.h"
@@ -52,7 +51,7 @@ DetectorOptions detector_options(const Configuration& c, const std::vector<Motor
   options.paper_bound = bound.low;
   notes.push_back(
       fmt::format("bound of the detector from the model, eq. (13): {:.4g} < L < {:.4g}, L = {:.4g} {} taken",
-                  bound.low, bound.high, options.bound, axis_unit("rad/s^2", c.rotation)));
+                  bound.low, bound.high, options.bound, c.coordinates.unit("rad/s^2")));
   return options;
 }
 
@@ -65,9 +64,9 @@ void note_defaults(const ModelConfig& model, std::vector<std::string>& notes) {
   if (!keys.empty()) notes.push_back(fmt::format("not given and taken as 0: {}", fmt::join(keys, ", ")));
 }
 
-/// What the estimators have to say, in the units of the axis.
+/// What the estimators have to say, in the units of the drive.
 void put_into_words(RunResult& r) {
-  const auto put = [&](Remark& remark) { remark.put_into_words(r.rotation); };
+  const auto put = [&](Remark& remark) { remark.put_into_words(r.coordinates); };
   const auto put_all = [&](std::vector<Remark>& remarks) {
     std::for_each(remarks.begin(), remarks.end(), put);
   };
@@ -88,7 +87,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.name = c.name;
   r.version = version();
   r.configuration = resolved_yaml(c);
-  r.rotation = c.rotation;
+  r.coordinates = c.coordinates;
   LoadedRecordings loaded = load_recordings(c, progress);
   r.notes = std::move(loaded.notes);
   out.warnings = std::move(loaded.warnings);

@@ -13,10 +13,11 @@ Remark gap_seen() {
 
 TEST(Remark, IsPutTogetherWithTheUnitsOfTheAxis) {
   EXPECT_EQ(gap_seen().text(), "a gap of 0.012 rad in 7 passages, [1.0, 2.0] by x [rad]");
-  EXPECT_EQ(gap_seen().text(false), "a gap of 0.012 m in 7 passages, [1.0, 2.0] by x [rad]");
+  EXPECT_EQ(gap_seen().text(Coordinates::kTranslation),
+            "a gap of 0.012 m in 7 passages, [1.0, 2.0] by x [rad]");
   const Remark damping("damping", "{} {}", {0.5, RemarkUnit{"N m s/rad"}});
   EXPECT_EQ(damping.text(), "0.5 N m s/rad");
-  EXPECT_EQ(damping.text(false), "0.5 N s/m");
+  EXPECT_EQ(damping.text(Coordinates::kTranslation), "0.5 N s/m");
 }
 
 TEST(Remark, KeepsItsCodeAndItsNumbers) {
@@ -24,15 +25,15 @@ TEST(Remark, KeepsItsCodeAndItsNumbers) {
   EXPECT_EQ(both.code(), "gap_seen");
   ASSERT_EQ(both.values().size(), 6u);
   EXPECT_EQ(std::get<double>(both.values().front()), 0.0123);
-  EXPECT_TRUE(both.text(false).ends_with("; 3 m/s"));
+  EXPECT_TRUE(both.text(Coordinates::kTranslation).ends_with("; 3 m/s"));
 }
 
 TEST(Remark, StaysAsItWasPutIntoWords) {
   Remark metres = gap_seen();
-  metres.put_into_words(false);
-  EXPECT_EQ(metres.text(true), gap_seen().text(false));
+  metres.put_into_words(Coordinates::kTranslation);
+  EXPECT_EQ(metres.text(Coordinates::kRotation), gap_seen().text(Coordinates::kTranslation));
   EXPECT_EQ(metres.code(), "gap_seen");
-  EXPECT_EQ(Remark::said("as [rad] {} stored").text(false), "as [rad] {} stored");
+  EXPECT_EQ(Remark::said("as [rad] {} stored").text(Coordinates::kTranslation), "as [rad] {} stored");
   EXPECT_TRUE(Remark::said("").empty());
   EXPECT_EQ(Remark().text(), "");
 }

@@ -120,12 +120,12 @@ TEST(Words, AnAnswerTellsWhatIsNeededOverTwoAxes) {
 }
 
 TEST(Words, AxesAreCalledAsPeopleCallThem) {
-  EXPECT_EQ(axis_name("simulation.rate", true).name, "sampling rate");
-  EXPECT_EQ(axis_name("simulation.model.parameters.gap", true).name, "gap");
-  EXPECT_EQ(axis_name("model.parameters.contact_stiffness.value", true).name, "model's contact stiffness");
-  EXPECT_EQ(axis_name("model.parameters.contact_stiffness", true).unit, "N·m/rad");
-  EXPECT_EQ(axis_name("model.parameters.contact_stiffness", false).unit, "N/m");
-  EXPECT_EQ(axis_name("some.other.path", true).name, "some.other.path");
+  EXPECT_EQ(axis_name("simulation.rate", {}).name, "sampling rate");
+  EXPECT_EQ(axis_name("simulation.model.parameters.gap", {}).name, "gap");
+  EXPECT_EQ(axis_name("model.parameters.contact_stiffness.value", {}).name, "model's contact stiffness");
+  EXPECT_EQ(axis_name("model.parameters.contact_stiffness", {}).unit, "N·m/rad");
+  EXPECT_EQ(axis_name("model.parameters.contact_stiffness", Coordinates::kTranslation).unit, "N/m");
+  EXPECT_EQ(axis_name("some.other.path", {}).name, "some.other.path");
 }
 
 TEST(Words, NumbersTakeThePrefixThatKeepsThemShort) {

@@ -34,7 +34,7 @@ TEST(Configuration, EveryKeyOfTheSchemaArrives) {
   EXPECT_EQ(c.recording->reading.window->second, 20.31);
   EXPECT_EQ(c.recording->reading.resample_rate, 400.0);
   EXPECT_DOUBLE_EQ(c.encoder.quantum, 2.0 * kPi / 1048576.0);
-  EXPECT_TRUE(c.rotation);
+  EXPECT_EQ(c.coordinates, Coordinates::kRotation);
   EXPECT_EQ(c.model.structure.contact, ContactLaw::kCompliant);
   EXPECT_EQ(parameter(c, "motor_inertia").value, 8.78e-4);
   EXPECT_FALSE(parameter(c, "motor_inertia").estimate);
@@ -191,7 +191,7 @@ TEST(Configuration, TheDiagnosisIsToldWhatIsKnown) {
 TEST(Configuration, TranslationCountsInMetres) {
   const Configuration c = parse_configuration(
       with(with(kRecorded, "rotation", "translation"), "{bits: 20}", "{quantum: 5.0e-8}"), "a.yaml");
-  EXPECT_FALSE(c.rotation);
+  EXPECT_EQ(c.coordinates, Coordinates::kTranslation);
   EXPECT_EQ(c.encoder.quantum, 5e-8);
 }
 

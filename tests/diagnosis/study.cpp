@@ -120,7 +120,7 @@ std::string places(const Study& study, const Findings& f, const blind::BlindPair
   const ReferenceModel& fitted = f.candidates.front().fitted.model;
   const auto played = play(f.before.fitted.model, study.held_out, study.observer_hz, true);
   const MismatchPlace place =
-      place_of(played, study.held_out, fitted.parameters[place::kTorqueConstant].value, true,
+      place_of(played, study.held_out, fitted.parameters[place::kTorqueConstant].value, {},
                told ? &fitted.effects.back() : nullptr);
   return blind::names_the_place(blind::told_place(place), pair.effect, pair.cycles_per_turn) ? "yes" : "no";
 }

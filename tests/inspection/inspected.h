@@ -17,9 +17,9 @@ using testing::rig;
 using testing::Rows;
 using testing::TemporaryFile;
 
-inline Inspection inspected(const Rows& rows, const ReadOptions& options = {}, bool rotation = true) {
+inline Inspection inspected(const Rows& rows, const ReadOptions& options = {}, Coordinates coordinates = {}) {
   const TemporaryFile file(rows.csv());
-  return inspect(file.path(), options, rotation);
+  return inspect(file.path(), options, coordinates);
 }
 
 inline const Finding& finding(const Inspection& inspection, const std::string& rule) {

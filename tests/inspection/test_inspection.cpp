@@ -193,12 +193,12 @@ TEST(Inspection, WhatIsNoRecordingIsRefusedAsEverywhere) {
 TEST(Inspection, TheRealRecordings) {
   GAPSCOPE_NEEDS_DATA();
   const std::string data = testing::data_folder();
-  const Inspection axis = inspect(data + "/emps/emps_train.csv", {}, false);
+  const Inspection axis = inspect(data + "/emps/emps_train.csv", {}, Coordinates::kTranslation);
   EXPECT_FALSE(axis.spoilt()) << axis.report();
   EXPECT_NEAR(axis.facts.quantum, 5e-8, 1e-10);
   EXPECT_EQ(finding(axis, "feedback").severity, Severity::kNote);  // it was recorded in a position loop
   EXPECT_NEAR(axis.facts.inertia, 95.1, 10.0);                     // kg: one unit of u is one N
-  EXPECT_FALSE(inspect(data + "/emps/emps_pulses.csv", {}, false).spoilt());
+  EXPECT_FALSE(inspect(data + "/emps/emps_pulses.csv", {}, Coordinates::kTranslation).spoilt());
   for (const char* reducer : {"baseline_pos1", "splitpreload3_pos1"}) {
     const std::string path = data + "/cycloidal/" + reducer + ".csv";
     EXPECT_THAT(rules_with(inspect(path), Severity::kSpoils), ElementsAre("time"));

@@ -32,10 +32,10 @@ std::vector<Remark> all_remarks() {
 TEST(Words, ArePutTogetherOnBothAxes) {
   for (const Remark& remark : all_remarks()) {
     EXPECT_FALSE(remark.code().empty());
-    for (const bool rotation : {true, false}) {
-      const std::string text = remark.text(rotation);
+    for (const Coordinates coordinates : {Coordinates::kRotation, Coordinates::kTranslation}) {
+      const std::string text = remark.text(coordinates);
       EXPECT_EQ(text.find_first_of("{}[]"), std::string::npos) << text;
-      EXPECT_TRUE(rotation || text.find(" rad") == std::string::npos) << text;
+      EXPECT_TRUE(coordinates.rotational() || text.find(" rad") == std::string::npos) << text;
     }
   }
 }

@@ -179,7 +179,7 @@ void to_translation(RunResult& run) {
     for (double& v : values) v *= f;
   };
   const auto shrink_interval = [&](Interval& i) { i = {i.low * f, i.high * f}; };
-  run.rotation = false;
+  run.coordinates = Coordinates::kTranslation;
   run.simulated_gap *= f;
   for (Recording& r : run.recordings) shrink(r.x1), shrink(r.x2), r.quantum *= f;
   if (GapEstimate* g = run.model_free ? &*run.model_free : nullptr) {
@@ -227,7 +227,7 @@ RunResult sample_run(const SampleOptions& options) {
       c.agree = std::abs(c.difference) <= 1.96 * c.joint_std;
     }
   }
-  if (!options.rotation) to_translation(run);
+  if (!options.coordinates.rotational()) to_translation(run);
   return run;
 }
 

@@ -9,13 +9,13 @@ namespace gapscope {
 /// drive with slightly other parameters as the fitted one.
 struct SampleOptions {
   int samples = 25000;
-  double rate = 2500.0;       ///< [Hz]
-  double frequency = 1.0;     ///< of the sine [Hz]
-  bool rotation = true;       ///< false: a screw axis, metres and newtons, numbers 1/1000
-  bool load_recorded = true;  ///< x2 in the recording
-  bool detected = true;       ///< a model-free part
-  bool fitted = true;         ///< a reference part
-  bool one_inertia = false;   ///< the reference has no load behind a gap
+  double rate = 2500.0;          ///< [Hz]
+  double frequency = 1.0;        ///< of the sine [Hz]
+  Coordinates coordinates = {};  ///< of a translation: a screw axis, metres and newtons, numbers 1/1000
+  bool load_recorded = true;     ///< x2 in the recording
+  bool detected = true;          ///< a model-free part
+  bool fitted = true;            ///< a reference part
+  bool one_inertia = false;      ///< the reference has no load behind a gap
   GapVerdict verdict = GapVerdict::kBacklash;
 };
 

@@ -15,7 +15,9 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Observed read(double value, double std) { return {value, std, {value - 1.96 * std, value + 1.96 * std}, ""}; }
+Observation read(double value, double std) {
+  return {value, std, {value - 1.96 * std, value + 1.96 * std}, ""};
+}
 
 /// Six reports of which the last but one denies the gap and the last tells none.
 DriveChanges sample() {
@@ -42,9 +44,9 @@ DriveChanges sample() {
 }
 
 TEST(ChangesReport, TheFigureShowsEveryReadingAndHoldsItsTextsApart) {
-  for (const bool rotation : {true, false}) {
+  for (const Coordinates coordinates : {Coordinates::kRotation, Coordinates::kTranslation}) {
     DriveChanges all = sample();
-    all.rotation = rotation;
+    all.coordinates = coordinates;
     const internal::report::FigureData figure = internal::report::gap_over_recordings(all);
     const internal::report::Drawing drawing = internal::report::draw_with_notes(figure);
     internal::report::expect_clear_texts(figure, drawing);
@@ -52,7 +54,7 @@ TEST(ChangesReport, TheFigureShowsEveryReadingAndHoldsItsTextsApart) {
     for (const internal::report::DrawnText& t : drawing.texts) texts += t.markup + "\n";
     for (const char* expected : {"model-free", "reference", "model-free: none above", "recording_of_month_1"})
       EXPECT_THAT(texts, HasSubstr(expected));
-    EXPECT_THAT(texts, HasSubstr(rotation ? "(mrad)" : "(mm)"));
+    EXPECT_THAT(texts, HasSubstr(coordinates.rotational() ? "(mrad)" : "(mm)"));
     ASSERT_EQ(figure.panels.at(0).series.size(), 3u);
     EXPECT_EQ(figure.panels[0].series[0].y.size(), 6u);
     EXPECT_EQ(figure.panels[0].series[1].y, std::vector{0.008});

@@ -24,7 +24,7 @@ std::vector<MapShare> map_of(std::initializer_list<std::string> bins) {
 }
 
 DiagnosisResult sample(DiagnosisVerdict verdict) {
-  DiagnosisResult r{"rig_p", "0.1", "", true, {}};
+  DiagnosisResult r{"rig_p", "0.1", "", {}, {}};
   Diagnosis& d = r.diagnosis;
   d.verdict = verdict;
   d.sentence = "The model lacks cogging torque.";
@@ -104,7 +104,7 @@ TEST(DiagnosisReport, NamesTheFloorAndWhereItComesFrom) {
 TEST(DiagnosisReport, TheCaptionKnowsOfTheLineThatTheTableLists) {
   DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
   r.diagnosis.where.periods_per_turn = kNaN;
-  r.rotation = false;
+  r.coordinates = Coordinates::kTranslation;
   r.diagnosis.periodic.front().periods_per_turn = 2.0 * kPi / 2.5e-3;
   const std::string reading = internal::report::diagnosis_torque_map(r).reading;
   EXPECT_NE(

@@ -14,7 +14,7 @@ RunResult kind_of_run(std::size_t kind) {
   const SampleOptions options[kKinds] = {
       {.samples = 15000},
       {.samples = 60000, .rate = 5000.0, .frequency = 3.0},
-      {.samples = 6000, .rotation = false},
+      {.samples = 6000, .coordinates = Coordinates::kTranslation},
       {.samples = 9000, .load_recorded = false, .verdict = GapVerdict::kInconclusive},
       {.samples = 9000, .load_recorded = false, .fitted = false},
       {.samples = 9000, .load_recorded = false, .detected = false, .one_inertia = true},

@@ -81,7 +81,7 @@ inline RunResult full_result() {
   run.name = "rig_p";
   run.version = "0.1.0";
   run.configuration = "name: \"rig_p\"  # 2β\n";
-  run.rotation = false;
+  run.coordinates = Coordinates::kTranslation;
   run.recordings = {recording("a.csv", 0.0, true), recording("b.csv", 2.0, false)};
   run.model_free = estimate(run);
   run.reference = summary(run);

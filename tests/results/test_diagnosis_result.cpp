@@ -24,7 +24,7 @@ std::vector<MapShare> halves(const std::string& low, const std::string& high) {
 }
 
 DiagnosisResult sample() {
-  DiagnosisResult r{"rig", "0.1", "name: rig\n", true, {}};
+  DiagnosisResult r{"rig", "0.1", "name: rig\n", {}, {}};
   Diagnosis& d = r.diagnosis;
   d.verdict = DiagnosisVerdict::kEffect;
   d.sentence = "The model lacks cogging torque.";

@@ -199,7 +199,7 @@ TEST(DriveChanges, OtherRecordingsAndPoorModelsAreTold) {
 
 TEST(DriveChanges, ReportsOfAnotherKindOfAxisAreRefused) {
   DriveReport screw = report("b", 0.02, 1e-4);
-  screw.rotation = false;
+  screw.coordinates = Coordinates::kTranslation;
   try {
     compared({report("a", 0.02, 1e-4), screw});
     FAIL();

@@ -38,7 +38,7 @@ TEST(RunResult, ComesBackExactly) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.version, b.version);
   EXPECT_EQ(a.configuration, b.configuration);
-  EXPECT_EQ(a.rotation, b.rotation);
+  EXPECT_EQ(a.coordinates, b.coordinates);
   EXPECT_EQ(a.notes, b.notes);
   EXPECT_SAME(simulated_gap);
   EXPECT_SAME(comparison->difference);

@@ -56,10 +56,10 @@ TEST(Words, ArePutTogetherOnBothAxes) {
   std::set<std::string> texts;
   for (const Remark& remark : all_remarks()) {
     EXPECT_FALSE(remark.code().empty());
-    for (const bool rotation : {true, false}) {
-      const std::string text = remark.text(rotation);
+    for (const Coordinates coordinates : {Coordinates::kRotation, Coordinates::kTranslation}) {
+      const std::string text = remark.text(coordinates);
       EXPECT_EQ(text.find_first_of("{}[]"), std::string::npos) << text;
-      EXPECT_TRUE(rotation || text.find(" rad") == std::string::npos) << text;
+      EXPECT_TRUE(coordinates.rotational() || text.find(" rad") == std::string::npos) << text;
     }
     EXPECT_TRUE(texts.insert(remark.text()).second) << "said twice: " << remark.text();
   }
@@ -68,7 +68,7 @@ TEST(Words, ArePutTogetherOnBothAxes) {
 TEST(Words, ListPlaysWithTheirLevels) {
   const std::vector<words::Play> plays = {{0.01, 0.2, 3}, {0.02, 0.4, 5}};
   EXPECT_EQ(
-      words::no_free_run(plays).text(false),
+      words::no_free_run(plays).text(Coordinates::kTranslation),
       "quasi-static loop without a free run: hysteresis of friction and compliance, 0.01 m at |u| = 0.2 (3 "
       "loops), 0.02 m at |u| = 0.4 (5 loops)");
 }

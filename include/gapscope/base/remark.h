@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "gapscope/base/coordinates.h"
+
 namespace gapscope {
 
 /// The unit of a parameter ("N m s/rad"), as a value of a remark.
@@ -13,7 +15,7 @@ struct RemarkUnit {
 };
 
 /// What an estimator has to say: a code, numbers of a rotation in SI units, and the words around them. The
-/// axis, and with it the units, is known to whoever reads it.
+/// coordinates, and with them the units, are known to whoever reads it.
 class Remark {
  public:
   using Value = std::variant<double, long, std::string, RemarkUnit>;
@@ -29,9 +31,9 @@ class Remark {
   bool empty() const { return parts_.empty(); }
   std::string code() const;  ///< of its first part; empty where it is words only
   std::vector<Value> values() const;
-  std::string text(bool rotation = true) const;
-  /// Keeps the words for this axis alone: text() gives them from now on, whatever it is asked for.
-  void put_into_words(bool rotation);
+  std::string text(Coordinates coordinates = {}) const;
+  /// Keeps the words for these coordinates alone: text() gives them from now on, whatever it is asked for.
+  void put_into_words(Coordinates coordinates);
 
   Remark& operator+=(const Remark& more);  ///< goes on with other words, without a space
   friend Remark operator+(Remark a, const Remark& b) { return a += b; }
@@ -49,6 +51,6 @@ class Remark {
 std::ostream& operator<<(std::ostream& out, const Remark& remark);
 
 /// The texts of remarks, in their order.
-std::vector<std::string> texts_of(const std::vector<Remark>& remarks, bool rotation = true);
+std::vector<std::string> texts_of(const std::vector<Remark>& remarks, Coordinates coordinates = {});
 
 }  // namespace gapscope

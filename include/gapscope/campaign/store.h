@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/campaign/row.h"
 #include "gapscope/config/campaign_config.h"
 
@@ -28,7 +29,7 @@ struct CampaignHeader {
   std::string version;   ///< of gapscope
   std::string name;      ///< of the campaign
   std::string identity;  ///< campaign_identity(), and what the recordings are that it reads
-  bool rotation = true;
+  Coordinates coordinates;
   bool model_free = true, reference = true;
   std::uint64_t runs = 0;  ///< of the whole campaign
   CampaignShard shard;

@@ -26,7 +26,7 @@ struct Configuration {
   std::optional<RecordingConfig> recording;  ///< exactly one of these two
   std::optional<SimulationConfig> simulation;
   EncoderConfig encoder;
-  bool rotation = true;  ///< false: rad and N·m mean m and N
+  Coordinates coordinates;  ///< of a translation: rad and N·m mean m and N
   ModelConfig model;
   DetectorConfig detector;
   FitOptions fit;  ///< `fit:` – how the reference is found; optional, every key of it too

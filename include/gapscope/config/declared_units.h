@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/fields.h"
 #include "gapscope/recording/recording_file.h"
 
@@ -37,7 +38,7 @@ struct GearRatios {
 /// @param refuse  is told the key ("position") whose unit is not known, and what was expected; does not
 /// return
 ColumnScales declared_scales(const DeclaredUnits& units, const GearRatios& gear, const EncoderConfig& encoder,
-                             bool rotation,
+                             Coordinates coordinates,
                              const std::function<void(const char* key, const std::string& expected)>& refuse);
 
 }  // namespace gapscope

@@ -25,7 +25,8 @@ struct Starter {
 /// @param model   kAsSeen: the detector decides
 /// @param folder  where the configuration will be: the recording is named relative to it
 /// @throws ConfigError where the recording cannot be read
-Starter starter_configuration(RecordingConfig recording, const EncoderConfig& encoder, bool rotation,
-                              const std::string& folder, StarterModel model = StarterModel::kAsSeen);
+Starter starter_configuration(RecordingConfig recording, const EncoderConfig& encoder,
+                              Coordinates coordinates, const std::string& folder,
+                              StarterModel model = StarterModel::kAsSeen);
 
 }  // namespace gapscope

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/fields.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/diagnosis/evidence.h"
@@ -166,7 +167,7 @@ struct DiagnosisOptions {
   DiagnosisKnowledge known;
   std::vector<std::string> excluded;  ///< effects that are no candidates
   int threads = 0;                    ///< 0: all cores; the answer is the same for any number
-  bool rotation = true;               ///< false: rad and N·m mean m and N in texts
+  Coordinates coordinates;            ///< of a translation: rad and N·m mean m and N in texts
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 

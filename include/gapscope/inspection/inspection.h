@@ -57,7 +57,7 @@ struct RecordingFacts {
 /// What a recording says about itself before anything is estimated from it.
 struct Inspection {
   std::string file;  ///< as it was named
-  bool rotation = true;
+  Coordinates coordinates;
   RecordingFacts facts;
   std::vector<Finding> findings;
   bool spoilt() const;         ///< whether any finding is kSpoils
@@ -67,8 +67,8 @@ struct Inspection {
 /// Puts every question to a recording. Only t, u and x1 are looked at. Rows that do not go forward in time
 /// and time that is not uniform are findings here; the other questions are then put to what is left, on a
 /// uniform grid.
-/// @param rotation  false: the position is in m
+/// @param coordinates  of a translation: the position is in m
 /// @throws ConfigError where read_recording() would for another reason than time.
-Inspection inspect(const std::string& path, const ReadOptions& options = {}, bool rotation = true);
+Inspection inspect(const std::string& path, const ReadOptions& options = {}, Coordinates coordinates = {});
 
 }  // namespace gapscope

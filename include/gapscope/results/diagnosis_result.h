@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/file_hash.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
@@ -12,7 +13,7 @@ struct DiagnosisResult {
   std::string name;                    ///< of the configuration
   std::string version;                 ///< of gapscope
   std::string configuration;           ///< resolved_yaml(), which is stored with its SHA-256
-  bool rotation = true;                ///< false: rad and N·m mean m and N
+  Coordinates coordinates;             ///< of a translation: rad and N·m mean m and N
   Diagnosis diagnosis;                 ///< the fitted model is not stored here but in fitted.yaml
   std::vector<FileHash> sources = {};  ///< the configuration and every recording that it names
 };

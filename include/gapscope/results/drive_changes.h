@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/reference/fit_summary.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
@@ -29,7 +30,7 @@ struct DriveReport {
   std::string name;           ///< of the configuration
   std::string version;        ///< of gapscope
   std::string configuration;  ///< resolved; empty in files that were written before it was stored
-  bool rotation = true;       ///< false: rad and N·m mean m and N
+  Coordinates coordinates;    ///< of a translation: rad and N·m mean m and N
   std::optional<GapEstimate> model_free;
   std::optional<FitSummary> reference;  ///< without its traces
   std::vector<Excited> recordings;
@@ -69,7 +70,7 @@ struct DriveQuantity {
 struct DriveChanges {
   std::string version;        ///< of gapscope
   std::string configuration;  ///< of each report the name, the version and the hash of its configuration
-  bool rotation = true;
+  Coordinates coordinates;
   std::vector<std::string> reports;  ///< their folders
   std::vector<DriveQuantity>
       quantities;    ///< that at least one report gives or denies; what was given to it does not count

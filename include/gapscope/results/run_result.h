@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/file_hash.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/recording/recording.h"
@@ -18,7 +19,7 @@ struct RunResult {
   std::string version;                    ///< of gapscope
   std::string configuration;              ///< resolved_yaml(), which is stored with its SHA-256
   std::vector<FileHash> sources;          ///< the configuration and every recording that it names
-  bool rotation = true;                   ///< false: rad and N·m mean m and N
+  Coordinates coordinates;                ///< of a translation: rad and N·m mean m and N
   std::optional<GapEstimate> model_free;  ///< absent: not asked for (`fit`)
   std::optional<FitSummary> reference;    ///< absent: not asked for (`detect`)
   std::optional<Comparison> comparison;   ///< absent unless both were asked for
