@@ -2,11 +2,30 @@
 
 #include <fmt/args.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <ostream>
 #include <utility>
 
+#include "gapscope/base/text.h"
+
 namespace gapscope {
+
+std::string Remark::Part::text(Coordinates coordinates) const {
+  if (said) return words;
+  fmt::dynamic_format_arg_store<fmt::format_context> all;
+  for (const Value& value : values)
+    if (const auto* unit = std::get_if<RemarkUnit>(&value))
+      all.push_back(coordinates.unit(unit->rotational));
+    else if (const auto* number = std::get_if<double>(&value))
+      all.push_back(*number);
+    else if (const auto* count = std::get_if<long>(&value))
+      all.push_back(*count);
+    else
+      all.push_back(std::get<std::string>(value));
+  return fmt::vformat(coordinates.with_units(words), all);
+}
+
 Remark::Remark(std::string code, std::string words, std::vector<Value> values)
     : parts_{{std::move(code), std::move(words), std::move(values), false}} {}
 
@@ -18,6 +37,13 @@ Remark Remark::said(std::string text) {
 
 std::string Remark::code() const { return parts_.empty() ? "" : parts_.front().code; }
 
+std::string Remark::codes() const {
+  std::vector<std::string> all;
+  for (const Part& part : parts_)
+    if (!part.code.empty() && !contains(all, part.code)) all.push_back(part.code);
+  return fmt::format("{}", fmt::join(all, "/"));
+}
+
 std::vector<Remark::Value> Remark::values() const {
   std::vector<Value> all;
   for (const Part& part : parts_) all.insert(all.end(), part.values.begin(), part.values.end());
@@ -26,31 +52,12 @@ std::vector<Remark::Value> Remark::values() const {
 
 std::string Remark::text(Coordinates coordinates) const {
   std::string text;
-  for (const Part& part : parts_) {
-    if (part.said) {
-      text += part.words;
-      continue;
-    }
-    fmt::dynamic_format_arg_store<fmt::format_context> values;
-    for (const Value& value : part.values)
-      if (const auto* unit = std::get_if<RemarkUnit>(&value))
-        values.push_back(coordinates.unit(unit->rotational));
-      else if (const auto* number = std::get_if<double>(&value))
-        values.push_back(*number);
-      else if (const auto* count = std::get_if<long>(&value))
-        values.push_back(*count);
-      else
-        values.push_back(std::get<std::string>(value));
-    text += fmt::vformat(coordinates.with_units(part.words), values);
-  }
+  for (const Part& part : parts_) text += part.text(coordinates);
   return text;
 }
 
 void Remark::put_into_words(Coordinates coordinates) {
-  if (parts_.empty()) return;
-  std::string words = text(coordinates), first = code();
-  std::vector<Value> numbers = values();
-  parts_ = {{std::move(first), std::move(words), std::move(numbers), true}};
+  for (Part& part : parts_) part.words = part.text(coordinates), part.said = true;
 }
 
 Remark& Remark::operator+=(const Remark& more) {

@@ -28,6 +28,7 @@ double seconds_since(Clock::time_point begin) {
 void note_model_free(const GapEstimate& g, CampaignRow& row) {
   row.verdict = to_string(g.verdict);
   row.reason = g.reason.text();
+  row.reason_codes = g.reason.codes();
   row.gap = g.gap;
   row.std = g.std;
   row.ci95 = g.ci95;

@@ -22,13 +22,13 @@ namespace fs = std::filesystem;
 using internal::campaign::Database;
 using internal::campaign::Statement;
 
-std::string file_in(const std::string& folder) { return (fs::path(folder) / "results.sqlite").string(); }
+std::string store_in(const std::string& folder) { return (fs::path(folder) / "results.sqlite").string(); }
 
 /// Keeps other processes from adding to the store in a folder.
 std::unique_ptr<ProcessLock> locked(const std::string& folder) {
   auto lock = std::make_unique<ProcessLock>(folder);
   if (lock->held_by_another())
-    throw ConfigError(file_in(folder), "is being written by another process, expected one at a time");
+    throw ConfigError(store_in(folder), "is being written by another process, expected one at a time");
   return lock;
 }
 
@@ -68,10 +68,10 @@ void require_own_beside(const std::string& file) {
 }
 
 std::string existing(const std::string& folder) {
-  if (!fs::is_regular_file(file_in(folder)))
-    throw ConfigError(file_in(folder), "there is no such file, expected the store of a campaign");
-  require_own_beside(file_in(folder));
-  return file_in(folder);
+  if (!fs::is_regular_file(store_in(folder)))
+    throw ConfigError(store_in(folder), "there is no such file, expected the store of a campaign");
+  require_own_beside(store_in(folder));
+  return store_in(folder);
 }
 
 std::string made(const std::string& folder) {
@@ -103,10 +103,11 @@ struct ColumnReader {
   }
 };
 
-std::string selection(const CampaignHeader& header, bool configurations) {
+std::string selection(Database& database, const CampaignHeader& header, bool configurations) {
+  const bool codes = internal::campaign::has_reason_codes(database);
   std::vector<std::string> columns;
   for (const std::string& name : internal::campaign::run_columns(header)) {
-    const bool left_out = name == "configuration" && !configurations;
+    const bool left_out = (name == "configuration" && !configurations) || (name == kReasonCodes && !codes);
     columns.push_back(left_out ? "''" : "runs." + internal::campaign::quoted_name(name));
   }
   return fmt::format(
@@ -143,7 +144,7 @@ struct CampaignStore::Connection {
 
 CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& header) : header_(header) {
   auto lock = locked(made(folder));
-  const std::string file = file_in(folder);
+  const std::string file = store_in(folder);
   std::error_code problem;
   if (const auto there = fs::symlink_status(file, problem); fs::exists(there) && !fs::is_regular_file(there))
     throw ConfigError(file, "is no regular file, expected the store of a campaign");
@@ -157,6 +158,7 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
     internal::campaign::create_tables(database, header);  // all at once: a kill leaves an empty file, or all
   else
     require_same(database, header);
+  if (!internal::campaign::has_reason_codes(database)) internal::campaign::add_reason_codes(database);
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
   connection_->insert_run = std::make_unique<Statement>(
@@ -167,7 +169,7 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
 CampaignStore::CampaignStore(const std::string& folder)
     : connection_(std::make_unique<Connection>(existing(folder), nullptr)),
       header_((connection_->database.require_sound(),
-               internal::campaign::read_header(connection_->database, file_in(folder)))) {}
+               internal::campaign::read_header(connection_->database, store_in(folder)))) {}
 
 CampaignStore::~CampaignStore() = default;
 
@@ -185,7 +187,7 @@ std::set<std::uint64_t> CampaignStore::done() const {
 
 void CampaignStore::each(const std::function<void(CampaignRow&, const CampaignTiming&)>& visit,
                          bool configurations) const {
-  Statement select(connection_->database, selection(header_, configurations));
+  Statement select(connection_->database, selection(connection_->database, header_, configurations));
   ColumnReader reader{select};
   while (select.step()) {
     CampaignRow row;

@@ -212,6 +212,16 @@ CampaignHeader read_header(Database& database, const std::string& file) {
   return h;
 }
 
+bool has_reason_codes(Database& database) {
+  Statement select(database, "SELECT name FROM pragma_table_info('runs') WHERE name = ?");
+  select.bind(std::string(kReasonCodes));
+  return select.step();
+}
+
+void add_reason_codes(Database& database) {
+  database.execute("ALTER TABLE runs ADD COLUMN " + quoted_name(kReasonCodes));
+}
+
 std::string header_difference(const CampaignHeader& stored, const CampaignHeader& wanted) {
   if (stored.version != wanted.version)
     return fmt::format("is of gapscope {}, expected {}", shown(stored.version), wanted.version);

@@ -18,6 +18,10 @@ CampaignHeader read_header(Database& database, const std::string& file);
 /// Names of the columns of `runs`: run, axes, drawn, fields of a row.
 std::vector<std::string> run_columns(const CampaignHeader& header);
 
+/// Whether `runs` has the column that was added last: stores that were made before have all but that.
+bool has_reason_codes(Database& database);
+void add_reason_codes(Database& database);
+
 /// What tells two campaigns apart, "" if nothing does; the shard is not looked at.
 /// @param stored, wanted  as the sentence calls them
 std::string header_difference(const CampaignHeader& stored, const CampaignHeader& wanted);

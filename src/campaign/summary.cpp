@@ -123,17 +123,33 @@ std::vector<int> bins_of(const CampaignStore& store, const std::vector<Binning>&
   return bins;
 }
 
-/// Numbers differ from run to run; what was said is the same.
+/// The text with its numbers, which differ from run to run, as "#".
 std::string without_numbers(const std::string& text) {
   constexpr std::size_t kLongest = 2000;  // which is walked digit by digit
   static const std::regex number(R"(-?\d+(\.\d+)?(e[-+]?\d+)?)");
   return std::regex_replace(text.substr(0, kLongest), number, "#");
 }
 
-std::vector<SummaryCount> counted(const std::map<std::string, int>& texts) {
+/// What was said in several runs, in the words of the first of them, by what makes it the same.
+using Counts = std::map<std::string, SummaryCount>;
+
+void count(const std::string& what, const std::string& text, Counts& counts) {
+  ++counts.try_emplace(what, SummaryCount{text, 0}).first->second.runs;
+}
+
+/// The same reason has the same codes, whatever its numbers; stores that were made without codes go by the
+/// words.
+void count_refusal(const CampaignRow& row, Counts& counts) {
+  const std::string text = row.verdict + ": " + without_numbers(row.reason);
+  count(row.reason_codes.empty() ? text : row.verdict + ": " + row.reason_codes, text, counts);
+}
+
+std::vector<SummaryCount> most_frequent(const Counts& counts) {
   std::vector<SummaryCount> all;
-  for (const auto& [text, runs] : texts) all.push_back({text, runs});
-  std::stable_sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.runs > y.runs; });
+  for (const auto& [what, said] : counts) all.push_back(said);
+  std::stable_sort(all.begin(), all.end(), [](const SummaryCount& x, const SummaryCount& y) {
+    return x.runs != y.runs ? x.runs > y.runs : x.text < y.text;
+  });
   all.resize(std::min(all.size(), kMostTexts));
   return all;
 }
@@ -147,16 +163,16 @@ CampaignSummary summarise(const CampaignStore& store) {
   std::vector<TableScorer> lines, pairs;
   for (std::size_t i = 0; i < axes.size(); ++i) lines.emplace_back(header, static_cast<int>(i), -1);
   for (const auto& [a, b] : pairs_of(axes)) pairs.emplace_back(header, a, b);
-  std::map<std::string, int> refusals, errors;
+  Counts refusals, errors;
   store.each([&](CampaignRow& row, const CampaignTiming&) {
     const std::vector<int> bins = bins_of(store, axes, row);
     total.add(row);
     for (auto* tables : {&lines, &pairs})
       for (TableScorer& table : *tables) table.add(row, bins);
     if (!row.error.empty())
-      ++errors[without_numbers(row.error)];
+      count(without_numbers(row.error), without_numbers(row.error), errors);
     else if (header.model_free && std::isnan(row.gap))
-      ++refusals[row.verdict + ": " + without_numbers(row.reason)];
+      count_refusal(row, refusals);
   });
   CampaignSummary s;
   s.name = header.name;
@@ -170,8 +186,8 @@ CampaignSummary summarise(const CampaignStore& store) {
   s.done = s.total.runs;
   for (const TableScorer& table : lines) s.lines.push_back(table.table());
   for (const TableScorer& table : pairs) s.pairs.push_back(table.table());
-  s.refusals = counted(refusals);
-  s.errors = counted(errors);
+  s.refusals = most_frequent(refusals);
+  s.errors = most_frequent(errors);
   s.answers = internal::campaign::answers(s);
   return s;
 }

@@ -174,7 +174,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
       "the sheet says. A bare number is fixed; {estimate: true} is fitted, from a value if one stands "
       "there.");
   for (const Finding& f : seen.findings) {
-    const bool settled = f.rule == "time" && irregular;
+    const bool settled = f.rule == kTimeRule && irregular;
     if (f.severity != Severity::kSpoils || settled) continue;
     starter.spoiling.push_back(f.rule + ": " + f.found);
     out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back() + " -> " + f.advice);

@@ -54,7 +54,7 @@ Finding check_travel(const Material& m, RecordingFacts& facts) {
   if (!m.moves())
     return {"travel", Severity::kSpoils,
             fmt::format("x1 moves by {:.3g} {} in all, noise {:.2g}", facts.travel, m.unit(), m.signal.noise),
-            m.signal.defect.empty() ? "raise the excitation" : m.signal.defect};
+            m.signal.defect.empty() ? "raise the excitation" : m.signal.defect.text()};
   const double q = m.recording.quantum, quanta = q > 0.0 ? facts.travel / q : facts.travel / m.signal.noise;
   const std::string found = fmt::format("{:.4g} {} peak to peak, {:.4g} {}", facts.travel, m.unit(), quanta,
                                         q > 0.0 ? "steps of the encoder" : "times the noise");
@@ -73,7 +73,7 @@ Finding check_periods(const Material& m, RecordingFacts& facts) {
   if (!s.defect.empty())
     return {kReversalsRule, Severity::kSpoils,
             fmt::format("{} half periods of motion: the detector will be inconclusive", s.half_periods),
-            s.defect};
+            s.defect.text()};
   return {kReversalsRule, Severity::kFine,
           fmt::format("{} strokes of {:.3g} s: {} passages of a gap can be expected", s.half_periods + 1,
                       s.half_period, s.half_periods + 1),

@@ -43,7 +43,7 @@ std::string resample_advice(const RecordingFacts& facts) {
 }
 
 Finding skipped_rows(const Material& m) {
-  return {"time", Severity::kSpoils,
+  return {kTimeRule, Severity::kSpoils,
           fmt::format("{} rows are not later than the row before, the first in {}", m.rows.skipped.size(),
                       m.rows.place(m.rows.skipped.front())),
           "export each sample once and in order; the rest is judged without these rows"};
@@ -51,7 +51,7 @@ Finding skipped_rows(const Material& m) {
 
 Finding pauses(const Material& m, const Steps& s, const RecordingFacts& facts) {
   return {
-      "time", m.resampled ? Severity::kNote : Severity::kSpoils,
+      kTimeRule, m.resampled ? Severity::kNote : Severity::kSpoils,
       fmt::format("{:.0f} samples are missing at {} places, most of them in {:.4g} s from t = {:.6g} s on",
                   s.missing, s.pauses, s.longest, m.rows.t[s.longest_row]),
       m.resampled
@@ -61,7 +61,7 @@ Finding pauses(const Material& m, const Steps& s, const RecordingFacts& facts) {
 
 Finding jitter(const Material& m, const Steps& s, const RecordingFacts& facts) {
   return {
-      "time", m.resampled ? Severity::kNote : Severity::kSpoils,
+      kTimeRule, m.resampled ? Severity::kNote : Severity::kSpoils,
       fmt::format("steps of {:.4g} to {:.4g} ms, {:.4g} ms in the middle: not uniform within 0.1 %",
                   1e3 * s.shortest, 1e3 * s.longest, 1e3 * s.median),
       m.resampled ? "resampled; delays and high frequencies are not to be trusted" : resample_advice(facts)};
@@ -81,7 +81,7 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
   facts.shortest_step = s.shortest, facts.longest_step = s.longest;
   if (!m.rows.skipped.empty()) return skipped_rows(m);
   if (facts.rate < kSlowest || facts.rate > kFastest)
-    return {"time", Severity::kSpoils,
+    return {kTimeRule, Severity::kSpoils,
             fmt::format("t goes on by {:.4g} from row to row: {:.4g} Hz if it is in seconds", s.median,
                         facts.rate),
             "give t in seconds (row numbers, ms or µs?)"};
@@ -89,12 +89,12 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
   if (!facts.uniform) return jitter(m, s, facts);
   if (m.rows.open_end)
     return {
-        "time", Severity::kNote,
+        kTimeRule, Severity::kNote,
         fmt::format("{} samples, {:.5g} s at {:.5g} Hz, uniform; the last line has no end", facts.samples,
                     facts.duration, facts.rate),
         "if the file was cut off, its last number is another: leave the last row out with recording: window"};
   return {
-      "time", Severity::kFine,
+      kTimeRule, Severity::kFine,
       fmt::format("{} samples, {:.5g} s at {:.5g} Hz, uniform", facts.samples, facts.duration, facts.rate),
       ""};
 }

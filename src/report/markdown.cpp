@@ -113,10 +113,6 @@ std::vector<std::string> notes_of(const RunResult& run) {
     notes.push_back(fmt::format("`{}`: {} samples, {} at {:g} Hz, encoder quantum {}.", r.file, r.size(),
                                 quantity(r.duration(), "s"), 1.0 / r.dt,
                                 r.quantum > 0.0 ? quantity(r.quantum, position_unit(run)) : "unknown"));
-    const bool told = std::any_of(run.notes.begin(), run.notes.end(), [&](const std::string& note) {
-      return note.find(r.resampling) != std::string::npos;
-    });
-    if (!r.resampling.empty() && !told) notes.push_back(fmt::format("`{}`: {}", r.file, r.resampling));
   }
   return notes;
 }

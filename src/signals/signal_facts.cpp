@@ -1,7 +1,5 @@
 #include "signals/signal_facts.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -73,7 +71,7 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
   SignalFacts facts;
   const Samples y = trace.x1;
   if (y.size() < 200 || !(trace.dt > 0.0)) {
-    facts.defect = "recording too short: record at least three periods of a periodic motion";
+    facts.defect = {"too_short", "recording too short: record at least three periods of a periodic motion"};
     return facts;
   }
   if (noise <= 0.0) facts.quantum = encoder_quantum(trace);
@@ -86,20 +84,21 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
   facts.centre = 0.5 * (low + high);
   facts.amplitude = 0.5 * (high - low);
   if (!facts.moves()) {
-    facts.defect = "no motion above the encoder's noise: raise the excitation";
+    facts.defect = {"no_motion", "no motion above the encoder's noise: raise the excitation"};
     return facts;
   }
   facts.speed_rms = rms_speed(y, trace.dt, facts.noise, facts.amplitude);
   read_period(trace, level, facts);
   if (facts.half_periods < kFewestHalfPeriods)
-    facts.defect = fmt::format(
+    facts.defect = {
+        "no_period",
         "no periodic motion: {} half periods found, {} needed; excite with a sine and record three periods "
         "or more",
-        facts.half_periods, kFewestHalfPeriods);
+        {static_cast<long>(facts.half_periods), static_cast<long>(kFewestHalfPeriods)}};
   else if (!(facts.speed_rms < kFastest))
-    facts.defect = "x1 jumps farther than any motion does: look for a spike, and for the unit";
+    facts.defect = {"jumps", "x1 jumps farther than any motion does: look for a spike, and for the unit"};
   else if (!(facts.speed_rms > 0.0))
-    facts.defect = "no speed above the encoder's noise: raise the excitation";
+    facts.defect = {"no_speed", "no speed above the encoder's noise: raise the excitation"};
   return facts;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
+#include "gapscope/base/remark.h"
 #include "gapscope/recording/recording.h"
 
 namespace gapscope::internal::signals {
@@ -21,7 +21,7 @@ struct SignalFacts {
   std::size_t half_periods = 0;
   double input_period = 0.0;           ///< exact_period() of u [s]; 0: it has none
   std::vector<std::size_t> crossings;  ///< of the centre, one per half stroke
-  std::string defect;                  ///< why nothing can be detected here; empty if something can
+  Remark defect;                       ///< why nothing can be detected here; empty if something can
 
   /// Beyond the noise of the encoder.
   bool moves() const { return amplitude > 6.0 * noise && amplitude > 0.0; }

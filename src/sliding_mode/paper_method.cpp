@@ -198,7 +198,7 @@ GapEstimate decide_with_bound(std::span<const ImpactAnalysis> analyses,
   Pool pool;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!analyses[i].facts.defect.empty()) {
-      estimate.reason = words::signal_defect(analyses[i].facts.defect);
+      estimate.reason = analyses[i].facts.defect;
       continue;
     }
     estimate.bound = readings[i].bound;

@@ -217,8 +217,7 @@ GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const
     for (const Transition& t : a.passages) estimate.events.push_back(event_of(t));
   const Pool pool = collect(analyses, intervals);
   if (pool.half_periods == 0.0) {
-    estimate.reason =
-        analyses.empty() ? words::no_recording() : words::signal_defect(analyses.front().facts.defect);
+    estimate.reason = analyses.empty() ? words::no_recording() : analyses.front().facts.defect;
     return estimate;
   }
   estimate.smallest_visible_gap = std::isfinite(pool.visible) ? pool.visible : kNaN;

@@ -19,7 +19,13 @@ Remark listed(std::span<const Play> levels) {
 }  // namespace
 
 Remark no_recording() { return {"no_recording", "no recording"}; }
-Remark signal_defect(const std::string& defect) { return {"signal", "{}", {defect}}; }
+Remark no_steady_motion_yet() {
+  return {"no_steady_motion_yet",
+          "no steady periodic motion yet: most of the time so far was rest or transient"};
+}
+Remark within_first_samples(long samples) {
+  return {"within_first_samples", " (in the first {} samples)", {samples}};
+}
 
 Remark no_impact_stands_out() {
   return {"no_impact_stands_out",
@@ -99,7 +105,7 @@ Remark too_slow(double visible) {
   const Remark limit =
       std::isfinite(visible)
           ? Remark("visible", "the impacts of a gap below {:.2g} [rad] would not show", {visible})
-          : Remark("visible", "the impact of no gap would show");
+          : Remark("nothing_visible", "the impact of no gap would show");
   return Remark("too_slow",
                 "no impact to be expected: quasi-static motion, locked output or coarse encoder, ") +
          limit +

@@ -9,7 +9,8 @@
 namespace gapscope::internal::sliding_mode::words {
 
 Remark no_recording();
-Remark signal_defect(const std::string& defect);
+Remark no_steady_motion_yet();
+Remark within_first_samples(long samples);  ///< behind why nothing could be learnt
 
 // Impacts, and passages between them.
 Remark no_impact_stands_out();

@@ -28,11 +28,27 @@ TEST(Remark, KeepsItsCodeAndItsNumbers) {
   EXPECT_TRUE(both.text(Coordinates::kTranslation).ends_with("; 3 m/s"));
 }
 
+TEST(Remark, OfTheSameKindHasTheSameCodesWhateverItsNumbersAre) {
+  const auto levels = [](int count) {
+    Remark all("play", "play: ");
+    for (int i = 0; i < count; ++i) all += Remark("level", "{} ", {static_cast<long>(i)});
+    return all + Remark("advice", "ramp");
+  };
+  EXPECT_EQ(levels(1).codes(), "play/level/advice");
+  EXPECT_EQ(levels(3).codes(), levels(1).codes());
+  EXPECT_NE(levels(3), levels(1));
+  EXPECT_EQ(Remark::said("stored").codes(), "");
+}
+
 TEST(Remark, StaysAsItWasPutIntoWords) {
   Remark metres = gap_seen();
   metres.put_into_words(Coordinates::kTranslation);
   EXPECT_EQ(metres.text(Coordinates::kRotation), gap_seen().text(Coordinates::kTranslation));
   EXPECT_EQ(metres.code(), "gap_seen");
+  Remark both = gap_seen() + Remark("more", "; {:.0f} [rad/s]", {3.0});
+  const std::string codes = both.codes();
+  both.put_into_words({});
+  EXPECT_EQ(both.codes(), codes);
   EXPECT_EQ(Remark::said("as [rad] {} stored").text(Coordinates::kTranslation), "as [rad] {} stored");
   EXPECT_TRUE(Remark::said("").empty());
   EXPECT_EQ(Remark().text(), "");

@@ -1,10 +1,10 @@
 // A store that is damaged, of something else or contradicts itself is refused by name, and not written to.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include <filesystem>
 
+#include "campaign/change_store.h"
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/campaign/summary.h"
@@ -27,19 +27,12 @@ void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
 
 class DamagedStoreTest : public ::testing::TestWithParam<Damage> {};
 
-void execute(const std::string& file, const char* sql) {
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
-  EXPECT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
-  sqlite3_close(database);
-}
-
 TEST_P(DamagedStoreTest, IsRefusedByName) {
   const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
   { CampaignStore(small.place("store"), campaign_header(small.config, {})); }
   const std::string file = small.place("store/results.sqlite");
   if (*GetParam().sql != '\0')
-    execute(file, GetParam().sql);
+    testing::change_store(file, GetParam().sql);
   else
     std::ofstream(file, std::ios::binary) << GetParam().bytes;
   const std::string before = testing::text_of(file);
@@ -97,8 +90,8 @@ INSTANTIATE_TEST_SUITE_P(Store, DamagedStoreTest, ::testing::ValuesIn(kDamages),
 TEST(DamagedStore, NothingIsExportedOfADamagedOne) {
   const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
   small.run("store", 1);
-  execute(small.place("store/results.sqlite"),
-          "UPDATE runs SET model_free_verdict = CAST(x'ff00a5' AS TEXT) WHERE run = 1");
+  testing::change_store(small.place("store/results.sqlite"),
+                        "UPDATE runs SET model_free_verdict = CAST(x'ff00a5' AS TEXT) WHERE run = 1");
   std::string told;
   EXPECT_THAT(testing::refusal([&] {
                 export_campaign(CampaignStore(small.place("store")),
@@ -112,7 +105,7 @@ TEST(DamagedStore, ADatabaseOfSomethingElseIsNotWrittenTo) {
   const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
   std::filesystem::create_directory(small.place("store"));
   const std::string file = small.place("store/results.sqlite");
-  execute(file, "CREATE TABLE photographs (name TEXT)");
+  testing::change_store(file, "CREATE TABLE photographs (name TEXT)");
   const std::string before = testing::text_of(file);
   EXPECT_THAT(
       testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
@@ -136,7 +129,7 @@ TEST(CampaignStore, LeavesTheDatabaseOfAnotherProgramAsItIs) {
   const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
   std::filesystem::create_directory(small.place("store"));
   const std::string file = small.place("store/results.sqlite");
-  execute(file, "CREATE TABLE campaign (id, title); INSERT INTO campaign VALUES (1, 'spring')");
+  testing::change_store(file, "CREATE TABLE campaign (id, title); INSERT INTO campaign VALUES (1, 'spring')");
   const std::string before = testing::text_of(file);
   EXPECT_NE(testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
             "");
@@ -193,7 +186,7 @@ TEST(CampaignStore, TakesADatabaseWithoutTablesForNoStoreOfItsOwn) {
   const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
   std::filesystem::create_directory(small.place("store"));
   const std::string file = small.place("store/results.sqlite");
-  execute(file, "PRAGMA user_version = 7");
+  testing::change_store(file, "PRAGMA user_version = 7");
   const std::string before = testing::text_of(file);
   EXPECT_THAT(
       testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),
@@ -209,7 +202,7 @@ TEST(CampaignStore, IsNotChangedWhereItIsRefused) {
   const SmallCampaign other("axes: {encoder.bits: [16, 20]}\n");
   small.run("store", 1);
   const std::string file = small.place("store/results.sqlite");
-  execute(file, "PRAGMA journal_mode = DELETE");
+  testing::change_store(file, "PRAGMA journal_mode = DELETE");
   const std::string before = testing::text_of(file);
   EXPECT_THAT(
       testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(other.config, {})); }),
@@ -226,9 +219,9 @@ TEST(DamagedStore, IsNotGoneOnWith) {
   const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
   small.run("store", 1);
   const std::string file = small.place("store/results.sqlite");
-  execute(file,
-          "CREATE INDEX added ON runs (run); PRAGMA writable_schema = ON; "
-          "DELETE FROM sqlite_master WHERE name = 'added'");
+  testing::change_store(file,
+                        "CREATE INDEX added ON runs (run); PRAGMA writable_schema = ON; "
+                        "DELETE FROM sqlite_master WHERE name = 'added'");
   EXPECT_THAT(testing::refusal([&] { CampaignStore(small.place("store")); }), HasSubstr("is damaged"));
   EXPECT_THAT(
       testing::refusal([&] { CampaignStore(small.place("store"), campaign_header(small.config, {})); }),

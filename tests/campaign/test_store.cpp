@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "campaign/change_store.h"
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/campaign/store.h"
@@ -151,6 +152,34 @@ TEST(Store, AnotherVersionAndAnotherShardAreRefused) {
   EXPECT_THAT(refusal(small, header), HasSubstr("expected 9.9.9"));
   EXPECT_THAT(refusal(small, campaign_header(small.config, {1, 2})),
               HasSubstr("holds shard 1/1, expected 1/2"));
+}
+
+TEST(Store, OneThatWasMadeWithoutTheCodesOfReasonsIsReadAndGoneOnWith) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 20]}\n");
+  CampaignRow row;
+  row.point = {"16"};
+  row.reason = "too slow";
+  row.reason_codes = "too_slow";
+  const auto add = [&] {
+    CampaignStore(small.place("store"), campaign_header(small.config, {})).add(row, {});
+  };
+  add();
+  testing::change_store(small.place("store/results.sqlite"),
+                        "ALTER TABLE runs DROP COLUMN model_free_reason_codes");
+  std::vector<std::string> codes;
+  const auto read = [&] {
+    codes.clear();
+    CampaignStore(small.place("store")).each([&](CampaignRow& r, const CampaignTiming&) {
+      codes.push_back(r.reason_codes);
+      EXPECT_EQ(r.reason, row.reason);
+    });
+    return codes;
+  };
+  EXPECT_THAT(read(), ::testing::ElementsAre(""));
+  row.run = 1;
+  row.point = {"20"};
+  add();
+  EXPECT_THAT(read(), ::testing::ElementsAre("", "too_slow"));
 }
 
 TEST(Store, OnlyOneProcessAddsAtATime) {

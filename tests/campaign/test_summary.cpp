@@ -160,6 +160,35 @@ TEST(Summary, ComparesAlongEveryAxisAndEveryPairButRepeats) {
   EXPECT_EQ(refused, s.total.model_free.runs - s.total.model_free.answered);
 }
 
+TEST(Summary, ReasonsWithTheSameCodesAreOneWhateverTheirNumbers) {
+  const SmallCampaign small("axes: {encoder.bits: [14, 16, 18, 20, 22]}\nestimators: [model_free]\n");
+  {
+    CampaignStore store(small.place("store"), campaign_header(small.config, {}));
+    const auto add = [&](std::uint64_t run, const char* bits, const char* codes, const char* reason) {
+      CampaignRow row;
+      row.run = run;
+      row.point = {bits};
+      row.verdict = "inconclusive";
+      row.reason_codes = codes;
+      row.reason = reason;
+      store.add(row, {});
+    };
+    add(0, "14", "play/level", "play: 0.1 rad at 2 loops");
+    add(1, "16", "play/level", "play: 0.2 rad at 3 loops, 0.3 rad at 4 loops");
+    add(2, "18", "", "the play is 0.1 rad");
+    add(3, "20", "", "the play is 0.2 rad");
+    add(4, "22", "too_slow", "too slow");
+  }
+  const CampaignSummary s = summarise(CampaignStore(small.place("store")));
+  ASSERT_EQ(s.refusals.size(), 3u);
+  EXPECT_EQ(s.refusals[0].text, "inconclusive: play: # rad at # loops");
+  EXPECT_EQ(s.refusals[0].runs, 2);
+  EXPECT_EQ(s.refusals[1].text, "inconclusive: the play is # rad")
+      << "a store without codes goes by the words";
+  EXPECT_EQ(s.refusals[1].runs, 2);
+  EXPECT_EQ(s.refusals[2].runs, 1);
+}
+
 TEST(Summary, ARangeWithoutValuesIsCutIntoParts) {
   const SmallCampaign small(
       "sampling: {latin_hypercube: {samples: 12, seed: 1}}\n"

@@ -30,6 +30,9 @@ class Remark {
 
   bool empty() const { return parts_.empty(); }
   std::string code() const;  ///< of its first part; empty where it is words only
+  /// Those of all parts, each once: "few_passages/load_hits_motor". The same where the same is said of other
+  /// numbers.
+  std::string codes() const;
   std::vector<Value> values() const;
   std::string text(Coordinates coordinates = {}) const;
   /// Keeps the words for these coordinates alone: text() gives them from now on, whatever it is asked for.
@@ -44,6 +47,7 @@ class Remark {
     std::string code, words;
     std::vector<Value> values;
     bool said = false;  ///< `words` are the text itself
+    std::string text(Coordinates coordinates) const;
   };
   std::vector<Part> parts_;
 };

@@ -32,6 +32,7 @@ struct CampaignRow {
   double difference = kNaN;
   double joint_std = kNaN;
   std::optional<bool> agree;
+  std::string reason_codes;  ///< Remark::codes() of the reason; empty in stores that were made without them
 };
 
 /// Wall times of a run; they are kept apart from what a run is a function of.
@@ -40,6 +41,9 @@ struct CampaignTiming {
   double reference_s = kNaN;
   double run_s = kNaN;  ///< with making or reading the data
 };
+
+/// The column that stores of earlier versions do not have.
+inline constexpr const char* kReasonCodes = "model_free_reason_codes";
 
 /// Meets every field but `run` and `point` with its name in the store and in the export.
 template <class Visitor>
@@ -65,6 +69,7 @@ void fields(Visitor& visit, CampaignRow& r) {
   visit("joint_std_rad", r.joint_std);
   visit("agree", r.agree);
   visit("configuration", r.configuration);
+  visit(kReasonCodes, r.reason_codes);  // an addition, behind what older stores have
 }
 
 }  // namespace gapscope

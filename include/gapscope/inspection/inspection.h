@@ -3,12 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording_file.h"
 
 namespace gapscope {
 
-/// The rule on reversals of the motion: the one that concerns the detector alone.
+inline constexpr const char* kTimeRule = "time";  ///< rows in order, none missing, uniform
+/// On reversals of the motion: the one rule that concerns the detector alone.
 inline constexpr const char* kReversalsRule = "reversals";
 
 /// What a finding means for the estimates: nothing, worth knowing, or they will be wrong or refused.
