@@ -54,7 +54,7 @@ void estimate(const Arguments& a, const Estimators& wanted) {
   const Progress progress = progress_on_terminal(a.quiet);
   const std::vector<FileHash> sources = sources_of(c);
   RunOutcome outcome = run_pipeline(c, wanted, progress);
-  if (sources != sources_of(c)) throw ConfigError(a.config, kSourcesChanged);
+  require_unchanged(c, sources);
   outcome.result.sources = sources;
   progress("drawing the report");
   write_outcome(report, c, outcome);

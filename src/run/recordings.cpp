@@ -124,6 +124,11 @@ std::vector<FileHash> sources_of(const Configuration& c) {
   return sources;
 }
 
+void require_unchanged(const Configuration& c, const std::vector<FileHash>& sources) {
+  if (sources != sources_of(c))
+    throw ConfigError(c.file, "names a file that changed while it was read, expected it to stay");
+}
+
 Recording simulated_recording(const Configuration& c) {
   const SimulationConfig& s = *c.simulation;
   SimulationOptions options;

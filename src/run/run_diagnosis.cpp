@@ -57,7 +57,7 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
 DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& options) {
   const std::vector<FileHash> sources = sources_of(c);
   DiagnosisRecordings recordings = load_for_diagnosis(c, options.progress);
-  if (sources != sources_of(c)) throw ConfigError(c.file, kSourcesChanged);
+  require_unchanged(c, sources);
   std::vector<std::string> warnings = std::move(recordings.train.warnings);
   for (const auto& more : {recordings.held_out.warnings, checked(c, options.progress)})
     warnings.insert(warnings.end(), more.begin(), more.end());

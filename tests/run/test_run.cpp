@@ -71,5 +71,51 @@ TEST(LoadRecordings, ForADiagnosisAreReadAsTheyAreForAnEstimate) {
               HasSubstr("drive.yaml:1: there is no recording again.csv"));
 }
 
+/// Nothing but the nominal model, which is fitted for any diagnosis.
+DiagnosisOptions without_candidates(const Configuration& c) {
+  DiagnosisOptions options = diagnosis_options(c);
+  for (const EffectEntry* e : effect_table()) options.excluded.emplace_back(e->name);
+  return options;
+}
+
+/// A recording whose x1 is read anew in every fifth row only.
+void hold_positions(const std::string& path) {
+  Recording r = read_recording(path, {});
+  for (std::size_t i = 0; i < r.size(); ++i) r.x1[i] = r.x1[i - i % 5];
+  write_csv(path, r);
+}
+
+TEST(RunDiagnosis, TellsOfWhatItWasMade) {
+  const Recorded recorded;
+  const Configuration c = recorded.configuration();
+  const DiagnosisOutcome out = run_diagnosis(c, without_candidates(c));
+  EXPECT_EQ(out.result.name, "drive");
+  EXPECT_EQ(out.result.configuration, resolved_yaml(c));
+  EXPECT_EQ(out.result.sources, sources_of(c));
+  EXPECT_EQ(out.first.file, "drive.csv");
+  EXPECT_EQ(out.result.diagnosis.verdict, DiagnosisVerdict::kNone) << out.result.diagnosis.sentence;
+  EXPECT_TRUE(out.result.diagnosis.next_experiment.sentence.empty());
+}
+
+TEST(RunDiagnosis, SaysFirstWhatSpoilsARecordingBeItHeldOut) {
+  const Recorded recorded;
+  hold_positions(recorded.at("again.csv"));
+  const Configuration c = recorded.configuration();
+  const std::vector<std::string> warnings = run_diagnosis(c, without_candidates(c)).result.diagnosis.warnings;
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_THAT(warnings.front(), HasSubstr("again.csv: fresh samples: x1 changes in every 5th row only"));
+}
+
+TEST(RunDiagnosis, RefusesARecordingThatChangesWhileItIsRead) {
+  const Recorded recorded;
+  const Configuration c = recorded.configuration();
+  DiagnosisOptions options = without_candidates(c);
+  options.progress = [&](const std::string&) {
+    std::ofstream(recorded.at("again.csv"), std::ios::app) << "# a note\n";
+  };
+  EXPECT_THAT(testing::refusal([&] { run_diagnosis(c, options); }),
+              HasSubstr("drive.yaml: names a file that changed while it was read, expected it to stay"));
+}
+
 }  // namespace
 }  // namespace gapscope

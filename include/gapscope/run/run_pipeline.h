@@ -52,9 +52,8 @@ std::vector<FileHash> sources_of(const Configuration& configuration);
 /// The paths of the configuration itself and of these files.
 std::vector<std::string> source_paths(const Configuration& configuration);
 
-/// Of files that are another when they were read.
-inline constexpr const char* kSourcesChanged =
-    "or a recording that it names changed while it was read, expected it to stay";
+/// @throws ConfigError where these, as sources_of() gave them before they were read, are others now
+void require_unchanged(const Configuration& configuration, const std::vector<FileHash>& sources);
 
 /// The recording that `simulation:` describes.
 Recording simulated_recording(const Configuration& configuration);
