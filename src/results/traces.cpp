@@ -29,32 +29,54 @@ constexpr std::uintmax_t kLargestTable = std::uintmax_t{16} << 30;  ///< of the 
 
 constexpr Mode kModes[] = {Mode::kGap, Mode::kEngagementPlus, Mode::kEngagementMinus, Mode::kImpact};
 
-/// The number columns of a set in their order in the file, after t_s.
-struct NumberColumn {
+/// A column of a set, to read from and to fill.
+template <class Value>
+struct TraceColumn {
   const char* name;
-  std::vector<double>& (*of)(TraceSet&);
+  const std::vector<Value>& (*of)(const TraceSet&);
+  std::vector<Value>& (*into)(TraceSet&);
 };
+using NumberColumn = TraceColumn<double>;
+using ModeColumn = TraceColumn<Mode>;
+
+template <class Value, class Place>
+constexpr TraceColumn<Value> column(const char* name, Place) {
+  return {name, [](const TraceSet& s) -> const std::vector<Value>& { return Place()(s); },
+          [](TraceSet& s) -> std::vector<Value>& { return Place()(s); }};
+}
+
+/// The numbers of a set in their order in the file, after t_s.
 constexpr NumberColumn kNumbers[] = {
-    {"u", [](TraceSet& s) -> std::vector<double>& { return s.recording.u; }},
-    {"x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.recording.x1; }},
-    {"x2_rad", [](TraceSet& s) -> std::vector<double>& { return s.recording.x2; }},
-    {"e_x_rad", [](TraceSet& s) -> std::vector<double>& { return s.error.error; }},
-    {"w1_hat_rad_s", [](TraceSet& s) -> std::vector<double>& { return s.error.velocity; }},
-    {"fit_x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.x1; }},
-    {"fit_predicted_x1_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.predicted_x1; }},
-    {"fit_x2_rad", [](TraceSet& s) -> std::vector<double>& { return s.fit.x2; }},
-    {"error_before_rad", [](TraceSet& s) -> std::vector<double>& { return s.error_before; }},
-    {"error_after_rad", [](TraceSet& s) -> std::vector<double>& { return s.error_after; }},
-    {"torque_before_nm", [](TraceSet& s) -> std::vector<double>& { return s.torque_before; }},
-    {"torque_after_nm", [](TraceSet& s) -> std::vector<double>& { return s.torque_after; }},
-};
-struct ModeColumn {
-  const char* name;
-  std::vector<Mode>& (*of)(TraceSet&);
+    column<double>(
+        "u", [](auto& s) -> auto& { return s.recording.u; }),
+    column<double>(
+        "x1_rad", [](auto& s) -> auto& { return s.recording.x1; }),
+    column<double>(
+        "x2_rad", [](auto& s) -> auto& { return s.recording.x2; }),
+    column<double>(
+        "e_x_rad", [](auto& s) -> auto& { return s.error.error; }),
+    column<double>(
+        "w1_hat_rad_s", [](auto& s) -> auto& { return s.error.velocity; }),
+    column<double>(
+        "fit_x1_rad", [](auto& s) -> auto& { return s.fit.x1; }),
+    column<double>(
+        "fit_predicted_x1_rad", [](auto& s) -> auto& { return s.fit.predicted_x1; }),
+    column<double>(
+        "fit_x2_rad", [](auto& s) -> auto& { return s.fit.x2; }),
+    column<double>(
+        "error_before_rad", [](auto& s) -> auto& { return s.error_before; }),
+    column<double>(
+        "error_after_rad", [](auto& s) -> auto& { return s.error_after; }),
+    column<double>(
+        "torque_before_nm", [](auto& s) -> auto& { return s.torque_before; }),
+    column<double>(
+        "torque_after_nm", [](auto& s) -> auto& { return s.torque_after; }),
 };
 constexpr ModeColumn kModeColumns[] = {
-    {"mode", [](TraceSet& s) -> std::vector<Mode>& { return s.recording.mode; }},
-    {"fit_mode", [](TraceSet& s) -> std::vector<Mode>& { return s.fit.mode; }},
+    column<Mode>(
+        "mode", [](auto& s) -> auto& { return s.recording.mode; }),
+    column<Mode>(
+        "fit_mode", [](auto& s) -> auto& { return s.fit.mode; }),
 };
 
 void append(std::string& text, double value) {
@@ -70,7 +92,7 @@ struct Columns {
   std::vector<ModeColumn> modes;
 };
 
-Columns filled_columns(TraceSet& set) {
+Columns filled_columns(const TraceSet& set) {
   const std::size_t n = set.recording.size();
   Columns filled;
   const auto keep = [&](const auto& column, auto& into) {
@@ -84,7 +106,7 @@ Columns filled_columns(TraceSet& set) {
   return filled;
 }
 
-std::string text_of(TraceSet& set) {
+std::string text_of(const TraceSet& set) {
   const Columns columns = filled_columns(set);
   std::string text = "t_s";
   for (const NumberColumn& column : columns.numbers) text += std::string(",") + column.name;
@@ -156,13 +178,13 @@ void read_row(std::string_view line, const Columns& columns, TraceSet& set) {
                                 std::to_string(1 + columns.numbers.size() + columns.modes.size()) +
                                 " as in the header");
   next_field(line);  // time is start + i dt
-  for (const NumberColumn& column : columns.numbers) column.of(set).push_back(number_of(next_field(line)));
-  for (const ModeColumn& column : columns.modes) column.of(set).push_back(mode_of(next_field(line)));
+  for (const NumberColumn& column : columns.numbers) column.into(set).push_back(number_of(next_field(line)));
+  for (const ModeColumn& column : columns.modes) column.into(set).push_back(mode_of(next_field(line)));
 }
 
 }  // namespace
 
-void write_trace(const std::string& path, TraceSet set) {
+void write_trace(const std::string& path, const TraceSet& set) {
   std::ofstream out(path, std::ios::binary);
   out << text_of(set);
   if (!out.flush()) throw std::runtime_error(path + ": cannot be written");

@@ -21,7 +21,7 @@ struct TraceSet {
 void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
                  const FitTrace* fit);
 
-void write_trace(const std::string& path, TraceSet set);
+void write_trace(const std::string& path, const TraceSet& set);
 
 /// Where a trace that a stored result names is.  @throws ConfigError for a place outside the folder's traces.
 std::string trace_path(const std::string& folder, const std::string& name);
