@@ -20,8 +20,7 @@ double prior_slope(const Parameter& p, double q) {
   return p.prior ? p.coordinate.slope(q) / p.prior->std : 0.0;
 }
 
-double prior_square(const FitProblem& problem, std::span<const double> q) {
-  double sum = 0.0;
+double prior_square(const FitProblem& problem, std::span<const double> q, double sum) {
   for (std::size_t i = 0; i < q.size(); ++i)
     sum += std::pow(prior_residual(problem.free_parameter(i), q[i]), 2);
   return sum;
@@ -79,9 +78,8 @@ Evaluation Cost::evaluate(std::size_t r, const Vector& x, double* residuals, dou
 }
 
 double Cost::beside(const Vector& x) const {
-  double sum = x.tail(x.size() - shared_).squaredNorm() / (kStateWidth * kStateWidth);
-  for (Eigen::Index i = 0; i < shared_; ++i) sum += std::pow(prior_residual(parameter(i), x[i]), 2);
-  return sum;
+  const double states = x.tail(x.size() - shared_).squaredNorm() / (kStateWidth * kStateWidth);
+  return prior_square(problem_, {x.data(), static_cast<std::size_t>(shared_)}, states);
 }
 
 double Cost::beside_residual(Eigen::Index i, double value) const {

@@ -16,8 +16,8 @@ double prior_slope(const Parameter& parameter, double q);
 inline double state_residual(double q) { return q / kStateWidth; }
 constexpr double kStateSlope = 1.0 / kStateWidth;
 
-/// Priors of all free parameters, squared [floor²].
-double prior_square(const FitProblem& problem, std::span<const double> q);
+/// Priors of all free parameters, squared and added to a sum one by one [floor²].
+double prior_square(const FitProblem& problem, std::span<const double> q, double sum = 0.0);
 
 /// What every search minimises, at a given gain of the observer (0: the free run), in floor²:
 ///   Σ |residuals of a recording|² + Σ prior residual² + Σ state residual²
