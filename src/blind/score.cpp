@@ -7,46 +7,40 @@
 #include <cmath>
 #include <map>
 
-#include "blind/scored.h"
+#include "blind/scored_answer.h"
+#include "gapscope/base/text.h"
 #include "gapscope/plant/effect.h"
 #include "independent_plant/severity.h"
 
 namespace gapscope {
 namespace blind {
-namespace {
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-}  // namespace
-
-bool Scored::outside() const {
+bool ScoredAnswer::outside() const {
   return label->effects.size() == 1 && find_effect(label->effects.front()) == nullptr;
 }
 
-bool Scored::in_group() const {
+bool ScoredAnswer::in_group() const {
   return std::any_of(label->effects.begin(), label->effects.end(),
                      [&](const std::string& truth) { return contains(first.group, truth); });
 }
 
-bool Scored::holds(const std::string& effect) const {
+bool ScoredAnswer::holds(const std::string& effect) const {
   return contains(answer->effects, effect) || contains(answer->group, effect);
 }
 
-std::size_t Scored::found() const {
+std::size_t ScoredAnswer::found() const {
   const auto& truths = label->effects;
   return static_cast<std::size_t>(
       std::count_if(truths.begin(), truths.end(), [&](const std::string& t) { return holds(t); }));
 }
 
-bool Scored::right() const {
+bool ScoredAnswer::right() const {
   if (none()) return answer->verdict == "none";
   if (outside()) return answer->verdict == "unknown";
   return blamed() && found() == label->effects.size() && standing() == found();
 }
 
-std::size_t Scored::standing() const {
+std::size_t ScoredAnswer::standing() const {
   const auto& names = answer->effects;
   return static_cast<std::size_t>(std::count_if(names.begin(), names.end(), [&](const std::string& name) {
     return std::none_of(names.begin(), names.end(), [&](const std::string& other) {
@@ -57,21 +51,21 @@ std::size_t Scored::standing() const {
   }));
 }
 
-std::size_t Scored::place() const {
+std::size_t ScoredAnswer::place() const {
   const auto at = std::find(first.ranking.begin(), first.ranking.end(), label->effects.front());
   return static_cast<std::size_t>(at - first.ranking.begin());
 }
 
-std::vector<Scored> scored(const BlindLabels& labels, const BlindAnswers& answers) {
+std::vector<ScoredAnswer> scored(const BlindLabels& labels, const BlindAnswers& answers) {
   std::map<std::string, const BlindLabel*> by_name;
   for (const BlindLabel& l : labels.cases) by_name[l.name] = &l;
-  std::vector<Scored> cases;
+  std::vector<ScoredAnswer> cases;
   for (const BlindAnswer& a : answers.cases)
     cases.push_back({by_name.at(a.name), &a, decide_again(a.evidence)});
   return cases;
 }
 
-std::vector<std::string> truth_of(const Scored& c, bool and_look_alikes) {
+std::vector<std::string> truth_of(const ScoredAnswer& c, bool and_look_alikes) {
   std::vector<std::string> names = {c.label->effects.front()};
   if (const auto* truth = find_effect(names.front()); truth != nullptr && and_look_alikes)
     for (const char* alike : truth->look_alikes) names.emplace_back(alike);
@@ -80,23 +74,23 @@ std::vector<std::string> truth_of(const Scored& c, bool and_look_alikes) {
 
 namespace {
 
-std::string truth_name(const Scored& s) {
+std::string truth_name(const ScoredAnswer& s) {
   return s.none() ? "none" : s.outside() ? "outside" : s.label->effects.front();
 }
 
-std::string answer_name(const Scored& s) {
+std::string answer_name(const ScoredAnswer& s) {
   if (!s.blamed()) return s.answer->verdict;
   return s.known() && s.named() ? s.label->effects.front() : s.answer->effects.front();
 }
 
-std::vector<ConfusionCell> confusion_of(const std::vector<Scored>& cases) {
+std::vector<ConfusionCell> confusion_of(const std::vector<ScoredAnswer>& cases) {
   std::vector<std::string> words;
   for (const gapscope::EffectEntry* entry : effect_table()) words.emplace_back(entry->name);
   words.insert(words.end(), {"outside", "unknown", "none"});
   std::vector<ConfusionCell> cells;
   for (const std::string& truth : words)
     for (const std::string& answer : words) {
-      const auto count = std::count_if(cases.begin(), cases.end(), [&](const Scored& s) {
+      const auto count = std::count_if(cases.begin(), cases.end(), [&](const ScoredAnswer& s) {
         return s.reported() && !s.pair() && truth_name(s) == truth && answer_name(s) == answer;
       });
       if (count > 0) cells.push_back({truth, answer, static_cast<int>(count)});
@@ -109,9 +103,9 @@ bool has_another_law(const std::string& effect) {
   return drawn != nullptr && drawn->traits.another_law;
 }
 
-void fill_shrinks(const std::vector<Scored>& cases, BlindScore& score) {
+void fill_shrinks(const std::vector<ScoredAnswer>& cases, BlindScore& score) {
   std::vector<double> groups, shrinks, others;
-  for (const Scored& s : cases) {
+  for (const ScoredAnswer& s : cases) {
     if (!s.reported() || !s.known() || !s.seen() || !s.named()) continue;
     groups.push_back(static_cast<double>(s.answer->group.size()));
     if (s.answer->evidence.before() < 3.0 || !std::isfinite(s.answer->shrink)) continue;
@@ -123,7 +117,7 @@ void fill_shrinks(const std::vector<Scored>& cases, BlindScore& score) {
   if (!others.empty()) score.shrink_other_law = median(others);
 }
 
-ScoredCase for_the_reader(const Scored& s, const BlindCalibration& calibration) {
+ScoredCase for_the_reader(const ScoredAnswer& s, const BlindCalibration& calibration) {
   const std::string truth = s.none() ? "none" : fmt::format("{}", fmt::join(s.label->effects, "+"));
   return {s.label->name,     s.label->part,
           s.label->rig,      truth,
@@ -138,12 +132,12 @@ ScoredCase for_the_reader(const Scored& s, const BlindCalibration& calibration) 
 
 BlindScore score_blind_answers(const BlindLabels& labels, const BlindAnswers& answers) {
   using namespace blind;
-  const std::vector<Scored> cases = scored(labels, answers);
+  const std::vector<ScoredAnswer> cases = scored(labels, answers);
   BlindScore score;
   score.name = answers.name, score.version = answers.version;
   score.manifest_sha256 = answers.manifest_sha256, score.answers_seal = answers.seal();
   score.configuration = labels.configuration;
-  for (const Scored& s : cases) ++(s.reported() ? score.report_cases : score.calibration_cases);
+  for (const ScoredAnswer& s : cases) ++(s.reported() ? score.report_cases : score.calibration_cases);
   score.counts = count_answers(cases);
   fill_shrinks(cases, score);
   score.confusion = confusion_of(cases);
@@ -151,7 +145,7 @@ BlindScore score_blind_answers(const BlindLabels& labels, const BlindAnswers& an
   const std::vector<Judgement> judged = judgements(cases, "report");
   score.calibration = calibrate(judgements(cases, "calibration"), judged);
   score.abstention = abstention_of(judged, score.calibration);
-  for (const Scored& s : cases) score.cases.push_back(for_the_reader(s, score.calibration));
+  for (const ScoredAnswer& s : cases) score.cases.push_back(for_the_reader(s, score.calibration));
   return score;
 }
 

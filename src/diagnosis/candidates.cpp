@@ -66,7 +66,7 @@ FittedModel fit_candidate(std::span<const MotorTrace> train, const FittedModel& 
 FittedModel led_by_faster_observer(std::span<const MotorTrace> train, const FittedModel& candidate,
                                    const FitOptions& options, double hz) {
   const FittedModel led = refined(train, candidate, options, kFastHz);
-  return led.mean_square < kInfinity ? refined(train, led, options, hz) : led;
+  return led.mean_cost < kInfinity ? refined(train, led, options, hz) : led;
 }
 
 FittedModel retry(std::span<const MotorTrace> train, const FittedModel& candidate,
@@ -81,11 +81,11 @@ FittedModel retry(std::span<const MotorTrace> train, const FittedModel& candidat
   const std::vector<reference::RecordingStart> settled = settled_starts(train, candidate.model, hz);
   FittedModel best = candidate;
   const auto take = [&](FittedModel found) {
-    if (found.mean_square < kFurther * best.mean_square) best = std::move(found);
+    if (found.mean_cost < kFurther * best.mean_cost) best = std::move(found);
   };
   for (const ReferenceModel& values : {candidate.model, moved, with_drive(candidate.model, sheet)})
     take(refined(train, {values, settled, kInfinity, {}}, options, hz));
-  if (!(best.mean_square < kFloorSquare) && hz < kFastHz)
+  if (!(best.mean_cost < kFloorSquare) && hz < kFastHz)
     take(led_by_faster_observer(train, candidate, options, hz));
   return best;
 }

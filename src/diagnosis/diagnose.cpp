@@ -38,7 +38,7 @@ ScoredModel scored_nominal(const Study& study) {
 /// A fit leaves undetermined what its recordings do not ask for, and may miss others by that alone. Then
 /// nothing is missing, as long as the other numbers explain what was fitted as well as the fit did.
 std::optional<ScoredModel> explained_together(const Study& study, const ScoredModel& nominal) {
-  if (!(nominal.fitted.mean_square < kNearFloor)) return {};
+  if (!(nominal.fitted.mean_cost < kNearFloor)) return {};
   const double hz = study.observer_hz;
   const std::vector<MotorTrace> all = everything(study);
   const HeldOut own = fitted_as_held_out(study);
@@ -89,7 +89,7 @@ std::optional<ScoredModel> nominal_near(const Study& study, const Findings& foun
   ReferenceModel model = found.before.fitted.model;
   model.parameters = found.candidates.front().fitted.model.parameters;
   FittedModel fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
-  if (!(fitted.mean_square < kFarBetter * found.before.fitted.mean_square)) return {};
+  if (!(fitted.mean_cost < kFarBetter * found.before.fitted.mean_cost)) return {};
   return judge(nullptr, std::move(fitted), study.held_out, study.observer_hz);
 }
 
@@ -136,8 +136,8 @@ Findings first_look(Study& study) {
 
 /// Mean square that the best fit leaves of what was fitted [floor²].
 double least_left(const Findings& found) {
-  double least = found.before.fitted.mean_square;
-  for (const ScoredModel& c : found.candidates) least = std::min(least, c.fitted.mean_square);
+  double least = found.before.fitted.mean_cost;
+  for (const ScoredModel& c : found.candidates) least = std::min(least, c.fitted.mean_cost);
   return least;
 }
 
@@ -200,7 +200,7 @@ Findings investigate(Study& study) {
   return found;
 }
 
-Search search(Study& study) {
+EffectSearch search_effects(Study& study) {
   Findings found = investigate(study);
   Additions added = add_further(study, found);
   if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
@@ -229,7 +229,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   for (const auto& traces : {train, held_out})
     for (const MotorTrace& t : traces) require_motion(t);
   Study study = make_study(train, held_out, model, options);
-  auto [found, added] = search(study);
+  auto [found, added] = search_effects(study);
   const std::string left = added.accepted ? motion_left(study.held_out, added.after) : "";
   if (!left.empty()) added = {};
   Diagnosis diagnosis = report_back(study, found, added);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/mismatch_size.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
@@ -12,7 +13,7 @@ namespace {
 ModelEvidence evidence_of(const ScoredModel& model, const ScoredModel& before) {
   return {model.entry != nullptr ? model.entry->name : "",
           model.score,
-          model.fitted.mean_square,
+          model.fitted.mean_cost,
           model.median_free,
           model.median_innovation,
           share_of_windows_better(before, model)};
@@ -21,15 +22,11 @@ ModelEvidence evidence_of(const ScoredModel& model, const ScoredModel& before) {
 ScoredModel judged_by(const ModelEvidence& e) {
   ScoredModel j;
   j.entry = e.effect.empty() ? nullptr : find_effect(e.effect);
-  j.fitted.mean_square = e.mean_square;
+  j.fitted.mean_cost = e.mean_cost;
   j.score = e.score;
   j.median_free = e.median_free, j.median_innovation = e.median_innovation;
   j.windows_better = e.windows_better;
   return j;
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace gapscope::internal::diagnosis {
 struct FittedModel {
   ReferenceModel model;
   std::vector<reference::RecordingStart> starts;
-  double mean_square = kInfinity;     ///< what it leaves: reference::RefinedFit::mean_cost [floor²]
+  double mean_cost = kInfinity;       ///< what it leaves, see reference::RefinedFit [floor²]
   std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
 };
 

@@ -56,7 +56,7 @@ bool worth_following(const ScoredModel& before, const ScoredModel& after) {
 FurtherStep next_step(const Study& study, const ScoredModel& model) {
   FurtherStep step{base_of(model), {}, {}, {}};
   std::vector<const EffectEntry*> catalogue = study.catalogue;
-  std::erase_if(catalogue, [&](const EffectEntry* e) { return contains(model.fitted.model, e); });
+  std::erase_if(catalogue, [&](const EffectEntry* e) { return has_effect(model.fitted.model, e); });
   step.candidates = candidates_of(study, step.before, catalogue, false);
   step.decision = decide(step.candidates, step.before, study.repeats_badly(), {});
   if (study.repeats_badly() || step.candidates.empty()) return step;
@@ -81,7 +81,7 @@ ScoredModel refitted(const Study& study, const ReferenceModel& model) {
 void drop_stand_ins(const Study& study, Additions& a) {
   const EffectEntry* last = a.effects.back().entry;
   const auto superfluous = [&](const Addition& effect) {
-    if (effect.entry == last || !contains(a.after.fitted.model, effect.entry)) return false;
+    if (effect.entry == last || !has_effect(a.after.fitted.model, effect.entry)) return false;
     const ScoredModel less = refitted(study, without(a.after.fitted.model, effect.entry));
     if (!(less.score < log_score(a.after.windows) + kStandIn)) return false;
     a.after = less;
@@ -95,10 +95,10 @@ void drop_stand_ins(const Study& study, Additions& a) {
 void choose_among_look_alikes(const Study& study, Additions& a) {
   for (Addition& effect : a.effects) {
     if (at_floor(a.after)) return;
-    if (effect.entry == a.effects.back().entry || !contains(a.after.fitted.model, effect.entry)) continue;
+    if (effect.entry == a.effects.back().entry || !has_effect(a.after.fitted.model, effect.entry)) continue;
     std::vector<const EffectEntry*> alike{effect.entry};
     for (const EffectEntry* e : study.catalogue)
-      if (look_alike(*e, *effect.entry) && !contains(a.after.fitted.model, e)) alike.push_back(e);
+      if (look_alike(*e, *effect.entry) && !has_effect(a.after.fitted.model, e)) alike.push_back(e);
     const ScoredModel less = refitted(study, without(a.after.fitted.model, effect.entry));
     std::vector<ScoredModel> ranked = candidates_of(study, base_of(less), alike, false);
     if (ranked.empty() || ranked.front().entry == effect.entry) continue;
@@ -112,16 +112,16 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
 /// Whether one set of numbers leaves nothing to explain, though those of the fitted recordings alone leave
 /// something on the others: these asked for what the fitted ones do not determine.
 bool explained_together(const Study& study, const ScoredModel& model) {
-  if (study.repeats_badly() || !(model.fitted.mean_square < kExplained)) return false;
+  if (study.repeats_badly() || !(model.fitted.mean_cost < kExplained)) return false;
   const ScoredModel together =
       judge(nullptr, fit_near(everything(study), model.fitted.model, study.options.fit, study.observer_hz),
             study.held_out, study.observer_hz);
-  return at_floor(together) && together.fitted.mean_square < kExplained;
+  return at_floor(together) && together.fitted.mean_cost < kExplained;
 }
 
 /// Whether the fitted recordings leave nothing to ask, or far less than those held out.
 bool asks_elsewhere(const Study& study, const ScoredModel& model) {
-  const double fitted = model.fitted.mean_square;
+  const double fitted = model.fitted.mean_cost;
   return may_fit_half_of_the_held_out(study) &&
          (fitted < kNearFloor || leaves_far_more_held_out(model, fitted));
 }
@@ -187,22 +187,22 @@ const ScoredModel& nominal_of(const Findings& found, const Additions& a) {
   return a.wider ? a.wider->nominal : found.before;
 }
 
-bool contains(const ReferenceModel& model, const EffectEntry* entry) {
+bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
   return std::any_of(model.effects.begin(), model.effects.end(),
                      [&](const ModelEffect& e) { return e.entry == entry; });
 }
 
 bool clearly_better(const ScoredModel& before, const ScoredModel& best, const Decision& d) {
-  const double left = best.fitted.mean_square / before.fitted.mean_square;
+  const double left = best.fitted.mean_cost / before.fitted.mean_cost;
   const double windows = left < kFitCollapses ? kWorthFollowingWindows : kLaterWindows;
   return d.gain >= kLaterGain && d.windows_better >= windows && d.margin >= kLaterMargin && left < kAskedFor;
 }
 
 bool refines(const ScoredModel& before, const ScoredModel& best, const Decision& d) {
   const EffectEntry* contained = contained_effect(*best.entry);
-  return contained != nullptr && contains(before.fitted.model, contained) && d.gain >= kRefinedGain &&
+  return contained != nullptr && has_effect(before.fitted.model, contained) && d.gain >= kRefinedGain &&
          d.margin >= kRefinedGain && d.windows_better >= kWorthFollowingWindows &&
-         best.fitted.mean_square < kAskedFor * before.fitted.mean_square;
+         best.fitted.mean_cost < kAskedFor * before.fitted.mean_cost;
 }
 
 bool borne_out(const ScoredModel& nominal, const Additions& a) {
@@ -219,9 +219,9 @@ std::vector<const ScoredModel*> branches(const Findings& found) {
     if (chosen.size() < kBranches && worth_following(found.before, c)) chosen.push_back(&c);
   std::vector<const ScoredModel*> fitted;
   for (const ScoredModel& c : found.candidates)
-    if (c.fitted.mean_square < kMuchOfTheFit * found.before.fitted.mean_square) fitted.push_back(&c);
+    if (c.fitted.mean_cost < kMuchOfTheFit * found.before.fitted.mean_cost) fitted.push_back(&c);
   std::stable_sort(fitted.begin(), fitted.end(), [](const ScoredModel* a, const ScoredModel* b) {
-    return a->fitted.mean_square < b->fitted.mean_square;
+    return a->fitted.mean_cost < b->fitted.mean_cost;
   });
   for (std::size_t i = 0; i < std::min(fitted.size(), kFittedBranches); ++i)
     if (std::find(chosen.begin(), chosen.end(), fitted[i]) == chosen.end()) chosen.push_back(fitted[i]);

@@ -53,13 +53,13 @@ Additions add_further(const Study& study, const Findings& found);
 const ScoredModel& nominal_of(const Findings& found, const Additions& additions);
 
 /// All steps.
-struct Search {
+struct EffectSearch {
   Findings found;
   Additions added;
 };
 /// Where they lead nowhere and what is held out shows far more than what was fitted, the first half of it is
 /// fitted, too, as in investigate().
-Search search(Study& study);
+EffectSearch search_effects(Study& study);
 
 /// First steps to follow where the best is unsure in itself: those that gain on what is held out, then those
 /// that explain most of what was fitted. Where half of the cause is still missing, the numbers of the other
@@ -80,6 +80,6 @@ bool refines(const ScoredModel& before, const ScoredModel& best, const Decision&
 bool borne_out(const ScoredModel& nominal, const Additions& additions);
 
 /// Whether the effect is in the model.
-bool contains(const ReferenceModel& model, const EffectEntry* entry);
+bool has_effect(const ReferenceModel& model, const EffectEntry* entry);
 
 }  // namespace gapscope::internal::diagnosis

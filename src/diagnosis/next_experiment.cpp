@@ -11,6 +11,7 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/require.h"
+#include "gapscope/base/text.h"
 #include "gapscope/simulation/simulate.h"
 #include "signals/encoder.h"
 
@@ -60,7 +61,7 @@ struct Bench {
     if (drive != nullptr)
       for (std::size_t i = 0; i < from.parameters.size(); ++i)
         from.parameters[i].value = drive->parameters[i].value;
-    return fit_near({&seen, 1}, from, {}, hz, kScreening).mean_square;
+    return fit_near({&seen, 1}, from, {}, hz, kScreening).mean_cost;
   }
 
   Separation separate(const Rival& truth, const Rival& rival, const Recording& recorded, bool confirm) const {
@@ -135,8 +136,7 @@ std::string sentence_of(const TriedInput& best, double duration) {
   }
   text += ": it leaves " + separate + apart + ".";
   if (!(best.worst >= kSeparated)) text += " No input within the limits separates them by one σ.";
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
+  return readable(text);
 }
 
 }  // namespace

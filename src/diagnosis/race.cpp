@@ -88,7 +88,7 @@ void Race::weaken(const EffectStart& start, std::size_t i) {
   std::vector<double> effect = physical(start);
   for (int k = 0; k < kWeakenings; ++k) {
     // The race's residuals alone against all that the fit without the effect minimised.
-    if (field_.back().at.residual_mean_square < nominal_.mean_square) return;
+    if (field_.back().at.residual_mean_square < nominal_.mean_cost) return;
     effect[i] = weaker(i, effect[i]);
     run_from(effect, bases_.front());
   }
@@ -99,7 +99,7 @@ reference::RefinedFit Race::follow(const reference::AdjustedFit& from) const {
   reference::RefinedFit light = fit_.refine(from, kLight);
   // Where no refinement succeeds the race's own residuals stand for the cost, without priors and widths.
   if (!light.usable()) return {from, from.residual_mean_square, false, light.simulations};
-  if (!(light.mean_cost < kPromising * nominal_.mean_square)) return light;
+  if (!(light.mean_cost < kPromising * nominal_.mean_cost)) return light;
   reference::RefinedFit found = fit_.refine(light, kThorough);
   found.simulations = light.simulations += found.simulations;
   return found.mean_cost < light.mean_cost ? found : light;

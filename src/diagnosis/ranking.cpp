@@ -64,7 +64,7 @@ bool look_alike(const EffectEntry& a, const EffectEntry& b) {
 ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& held_out, double hz) {
   ScoredModel j;
   j.entry = entry;
-  if (fitted.mean_square < kInfinity) {
+  if (fitted.mean_cost < kInfinity) {
     if (const auto playbacks = play(fitted.model, held_out, hz, false); !playbacks.empty()) {
       j.windows = windows_of(playbacks, held_out);
       const double parameters = entry != nullptr ? static_cast<double>(entry->parameters.size()) : 0.0;
@@ -81,8 +81,8 @@ bool at_floor(const ScoredModel& j) {
   return j.median_free < kFloorRatio && j.median_innovation < kFloorRatio;
 }
 
-bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_square) {
-  return model.median_free > kFarMore * std::sqrt(fitted_mean_square);
+bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_cost) {
+  return model.median_free > kFarMore * std::sqrt(fitted_mean_cost);
 }
 
 double relative_gain(const ScoredModel& before, const ScoredModel& after) {
@@ -145,9 +145,9 @@ Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& befor
                              best.median_free < (1.0 - kOtherFormShrink) * before.median_free;
   const bool enough = repeats_badly ? d.gain >= kLeastGain && d.windows_better >= kLeastWindows
                                     : d.rel >= kLeastRel || of_other_form;
-  const double fitted = best.fitted.mean_square;
+  const double fitted = best.fitted.mean_cost;
   const double share = fitted < kExplained ? kAskedForAtFloor : kAskedFor;
-  const bool asked_for = reads_counts(*best.entry) || fitted < share * before.fitted.mean_square;
+  const bool asked_for = reads_counts(*best.entry) || fitted < share * before.fitted.mean_cost;
   d.accepted = enough && asked_for && d.margin >= kLeastMargin;
   for (const ScoredModel& parent : excluded_parents)
     if (contained_effect(*best.entry) == parent.entry && parent.score - best.score < kLeastMargin)

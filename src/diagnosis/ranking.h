@@ -34,7 +34,7 @@ inline constexpr double kExplained = kFloorRatio * kFloorRatio;  ///< mean squar
 bool at_floor(const ScoredModel& judged);
 
 /// Whether a model leaves far more of what is held out than the mean square that was left of what was fitted.
-bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_square);
+bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_cost);
 
 /// How sure a step is.
 struct Decision {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDrift = 1.6;  ///< growth of the difference from one period to two that is a drift
 
-struct Pooled {
+struct PooledSize {
   double sum = 0.0, count = 0.0;
   void add(double size, double samples) { sum += size * size * samples, count += samples; }
   double value() const { return count > 0.0 ? std::sqrt(sum / count) : kNaN; }
@@ -22,7 +22,7 @@ struct Pooled {
 }  // namespace
 
 Repeatability repeatability_of(const std::vector<Playback>& playbacks, const HeldOut& held_out) {
-  Pooled innovation, free, twice, once;
+  PooledSize innovation, free, twice, once;
   std::string read_from;
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
     const std::size_t period = held_out.periods[r], size = held_out.traces[r].size();

@@ -80,7 +80,7 @@ void once_more(const Study& study, const ScoredModel& before, const std::vector<
     ScoredModel& candidate = ranked[places[k]];
     if (!std::isfinite(candidate.score) || at_floor(candidate)) return;
     FittedModel fitted = fit(candidate.fitted);
-    if (fitted.mean_square < candidate.fitted.mean_square)
+    if (fitted.mean_cost < candidate.fitted.mean_cost)
       candidate = judge(candidate.entry, std::move(fitted), study.held_out, study.observer_hz);
   });
   rank(ranked, before, study.repeats_badly());
@@ -132,7 +132,7 @@ void fit_look_alikes(const Study& study, const ScoredModel& before, const Scored
     FittedModel fitted =
         fit_candidate(study.train, before.fitted, {&bases.back(), 1}, *c.entry,
                       starts[static_cast<std::size_t>(place)], nullptr, options, study.observer_hz);
-    if (fitted.mean_square < c.fitted.mean_square)
+    if (fitted.mean_cost < c.fitted.mean_cost)
       c = judge(c.entry, std::move(fitted), study.held_out, study.observer_hz);
   });
 }
@@ -178,7 +178,7 @@ std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& be
       if ((contained_effect(*entries[i]) != nullptr) == children) now.push_back(i);
     parallel_for(now.size(), study.options.threads, [&](std::size_t k) {
       const std::size_t parent = place_of(contained_effect(*entries[now[k]]));
-      const bool has = parent < entries.size() && judged[parent].fitted.mean_square < kInfinity;
+      const bool has = parent < entries.size() && judged[parent].fitted.mean_cost < kInfinity;
       run(now[k], has ? &judged[parent].fitted : nullptr);
     });
   };

@@ -7,15 +7,11 @@
 #include <cmath>
 
 #include "diagnosis/effect_starts.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
 namespace {
-
-std::string readable(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 /// Where a recording cannot tell an effect from others.
 std::string likeness(std::vector<std::string> group) {
@@ -29,7 +25,7 @@ std::string likeness(std::vector<std::string> group) {
 std::string within(const std::string& effect, const std::vector<std::string>& all) {
   const EffectEntry* entry = find_effect(effect);
   const EffectEntry* simpler = entry == nullptr ? nullptr : contained_effect(*entry);
-  if (simpler == nullptr || std::find(all.begin(), all.end(), simpler->name) != all.end()) return "";
+  if (simpler == nullptr || contains(all, simpler->name)) return "";
   return fmt::format(" (which contains {})", readable(simpler->name));
 }
 

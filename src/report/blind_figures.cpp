@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "gapscope/base/text.h"
 #include "report/rich_text.h"
 
 namespace gapscope::internal::report {
@@ -15,11 +16,6 @@ constexpr Colour kRight{205, 225, 240};
 constexpr Colour kWrong{213, 94, 0};
 constexpr double kTileHeight = 52.0;  ///< [px]
 constexpr Interval kPercent{-4.0, 104.0};
-
-std::string readable(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return literal(name);
-}
 
 int index_of(std::vector<std::string>& names, const std::string& name) {
   const auto at = std::find(names.begin(), names.end(), name);
@@ -65,7 +61,7 @@ FigureData confusion(const BlindScore& s) {
   }
   p.y.name = "truth";
   for (std::size_t i = 0; i < truths.size(); ++i)
-    p.y.categories.push_back(fmt::format("{} {}", readable(truths[i]), i + 1));
+    p.y.categories.push_back(fmt::format("{} {}", literal(readable(truths[i])), i + 1));
   p.x.name = "answer: number of a truth, ? unknown, 0 none";
   p.x.range = {-0.6, static_cast<double>(answers.size()) - 0.4};
   for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -172,7 +168,7 @@ FigureData slice_figure(const BlindScore& s, const std::string& by, const std::s
   Panel p;
   p.x = {"share of the cases with more than 2 floors of mismatch", "%", kPercent, {}, {}, {}};
   for (const BlindSlice& slice : slices) {
-    p.y.categories.push_back(readable(slice.name));
+    p.y.categories.push_back(literal(readable(slice.name)));
     p.y.remarks.push_back(fmt::format("{}/{}", slice.seen, slice.cases));
   }
   p.height = std::max(240.0, 66.0 * static_cast<double>(slices.size()));
@@ -187,7 +183,7 @@ FigureData slice_figure(const BlindScore& s, const std::string& by, const std::s
         return a.named * std::max(1, b.seen) < b.named * std::max(1, a.seen);
       });
   figure.reading =
-      fmt::format("Named least: {} ({} of {}).", readable(least->name), least->named, least->seen);
+      fmt::format("Named least: {} ({} of {}).", literal(readable(least->name)), least->named, least->seen);
   return figure;
 }
 

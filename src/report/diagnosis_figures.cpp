@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gapscope/base/text.h"
 #include "report/rich_text.h"
 #include "report/ticks.h"
 #include "report/wording.h"
@@ -30,11 +31,6 @@ std::string angle_word(const DiagnosisResult& r) {
   return r.coordinates.rotational() ? "motor angle" : "displacement";
 }
 bool added(const DiagnosisResult& r) { return !r.diagnosis.effects.empty(); }
-
-std::string readable(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 /// What the model has been given: its one effect, or all of them.
 std::string with_added(const DiagnosisResult& r) {

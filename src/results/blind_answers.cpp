@@ -11,7 +11,7 @@ template <class Archive>
 void fields(Archive& archive, ModelEvidence& e) {
   archive("effect", e.effect);
   archive.bound("score", e.score);
-  archive("mean_square_floor2", e.mean_square);
+  archive("mean_square_floor2", e.mean_cost);
   archive("median_free_floor", e.median_free);
   archive("median_innovation_floor", e.median_innovation);
   archive("windows_better", e.windows_better);

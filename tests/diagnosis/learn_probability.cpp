@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "blind/scored.h"
+#include "blind/scored_answer.h"
 #include "diagnosis/probability.h"
 #include "diagnosis/study_row.h"
 

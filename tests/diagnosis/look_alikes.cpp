@@ -59,10 +59,10 @@ LookAlikes look_alikes(const std::string& truth, const std::string& other, std::
 double seen_excess(const LookAlikes& pair, const Recording& recorded) {
   const MotorTrace seen[] = {recorded.motor_trace()};
   double left[2];
-  for (std::size_t i = 0; i < 2; ++i) left[i] = fit_near(seen, pair.rivals[i].model, {}, kHz).mean_square;
+  for (std::size_t i = 0; i < 2; ++i) left[i] = fit_near(seen, pair.rivals[i].model, {}, kHz).mean_cost;
   ReferenceModel moved = pair.rivals[1].model;  // the other effect on the drive that the truth has found
   moved.parameters = fit_near(seen, pair.rivals[0].model, {}, kHz).model.parameters;
-  left[1] = std::min(left[1], fit_near(seen, moved, {}, kHz).mean_square);
+  left[1] = std::min(left[1], fit_near(seen, moved, {}, kHz).mean_cost);
   return std::sqrt(std::max(0.0, left[1] - left[0]));
 }
 

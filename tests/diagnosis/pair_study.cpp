@@ -60,8 +60,8 @@ std::string describe(const ScoredModel& before, const std::vector<ScoredModel>& 
   std::string text = fmt::format(
       "[{:.3g}/{:.3g} S {:.2f}; rel {:.2f} mar {:.2f} gain {:.2f} win {:.2f} fit {:.2f} of {:.3g} {}:",
       before.median_free, before.median_innovation, before.score, d.rel, d.margin, d.gain, d.windows_better,
-      ranked.empty() ? kNaN : ranked.front().fitted.mean_square / before.fitted.mean_square,
-      before.fitted.mean_square, d.accepted ? "yes" : "no");
+      ranked.empty() ? kNaN : ranked.front().fitted.mean_cost / before.fitted.mean_cost,
+      before.fitted.mean_cost, d.accepted ? "yes" : "no");
   for (std::size_t i = 0; i < std::min<std::size_t>(5, ranked.size()); ++i)
     text += fmt::format(" {} {:.2f}", ranked[i].entry->name, ranked[i].score);
   return text + "] ";
@@ -73,7 +73,7 @@ std::string judgements(const FurtherStep& step, const Names& truth) {
   if (step.candidates.empty()) return "";
   Names missing;
   for (const std::string& t : truth)
-    if (find_effect(t) != nullptr && !contains(step.before.fitted.model, find_effect(t)))
+    if (find_effect(t) != nullptr && !has_effect(step.before.fitted.model, find_effect(t)))
       missing.push_back(t);
   const auto numbers = [](const Decision& d) {
     return fmt::format("rel {:.4g} margin {:.4g} gain {:.4g}", d.rel, d.margin, d.gain);
@@ -124,7 +124,7 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
     if (std::isnan(first) && what.starts_with("looking for a further")) first = thread_seconds() - begin;
   };
   Study study = make_study(train, held, pair.sheet, options);
-  const auto [f, a] = search(study);
+  const auto [f, a] = search_effects(study);
   StudyRow row;
   row.seconds = thread_seconds() - begin;
   row.probability = std::isnan(first) ? 1.0 : row.seconds / first;
@@ -140,7 +140,7 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
                              a.explained ? ", explained together" : "");
   row.shrink = shrink_of(f.before.median_free, a.after.median_free);
   std::vector<Addition> standing = a.effects;  // Coulomb friction gives its place to Stribeck's, which has it
-  std::erase_if(standing, [&](const Addition& e) { return !contains(a.after.fitted.model, e.entry); });
+  std::erase_if(standing, [&](const Addition& e) { return !has_effect(a.after.fitted.model, e.entry); });
   Names found;
   for (const Addition& e : standing) found.push_back(e.entry->name);
   if (!found.empty()) row.first = fmt::format("{}", fmt::join(found, "+"));

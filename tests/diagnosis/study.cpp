@@ -84,13 +84,13 @@ Removed without(const std::string& effect, std::vector<ScoredModel> candidates, 
 std::string describe(const Findings& f, const std::string& effect) {
   std::string text =
       fmt::format("free {:.3g} inn {:.3g} fit {:.3g} S {:.2f}", f.before.median_free,
-                  f.before.median_innovation, std::sqrt(f.before.fitted.mean_square), f.before.score);
+                  f.before.median_innovation, std::sqrt(f.before.fitted.mean_cost), f.before.score);
   if (f.candidates.empty()) return text;
   if (std::isfinite(f.alone)) text += fmt::format(" (alone {:.3g})", f.alone);
   text += fmt::format(" rel {:.2f} margin {:.2f} gain {:.2f} better {:.2f};", f.decision.rel,
                       f.decision.margin, f.decision.gain, f.decision.windows_better);
   const auto add = [&](const ScoredModel& c) {
-    text += fmt::format(" {} {:.2f} ({:.2g})", c.entry->name, c.score, std::sqrt(c.fitted.mean_square));
+    text += fmt::format(" {} {:.2f} ({:.2g})", c.entry->name, c.score, std::sqrt(c.fitted.mean_cost));
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(4, f.candidates.size()); ++i) add(f.candidates[i]);
   if (const std::size_t place = place_of_truth(f.candidates, effect);

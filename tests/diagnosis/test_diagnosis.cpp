@@ -7,6 +7,7 @@
 #include "diagnosis/one_inertia.h"
 #include "diagnosis/study.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/text.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording.h"
 #include "independent_plant/severity.h"
@@ -17,10 +18,6 @@ namespace {
 Diagnosis diagnosis_of(const blind::BlindPair& pair, const DiagnosisOptions& options = {}) {
   const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
   return diagnose(train, held_out, pair.sheet, options);
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 /// These are the only candidates.
@@ -221,10 +218,10 @@ TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
   const internal::diagnosis::FittedModel without_a_line = internal::diagnosis::fit_candidate(
       train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0), *cogging, {},
       nullptr, {}, 3.0);
-  EXPECT_EQ(without_a_line.mean_square, kInfinity);
+  EXPECT_EQ(without_a_line.mean_cost, kInfinity);
   const EffectStart start{0.05, 2.0, 0.0};
   EXPECT_EQ(internal::diagnosis::fit_candidate(train, nominal, {}, *cogging, {&start, 1}, &nominal, {}, 3.0)
-                .mean_square,
+                .mean_cost,
             kInfinity);
 }
 

@@ -6,11 +6,11 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-ScoredModel model(double score, double median, double mean_square) {
+ScoredModel model(double score, double median, double mean_cost) {
   ScoredModel j;
   j.score = score;
   j.median_free = j.median_innovation = median;
-  j.fitted.mean_square = mean_square;
+  j.fitted.mean_cost = mean_cost;
   return j;
 }
 
@@ -82,9 +82,9 @@ TEST(FurtherSteps, TakeTheMoreGeneralLawOfAnEffectWithoutAskingHowFarItLeads) {
   EXPECT_FALSE(refines(before, best, step(0.2, 0.4, 0.8))) << "gain";
   EXPECT_FALSE(refines(before, best, step(0.4, 0.2, 0.8))) << "margin";
   EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.5))) << "windows";
-  best.fitted.mean_square = 95.0;
+  best.fitted.mean_cost = 95.0;
   EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.8))) << "what was fitted does not ask for it";
-  best.fitted.mean_square = 70.0, best.entry = find_effect("quadratic_drag");
+  best.fitted.mean_cost = 70.0, best.entry = find_effect("quadratic_drag");
   EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.8))) << "another effect";
   best.entry = find_effect("stribeck_friction");
   before.fitted.model.effects.front().entry = find_effect("cogging_torque");

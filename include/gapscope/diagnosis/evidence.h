@@ -11,7 +11,7 @@ namespace gapscope {
 struct ModelEvidence {
   std::string effect;               ///< "": without one
   double score = kInfinity;         ///< S, see diagnose(); infinite where the motion diverges
-  double mean_square = kNaN;        ///< of what was fitted [floor²]
+  double mean_cost = kNaN;          ///< of what was fitted [floor²]
   double median_free = kNaN;        ///< of the restarted free runs [floor]
   double median_innovation = kNaN;  ///< [floor]
   double windows_better = kNaN;     ///< share of the windows above the floor that improve
