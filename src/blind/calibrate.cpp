@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blind/scored.h"
+#include "blind/scored_answer.h"
 
 namespace gapscope::blind {
 namespace {
@@ -66,9 +66,9 @@ double probability_of(const StepOutcome& o, const BlindCalibration& c) {
   return logistic(Eigen::Map<const Eigen::Vector4d>(c.weights.data()).dot(features(o)));
 }
 
-std::vector<Judgement> judgements(const std::vector<Scored>& cases, const std::string& part) {
+std::vector<Judgement> judgements(const std::vector<ScoredAnswer>& cases, const std::string& part) {
   std::vector<Judgement> all;
-  for (const Scored& s : cases) {
+  for (const ScoredAnswer& s : cases) {
     if (s.label->part != part || s.pair() || s.first.ranking.empty()) continue;
     all.push_back({s.first, s.in_group()});
     if (s.known()) all.push_back({decide_again(s.answer->evidence, truth_of(s, true)), false});

@@ -25,7 +25,7 @@ namespace {
 constexpr int kPatience = 100;  ///< milliseconds from Ctrl-C to the answer, where no input comes
 
 /// Nobody reads standard output any more.
-struct Closed {};
+struct ReaderGone {};
 
 /// Until a slow reader has taken what is there already.
 void wait_for_reader() {
@@ -39,7 +39,7 @@ void write_line(const std::string& line) {
     if (n >= 0)
       done += static_cast<std::size_t>(n);
     else if (errno == EPIPE)
-      throw Closed{};
+      throw ReaderGone{};
     else if (errno == EAGAIN)
       wait_for_reader();
     else if (errno != EINTR)
@@ -84,7 +84,7 @@ class Session {
       for (std::string_view piece = read_piece(buffer); !piece.empty(); piece = read_piece(buffer))
         feed(piece);
       csv_.finish();
-    } catch (const Closed&) {
+    } catch (const ReaderGone&) {
       throw;
     } catch (...) {
       finish();
@@ -157,7 +157,7 @@ void detect_stream(const RecordingColumns& columns, double quantum) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
     Session(columns, quantum).run();
-  } catch (const Closed&) {  // as `| head` does: no fault of the recording
+  } catch (const ReaderGone&) {  // as `| head` does: no fault of the recording
   }
 }
 

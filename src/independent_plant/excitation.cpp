@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "gapscope/base/random.h"
 #include "gapscope/base/require.h"

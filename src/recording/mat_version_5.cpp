@@ -116,13 +116,13 @@ class Version5 : public MatContent {
 
   std::vector<std::string> names() override {
     std::vector<std::string> all;
-    for (const Stored& s : variables_) all.push_back(s.variable.name);
+    for (const StoredVariable& s : variables_) all.push_back(s.variable.name);
     return all;
   }
 
   std::vector<double> numbers(const std::string& name, std::size_t count) override try {
     constexpr std::size_t kLongest = 8;
-    const Stored& s = *place_of(name);
+    const StoredVariable& s = *place_of(name);
     MatElement element(file_, s.place, s.length, s.deflated, foreign_);
     read_head(element, s.deflated);
     const MatElement::Tag tag = element.tag();
@@ -138,29 +138,29 @@ class Version5 : public MatContent {
   }
 
  private:
-  struct Stored {
+  struct StoredVariable {
     Bytes place = 0, length = 0;
     bool deflated = false;
     MatVariable variable;
   };
 
   /// One that cannot be read stands in nobody's way as long as another one is asked for.
-  MatVariable head_of(const Stored& s) try {
+  MatVariable head_of(const StoredVariable& s) try {
     MatElement element(file_, s.place, s.length, s.deflated, foreign_);
     return read_head(element, s.deflated);
   } catch (const DamagedVariable&) {
     return {fmt::format("(damaged, byte {})", s.place), "is damaged", {}};
   }
 
-  std::vector<Stored>::const_iterator place_of(const std::string& name) const {
+  std::vector<StoredVariable>::const_iterator place_of(const std::string& name) const {
     return std::find_if(variables_.begin(), variables_.end(),
-                        [&](const Stored& s) { return s.variable.name == name; });
+                        [&](const StoredVariable& s) { return s.variable.name == name; });
   }
 
   /// Takes the variable at this place.  @returns how many bytes it has there
   Bytes add(Bytes place, Bytes size) try {
     const MatElement::Tag tag = MatElement(file_, place, std::min(size - place, kTag), false, foreign_).tag();
-    Stored s{place + kTag, tag.length, tag.type == kDeflated, {}};
+    StoredVariable s{place + kTag, tag.length, tag.type == kDeflated, {}};
     if ((tag.type != kMatrix && !s.deflated) || tag.is_small || variables_.size() == kMostVariables)
       throw DamagedVariable();
     if (s.length > size - s.place)
@@ -176,7 +176,7 @@ class Version5 : public MatContent {
   std::string path_;
   std::ifstream file_;
   bool foreign_ = false;
-  std::vector<Stored> variables_;
+  std::vector<StoredVariable> variables_;
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kWorseThanStill = 1.3;  ///< free-run error over that of a motor that stood still
 
-FittedParameter fitted(const Parameter& p, const Determined& determined, double q, std::size_t i) {
+FittedParameter fitted(const Parameter& p, const Determination& determined, double q, std::size_t i) {
   FittedParameter f;
   f.key = p.key, f.unit = p.unit, f.start = p.start, f.estimated = true;
   f.value = p.coordinate.physical(q);
@@ -33,7 +33,7 @@ FittedParameter fitted(const Parameter& p, const Determined& determined, double 
 /// @returns the simulations that profiles took
 double report_parameters(const FitProblem& problem, const FitOutcome& outcome, FitSummary& summary) {
   double simulations = 0.0;
-  Determined determined = determine(problem, outcome.solution, outcome.information, outcome.shift());
+  Determination determined = determine(problem, outcome.solution, outcome.information, outcome.shift());
   judge_changes(problem, outcome, determined);
   std::size_t i = 0;
   for (const Parameter& p : problem.parameters) {

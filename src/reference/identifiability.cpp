@@ -33,7 +33,7 @@ double size_of(const FitProblem& problem, const FitPoint& at, std::size_t i) {
 /// Names the parameters of one null direction v (normalised columns) and marks them: those that change by a
 /// share of the largest relative change among the well visible ones.
 void mark_null(const FitProblem& problem, const FitPoint& at, const Eigen::VectorXd& v,
-               const Eigen::VectorXd& norm, Directions& directions, Determined& determined) {
+               const Eigen::VectorXd& norm, Directions& directions, Determination& determined) {
   std::vector<std::string> keys;
   std::vector<double> changes;  // relative
   double largest = 0.0;
@@ -55,7 +55,7 @@ void mark_null(const FitProblem& problem, const FitPoint& at, const Eigen::Vecto
 }
 
 Directions directions_of(const FitProblem& problem, const FitPoint& at, const Information& info,
-                         Determined& determined) {
+                         Determination& determined) {
   Directions d;
   const Eigen::Index n = info.normal.rows();
   d.in_null.assign(static_cast<std::size_t>(n), false);
@@ -112,7 +112,7 @@ std::string partner(const FitProblem& problem, const Eigen::MatrixXd& inverse, s
 }
 
 void judge(const FitProblem& problem, const FitPoint& at, const Directions& d, std::size_t i, double std,
-           Determined& determined) {
+           Determination& determined) {
   const Parameter& p = problem.free_parameter(i);
   if (d.in_null[i]) {
     determined.identifiable[i] = false;
@@ -126,7 +126,7 @@ void judge(const FitProblem& problem, const FitPoint& at, const Directions& d, s
 }
 
 /// The worse half of the parameters that are known at all, where that is much worse than the best.
-void advise(const FitProblem& problem, const FitPoint& at, Determined& determined) {
+void advise(const FitProblem& problem, const FitPoint& at, Determination& determined) {
   const auto relative = [&](std::size_t i) { return determined.std[i] / size_of(problem, at, i); };
   std::vector<double> all;
   for (std::size_t i = 0; i < determined.std.size(); ++i)
@@ -140,10 +140,10 @@ void advise(const FitProblem& problem, const FitPoint& at, Determined& determine
 
 }  // namespace
 
-Determined determine(const FitProblem& problem, const FitPoint& at, const Information& info,
-                     const std::vector<double>& shift) {
+Determination determine(const FitProblem& problem, const FitPoint& at, const Information& info,
+                        const std::vector<double>& shift) {
   const std::size_t n = problem.free_count();
-  Determined determined;
+  Determination determined;
   determined.std = determined.own = determined.linear = std::vector<double>(n, kNaN);
   determined.identifiable.assign(n, info.valid);
   if (!info.valid) {

@@ -8,7 +8,7 @@
 namespace gapscope::internal::reference {
 
 /// What could be determined of each free parameter, in the order of FitProblem::free.
-struct Determined {
+struct Determination {
   std::vector<double> std;  ///< [unit of the parameter]; NaN where it is not identifiable
   std::vector<bool> identifiable;
   std::vector<double> own;     ///< std before changes to another gain or part count
@@ -26,7 +26,7 @@ struct Determined {
 /// the windows' scores, and that of the quantiser.
 /// @param shift  change of each free parameter [its unit] to another observer gain, counted as an error of
 /// its own
-Determined determine(const FitProblem& problem, const FitPoint& at, const Information& information,
-                     const std::vector<double>& shift = {});
+Determination determine(const FitProblem& problem, const FitPoint& at, const Information& information,
+                        const std::vector<double>& shift = {});
 
 }  // namespace gapscope::internal::reference

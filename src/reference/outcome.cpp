@@ -169,7 +169,7 @@ FitOutcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
     take_rejected(problem, ends, outcome);
     return outcome;
   }
-  const Polished polished = polish(problem, found);
+  const FreeRunMinima polished = polish(problem, found);
   outcome.simulations += polished.simulations;
   if (polished.best.usable() && std::sqrt(polished.best.mean_square_with_priors) <= o.rejected_ratio) {
     take(problem, polished.best, 0.0, outcome);
@@ -182,9 +182,9 @@ FitOutcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
   return outcome;
 }
 
-void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determined& determined) {
+void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determination& determined) {
   for (const ValueChange& c : outcome.changes) {
-    std::vector<words::Moved> moved;
+    std::vector<words::ValueShift> moved;
     for (std::size_t i = 0; i < c.from.size(); ++i) {
       const double difference = std::abs(c.to[i] - c.from[i]);
       // An interval of each side: the own one, on half of the recordings.

@@ -37,6 +37,6 @@ FitOutcome outcome_of(const FitProblem& problem, const SearchResult& found);
 
 /// Names the parameters that change by more than their own intervals. A gap that is another one on another
 /// part of the recordings is no gap: it is not identifiable.
-void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determined& determined);
+void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determination& determined);
 
 }  // namespace gapscope::internal::reference

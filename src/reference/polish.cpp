@@ -19,7 +19,7 @@ constexpr double kBeginning = 0.125;              ///< of the recordings, where 
 constexpr double kClearly = 6.0;                  ///< fall of the cost, in mean squares, that is no chance
 constexpr double kSmallestShake = 1.0, kLargestShake = 100.0;  ///< in standard errors
 
-void keep(const Solution& next, Polished& polished) {
+void keep(const Solution& next, FreeRunMinima& polished) {
   polished.simulations += next.simulations;
   if (!next.usable()) return;
   polished.others.push_back(next);
@@ -60,7 +60,7 @@ Eigen::MatrixXd covariance_root(const Information& information) {
   return scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
 }
 
-void shake(const FitProblem& problem, Polished& polished) {
+void shake(const FitProblem& problem, FreeRunMinima& polished) {
   const Information information = information_at(problem, polished.best, 0.0);
   polished.simulations += information.simulations;
   const Eigen::MatrixXd root = covariance_root(information);
@@ -119,8 +119,8 @@ Placement renewed_starts(const FitProblem& problem, const FitPoint& at) {
 
 }  // namespace
 
-Polished polish(const FitProblem& problem, const Solution& found) {
-  Polished polished{solve(problem, found, 0.0, kFinal), {}, 0.0};
+FreeRunMinima polish(const FitProblem& problem, const Solution& found) {
+  FreeRunMinima polished{solve(problem, found, 0.0, kFinal), {}, 0.0};
   polished.simulations = polished.best.simulations;
   if (polished.best.usable()) {
     const Placement renewed = renewed_starts(problem, polished.best);

@@ -129,9 +129,9 @@ Remark another_gap(double from, const std::string& unit, double to) {
       "a gap is something else, and none is reported.",
       {from, RemarkUnit{unit}, to}};
 }
-Remark values_move(const Remark& where, const std::vector<Moved>& moved) {
+Remark values_move(const Remark& where, const std::vector<ValueShift>& moved) {
   Remark text = Remark("values_move", "values move by more than their own intervals ") + where;
-  for (const Moved& m : moved)
+  for (const ValueShift& m : moved)
     text += Remark("moved",
                    &m == &moved.front() ? ": {} from {:.4g} to {:.4g} {}" : ", {} from {:.4g} to {:.4g} {}",
                    {m.key, m.from, m.to, RemarkUnit{m.unit}});

@@ -32,13 +32,13 @@ Remark no_information(const std::string& key);
 Remark little_known(const std::string& key, double percent);
 
 // What differs from part to part.
-struct Moved {
+struct ValueShift {
   std::string key;
   double from, to;
   std::string unit;
 };
 Remark another_gap(double from, const std::string& unit, double to);
-Remark values_move(const Remark& where, const std::vector<Moved>& moved);
+Remark values_move(const Remark& where, const std::vector<ValueShift>& moved);
 Remark between_recordings(const std::string& from, const std::string& to);  ///< "from a.csv to b.csv"
 Remark between_parts(double split);
 Remark between_gains(double from_hz, double to_hz);

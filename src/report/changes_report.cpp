@@ -27,7 +27,7 @@ std::string unit_of(const DriveChanges& all, const DriveQuantity& q) {
 
 std::string estimator(const DriveQuantity& q) { return q.from == "model_free" ? "model-free" : "reference"; }
 
-std::string observed_text(const Observed& o, const std::string& unit) {
+std::string observed_text(const Observation& o, const std::string& unit) {
   if (o.remark.empty()) return plus_minus(o.value, o.ci95, unit);
   return std::isfinite(o.ci95.high) ? "none above " + quantity(o.ci95.high, unit) : o.remark;
 }
@@ -63,7 +63,7 @@ void add_series(const DriveQuantity& q, Panel& panel) {
   denied.marker = Marker::kTriangleDown;
   denied.joined = false;
   for (std::size_t i = 0; i < q.observed.size(); ++i) {
-    const Observed& o = q.observed[i];
+    const Observation& o = q.observed[i];
     const double x = static_cast<double>(i + 1) + (model_free ? -kAside : kAside);
     read.x.push_back(x);
     read.y.push_back(o.value);

@@ -98,7 +98,7 @@ Json campaign_schema() { return document_schema(kCampaignSchema, CampaignSummary
 
 namespace {
 
-std::string file_in(const std::string& folder) { return folder + "/campaign.json"; }
+std::string summary_in(const std::string& folder) { return folder + "/campaign.json"; }
 
 /// A place in a list of this size; where there is no list, -1.
 void require_place(const internal::results::JsonReader& reader, const std::string& key, int place,
@@ -133,11 +133,11 @@ void write_campaign_summary(const std::string& folder, const CampaignSummary& su
   std::string schema = internal::results::kCampaignSchema;
   writer("schema", schema);
   internal::results::fields(writer, copy);
-  internal::results::save_json(file_in(folder), writer.json);
+  internal::results::save_json(summary_in(folder), writer.json);
 }
 
 CampaignSummary read_campaign_summary(const std::string& folder) {
-  const std::string path = file_in(folder);
+  const std::string path = summary_in(folder);
   const internal::results::Json json = internal::results::load_json(path);
   internal::results::JsonReader reader(json, path, "");
   reader.schema(internal::results::kCampaignSchema);
@@ -148,6 +148,6 @@ CampaignSummary read_campaign_summary(const std::string& folder) {
   return summary;
 }
 
-bool has_campaign_summary(const std::string& folder) { return std::filesystem::exists(file_in(folder)); }
+bool has_campaign_summary(const std::string& folder) { return std::filesystem::exists(summary_in(folder)); }
 
 }  // namespace gapscope

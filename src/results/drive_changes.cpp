@@ -16,20 +16,20 @@ namespace {
 
 constexpr double kLevel = 0.05;  ///< of a false change, all comparisons together
 
-Observed untold(std::string why) { return {kNaN, kNaN, {}, std::move(why)}; }
+Observation untold(std::string why) { return {kNaN, kNaN, {}, std::move(why)}; }
 
 /// The interval may be wider than the standard error, never narrower.
-Observed told(double value, double std, const Interval& ci95) {
+Observation told(double value, double std, const Interval& ci95) {
   return {value, std::fmax(std, (ci95.high - ci95.low) / (2.0 * 1.96)), ci95, ""};
 }
 
-Observed model_free(const DriveReport& report, GapQuantity quantity) {
+Observation model_free(const DriveReport& report, GapQuantity quantity) {
   if (!report.model_free) return untold("not asked for");
   const GapEstimate& g = *report.model_free;
   if (g.verdict == GapVerdict::kInconclusive) return untold("inconclusive");
   if (g.verdict == GapVerdict::kNone) {
     if (quantity == GapQuantity::kPlayAtZeroTorque && g.quantity != quantity) return untold("not read");
-    Observed none = untold(
+    Observation none = untold(
         fmt::format("none above {:.3g} {}", g.smallest_visible_gap, report.coordinates.position_unit()));
     none.ci95 = {0.0, g.smallest_visible_gap};
     return none;
@@ -40,7 +40,7 @@ Observed model_free(const DriveReport& report, GapQuantity quantity) {
   return told(g.gap, g.std, g.ci95);
 }
 
-Observed fitted(const DriveReport& report, const std::string& key) {
+Observation fitted(const DriveReport& report, const std::string& key) {
   if (!report.reference) return untold("not asked for");
   const FittedParameter* p = report.reference->find(key);
   if (p == nullptr) return untold("not in the model");
@@ -57,18 +57,18 @@ bool known(const Interval& i) { return std::isfinite(i.low) && std::isfinite(i.h
 double p_value(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
 /// A denied gap may be anything up to the smallest that would have shown: a change is what lies beyond.
-Change change_of_denied(const Observed& first, const Observed& now) {
+Change change_of_denied(const Observation& first, const Observation& now) {
   Change c;
   if (!known(first.ci95) || !known(now.ci95)) return c;
   c.ci95 = {now.ci95.low - first.ci95.high, now.ci95.high - first.ci95.low};
-  const Observed& read = first.remark.empty() ? first : now;
-  const Observed& denied = first.remark.empty() ? now : first;
+  const Observation& read = first.remark.empty() ? first : now;
+  const Observation& denied = first.remark.empty() ? now : first;
   if (!std::isfinite(read.value)) return c;
   c.p = p_value(std::max(read.value - denied.ci95.high, 0.0) / read.std);
   return c;
 }
 
-Change change_of(const Observed& first, const Observed& now) {
+Change change_of(const Observation& first, const Observation& now) {
   if (!std::isfinite(first.value) || !std::isfinite(now.value)) return change_of_denied(first, now);
   Change c;
   c.difference = now.value - first.value;
@@ -81,7 +81,7 @@ Change change_of(const Observed& first, const Observed& now) {
 
 /// The quantity where at least one report tells it; a gap that was denied is told.
 void add(DriveChanges& all, DriveQuantity quantity) {
-  const auto tells = [](const Observed& o) { return o.remark.empty() || known(o.ci95); };
+  const auto tells = [](const Observation& o) { return o.remark.empty() || known(o.ci95); };
   if (std::none_of(quantity.observed.begin(), quantity.observed.end(), tells)) return;
   for (std::size_t i = 1; i < quantity.observed.size(); ++i)
     quantity.changes.push_back(change_of(quantity.observed.front(), quantity.observed[i]));

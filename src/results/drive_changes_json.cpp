@@ -34,12 +34,12 @@ std::string stored_name(const DriveQuantity& q) {
   return q.from + "." + q.key + (unit.empty() ? "" : "_" + unit);
 }
 
-std::string file_in(const std::string& folder) { return folder + "/compare.json"; }
+std::string changes_in(const std::string& folder) { return folder + "/compare.json"; }
 
 }  // namespace
 
 template <class Archive>
-void fields(Archive& archive, Observed& o) {
+void fields(Archive& archive, Observation& o) {
   archive("value", o.value);
   archive("std", o.std);
   archive("ci95", o.ci95);
@@ -112,11 +112,11 @@ void write_drive_changes(const std::string& folder, const DriveChanges& changes)
   std::string schema = internal::results::kCompareSchema;
   writer("schema", schema);
   internal::results::document(writer, copy);
-  internal::results::save_json(internal::results::file_in(folder), writer.json);
+  internal::results::save_json(internal::results::changes_in(folder), writer.json);
 }
 
 DriveChanges read_drive_changes(const std::string& folder) {
-  const std::string path = internal::results::file_in(folder);
+  const std::string path = internal::results::changes_in(folder);
   const internal::results::Json json = internal::results::load_json(path);
   internal::results::JsonReader reader(json, path, "");
   reader.schema(internal::results::kCompareSchema);
@@ -127,7 +127,7 @@ DriveChanges read_drive_changes(const std::string& folder) {
 }
 
 bool has_drive_changes(const std::string& folder) {
-  return std::filesystem::exists(internal::results::file_in(folder));
+  return std::filesystem::exists(internal::results::changes_in(folder));
 }
 
 }  // namespace gapscope

@@ -51,13 +51,13 @@ void add_if_other(const char* what, const char* unit, double now, double first, 
 }
 
 /// One crossing more or less is no other frequency.
-double frequency_tolerance(const Excited& e) {
+double frequency_tolerance(const ExcitationFacts& e) {
   const double crossings = 2.0 * e.input_frequency * e.samples / e.rate;
   return std::max(kSameInput, crossings > 0.0 ? 1.5 / crossings : 0.0);
 }
 
 void compare_excitation(const DriveReport& first, const DriveReport& r, Lines& lines) {
-  const Excited &a = first.recordings.front(), &b = r.recordings.front();
+  const ExcitationFacts &a = first.recordings.front(), &b = r.recordings.front();
   Lines other;
   if (first.recordings.size() != r.recordings.size())
     other.push_back(fmt::format("{} recordings instead of {}", r.recordings.size(), first.recordings.size()));
@@ -72,7 +72,7 @@ void compare_excitation(const DriveReport& first, const DriveReport& r, Lines& l
         first.folder, fmt::join(other, ", ")));
 }
 
-bool same_samples(const Excited& a, const Excited& b) {
+bool same_samples(const ExcitationFacts& a, const ExcitationFacts& b) {
   return a.samples == b.samples && a.rate == b.rate && a.input_rms == b.input_rms &&
          a.input_peak == b.input_peak && a.position_rms == b.position_rms;
 }

@@ -26,8 +26,8 @@ double crossing_frequency(const Recording& r) {
   return 0.5 * crossings / r.duration();
 }
 
-Excited excited(const Recording& r) {
-  Excited e;
+ExcitationFacts excited(const Recording& r) {
+  ExcitationFacts e;
   e.file = r.file;
   e.samples = static_cast<int>(r.size());
   e.rate = 1.0 / r.dt;

@@ -6,7 +6,7 @@ namespace gapscope::internal::simulation {
 namespace {
 
 /// p(s)/s^zeros, which is positive at s = 0 unless the guard's event is due at once.
-struct Deflated {
+struct DeflatedGuard {
   struct Point {
     double value, slope;
   };
@@ -34,10 +34,10 @@ struct Deflated {
 };
 
 /// Root in (low, high] by bisection and Newton: value(low) > 0 ≥ value(high).
-double bracketed_root(const Deflated& g, double low, double high) {
+double bracketed_root(const DeflatedGuard& g, double low, double high) {
   double s = high;
   for (int i = 0; i < 100 && high - low > 1e-16 * high; ++i) {
-    const Deflated::Point q = g.at(s);
+    const DeflatedGuard::Point q = g.at(s);
     if (q.value == 0.0) return s;
     (q.value > 0.0 ? low : high) = s;
     const double newton = q.slope != 0.0 ? s - q.value / q.slope : low;
@@ -49,7 +49,7 @@ double bracketed_root(const Deflated& g, double low, double high) {
 }
 
 /// Place of the minimum between a falling and a rising end.
-double bracketed_minimum(const Deflated& g, double low, double high) {
+double bracketed_minimum(const DeflatedGuard& g, double low, double high) {
   for (int i = 0; i < 48; ++i) {
     const double middle = 0.5 * (low + high);
     (g.at(middle).slope < 0.0 ? low : high) = middle;
@@ -58,15 +58,15 @@ double bracketed_minimum(const Deflated& g, double low, double high) {
 }
 
 /// First root in (0, h]; a negative number if there is none.
-double first_root(const Deflated& g, double h) {
+double first_root(const DeflatedGuard& g, double h) {
   constexpr int kPieces = 4;
   if (!g.may_fall(h)) return -1.0;
   double left = g.p[0] > 0.0 ? 0.0 : h / 64.0;
-  Deflated::Point at_left = g.at(left);
+  DeflatedGuard::Point at_left = g.at(left);
   if (at_left.value <= 0.0) return 0.0;
   for (int piece = 1; piece <= kPieces; ++piece) {
     const double right = h * piece / kPieces;
-    const Deflated::Point at_right = g.at(right);
+    const DeflatedGuard::Point at_right = g.at(right);
     if (at_right.value <= 0.0) return bracketed_root(g, left, right);
     if (at_left.slope < 0.0 && at_right.slope > 0.0) {
       const double lowest = bracketed_minimum(g, left, right);

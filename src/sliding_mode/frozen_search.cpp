@@ -1,7 +1,5 @@
 #include "sliding_mode/frozen_search.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "sliding_mode/passages.h"
 #include "sliding_mode/visible_gap.h"
+#include "sliding_mode/words.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -63,7 +62,7 @@ void FrozenSearch::push(double u, double x1) {
   if (x1_.size() < next_try_ || try_to_learn()) return;
   next_try_ = static_cast<std::size_t>(kGrowth * static_cast<double>(next_try_));
   if (x1_.size() < kMostLearning) return;
-  frozen_.facts.defect = fmt::format("{} (in the first {} samples)", defect(), x1_.size());
+  frozen_.facts.defect += words::within_first_samples(static_cast<long>(x1_.size()));
   gave_up_ = true;
   offset_ = x1_.size();
   u_ = x1_ = {};
@@ -74,7 +73,7 @@ bool FrozenSearch::try_to_learn() {
   signals::SignalFacts facts = signals::read_facts(trace);
   const double moving = facts.half_period * static_cast<double>(facts.half_periods);
   if (facts.defect.empty() && moving < kMoving * dt_ * static_cast<double>(trace.size()))
-    facts.defect = "no steady periodic motion yet: most of the time so far was rest or transient";
+    facts.defect = words::no_steady_motion_yet();
   if (!facts.defect.empty()) {
     frozen_.facts.defect = facts.defect;
     return false;
@@ -167,7 +166,7 @@ ImpactAnalysis FrozenSearch::summary() const {
   a.marks = marks_ - marks_gone_;
   a.smallest_visible_gap = frozen_.visible[top_bound(tops_, kMostTops, a.sliding) + 1];
   a.finest_gap = frozen_.visible[a.sliding];
-  for (const Kept& k : kept_) a.passages.push_back(k.passage);
+  for (const KeptPassage& k : kept_) a.passages.push_back(k.passage);
   return a;
 }
 

@@ -24,7 +24,7 @@ class TurnCounter {
 };
 
 /// What the first two periods taught. Nothing of it changes afterwards.
-struct Frozen {
+struct FrozenFacts {
   signals::SignalFacts facts;
   std::vector<double> bounds, floor, quiet;
   std::vector<double> visible;  ///< smallest gap that would show above each bound, one beyond the last [rad]
@@ -47,9 +47,9 @@ class FrozenSearch {
   void finish();  ///< reads what is left, with what there is after it
 
   bool has_learnt() const { return frozen_.samples > 0; }
-  const Frozen& frozen() const { return frozen_; }
+  const FrozenFacts& frozen() const { return frozen_; }
   /// Why nothing can be learnt from what came so far; empty once something was.
-  const std::string& defect() const { return frozen_.facts.defect; }
+  const Remark& defect() const { return frozen_.facts.defect; }
   std::size_t samples() const { return offset_ + x1_.size(); }
   std::size_t passages() const { return passages_; }
   std::size_t held() const { return x1_.size(); }  ///< samples in the window
@@ -61,7 +61,7 @@ class FrozenSearch {
   ImpactAnalysis summary() const;
 
  private:
-  struct Kept {
+  struct KeptPassage {
     Transition passage;
     std::size_t half_periods, marks;  ///< before it
   };
@@ -77,7 +77,7 @@ class FrozenSearch {
   std::string file_;
   double start_, dt_, quantum_;
   std::size_t most_kept_;
-  Frozen frozen_;
+  FrozenFacts frozen_;
   std::vector<BoundBank> bank_;  ///< one, once there are bounds
   TurnCounter turns_;
 
@@ -92,7 +92,7 @@ class FrozenSearch {
   std::size_t last_impact_ = 0, marks_ = 0, passages_ = 0;
   std::size_t half_periods_gone_ = 0, marks_gone_ = 0;  ///< before the first passage that is kept
   std::vector<std::size_t> tops_;                       ///< of the main events, by bound
-  std::deque<Kept> kept_;
+  std::deque<KeptPassage> kept_;
   std::vector<Transition> fresh_;
 };
 

@@ -28,7 +28,7 @@ std::size_t StreamDetector::passages() const { return state_->search.passages();
 LearntFacts StreamDetector::learnt() const {
   LearntFacts l;
   if (!has_learnt()) return l;
-  const internal::sliding_mode::Frozen& f = state_->search.frozen();
+  const internal::sliding_mode::FrozenFacts& f = state_->search.frozen();
   l.until = state_->start + state_->dt * static_cast<double>(f.samples - 1);
   l.half_period = f.facts.half_period;
   l.quantum = f.facts.quantum;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "blind/scored.h"
+#include "blind/scored_answer.h"
 #include "gapscope/base/random.h"
 #include "gapscope/results/blind_score.h"
 #include "support/temporary_file.h"

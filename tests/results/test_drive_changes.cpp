@@ -43,7 +43,7 @@ DriveReport report(const std::string& folder, double gap, double std,
   r.reference->status = FitStatus::kConverged;
   r.reference->parameters = std::move(fitted);
   r.reference->innovation_rmse = r.reference->floor = 1e-5;
-  Excited e;
+  ExcitationFacts e;
   e.samples = 10000, e.rate = 1000.0, e.quantum = 1e-5, e.input_rms = 0.4, e.input_peak = 0.58,
   e.input_frequency = 1.0;
   e.position_rms = gap;  // of another recording in every report

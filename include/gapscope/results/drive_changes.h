@@ -13,7 +13,7 @@
 namespace gapscope {
 
 /// With what a recording was made, as far as its columns tell.
-struct Excited {
+struct ExcitationFacts {
   std::string file;
   int samples = 0;
   double rate = kNaN;             ///< [Hz]
@@ -33,11 +33,11 @@ struct DriveReport {
   Coordinates coordinates;    ///< of a translation: rad and N·m mean m and N
   std::optional<GapEstimate> model_free;
   std::optional<FitSummary> reference;  ///< without its traces
-  std::vector<Excited> recordings;
+  std::vector<ExcitationFacts> recordings;
 };
 
 /// A quantity in one report.
-struct Observed {
+struct Observation {
   double value = kNaN;
   double std = kNaN;   ///< half the width of the interval over 1.96, where that is wider
   Interval ci95;       ///< of a gap that was denied: from 0 to the smallest that would have shown
@@ -62,8 +62,8 @@ struct DriveQuantity {
   std::string key;   ///< "gap", "play_at_zero_torque", "load_coulomb_friction", ... as in the YAML
   std::string from;  ///< "model_free" or "reference"
   std::string unit;  ///< of a rotational drive
-  std::vector<Observed> observed;  ///< one for each report
-  std::vector<Change> changes;     ///< one for each report after the first
+  std::vector<Observation> observed;  ///< one for each report
+  std::vector<Change> changes;        ///< one for each report after the first
 };
 
 /// The same drive over months, before and after a repair.

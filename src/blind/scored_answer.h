@@ -7,7 +7,7 @@
 namespace gapscope::blind {
 
 /// A label beside its answer.
-struct Scored {
+struct ScoredAnswer {
   const BlindLabel* label = nullptr;
   const BlindAnswer* answer = nullptr;
   StepOutcome first;  ///< step
@@ -31,16 +31,16 @@ struct Scored {
   std::size_t place() const;  ///< of the truth in the ranking, 0 is first
 };
 
-std::vector<Scored> scored(const BlindLabels& labels, const BlindAnswers& answers);
+std::vector<ScoredAnswer> scored(const BlindLabels& labels, const BlindAnswers& answers);
 
 /// The truth and, if asked for, its look-alikes.
-std::vector<std::string> truth_of(const Scored& c, bool and_look_alikes);
+std::vector<std::string> truth_of(const ScoredAnswer& c, bool and_look_alikes);
 
 /// All counts of the report part.
-std::vector<BlindCount> count_answers(const std::vector<Scored>& cases);
+std::vector<BlindCount> count_answers(const std::vector<ScoredAnswer>& cases);
 
 /// Per rig, severity and effect.
-std::vector<BlindSlice> slice_answers(const std::vector<Scored>& cases);
+std::vector<BlindSlice> slice_answers(const std::vector<ScoredAnswer>& cases);
 
 /// A decision of a first step and whether its group holds the truth.
 struct Judgement {
@@ -50,7 +50,7 @@ struct Judgement {
 
 /// Of all cases of a part with at most one effect, and of those with a known one once more without the truth
 /// and its look-alikes.
-std::vector<Judgement> judgements(const std::vector<Scored>& cases, const std::string& part);
+std::vector<Judgement> judgements(const std::vector<ScoredAnswer>& cases, const std::string& part);
 
 /// @param learn, judge  decisions of the calibration and the report part
 BlindCalibration calibrate(const std::vector<Judgement>& learn, const std::vector<Judgement>& judge);
