@@ -53,17 +53,21 @@ Typesetter::Typesetter() {
   bold_italic_ = load(folder, "DejaVuSans-BoldOblique.ttf");
 }
 
-cv::freetype::FreeType2& Typesetter::face(const TextRun& run, bool bold) const {
-  if (bold) return run.italic ? *bold_italic_ : *bold_;
-  return run.italic ? *italic_ : *upright_;
+cv::freetype::FreeType2& Typesetter::face(bool italic, bool bold) const {
+  if (bold) return italic ? *bold_italic_ : *bold_;
+  return italic ? *italic_ : *upright_;
 }
 
 double Typesetter::advance(const TextRun& run, double size, bool bold) const {
   // The library measures ink; between two bars it is the advance, blanks at the ends included.
-  cv::freetype::FreeType2& font = face(run, bold);
+  return ink_width("|" + run.text + "|", run.italic, size, bold) - ink_width("||", run.italic, size, bold);
+}
+
+int Typesetter::ink_width(const std::string& text, bool italic, double size, bool bold) const {
+  const auto [place, is_new] = ink_widths_.try_emplace({text, italic, bold, pixels(size)});
   int baseline = 0;
-  const int with = font.getTextSize("|" + run.text + "|", pixels(size), -1, &baseline).width;
-  return with - font.getTextSize("||", pixels(size), -1, &baseline).width;
+  if (is_new) place->second = face(italic, bold).getTextSize(text, pixels(size), -1, &baseline).width;
+  return place->second;
 }
 
 std::vector<PlacedRun> Typesetter::place(const std::string& markup, double size, bool bold) const {
@@ -95,7 +99,8 @@ void Typesetter::draw(cv::Mat& image, cv::Point2d at, const std::string& markup,
                       bool bold) const {
   for (const PlacedRun& p : place(markup, size, bold)) {
     const cv::Point origin(cvRound(at.x + p.x), cvRound(at.y + p.y));
-    face(p.run, bold).putText(image, p.run.text, origin, pixels(p.size), bgr(colour), -1, cv::LINE_AA, true);
+    face(p.run.italic, bold)
+        .putText(image, p.run.text, origin, pixels(p.size), bgr(colour), -1, cv::LINE_AA, true);
     if (p.run.hat) draw_hat(image, at, p, colour, bold);
   }
 }
@@ -103,7 +108,7 @@ void Typesetter::draw(cv::Mat& image, cv::Point2d at, const std::string& markup,
 void Typesetter::draw_hat(cv::Mat& image, cv::Point2d at, const PlacedRun& p, Colour colour,
                           bool bold) const {
   int baseline = 0;
-  const double ink = face(p.run, bold).getTextSize(p.run.text, pixels(p.size), -1, &baseline).height;
+  const double ink = face(p.run.italic, bold).getTextSize(p.run.text, pixels(p.size), -1, &baseline).height;
   const double slant = p.run.italic ? 0.19 * ink : 0.0;  // the face leans by 11 degrees
   const double centre = at.x + p.x + 0.5 * p.width + slant;
   const double foot = at.y + p.y - ink - 0.05 * p.size;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/freetype.hpp>
 #include <string>
+#include <tuple>
 
 #include "report/palette.h"
 #include "report/rich_text.h"
@@ -43,11 +45,14 @@ class Typesetter {
             bool bold = false) const;
 
  private:
-  cv::freetype::FreeType2& face(const TextRun& run, bool bold) const;
+  cv::freetype::FreeType2& face(bool italic, bool bold) const;
   double advance(const TextRun& run, double size, bool bold) const;
+  int ink_width(const std::string& text, bool italic, double size, bool bold) const;
   void draw_hat(cv::Mat& image, cv::Point2d at, const PlacedRun& placed, Colour colour, bool bold) const;
 
   mutable cv::Ptr<cv::freetype::FreeType2> upright_, italic_, bold_, bold_italic_;
+  /// What was measured: most widths are asked for often.
+  mutable std::map<std::tuple<std::string, bool, bool, int>, int> ink_widths_;
 };
 
 }  // namespace gapscope::internal::report
