@@ -15,13 +15,11 @@
 namespace gapscope::cli {
 namespace {
 
-struct Arguments {
+struct BlindArguments {
   std::string config, cases, labels, answers, folder, seal;
   int threads = 0;
   bool quiet = false;
 };
-
-void say(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
 
 /// "case 3 of 40"
 BlindProgress counted(const Progress& progress, const char* what) {
@@ -30,7 +28,7 @@ BlindProgress counted(const Progress& progress, const char* what) {
   };
 }
 
-void make(const Arguments& a) {
+void make(const BlindArguments& a) {
   const BlindConfig config = load_blind_config(a.config);
   make_blind_check(config, a.cases, a.labels, a.threads, counted(progress_on_terminal(a.quiet), "made case"));
   say("cases", fmt::format("{} in {}", config.calibration.cases() + config.report.cases(), a.cases));
@@ -38,7 +36,7 @@ void make(const Arguments& a) {
 }
 
 void add_make(CommandLine& blind) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("make", "Makes recordings and seals what they hide");
   command.add_option("CONFIG", a->config, "of the check (YAML)").required();
   command.add_option("-o,--output", a->cases, "folder of the recordings, to be handed out")
@@ -64,7 +62,7 @@ void add_make(CommandLine& blind) {
 }
 
 void add_seal(CommandLine& blind) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("seal", "Seals own recordings and labels");
   command.add_option("CASES", a->cases, "folder of sheets and recordings").required();
   command.add_option("LABELS", a->labels, "file of the labels (JSON)").required();
@@ -88,7 +86,7 @@ void add_seal(CommandLine& blind) {
   });
 }
 
-void answer(const Arguments& a) {
+void answer(const BlindArguments& a) {
   const BlindAnswers answers = answer_blind_check(a.cases, a.answers, a.threads,
                                                   counted(progress_on_terminal(a.quiet), "answered case"));
   say("answers", fmt::format("{} in {}", answers.cases.size(), a.answers));
@@ -96,7 +94,7 @@ void answer(const Arguments& a) {
 }
 
 void add_answer(CommandLine& blind) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("answer", "Diagnoses sealed recordings and seals the answers");
   command.add_option("CASES", a->cases, "folder with a manifest.json").required();
   command.add_option("-o,--output", a->answers, "file of the answers (JSON)").required().value("FILE");
@@ -122,7 +120,7 @@ void write_score(ReportFolder& report, const std::string& folder, const BlindSco
 }
 
 void add_score(CommandLine& blind) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("score", "Opens the labels and scores the answers");
   command.add_option("CASES", a->cases, "folder with a manifest.json").required();
   command.add_option("LABELS", a->labels, "file of the labels").required();
@@ -147,7 +145,7 @@ void add_score(CommandLine& blind) {
 }
 
 void add_whole(CommandLine& blind) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("run", "Makes, answers and scores a check in one folder");
   command.add_option("CONFIG", a->config, "of the check (YAML), see `gapscope blind make --help`").required();
   command.add_option("-o,--output", a->folder, "folder (default: reports/<name>)").value("DIR");

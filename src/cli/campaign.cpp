@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/console.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
@@ -20,7 +21,7 @@
 namespace gapscope::cli {
 namespace {
 
-struct Arguments {
+struct CampaignArguments {
   std::string config;
   std::string folder;
   int threads = 0;
@@ -80,8 +81,6 @@ class ProgressLine {
   std::chrono::steady_clock::time_point told_;
 };
 
-void say(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
-
 void dry_run(const CampaignConfig& c, const CampaignShard& shard, int threads) {
   const std::uint64_t runs = shard.size(c.runs());
   say("runs", shard.of == 1 ? fmt::format("{}", runs)
@@ -114,7 +113,7 @@ void report_whole(ReportFolder& report, const std::string& folder, const Campaig
 }
 
 CampaignSummary run_and_summarise(const CampaignConfig& c, const CampaignShard& shard,
-                                  const std::string& folder, const Arguments& a) {
+                                  const std::string& folder, const CampaignArguments& a) {
   CampaignStore store(folder, campaign_header(c, shard));
   ProgressLine line(a.quiet);
   const CampaignProgress p = run_campaign(c, store, a.threads, std::ref(line));
@@ -124,7 +123,7 @@ CampaignSummary run_and_summarise(const CampaignConfig& c, const CampaignShard& 
   return shard.of == 1 ? summarise(store) : CampaignSummary();
 }
 
-void run(const Arguments& a) {
+void run(const CampaignArguments& a) {
   const CampaignConfig c = load_campaign(a.config);
   const CampaignShard shard = shard_of(a.shard);
   if (a.dry_run) return dry_run(c, shard, a.threads);
@@ -190,7 +189,7 @@ void add_merge(CommandLine& campaign) {
 }  // namespace
 
 void add_campaign(CommandLine& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<CampaignArguments>();
   CommandLine command =
       app.add_command("campaign", "Many runs of one configuration over axes of its parameters");
   command.add_option("CONFIG", a->config, "campaign (YAML)");

@@ -13,7 +13,7 @@
 namespace gapscope::cli {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   RecordingArguments recording;
   std::string output;
   bool json = false;
@@ -29,7 +29,7 @@ Configuration reading_of(const RecordingArguments& r) {
   return c;
 }
 
-void check_recording(const Arguments& a) {
+void check_recording(const CheckArguments& a) {
   const RecordingArguments& r = a.recording;
   const auto look = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
   if (!a.output.empty()) look();  // before the work
@@ -44,7 +44,7 @@ void check_recording(const Arguments& a) {
 }  // namespace
 
 void add_check(CommandLine& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CheckArguments>();
   CommandLine command = app.add_command("check", "What a recording is worth: look before you estimate");
   add_recording_arguments(command, arguments->recording);
   command.add_option("-o,--output", arguments->output, "file to write the findings into (JSON)")

@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct CompareArguments {
   std::vector<std::string> folders;
   std::string output;
 };
 
 /// A comparison that went into one of its reports would remove that report.
-void require_another_folder(const Arguments& a) {
+void require_another_folder(const CompareArguments& a) {
   for (const std::string& folder : a.folders)
     if (fs::exists(a.output) && fs::exists(folder) && fs::equivalent(a.output, folder))
       throw ConfigError(a.output, "is one of the reports itself, expected another folder for the comparison");
@@ -36,7 +36,7 @@ void write_comparison(ReportFolder& report, const DriveChanges& all) {
   report.commit();
 }
 
-void compare(const Arguments& a) {
+void compare(const CompareArguments& a) {
   if (!a.output.empty()) require_another_folder(a);
   std::optional<ReportFolder> report;
   if (!a.output.empty()) report.emplace(a.output, FolderKind::kChanges);
@@ -55,7 +55,7 @@ void compare(const Arguments& a) {
 }  // namespace
 
 void add_compare(CommandLine& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CompareArguments>();
   CommandLine command =
       app.add_command("compare", "The same drive in several reports: over months, before and after a repair");
   command.add_option("DIR", arguments->folders, "folders of run, detect or fit, in order of time")

@@ -78,6 +78,8 @@ Progress progress_on_terminal(bool quiet) {
   return [](const std::string& what) { fmt::print(stderr, "{} ...\n", what); };
 }
 
+void say(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }

@@ -11,6 +11,9 @@ namespace gapscope::cli {
 /// Progress on standard error, and only on a terminal.
 Progress progress_on_terminal(bool quiet);
 
+/// One line of an answer on standard output.
+void say(const char* what, const std::string& text);
+
 void print_warnings(const std::vector<std::string>& warnings);
 
 /// The headline of a run on standard output: the report, both estimates with intervals, and how they compare.

@@ -16,7 +16,7 @@
 namespace gapscope::cli {
 namespace {
 
-struct Arguments {
+struct DiagnoseArguments {
   std::string config;
   std::string folder;
   std::vector<std::string> excluded;
@@ -55,7 +55,7 @@ void write_outcome(ReportFolder& report, const Configuration& c, const Diagnosis
   report.commit();
 }
 
-void diagnose_configuration(const Arguments& a) {
+void diagnose_configuration(const DiagnoseArguments& a) {
   require_known(a.excluded);
   Configuration c = load_configuration(a.config);
   c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
@@ -80,7 +80,7 @@ void diagnose_configuration(const Arguments& a) {
 }  // namespace
 
 void add_diagnose(CommandLine& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DiagnoseArguments>();
   CommandLine command =
       app.add_command("diagnose", "Why the simulated drive does not move like the real one");
   command.add_option("CONFIG", arguments->config, kConfigHelp).required();

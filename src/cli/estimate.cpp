@@ -17,7 +17,7 @@
 namespace gapscope::cli {
 namespace {
 
-struct Arguments {
+struct EstimateArguments {
   std::string config;
   std::string folder;
   bool quiet = false;
@@ -47,7 +47,7 @@ void write_outcome(ReportFolder& report, const Configuration& c, RunOutcome& out
   report.commit();
 }
 
-void estimate(const Arguments& a, const Estimators& wanted) {
+void estimate(const EstimateArguments& a, const Estimators& wanted) {
   const Configuration c = load_configuration(a.config);
   const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
@@ -64,7 +64,7 @@ void estimate(const Arguments& a, const Estimators& wanted) {
 
 CommandLine add(CommandLine& app, const char* name, const char* what, const std::string& details,
                 Estimators wanted,
-                const std::shared_ptr<Arguments>& arguments = std::make_shared<Arguments>()) {
+                const std::shared_ptr<EstimateArguments>& arguments = std::make_shared<EstimateArguments>()) {
   CommandLine command = app.add_command(name, what);
   command.add_option("CONFIG", arguments->config, kConfigHelp).required();
   command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
@@ -76,7 +76,7 @@ CommandLine add(CommandLine& app, const char* name, const char* what, const std:
 }
 
 /// `--stream` takes the place of a configuration.
-void add_streaming(CommandLine& detect, const std::shared_ptr<Arguments>& a) {
+void add_streaming(CommandLine& detect, const std::shared_ptr<EstimateArguments>& a) {
   Option config = detect.option("CONFIG").required(false);
   Option stream = detect.add_flag("--stream", a->stream, "a CSV from standard input, an event a line");
   stream.excludes(config).excludes(detect.option("--output"));
@@ -124,7 +124,7 @@ void add_run(CommandLine& app) {
 }
 
 void add_detect(CommandLine& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<EstimateArguments>();
   CommandLine command = add(
       app, "detect", "The model-free detector alone: the gap from the motor encoder, without a model",
       "Writes the same files as run, with \"reference\": null. The bound L of the detector is detector: "

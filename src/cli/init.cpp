@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct InitArguments {
   RecordingArguments recording;
   std::string output;
   std::string model;  ///< empty: as the detector sees it
@@ -26,7 +26,7 @@ StarterModel model_of(const std::string& word) {
   return word.empty() ? StarterModel::kAsSeen : StarterModel::kOneBody;
 }
 
-void write_starter(const Arguments& a) {
+void write_starter(const InitArguments& a) {
   const RecordingArguments& r = a.recording;
   const std::string output = a.output.empty() ? fs::path(r.file).stem().string() + ".yaml" : a.output;
   require_file_name(output, {r.file}, [](const std::string&) { return false; });
@@ -44,7 +44,7 @@ void write_starter(const Arguments& a) {
 }  // namespace
 
 void add_init(CommandLine& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InitArguments>();
   CommandLine command = app.add_command("init", "A first configuration from a recording");
   add_recording_arguments(command, arguments->recording);
   command

@@ -62,11 +62,11 @@ void redraw(const std::string& folder) {
 }  // namespace
 
 void add_report(CommandLine& app) {
-  struct Arguments {
+  struct ReportArguments {
     std::string folder;
     bool quiet = false;
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReportArguments>();
   CommandLine command = app.add_command("report", "Draws a report again from its stored results");
   command.add_option("DIR", arguments->folder, "folder of a report").required();
   command.add_flag("--quiet", arguments->quiet, "no progress");

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct SimulateArguments {
   std::string config;
   std::string file;
   bool quiet = false;
@@ -34,7 +34,7 @@ bool is_simulated(const std::string& file) {
   return header.starts_with("t,u,x1") && header.ends_with(",mode") && told;
 }
 
-void simulate_to_file(const Arguments& a) {
+void simulate_to_file(const SimulateArguments& a) {
   const Configuration c = load_configuration(a.config);
   if (!c.simulation)
     throw ConfigError(c.file, "there is no simulation, expected simulation: to make data from");
@@ -79,7 +79,7 @@ std::string details() {
 }  // namespace
 
 void add_simulate(CommandLine& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SimulateArguments>();
   CommandLine command = app.add_command("simulate", "A simulated recording as CSV");
   command.add_option("CONFIG", arguments->config, kConfigHelp).required();
   command.add_option("-o,--output", arguments->file, "recording to write (CSV)").required().value("FILE");

@@ -109,8 +109,8 @@ void mark_events(const ReportView& view, const BoundMap& map, Panel& panel, bool
   const Interval range = time_range(map);
   for (const GapEvent& e : view.accepted()) {
     if (!(e.t1 >= range.low && e.t2 <= range.high)) continue;
-    panel.x_marks.push_back({e.t1, {kVermillion, 3.0, {14, 8}}, named ? "$t_1$" : ""});
-    panel.x_marks.push_back({e.t2, {kVermillion, 3.0, {}}, named ? "$t_2$" : ""});
+    panel.x_marks.push_back({e.t1, begin_style(), named ? "$t_1$" : ""});
+    panel.x_marks.push_back({e.t2, end_style(), named ? "$t_2$" : ""});
   }
 }
 

@@ -22,7 +22,7 @@ constexpr Colour kNothing{214, 214, 214};
 constexpr Colour kDark{8, 48, 107};
 constexpr Colour kLight{247, 251, 255};
 
-Colour shade(double badness) {
+Colour shade_of(double badness) {
   const auto mix = [&](int light, int dark) {
     return static_cast<int>(std::lround(light + std::clamp(badness, 0.0, 1.0) * (dark - light)));
   };
@@ -40,7 +40,7 @@ Shown coverage_look(const EstimatorScore& e) { return {e.coverage(), (0.95 - e.c
 Tile tile_at(int a, int b, const Shown& shown) {
   Tile tile{{a - 0.5, a + 0.5}, {b - 0.5, b + 0.5}, kNothing, "–", kInk};
   if (std::isnan(shown.badness)) return tile;
-  tile.colour = shade(shown.badness);
+  tile.colour = shade_of(shown.badness);
   tile.text = percent(shown.value);
   tile.text.resize(tile.text.size() - 2);  // the title says percent
   if (shown.badness > 0.45) tile.ink = {255, 255, 255};

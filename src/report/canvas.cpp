@@ -10,8 +10,6 @@ constexpr double kFine = 2.0;  // drawn at this size, averaged down
 constexpr int kShift = 4;      // sixteenths of a fine pixel
 constexpr double kFar = 1e5;   // beyond any paper; keeps sub-pixel coordinates within an int
 
-cv::Scalar bgr(Colour c) { return {double(c.blue), double(c.green), double(c.red)}; }
-
 cv::Point sub_pixel(Point p) {
   const auto fixed = [](double v) { return cvRound(std::clamp(v, -kFar, kFar) * kFine * (1 << kShift)); };
   return {fixed(p.x), fixed(p.y)};
@@ -119,12 +117,14 @@ void Canvas::text(Point at, const std::string& markup, const TextStyle& style) {
   }
   const Box box{at.x - ascent, at.y + before - width, ascent + descent, width};
   texts_.push_back({box, markup});
-  constexpr int kRim = 8;  // for italics that lean out of their box [fine px]
-  cv::Mat strip(cvCeil(fine.height()) + 2 * kRim, cvCeil(fine.width) + 2 * kRim, CV_8UC3,
+  constexpr int kStripRim = 8;  // for italics that lean out of their box [fine px]
+  cv::Mat strip(cvCeil(fine.height()) + 2 * kStripRim, cvCeil(fine.width) + 2 * kStripRim, CV_8UC3,
                 cv::Scalar::all(255));
-  typesetter_.draw(strip, {kRim, fine.ascent + kRim}, markup, style.size * kFine, style.colour, style.bold);
+  typesetter_.draw(strip, {kStripRim, fine.ascent + kStripRim}, markup, style.size * kFine, style.colour,
+                   style.bold);
   cv::rotate(strip, strip, cv::ROTATE_90_COUNTERCLOCKWISE);
-  const cv::Rect place(cvRound(box.x * kFine) - kRim, cvRound(box.y * kFine) - kRim, strip.cols, strip.rows);
+  const cv::Rect place(cvRound(box.x * kFine) - kStripRim, cvRound(box.y * kFine) - kStripRim, strip.cols,
+                       strip.rows);
   const cv::Rect seen = place & cv::Rect(0, 0, paper_.cols, paper_.rows);
   if (seen.empty()) return;
   cv::Mat under = paper_(seen);

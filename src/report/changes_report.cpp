@@ -17,7 +17,7 @@ namespace gapscope {
 namespace internal::report {
 namespace {
 
-constexpr double kAside = 0.06;  ///< so that no mark hides the other
+constexpr double kLabelAside = 0.06;  ///< so that no mark hides the other
 
 bool is_gap(const DriveQuantity& q) { return q.key == "gap" || q.key == "play_at_zero_torque"; }
 
@@ -64,7 +64,7 @@ void add_series(const DriveQuantity& q, Panel& panel) {
   denied.joined = false;
   for (std::size_t i = 0; i < q.observed.size(); ++i) {
     const Observation& o = q.observed[i];
-    const double x = static_cast<double>(i + 1) + (model_free ? -kAside : kAside);
+    const double x = static_cast<double>(i + 1) + (model_free ? -kLabelAside : kLabelAside);
     read.x.push_back(x);
     read.y.push_back(o.value);
     read.y_intervals.push_back(o.remark.empty() ? o.ci95 : Interval{});

@@ -35,7 +35,7 @@ void mark_gap(const ReportView& view, Panel& panel) {
   panel.dimensions.push_back({range, what + quantity(shown, view.length_unit)});
 }
 
-std::string reading(const ReportView& view) {
+std::string width_of_map(const ReportView& view) {
   const double spread = quantile(view.state, 0.99) - quantile(view.state, 0.01);
   std::string text = "98 % of the samples of x1 − x2 lie within " + quantity(spread, view.length_unit);
   const double gap = view.run.comparison ? view.run.comparison->map_width : kNaN;
@@ -63,7 +63,7 @@ FigureData fig3_backlash_map(const ReportView& view) {
       map(view, "Their difference", view.state, {"$x_1 − x_2$", view.length_unit, {}, {}, {}}));
   figure.panels.front().x_labels = false;
   mark_gap(view, figure.panels.back());
-  figure.reading = reading(view);
+  figure.reading = width_of_map(view);
   return figure;
 }
 

@@ -60,8 +60,8 @@ Panel error_panel(const ReportView& view, const OnePassage& p) {
 void mark_times(Panel& panel, const OnePassage& p, bool named) {
   if (p.converged >= p.window.low)
     panel.x_marks.push_back({p.converged, guide_style(), named ? "$t_c$" : ""});
-  panel.x_marks.push_back({p.event.t1, {kVermillion, 3.0, {14, 8}}, named ? "$t_1$" : ""});
-  panel.x_marks.push_back({p.event.t2, {kVermillion, 3.0, {}}, named ? "$t_2$" : ""});
+  panel.x_marks.push_back({p.event.t1, begin_style(), named ? "$t_1$" : ""});
+  panel.x_marks.push_back({p.event.t2, end_style(), named ? "$t_2$" : ""});
   panel.x_bands.push_back({{p.event.t1, p.event.t2}, kGapShade, ""});
 }
 

@@ -34,5 +34,7 @@ inline LineStyle model_free_style() { return {kVermillion, 4.5, {}}; }
 inline LineStyle reference_style() { return {kBlue, 4.5, {16, 9}}; }
 inline LineStyle input_style() { return {kGreen, 4.5, {}}; }
 inline LineStyle guide_style() { return {kFrame, 2.5, {4, 8}}; }
+inline LineStyle begin_style() { return {kVermillion, 3.0, {14, 8}}; }  ///< of a passage through the gap
+inline LineStyle end_style() { return {kVermillion, 3.0, {}}; }
 
 }  // namespace gapscope::internal::report

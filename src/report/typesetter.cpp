@@ -25,9 +25,9 @@ cv::Ptr<cv::freetype::FreeType2> load(const std::string& folder, const char* nam
 
 int pixels(double size) { return std::max(1, static_cast<int>(std::lround(size))); }
 
-cv::Scalar bgr(Colour c) { return {double(c.blue), double(c.green), double(c.red)}; }
-
 }  // namespace
+
+cv::Scalar bgr(Colour c) { return {double(c.blue), double(c.green), double(c.red)}; }
 
 std::string font_folder() {
   std::vector<std::string> folders;

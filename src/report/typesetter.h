@@ -11,6 +11,8 @@
 
 namespace gapscope::internal::report {
 
+cv::Scalar bgr(Colour c);  ///< as the library below orders it
+
 /// What a line of text needs beside its baseline [px].
 struct TextMetrics {
   double width = 0.0;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSchema = "gapscope.files/1";
+constexpr const char* kFilesSchema = "gapscope.files/1";
 
 /// "report.md" or "traces/1_a.csv": a list that came from elsewhere reaches no other folder.
 bool is_below(const std::string& file) {
@@ -75,7 +75,7 @@ std::optional<FileList> read_file_list(const fs::path& folder) {
   if (!fs::exists(there)) return {};
   if (!fs::is_regular_file(there))
     throw ConfigError(path.string(), "is no regular file, expected a list of gapscope");
-  FileList list = read_document<FileList>(path.string(), kSchema);
+  FileList list = read_document<FileList>(path.string(), kFilesSchema);
   for (const FileHash& f : list.files)
     if (!is_below(f.file))
       throw ConfigError(path.string(),
@@ -84,9 +84,9 @@ std::optional<FileList> read_file_list(const fs::path& folder) {
 }
 
 void write_file_list(const fs::path& folder, const FileList& list) {
-  write_document((folder / kFileList).string(), kSchema, list);
+  write_document((folder / kFileList).string(), kFilesSchema, list);
 }
 
-Json files_schema() { return document_schema(kSchema, FileList()); }
+Json files_schema() { return document_schema(kFilesSchema, FileList()); }
 
 }  // namespace gapscope::internal::results

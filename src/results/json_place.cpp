@@ -5,7 +5,7 @@
 namespace gapscope::internal::results {
 namespace {
 
-constexpr int kDeepest = 64;  ///< levels that are followed; no stored result has as many
+constexpr int kDeepestFollowed = 64;  ///< levels that are followed; no stored result has as many
 
 /// Walks a valid JSON text until it stands before the value of one place.
 class JsonWalk {
@@ -33,7 +33,8 @@ class JsonWalk {
   void value(const std::string& place, int depth) {
     blanks();
     if (done()) return;
-    if (place == wanted_ || depth > kDeepest) return void(found_ = place == wanted_ ? at_ : text_.size());
+    if (place == wanted_ || depth > kDeepestFollowed)
+      return void(found_ = place == wanted_ ? at_ : text_.size());
     if (text_[at_] == '{' || text_[at_] == '[') return members(place, depth);
     if (text_[at_] == '"') return void(word());
     at_ = std::min(text_.find_first_of(",]} \t\r\n", at_), text_.size());

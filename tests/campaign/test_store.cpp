@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::SmallCampaign;
 
-const std::string kAxes =
+const std::string kStoredAxes =
     "axes: {encoder.bits: [16, 20], detector.bound: [auto, 40, {from_model: {input_limit: 1, "
     "load_force_bound: 0}}]}\n";
 
@@ -32,7 +32,7 @@ std::string refusal(const SmallCampaign& small, const CampaignHeader& header) {
 }
 
 TEST(Store, GivesBackWhatWasAdded) {
-  const SmallCampaign small(kAxes);
+  const SmallCampaign small(kStoredAxes);
   CampaignRow row;
   row.run = 2;
   row.point = {"16", "{from_model: {input_limit: 1, load_force_bound: 0}}"};
@@ -65,7 +65,7 @@ TEST(Store, GivesBackWhatWasAdded) {
 }
 
 TEST(Store, KnowsWhatItIsAStoreOf) {
-  const SmallCampaign small(kAxes);
+  const SmallCampaign small(kStoredAxes);
   { const CampaignStore made(small.place("store"), campaign_header(small.config, {2, 3})); }
   const CampaignHeader h = CampaignStore(small.place("store")).header();
   EXPECT_EQ(h.name, "small");
@@ -78,7 +78,7 @@ TEST(Store, KnowsWhatItIsAStoreOf) {
 }
 
 TEST(Store, ACellOfTheExportThatNeedsQuotesHasThem) {
-  const SmallCampaign small(kAxes);
+  const SmallCampaign small(kStoredAxes);
   CampaignStore store(small.place("store"), campaign_header(small.config, {}));
   CampaignRow row;
   row.point = {"16", "auto"};
@@ -88,7 +88,7 @@ TEST(Store, ACellOfTheExportThatNeedsQuotesHasThem) {
 }
 
 TEST(Store, AnotherCampaignIsRefusedWithTheDifferenceNamed) {
-  const SmallCampaign small(kAxes), other("axes: {encoder.bits: [16, 18]}\n");
+  const SmallCampaign small(kStoredAxes), other("axes: {encoder.bits: [16, 18]}\n");
   { const CampaignStore made(small.place("store"), campaign_header(small.config, {})); }
   EXPECT_THAT(refusal(small, campaign_header(other.config, {})),
               AllOf(HasSubstr("results.sqlite: belongs to another campaign"),
@@ -96,7 +96,7 @@ TEST(Store, AnotherCampaignIsRefusedWithTheDifferenceNamed) {
 }
 
 TEST(Store, AChangeOfTheBaseIsAnotherCampaign) {
-  const SmallCampaign small(kAxes);
+  const SmallCampaign small(kStoredAxes);
   { const CampaignStore made(small.place("store"), campaign_header(small.config, {})); }
   CampaignConfig changed = small.config;
   changed.base_text.replace(changed.base_text.find("duration: 2"), 11, "duration: 3");
@@ -145,7 +145,7 @@ TEST(Store, AnotherRecordingUnderTheSameNameIsAnotherCampaign) {
 }
 
 TEST(Store, AnotherVersionAndAnotherShardAreRefused) {
-  const SmallCampaign small(kAxes);
+  const SmallCampaign small(kStoredAxes);
   CampaignHeader header = campaign_header(small.config, {});
   { const CampaignStore made(small.place("store"), header); }
   header.version = "9.9.9";
@@ -183,13 +183,13 @@ TEST(Store, OneThatWasMadeWithoutTheCodesOfReasonsIsReadAndGoneOnWith) {
 }
 
 TEST(Store, OnlyOneProcessAddsAtATime) {
-  const SmallCampaign small(kAxes);
+  const SmallCampaign small(kStoredAxes);
   const CampaignStore first(small.place("store"), campaign_header(small.config, {}));
   EXPECT_THAT(refusal(small, campaign_header(small.config, {})), HasSubstr("another process"));
 }
 
 TEST(Store, StoresOfDifferentCampaignsAreNotMerged) {
-  const SmallCampaign small(kAxes), other("axes: {encoder.bits: [16, 18]}\n");
+  const SmallCampaign small(kStoredAxes), other("axes: {encoder.bits: [16, 18]}\n");
   { const CampaignStore a(small.place("a"), campaign_header(small.config, {1, 2})); }
   { const CampaignStore b(small.place("b"), campaign_header(other.config, {2, 2})); }
   EXPECT_THROW(merge_campaigns({small.place("a"), small.place("b")}, small.place("merged")), ConfigError);
@@ -197,7 +197,7 @@ TEST(Store, StoresOfDifferentCampaignsAreNotMerged) {
 }
 
 TEST(Store, AFolderWithoutAStoreIsTold) {
-  const SmallCampaign small(kAxes);
+  const SmallCampaign small(kStoredAxes);
   EXPECT_THROW(CampaignStore{small.place("nowhere")}, ConfigError);
 }
 

@@ -11,12 +11,12 @@ using ::testing::HasSubstr;
 using testing::text_of;
 using testing::Workplace;
 
-constexpr const char* kCheck =
+constexpr const char* kBlindCheck =
     "name: check\nreport: {first_seed: 9300001, none: 2}\nrigs: [geared]\nduration: 2\n";
 
 TEST(Blind, ThreeCommandsDoWhatOneDoes) {
   Workplace place;
-  place.file("check.yaml", kCheck);
+  place.file("check.yaml", kBlindCheck);
   ASSERT_EQ(place.run("blind make check.yaml -o cases --labels labels.json").status, 0);
   const auto answered = place.run("blind answer cases -o answers.json -j 1");
   ASSERT_EQ(answered.status, 0) << answered.err;
@@ -39,7 +39,7 @@ TEST(Blind, ThreeCommandsDoWhatOneDoes) {
 
 TEST(Blind, RefusesWhatWasChangedWithTheReasonAndWritesNothing) {
   Workplace place;
-  place.file("check.yaml", kCheck);
+  place.file("check.yaml", kBlindCheck);
   ASSERT_EQ(place.run("blind run check.yaml -o all").status, 0);
   std::string labels = text_of(place.folder() / "all/labels.json");
   place.file("all/labels.json", labels.replace(labels.find("\"rig\": \"geared\""), 15, "\"rig\": \"heavy\""));

@@ -18,20 +18,20 @@ using testing::stored;
 using testing::text_of;
 using testing::Workplace;
 
-const std::string kModel = "model: " + testing::kPaperModel;
+const std::string kModelPart = "model: " + testing::kPaperModel;
 
 // The paper's rig for two seconds, and a friction that its model lacks.
-const std::string kDrive =
+const std::string kUnlikeItsModel =
     "name: drive\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 2, seed: 3, "
     "excitation: {sine: {amplitude: 0.58, frequency: 1}}, "
     "model: {effects: [{motor_coulomb_friction: {level_nm: 0.02}}]}}\n" +
-    kModel;
-const std::string kCampaign =
+    kModelPart;
+const std::string kManyDrives =
     "name: many\naxes: {encoder.bits: [14, 18], simulation.seed: {repeat: 3}}\nbase:\n  encoder: {bits: 18}\n"
     "  simulation: {rate: 1000, duration: 2, noise: 1.0e-5, "
     "excitation: {sine: {amplitude: 0.58, frequency: 1}}}\n  " +
-    kModel;
-const std::string kCheck =
+    kModelPart;
+const std::string kFiveCases =
     "name: check\nreport: {first_seed: 9300001, none: 5}\nrigs: [geared]\nduration: 2\n";
 
 json read(const Workplace& place, const std::string& file) {
@@ -52,9 +52,9 @@ TEST_P(SameAnswer, ForOneTwoAndFiveThreadsInAnyFolder) {
   std::string first;
   for (const char* threads : {"1", "2", "5"}) {
     Workplace place;
-    place.file("c.yaml", kDrive);
-    place.file("campaign.yaml", kCampaign);
-    place.file("check.yaml", kCheck);
+    place.file("c.yaml", kUnlikeItsModel);
+    place.file("campaign.yaml", kManyDrives);
+    place.file("check.yaml", kFiveCases);
     const auto done = place.run(std::string(GetParam()) + " -o out -j " + threads);
     ASSERT_EQ(done.status, 0) << done.err;
     const std::string all = stored(place.folder() / "out");
@@ -76,8 +76,9 @@ TEST(SameAnswerOf, ARecordingThatLiesInAnotherFolder) {
   std::string first;
   for (const char* folder : {"here/", "there/below/"}) {
     Workplace place;
-    place.file("c.yaml", kDrive);
-    place.file(folder + std::string("r.yaml"), "recording: {file: r.csv}\nencoder: {bits: 18}\n" + kModel);
+    place.file("c.yaml", kUnlikeItsModel);
+    place.file(folder + std::string("r.yaml"),
+               "recording: {file: r.csv}\nencoder: {bits: 18}\n" + kModelPart);
     ASSERT_EQ(place.run("simulate c.yaml -o " + std::string(folder) + "r.csv").status, 0);
     ASSERT_EQ(place.run("run " + std::string(folder) + "r.yaml -o out").status, 0);
     ASSERT_EQ(place.run("check " + std::string(folder) + "r.csv -o check.json").status, 3);  // too short
@@ -90,8 +91,8 @@ TEST(SameAnswerOf, ARecordingThatLiesInAnotherFolder) {
 
 TEST(ResolvedConfiguration, LiesBesideItsResultWithTheHashThatTheResultTells) {
   Workplace place;
-  place.file("c.yaml", kDrive);
-  place.file("check.yaml", kCheck);
+  place.file("c.yaml", kUnlikeItsModel);
+  place.file("check.yaml", kFiveCases);
   for (const auto& [command, result] :
        {std::pair("run", "result.json"), std::pair("detect", "result.json"), std::pair("fit", "result.json"),
         std::pair("diagnose", "diagnosis.json"), std::pair("blind run", "blind.json")}) {
@@ -110,7 +111,7 @@ TEST(ResolvedConfiguration, LiesBesideItsResultWithTheHashThatTheResultTells) {
 
 TEST(ResolvedConfiguration, HoldsWhatTheCommandLineSays) {
   Workplace place;
-  place.file("c.yaml", kDrive);
+  place.file("c.yaml", kUnlikeItsModel);
   const std::string excluded = "load_unbalance --exclude stribeck_friction";
   ASSERT_EQ(place.run("diagnose c.yaml -o asked --exclude " + excluded).status, 0);
   ASSERT_EQ(place.run("diagnose asked/resolved.yaml -o again").status, 0);
@@ -123,7 +124,7 @@ TEST(ResolvedConfiguration, HoldsWhatTheCommandLineSays) {
 
 TEST(ResolvedConfiguration, IsMissedInNoFileOfBefore) {
   Workplace place;
-  place.file("c.yaml", kDrive);
+  place.file("c.yaml", kUnlikeItsModel);
   ASSERT_EQ(place.run("detect c.yaml -o now").status, 0);
   json before = read(place, "now/result.json");
   before.erase("configuration");

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using testing::Workplace;
 
-std::vector<json> lines(const std::string& text) {
+std::vector<json> json_lines(const std::string& text) {
   std::vector<json> all;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) all.push_back(json::parse(line));
@@ -65,7 +65,7 @@ TEST_F(Stream, TellsTheEventsOfTheFrozenBatchAndTheSameSummary) {
   const json batch = json::parse(text("batch/result.json"))["model_free"];
   const auto told = stream("cat r.csv", "--quantum 2.3968449810713143e-05");
   EXPECT_EQ(told.status, 0) << told.err;
-  const std::vector<json> all = lines(told.out);
+  const std::vector<json> all = json_lines(told.out);
   ASSERT_EQ(all.size(), batch["events"].size() + 3);
   EXPECT_GE(batch["events"].size(), 11u);
   EXPECT_EQ(all[0]["kind"], "settings");
@@ -96,7 +96,7 @@ TEST_F(Stream, ABrokenLineIsRefusedAfterTheSummaryOfWhatStoodBeforeIt) {
   EXPECT_EQ(told.status, 2);
   EXPECT_THAT(told.err, HasSubstr("standard input:4002: "));
   EXPECT_THAT(told.err, HasSubstr(", expected "));
-  const std::vector<json> all = lines(told.out);
+  const std::vector<json> all = json_lines(told.out);
   ASSERT_GE(all.size(), 6u);
   EXPECT_EQ(all.back()["kind"], "summary");
   EXPECT_EQ(all.back()["samples"], 4000);
@@ -112,8 +112,9 @@ TEST_F(Stream, ANumberThatNoDriveHasIsRefusedAfterTheSummary) {
     EXPECT_EQ(told.status, 2) << edit << told.err;
     EXPECT_THAT(told.err, HasSubstr("expected at most 1e+15 in size")) << edit;
   }
-  EXPECT_EQ(lines(stream("awk -F, -v OFS=, 'NR==4000{$3=\"1.#QNAN\"} {print}' r.csv").out).back()["samples"],
-            3998);
+  EXPECT_EQ(
+      json_lines(stream("awk -F, -v OFS=, 'NR==4000{$3=\"1.#QNAN\"} {print}' r.csv").out).back()["samples"],
+      3998);
   EXPECT_EQ(stream("awk -F, -v OFS=, 'NR>1{$1=$1*1e-300} {print}' r.csv").status, 2);
 }
 
@@ -126,7 +127,7 @@ TEST_F(Stream, EventsAreThereAtOnceAndCtrlCEndsWithTheSummary) {
       "before; "
       "kill -INT $detector; wait $detector; echo $? >status; kill $producer");
   EXPECT_THAT(text("before"), HasSubstr("\"kind\":\"event\""));
-  EXPECT_EQ(lines(text("told.jsonl")).back()["kind"], "summary");
+  EXPECT_EQ(json_lines(text("told.jsonl")).back()["kind"], "summary");
   EXPECT_EQ(text("err"), "gapscope: interrupted\n");
   EXPECT_EQ(text("status"), "130\n");
 }
@@ -135,7 +136,7 @@ TEST_F(Stream, AReaderThatLeavesIsNoFault) {
   shell("(" GAPSCOPE_EXECUTABLE " detect --stream <r.csv 2>err; echo $? >status) | head -1 >first");
   EXPECT_EQ(text("status"), "0\n");
   EXPECT_EQ(text("err"), "");
-  EXPECT_EQ(lines(text("first")).at(0)["kind"], "settings");
+  EXPECT_EQ(json_lines(text("first")).at(0)["kind"], "settings");
 }
 
 TEST_F(Stream, ASlowReaderOfAPipeThatDoesNotBlockGetsAllOfIt) {
@@ -155,7 +156,7 @@ TEST_F(Stream, ASlowReaderOfAPipeThatDoesNotBlockGetsAllOfIt) {
   ::close(ends[0]);
   EXPECT_EQ(text("status"), "0\n") << text("err");
   EXPECT_GT(told.size(), 4096u);
-  EXPECT_EQ(lines(told).back()["kind"], "summary");
+  EXPECT_EQ(json_lines(told).back()["kind"], "summary");
 }
 
 }  // namespace

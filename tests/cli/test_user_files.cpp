@@ -21,7 +21,7 @@ using testing::Outcome;
 using testing::text_of;
 using testing::Workplace;
 
-const std::string kSimulation =
+const std::string kThreeSeconds =
     "encoder: {bits: 18}\n"
     "simulation: {rate: 500, duration: 3, excitation: {sine: {amplitude: 0.58, frequency: 1}}}\n"
     "model: " +
@@ -33,7 +33,7 @@ class UserFiles : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     start_ = new Workplace;
-    start_->file("c.yaml", "name: rig\n" + kSimulation);
+    start_->file("c.yaml", "name: rig\n" + kThreeSeconds);
     ASSERT_EQ(start_->run("simulate c.yaml -o drive.csv").status, 0);
     start_->file("rec.yaml", kRecording);
     ASSERT_EQ(start_->run("detect rec.yaml -o r").status, 0);
@@ -124,7 +124,7 @@ TEST_F(UserFiles, AFileIsOnlyWrittenOverByTheCommandThatWroteIt) {
     EXPECT_EQ(place_.run("simulate c.yaml -o new.csv").status, 0);
     EXPECT_NE(place_.run("check drive.csv -o new.json").status, 2);
   }
-  place_.file("trace.yaml", "name: again\n" + kSimulation);
+  place_.file("trace.yaml", "name: again\n" + kThreeSeconds);
   std::string text = text_of(at("trace.yaml"));
   place_.file("trace.yaml", text.replace(text.find("{sine: {amplitude: 0.58, frequency: 1}}"), 39,
                                          "{recorded: {file: new.csv}}"));

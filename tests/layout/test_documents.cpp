@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = GAPSCOPE_SOURCE_DIR;
+const fs::path kProject = GAPSCOPE_SOURCE_DIR;
 
 std::string text_of(const fs::path& path) {
   std::ifstream in(path);
@@ -22,8 +22,8 @@ std::string text_of(const fs::path& path) {
 }
 
 std::vector<fs::path> documents() {
-  std::vector<fs::path> found = {kRoot / "README.md"};
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
+  std::vector<fs::path> found = {kProject / "README.md"};
+  for (const auto& entry : fs::directory_iterator(kProject / "docs"))
     if (entry.path().extension() == ".md") found.push_back(entry.path());
   std::sort(found.begin(), found.end());
   return found;
@@ -40,7 +40,7 @@ TEST(Documents, NameOnlyFilesThatAreThere) {
   for (const fs::path& document : documents()) {
     const std::string text = text_of(document);
     for (const std::smatch& m : matches(text, named))
-      EXPECT_TRUE(fs::exists(kRoot / m[1].str())) << document << " names " << m[1];
+      EXPECT_TRUE(fs::exists(kProject / m[1].str())) << document << " names " << m[1];
     for (const std::smatch& m : matches(text, linked))
       EXPECT_TRUE(fs::exists(document.parent_path() / m[1].str())) << document << " links to " << m[1];
   }
@@ -51,7 +51,7 @@ std::multimap<std::string, double> constants() {
   const std::regex defined(R"rx(\b(k[A-Z]\w+)\s*=\s*([\d.]+)\s*[;,])rx");
   std::multimap<std::string, double> found;
   for (const char* top : {"include", "src"})
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+    for (const auto& entry : fs::recursive_directory_iterator(kProject / top)) {
       if (!entry.is_regular_file()) continue;
       const std::string text = text_of(entry.path());
       for (const std::smatch& m : matches(text, defined)) found.emplace(m[1], std::stod(m[2]));

@@ -17,7 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-BlindScore sample() {
+BlindScore sample_score() {
   BlindScore s;
   s.name = "sample", s.version = "1";
   s.report_cases = 60, s.calibration_cases = 20;
@@ -40,7 +40,7 @@ const FigureData& named(const std::vector<FigureData>& figures, const std::strin
 }
 
 TEST(BlindFigures, HaveNoTextsThatMeetOrAreCut) {
-  for (const FigureData& figure : blind_figures(sample())) {
+  for (const FigureData& figure : blind_figures(sample_score())) {
     if (!figure.missing.empty()) continue;
     const Drawing drawing = draw_with_notes(figure);
     expect_clear_texts(figure, drawing);
@@ -48,7 +48,7 @@ TEST(BlindFigures, HaveNoTextsThatMeetOrAreCut) {
 }
 
 TEST(BlindFigures, ConfusionMarksWrongNamesAndNoneThatClaimNothing) {
-  const auto figures = blind_figures(sample());
+  const auto figures = blind_figures(sample_score());
   const FigureData& figure = named(figures, "confusion.png");
   ASSERT_EQ(figure.panels[0].tiles.size(), 6u);
   const auto red = [&](std::size_t i) { return figure.panels[0].tiles[i].colour.red; };
@@ -61,7 +61,7 @@ TEST(BlindFigures, ConfusionMarksWrongNamesAndNoneThatClaimNothing) {
 }
 
 TEST(BlindFigures, CalibrationLeavesOutBinsWithoutCases) {
-  const auto figures = blind_figures(sample());
+  const auto figures = blind_figures(sample_score());
   const FigureData& figure = named(figures, "calibration.png");
   EXPECT_EQ(figure.panels[0].series[1].x.size(), 2u);
   EXPECT_DOUBLE_EQ(figure.panels[0].series[1].y[1], 92.5);
@@ -70,7 +70,7 @@ TEST(BlindFigures, CalibrationLeavesOutBinsWithoutCases) {
 
 TEST(BlindReport, SaysWhatWasMissedAndListsEveryWrongAnswer) {
   const testing::TemporaryFile place("");
-  write_blind_score(place.folder().string(), sample());
+  write_blind_score(place.folder().string(), sample_score());
   write_blind_report(place.folder().string());
   std::ostringstream text;
   text << std::ifstream(place.folder() / "report.md").rdbuf();

@@ -36,7 +36,7 @@ SummaryCell cell(int a, int b) {
 }
 
 /// Five rates and eight resolutions; nothing of the model-free detector at the lowest rate.
-CampaignSummary sample() {
+CampaignSummary sample_campaign() {
   CampaignSummary s;
   s.name = "sample_of_a_campaign";
   s.version = "1.2.3";
@@ -60,7 +60,7 @@ CampaignSummary sample() {
 
 TEST(CampaignFigures, HaveNoTextsThatMeetOrAreCut) {
   for (const bool both : {true, false}) {
-    CampaignSummary s = sample();
+    CampaignSummary s = sample_campaign();
     s.model_free = both;
     for (const FigureData& figure : campaign_figures(s)) {
       const Drawing drawing = draw_with_notes(figure);
@@ -70,7 +70,7 @@ TEST(CampaignFigures, HaveNoTextsThatMeetOrAreCut) {
 }
 
 TEST(CampaignFigures, AMapHasATileForEverySettingDarkWhereItIsBad) {
-  const CampaignSummary s = sample();
+  const CampaignSummary s = sample_campaign();
   const FigureData map = campaign_map(s, s.pairs[0]);
   ASSERT_EQ(map.panels.size(), 8u);
   for (const Panel& panel : map.panels) EXPECT_EQ(panel.tiles.size(), 40u);
@@ -82,7 +82,7 @@ TEST(CampaignFigures, AMapHasATileForEverySettingDarkWhereItIsBad) {
 }
 
 TEST(CampaignFigures, ALineHasAPointForEveryValueOfBothEstimators) {
-  const CampaignSummary s = sample();
+  const CampaignSummary s = sample_campaign();
   const FigureData line = campaign_line(s, s.lines[0]);
   ASSERT_EQ(line.panels.size(), 4u);
   for (const Panel& panel : line.panels) {
@@ -93,7 +93,7 @@ TEST(CampaignFigures, ALineHasAPointForEveryValueOfBothEstimators) {
 }
 
 TEST(CampaignText, SaysWhatIsNeededAndWhyThereWasNoAnswer) {
-  const CampaignSummary s = sample();
+  const CampaignSummary s = sample_campaign();
   const std::string text = campaign_text(s, campaign_figures(s));
   EXPECT_THAT(text,
               HasSubstr("| 2 % | resolution by sampling rate | model-free | at least 16 bit with 2 kHz |"));

@@ -19,7 +19,7 @@ Observation read(double value, double std) {
 }
 
 /// Six reports of which the last but one denies the gap and the last tells none.
-DriveChanges sample() {
+DriveChanges sample_changes() {
   DriveChanges all;
   all.version = "1.2.3";
   DriveQuantity free{"gap", "model_free", "rad", {}, {}}, fitted{"gap", "reference", "rad", {}, {}};
@@ -44,7 +44,7 @@ DriveChanges sample() {
 
 TEST(ChangesReport, TheFigureShowsEveryReadingAndHoldsItsTextsApart) {
   for (const Coordinates coordinates : {Coordinates::kRotation, Coordinates::kTranslation}) {
-    DriveChanges all = sample();
+    DriveChanges all = sample_changes();
     all.coordinates = coordinates;
     const internal::report::FigureData figure = internal::report::gap_over_recordings(all);
     const internal::report::Drawing drawing = internal::report::draw_with_notes(figure);
@@ -62,7 +62,7 @@ TEST(ChangesReport, TheFigureShowsEveryReadingAndHoldsItsTextsApart) {
 
 TEST(ChangesReport, IsDrawnFromTheStoredComparisonAlone) {
   ScratchFolder scratch;
-  write_drive_changes(scratch.path.string(), sample());
+  write_drive_changes(scratch.path.string(), sample_changes());
   write_changes_report(scratch.path.string());
   EXPECT_EQ(testing::picture_of((scratch.path / "gap_over_recordings.png").string()).cols, 1600);
   const std::string text = testing::text_of(scratch.path / "report.md");
@@ -74,7 +74,7 @@ TEST(ChangesReport, IsDrawnFromTheStoredComparisonAlone) {
 }
 
 TEST(ChangesReport, OfReportsWithoutAGapHasNoFigure) {
-  DriveChanges all = sample();
+  DriveChanges all = sample_changes();
   for (DriveQuantity& q : all.quantities) q.key = "load_damping", q.unit = "N m s/rad";
   EXPECT_THAT(internal::report::gap_over_recordings(all).missing, HasSubstr("no report tells a gap"));
   EXPECT_THAT(changes_text(all), Not(HasSubstr("mrad")));

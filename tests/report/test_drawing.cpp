@@ -26,7 +26,7 @@ RunResult kind_of_run(std::size_t kind) {
   return run;
 }
 
-class DrawnFigures : public testing::TestWithParam<std::size_t> {};
+class DrawnFigures : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(DrawnFigures, HaveNoTextsThatMeetOrAreCutAndNoneWithinAFrame) {
   const RunResult run = kind_of_run(GetParam());
@@ -47,7 +47,7 @@ TEST_P(DrawnFigures, HaveNoTextsThatMeetOrAreCutAndNoneWithinAFrame) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(KindsOfRuns, DrawnFigures, testing::Range(std::size_t{0}, kKinds));
+INSTANTIATE_TEST_SUITE_P(KindsOfRuns, DrawnFigures, ::testing::Range(std::size_t{0}, kKinds));
 
 TEST(Drawing, IsTheSameEveryTime) {
   const RunResult run = sample_run({.samples = 6000});

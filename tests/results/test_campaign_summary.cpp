@@ -11,7 +11,7 @@
 namespace gapscope {
 namespace {
 
-CampaignSummary sample() {
+CampaignSummary sample_campaign() {
   CampaignSummary s;
   s.name = "sample";
   s.version = "1.2.3";
@@ -32,7 +32,7 @@ CampaignSummary sample() {
 
 TEST(CampaignSummary, IsReadBackAsItWasWritten) {
   const ScratchFolder folder;
-  write_campaign_summary(folder.path.string(), sample());
+  write_campaign_summary(folder.path.string(), sample_campaign());
   const CampaignSummary s = read_campaign_summary(folder.path.string());
   EXPECT_EQ(s.name, "sample");
   EXPECT_EQ(s.configuration, "axis encoder.bits: 12, auto\n");

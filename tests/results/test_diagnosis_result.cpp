@@ -8,6 +8,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/results/diagnosis_result.h"
+#include "results/full_result.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
 
@@ -17,7 +18,7 @@ namespace {
 using testing::text_of;
 namespace fs = std::filesystem;
 
-constexpr double kThird = 1.0 / 3.0;
+using test::kThird;
 
 std::vector<MapShare> halves(const std::string& low, const std::string& high) {
   return {{low, kThird, 0.5}, {high, 1.0 - kThird, 0.5}};

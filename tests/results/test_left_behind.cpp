@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMark = "A report that is being written; may be removed when nobody writes it.\n";
 
-int holding(const fs::path& folder, const std::string& text) {
+int being_all_of(const fs::path& folder, const std::string& text) {
   int count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (fs::is_regular_file(entry.symlink_status()) && text_of(entry.path()) == text) ++count;
@@ -74,7 +74,8 @@ TEST(LeftBehind, NothingThatCameBeforeAKillIsLost) {
         });
         if (killed == when) moments = ended.moments;
         const std::string next = refused(rig);
-        EXPECT_EQ(holding(scratch.path, "mine"), 1) << file << " " << when << " " << killed << ": " << next;
+        EXPECT_EQ(being_all_of(scratch.path, "mine"), 1)
+            << file << " " << when << " " << killed << ": " << next;
         EXPECT_EQ(partial_folders(rig), 0) << file << " " << when << " " << killed << ": " << next;
       }
 }
@@ -104,7 +105,7 @@ TEST(LeftBehind, AFolderThatCameIsNotTakenForNothing) {
                 }).moments;
       int links = 0;
       for (const auto& entry : fs::recursive_directory_iterator(rig)) links += entry.is_symlink() ? 1 : 0;
-      EXPECT_EQ(holding(scratch.path, "mine"), 1) << when;
+      EXPECT_EQ(being_all_of(scratch.path, "mine"), 1) << when;
       EXPECT_EQ(links, linked ? 1 : 0) << when;
     }
 }

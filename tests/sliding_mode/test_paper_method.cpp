@@ -44,7 +44,7 @@ void expect_read(const independent_plant::BlindDrive& drive, const Setting& s, d
 TEST(PaperMethod, ABoundBetweenTheAccelerationsReadsTheExperiment) {
   for (const double rate : {1000.0, 2500.0, 10000.0})
     for (const double bound : {3.0, 4.0, 5.0}) {
-      SCOPED_TRACE(testing::Message() << rate << " Hz, L = " << bound);
+      SCOPED_TRACE(::testing::Message() << rate << " Hz, L = " << bound);
       expect_read({}, {.rate = rate}, bound, 0.03);
     }
 }
@@ -63,7 +63,7 @@ TEST(PaperMethod, ABoundBelowTheEngagedAccelerationReadsWhereTheErrorBendsAway) 
   // of L = 40, so e_x is 1.6 mrad long when contact is lost; only its bend tells t1.
   for (const double stiffness : {200.0, 1000.0, 5000.0})
     for (const double rate : {2500.0, 5000.0, 10000.0, 20000.0}) {
-      SCOPED_TRACE(testing::Message() << stiffness << " N m/rad, " << rate << " Hz");
+      SCOPED_TRACE(::testing::Message() << stiffness << " N m/rad, " << rate << " Hz");
       independent_plant::BlindDrive drive;
       drive.contact_stiffness = stiffness;
       expect_read(drive, {.torque = 0.5, .frequency = 2.0, .rate = rate}, 40.0, 0.03);
