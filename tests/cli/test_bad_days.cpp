@@ -38,24 +38,21 @@ const std::string kCampaign =
 constexpr const char* kCheck =
     "name: check\nreport: {first_seed: 9300001, none: 2}\nrigs: [geared]\nduration: 2\n";
 
-/// A workplace with one of everything: two reports, a recording, a campaign, a blind check.
+/// A workplace with a recording, a campaign and a blind check.
 class BadDay : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    start_ = new Workplace;
-    start_->file("c.yaml", "name: rig\n" + kSimulation);
-    start_->file("campaign.yaml", kCampaign);
-    start_->file("check.yaml", kCheck);
-    ASSERT_EQ(start_->run("run c.yaml -o r").status, 0);
-    ASSERT_EQ(start_->run("simulate c.yaml -o d.csv").status, 0);
-    fs::copy(start_->folder() / "r", start_->folder() / "older", fs::copy_options::recursive);
-  }
-  static void TearDownTestSuite() {
-    delete start_;
-    start_ = nullptr;
+  BadDay() {
+    place_.file("c.yaml", "name: rig\n" + kSimulation);
+    place_.file("campaign.yaml", kCampaign);
+    place_.file("check.yaml", kCheck);
+    EXPECT_EQ(place_.run("simulate c.yaml -o d.csv").status, 0);
   }
 
-  BadDay() { fs::copy(start_->folder(), place_.folder(), fs::copy_options::recursive); }
+  /// Two reports, for those that read or replace one.
+  void make_reports() {
+    ASSERT_EQ(place_.run("run c.yaml -o r").status, 0);
+    fs::copy(place_.folder() / "r", place_.folder() / "older", fs::copy_options::recursive);
+  }
 
   /// Every file but hidden ones, files aside and wall times.
   static std::map<std::string, std::string> visible(const Workplace& place) {
@@ -70,10 +67,7 @@ class BadDay : public ::testing::Test {
   }
 
   Workplace place_;
-  static Workplace* start_;
 };
-
-Workplace* BadDay::start_ = nullptr;
 
 TEST_F(BadDay, AFullDiskIsToldAndWhatWasThereStays) {
   const std::pair<const char*, int> commands[] = {// with how many blocks of 512 bytes there are left
@@ -88,6 +82,7 @@ TEST_F(BadDay, AFullDiskIsToldAndWhatWasThereStays) {
                                                   {"init d.csv -o i.yaml", 1},
                                                   {"check d.csv -o findings.json", 1},
                                                   {"blind make check.yaml -o cases --labels labels.json", 1}};
+  make_reports();
   const auto before = visible(place_);
   for (const auto& [command, blocks] : commands) {
     SCOPED_TRACE(std::string(command) + " with " + std::to_string(blocks));
@@ -119,6 +114,7 @@ TEST_F(BadDay, AStandardOutputThatIsFullIsAFailure) {
 }
 
 TEST_F(BadDay, AFolderThatCannotBeWrittenIsToldBeforeTheWork) {
+  make_reports();
   fs::create_directory(place_.folder() / "closed");
   fs::permissions(place_.folder(), fs::perms::all);
   fs::permissions(place_.folder() / "closed", fs::perms(0555));
@@ -151,7 +147,8 @@ struct Work {
   const char* name;
   std::string arguments;
   int moments;
-  bool goes_on = false;  ///< keeps what it has for the next time
+  bool of_reports = false;  ///< reads or replaces one
+  bool goes_on = false;     ///< keeps what it has for the next time
 };
 
 class KilledWork : public BadDay, public ::testing::WithParamInterface<int> {
@@ -159,19 +156,19 @@ class KilledWork : public BadDay, public ::testing::WithParamInterface<int> {
   static Work work() {
     switch (GetParam()) {
       case 0:
-        return {"run", "run c.yaml -o r", 3};
+        return {"run", "run c.yaml -o r", 3, true};
       case 1:
-        return {"diagnose", "diagnose c.yaml -o r" + testing::excluding_all_but({"actuator_lag"}), 2};
+        return {"diagnose", "diagnose c.yaml -o r" + testing::excluding_all_but({"actuator_lag"}), 2, true};
       case 2:
-        return {"report", "report r", 2};
+        return {"report", "report r", 2, true};
       case 3:
-        return {"compare", "compare r older -o both", 3};
+        return {"compare", "compare r older -o both", 3, true};
       case 4:
         return {"init", "init d.csv -o i.yaml", 3};
       case 5:
         return {"simulate", "simulate c.yaml -o d.csv", 3};
       default:
-        return {"blind", "blind run check.yaml -o b -j 1", 4, true};
+        return {"blind", "blind run check.yaml -o b -j 1", 4, false, true};
     }
   }
 
@@ -184,6 +181,7 @@ class KilledWork : public BadDay, public ::testing::WithParamInterface<int> {
 
 TEST_P(KilledWork, LeavesTheOldOrTheNewAndIsDoneByTheSameCommand) {
   const Work w = work();
+  if (w.of_reports) make_reports();
   const auto before = visible(place_);
   const Workplace whole;
   fs::copy(place_.folder(), whole.folder(), fs::copy_options::recursive);
@@ -206,6 +204,7 @@ TEST_P(KilledWork, LeavesTheOldOrTheNewAndIsDoneByTheSameCommand) {
 INSTANTIATE_TEST_SUITE_P(Of, KilledWork, ::testing::Range(0, 7));
 
 TEST_F(BadDay, WhatAKilledReportLeftGoesWithTheNextOne) {
+  make_reports();
   const std::string left = "r/.gapscope-partial-abcdef";
   place_.file(left + "/.made-by-gapscope",
               "A report that is being written; may be removed when nobody writes it.\n");
