@@ -275,11 +275,11 @@ TEST(Commands, ASimulatedRecordingReadBackIsDetectedLikeTheSimulationItself) {
 TEST(Commands, AnInterruptGivesStatus130AndLeavesNothing) {
   Workplace place;
   std::string longer = kConfig;
-  longer.replace(longer.find("duration: 2"), 11, "duration: 2000");
+  longer.replace(longer.find("duration: 2"), 11, "duration: 400");
   place.file("c.yaml", longer);
   // Like a key: without --foreground the whole group is signalled as well, and a second signal ends it at
   // once.
-  const auto run = place.run("run c.yaml", "timeout --foreground --preserve-status -s INT 3");
+  const auto run = place.run("run c.yaml", "timeout --foreground --preserve-status -s INT 1");
   EXPECT_EQ(run.status, 130);
   EXPECT_THAT(run.err, HasSubstr("interrupted"));
   EXPECT_EQ(run.out, "");
