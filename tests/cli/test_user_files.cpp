@@ -176,7 +176,7 @@ TEST_F(UserFiles, ANameThatIsTooLongIsToldBeforeTheWork) {
 }
 
 TEST_F(UserFiles, AMachineThatIsTooSmallIsToldAndNothingIsLeft) {
-  for (const char* limit : {"-n 5", "-v 300000"}) {
+  for (const char* limit : {"-n 5", "-v 160000"}) {
     if (std::string(limit).find("-v") != std::string::npos && std::getenv("ASAN_OPTIONS") != nullptr)
       continue;
     const Outcome small = place_.run("detect rec.yaml -o small",
