@@ -57,7 +57,9 @@ std::size_t worst_step(const RecordedRows& table);
 
 bool is_uniform(const RecordedRows& table);
 
-/// The columns as they stand.  @throws ConfigError unless they are uniform
-Recording uniform_recording(RecordedRows&& table);
+/// The columns as they stand, with the time of each row where they are not uniform.
+/// @throws ConfigError for uneven rows that are refused
+Recording recording_of(RecordedRows&& table, UnevenRows uneven);
+Recording uniform_recording(RecordedRows&& table);  ///< uneven rows refused
 
 }  // namespace gapscope::internal::recording

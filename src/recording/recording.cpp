@@ -40,6 +40,7 @@ Recording part(const Recording& recording, std::size_t first, std::size_t count)
   r.mode = part_of(recording.mode, first, count);
   r.quantum = recording.quantum;
   r.resampling = recording.resampling;
+  r.stamps = part_of(recording.stamps, first, count);
   return r;
 }
 
@@ -49,6 +50,7 @@ MotorTrace part(const MotorTrace& trace, std::size_t first, std::size_t count) {
   t.start = trace.time(first);
   t.u = trace.u.subspan(first, count);
   t.x1 = trace.x1.subspan(first, count);
+  if (!trace.even()) t.stamps = trace.stamps.subspan(first, count);
   return t;
 }
 

@@ -32,20 +32,26 @@ void cut_to_window(RecordedRows& table, const std::pair<double, double>& window)
   table.keep(static_cast<std::size_t>(first - table.t.begin()), static_cast<std::size_t>(last - first));
 }
 
-void require_uniform(const RecordedRows& table) {
+void require_clock(const RecordedRows& table) {
   const double mean = internal::recording::mean_step(table);
   if (mean < internal::recording::kShortestStep || mean > internal::recording::kLongestStep)
     table.fail(table.line.back(),
                fmt::format("time goes on by {:.3g} s from row to row, expected {:g} to {:g} s", mean,
                            internal::recording::kShortestStep, internal::recording::kLongestStep));
+}
+
+void require_uniform(const RecordedRows& table) {
   if (internal::recording::is_uniform(table)) return;
+  const double mean = internal::recording::mean_step(table);
   const std::size_t worst = internal::recording::worst_step(table);
   const double step = table.t[worst] - table.t[worst - 1];
   table.fail(
       table.line[worst],
       fmt::format(
           "time is not uniform: a step of {:.6g} ms, {:.3g} % off the mean of {:.6g} ms, expected every "
-          "step within 0.1 % of the mean, or resample: {{rate: ...}} (here about {:.4g} Hz)",
+          "step within 0.1 % of the mean, or resample: {{rate: ...}} (here about {:.4g} Hz); fit and "
+          "diagnose "
+          "take it as it is",
           1e3 * step, 100.0 * std::abs(step - mean) / mean, 1e3 * mean, 1.0 / mean));
 }
 
@@ -101,15 +107,22 @@ bool is_uniform(const RecordedRows& table) {
   return std::abs(table.t[worst] - table.t[worst - 1] - mean) <= kUniformTolerance * mean;
 }
 
-Recording uniform_recording(RecordedRows&& table) {
-  require_uniform(table);
+Recording recording_of(RecordedRows&& table, UnevenRows uneven) {
+  require_clock(table);
+  if (uneven == UnevenRows::kRefused) require_uniform(table);
+  const bool even = is_uniform(table);
   Recording r;
   r.start = table.t.front();
-  r.dt = sampling_interval(table);
+  r.dt = even ? sampling_interval(table) : mean_step(table);
   r.u = std::move(table.u);
   r.x1 = std::move(table.x1);
   r.x2 = std::move(table.x2);
+  if (!even) r.stamps = std::move(table.t);
   return r;
+}
+
+Recording uniform_recording(RecordedRows&& table) {
+  return recording_of(std::move(table), UnevenRows::kRefused);
 }
 
 }  // namespace internal::recording
@@ -119,7 +132,7 @@ Recording read_recording(const std::string& path, const ReadOptions& options) {
   const bool open_end = table.open_end;
   const double quantum = seen_quantum(table.x1);  // of the raw samples: resampling hides it
   Recording r = options.resample_rate ? internal::recording::resample(table, *options.resample_rate)
-                                      : internal::recording::uniform_recording(std::move(table));
+                                      : internal::recording::recording_of(std::move(table), options.uneven);
   if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
   r.file = std::filesystem::path(path).filename().string();
   r.open_end = open_end;

@@ -152,6 +152,34 @@ TEST(Csv, JitterBelowAThousandthOfTheStepIsUniform) {
   EXPECT_THAT(refusal(jittered(0.0011)), HasSubstr("r.csv:52: time is not uniform"));
 }
 
+TEST(Csv, UnevenRowsAreTakenWithTheirTimesWhereThatIsAskedFor) {
+  std::string text = "t,u,x1\n";
+  for (int i = 0; i < 60; ++i) text += std::to_string(i + 0.25 * (i % 2)) + ",0," + std::to_string(i) + "\n";
+  const TemporaryFile file(text);
+  ReadOptions options;
+  options.uneven = UnevenRows::kStamped;
+  options.window = {10.0, 1e9};
+  const Recording r = read_recording(file.path(), options);
+  ASSERT_EQ(r.stamps.size(), 50u);
+  EXPECT_EQ(r.time(1), 11.25);
+  EXPECT_DOUBLE_EQ(r.dt, 49.25 / 49.0);
+  const TemporaryFile again("");
+  write_csv(again.path(), r);
+  options.window.reset();
+  EXPECT_EQ(read_recording(again.path(), options).stamps, r.stamps);
+  options.resample_rate = 1.0;
+  EXPECT_TRUE(read_recording(file.path(), options).even());
+}
+
+TEST(Csv, UniformRowsHaveNoStampsWhateverIsAskedFor) {
+  const TemporaryFile file("t,u,x1\n" + rows(60));
+  ReadOptions options;
+  options.uneven = UnevenRows::kStamped;
+  const Recording r = read_recording(file.path(), options), plain = read_recording(file.path());
+  EXPECT_TRUE(r.even());
+  EXPECT_EQ(r.dt, plain.dt);
+}
+
 struct BadCsv {
   const char* name;
   std::string text;

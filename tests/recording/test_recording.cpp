@@ -30,6 +30,22 @@ TEST(Recording, APartKeepsItsTimesAndWhatIsKnown) {
   EXPECT_EQ(p.quantum, 0.1);
 }
 
+TEST(Recording, StampsAreTheTimesOfUnevenSamplesAndOfTheirParts) {
+  Recording r = counting(5);
+  r.stamps = {1.0, 1.4, 2.1, 2.4, 3.0};
+  EXPECT_FALSE(r.even());
+  EXPECT_EQ(r.time(2), 2.1);
+  const MotorTrace whole = r.motor_trace(), p = part(whole, 1, 3);
+  EXPECT_EQ(whole.step(1), 2.1 - 1.4);
+  EXPECT_EQ(whole.step(4), r.dt);  // nobody knows how long the last input was held
+  EXPECT_EQ(whole.elapsed(2), 2.1 - 1.0);
+  EXPECT_EQ(p.start, 1.4);
+  EXPECT_EQ(p.time(2), 2.4);
+  EXPECT_EQ(p.dt, r.dt);
+  EXPECT_EQ(part(r, 1, 3).stamps, (std::vector<double>{1.4, 2.1, 2.4}));
+  EXPECT_EQ(counting(5).motor_trace().step(2), 0.5);
+}
+
 TEST(Recording, APartOfTheViewLooksAtTheSameSamples) {
   const Recording r = counting(10);
   const MotorTrace p = part(r.motor_trace(), 4, 3);

@@ -15,22 +15,30 @@ const char* to_string(Mode mode);
 
 /// The view that estimators take: one motor encoder and the input, nothing of the load.
 struct MotorTrace {
-  std::string file;            ///< name of the recording, for events and messages
-  double start = 0.0;          ///< time of the first sample [s]
-  double dt = 0.0;             ///< sampling interval [s]
-  std::span<const double> u;   ///< input, held from its own sample to the next [unit of u]
-  std::span<const double> x1;  ///< motor position, read before u acts [rad]
-  double quantum = 0.0;        ///< encoder quantum [rad]; 0 = unknown
+  std::string file;                  ///< name of the recording, for events and messages
+  double start = 0.0;                ///< time of the first sample [s]
+  double dt = 0.0;                   ///< sampling interval, of uneven sampling the mean one [s]
+  std::span<const double> u;         ///< input, held from its own sample to the next [unit of u]
+  std::span<const double> x1;        ///< motor position, read before u acts [rad]
+  double quantum = 0.0;              ///< encoder quantum [rad]; 0 = unknown
+  std::span<const double> stamps{};  ///< time of each sample [s]; empty: evenly sampled
 
   std::size_t size() const { return x1.size(); }
-  double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
+  bool even() const { return stamps.empty(); }
+  double time(std::size_t i) const { return even() ? start + dt * static_cast<double>(i) : stamps[i]; }
+  /// Time since the first sample [s].
+  double elapsed(std::size_t i) const { return even() ? dt * static_cast<double>(i) : stamps[i] - start; }
+  /// Time from sample i to the next, in which u[i] acts; of the last sample dt [s].
+  double step(std::size_t i) const {
+    return even() || i + 1 >= stamps.size() ? dt : stamps[i + 1] - stamps[i];
+  }
 };
 
-/// A uniformly sampled recording, simulated or recorded. All filled columns have the same length.
+/// A recording, simulated or recorded. All filled columns have the same length.
 struct Recording {
   std::string file;        ///< name of the file (or of the simulation)
   double start = 0.0;      ///< time of the first sample [s]
-  double dt = 0.0;         ///< sampling interval [s]
+  double dt = 0.0;         ///< sampling interval, of uneven sampling the mean one [s]
   std::vector<double> u;   ///< [unit of u]
   std::vector<double> x1;  ///< [rad]
   std::vector<double> x2;  ///< load position [rad]; empty if unknown. Never read by an estimator.
@@ -38,14 +46,17 @@ struct Recording {
   double quantum = 0.0;    ///< encoder quantum of the sheet, else the one seen in the raw samples [rad]
   std::string resampling;  ///< what was done to make the sampling uniform; empty if nothing was
   bool open_end = false;   ///< the last line of its file has no end: the last number may be cut off
+  std::vector<double> stamps = {};  ///< time of each sample [s]; empty: evenly sampled
 
   std::size_t size() const { return x1.size(); }
-  double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
+  bool even() const { return stamps.empty(); }
+  double time(std::size_t i) const { return even() ? start + dt * static_cast<double>(i) : stamps[i]; }
   double duration() const { return dt * static_cast<double>(size()); }
-  MotorTrace motor_trace() const { return {file, start, dt, u, x1, quantum}; }
+  MotorTrace motor_trace() const { return {file, start, dt, u, x1, quantum, stamps}; }
 };
 
-/// `count` samples from `first` on, with their own start time. The view must not outlive what it looks at.
+/// `count` samples from `first` on, with their own start time; dt stays that of the whole. The view must not
+/// outlive what it looks at.
 /// @throws std::logic_error if there are not that many.
 Recording part(const Recording& recording, std::size_t first, std::size_t count);
 MotorTrace part(const MotorTrace& trace, std::size_t first, std::size_t count);

@@ -25,10 +25,17 @@ struct RecordingColumns {
   ColumnScales scales;
 };
 
+/// What becomes of rows that are not uniform in time.
+enum class UnevenRows {
+  kRefused,  ///< whoever counts samples as time needs a grid
+  kStamped,  ///< taken as they are, each with its time
+};
+
 struct ReadOptions {
   RecordingColumns columns;
   std::optional<std::pair<double, double>> window;  ///< part of the file that is used [s]
-  std::optional<double> resample_rate;              ///< [Hz]; the only way to use non-uniform sampling
+  std::optional<double> resample_rate;              ///< [Hz]; makes any sampling uniform
+  UnevenRows uneven = UnevenRows::kRefused;         ///< where they are not resampled
 };
 
 /// Fewer samples than this are no recording.
@@ -37,11 +44,11 @@ constexpr std::size_t kFewestSamples = 50;
 /// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), of which each column is a vector
 /// of real numbers, all equally long; any other one is a CSV with a header, in which `#` comments and extra
 /// columns are ignored. Sampling is uniform when every step is within 0.1 % of the mean step; anything else
-/// is refused with the figure, or resampled on request: x1 and x2 linearly, u as the mean of the held input
-/// over each new interval, so that its impulse is kept.
+/// is refused with the figure, taken with its stamps, or resampled on request: x1 and x2 linearly, u as the
+/// mean of the held input over each new interval, so that its impulse is kept.
 /// @throws ConfigError with file and line (sample of a .mat file): missing or empty file, missing column, a
 ///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
-///   does not increase, non-uniform time, too few samples, an empty window.
+///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.
 Recording read_recording(const std::string& path, const ReadOptions& options = {});
 
 /// Writes t, u, x1 and, where known, x2 and mode, so that read_recording() returns the same numbers.
