@@ -17,7 +17,7 @@ LocalMotion cubic(const MotorTrace& r, std::size_t samples, double floor, double
   Eigen::MatrixXd basis(n, 4);
   Eigen::VectorXd x(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double t = static_cast<double>(i);
+    const double t = r.even() ? static_cast<double>(i) : r.elapsed(static_cast<std::size_t>(i)) / r.dt;
     basis.row(i) << 1.0, t, t * t, t * t * t;
     x[i] = r.x1[static_cast<std::size_t>(i)] - r.x1[0];
   }

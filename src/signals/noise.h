@@ -13,6 +13,9 @@ std::vector<double> fourth_differences(std::span<const double> y);
 double noise_from_differences(std::span<const double> y);
 
 /// The same, of their spread about their median: what they have in common is none of the noise.
-double noise_from_spread(std::span<const double> y);
+/// @param stamps  time of each sample, for divided differences, which smooth motion leaves as well [s];
+/// empty:
+///                evenly sampled
+double noise_from_spread(std::span<const double> y, std::span<const double> stamps = {});
 
 }  // namespace gapscope::internal::signals

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gapscope/base/statistics.h"
 #include "signals/local_motion.h"
 
 namespace gapscope::internal::signals {
@@ -13,8 +14,20 @@ namespace {
 
 constexpr std::size_t kRows = 500;  ///< of the balance, per recording
 
+/// Least-squares slope over uneven steps.
+double slope_over_stamps(std::span<const double> t, std::span<const double> x) {
+  const double centre = mean(t);
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    sum += (t[i] - centre) * x[i];
+    weight += (t[i] - centre) * (t[i] - centre);
+  }
+  return sum / weight;
+}
+
 /// Least-squares slope of x1 over n samples from `first`.
 double slope(const MotorTrace& r, std::size_t first, std::size_t n) {
+  if (!r.even()) return slope_over_stamps(r.stamps.subspan(first, n), r.x1.subspan(first, n));
   const double centre = 0.5 * static_cast<double>(n - 1);
   double sum = 0.0, weight = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -31,6 +44,12 @@ struct Balance {
   std::vector<double> impulse;              ///< ∫u
 };
 
+/// Time from `stride` samples before a sample to it [s].
+double time_before(const MotorTrace& r, std::size_t sample, std::size_t stride) {
+  if (r.even()) return static_cast<double>(stride) * r.dt;
+  return r.stamps[sample] - r.stamps[sample - stride];
+}
+
 Balance balance_of(const MotorTrace& r) {
   Balance b;
   const std::size_t n = speed_window(r);
@@ -40,9 +59,9 @@ Balance balance_of(const MotorTrace& r) {
   for (std::size_t first = 0; first + n <= r.size(); first += stride) {
     const double w = slope(r, first, n);
     const std::size_t centre = first + n / 2;
-    for (; done < centre; ++done) impulse += r.u[done] * r.dt;
-    if (first > 0) direction += (w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0) * static_cast<double>(stride) * r.dt;
-    b.rows.push_back({w, r.x1[centre] - r.x1[0], direction, static_cast<double>(centre) * r.dt});
+    for (; done < centre; ++done) impulse += r.u[done] * r.step(done);
+    if (first > 0) direction += (w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0) * time_before(r, centre, stride);
+    b.rows.push_back({w, r.x1[centre] - r.x1[0], direction, r.elapsed(centre)});
     b.impulse.push_back(impulse);
   }
   return b;

@@ -89,6 +89,7 @@ double exact_period(const MotorTrace& trace, double fewest) {
 }
 
 std::size_t rough_period(const MotorTrace& trace) {
+  if (!trace.even()) return 0;
   const std::size_t step = std::max<std::size_t>(1, trace.size() / kThinned);
   const std::vector<double> u = thinned(trace.u, step);
   const double size = std::sqrt(variance(u));

@@ -21,7 +21,8 @@ inline double between_samples(std::span<const double> v, double i) {
 double exact_period(const MotorTrace& trace, double fewest);
 
 /// The period of an input that repeats itself roughly, as a measured torque does: the first whole number of
-/// samples after which u comes back within 15 % of its rms [samples]; 0 if it does not at least twice.
+/// samples after which u comes back within 15 % of its rms [samples]; 0 if it does not at least twice, or
+/// where samples are no measure of time: they are uneven.
 std::size_t rough_period(const MotorTrace& trace);
 
 /// What of v does not come back after a lag: rms of v(t + lag) − v(t) from a sample on, over √2.

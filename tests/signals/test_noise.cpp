@@ -17,6 +17,24 @@ TEST(Noise, OfASmoothMotionIsThatOfItsSamplesInBothWays) {
   EXPECT_NEAR(noise_from_spread(y), 1e-4, 0.03e-4);
 }
 
+TEST(Noise, OfUnevenSamplesIsNoneOfTheMotionBetweenThem) {
+  auto generator = random_stream(2, "noise");
+  std::vector<double> y, t;
+  for (int i = 0; i < 20000; ++i) {
+    t.push_back(i + 0.3 * uniform(generator, -1.0, 1.0) + (i > 5000 ? 40.0 : 0.0));
+    y.push_back(std::sin(0.01 * t.back()) + 1e-4 * normal(generator));
+  }
+  EXPECT_NEAR(noise_from_spread(y, t), 1e-4, 0.03e-4);
+  EXPECT_GT(noise_from_spread(y), 5e-4);  // which counts the jitter of the steps as noise
+}
+
+TEST(Noise, OfEvenStampsIsThatOfNone) {
+  auto generator = random_stream(3, "noise");
+  std::vector<double> y, t;
+  for (int i = 0; i < 1000; ++i) t.push_back(i), y.push_back(normal(generator));
+  EXPECT_NEAR(noise_from_spread(y, t), noise_from_spread(y), 1e-12);
+}
+
 TEST(Noise, WhatFourthDifferencesHaveInCommonIsNoiseToTheOneAndNoneToTheOther) {
   std::vector<double> y;
   for (int i = 0; i < 100; ++i) y.push_back(std::pow(i, 4));
