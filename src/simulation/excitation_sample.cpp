@@ -94,7 +94,12 @@ std::vector<double> recorded(const Excitation& e, double rate, std::size_t count
     throw ConfigError(path, "is not there, expected the recording whose input is played");
   ReadOptions options;
   options.columns = {e.time_column, e.input_column, e.input_column, "", false, {}};
-  const Recording recording = read_recording(path, options);
+  options.uneven = UnevenRows::kStamped;
+  Recording recording = read_recording(path, options);
+  if (!recording.even()) {  // what was held over uneven steps acts as its mean over even ones
+    options.resample_rate = rate;
+    recording = read_recording(path, options);
+  }
   if (std::abs(recording.dt * rate - 1.0) > 1e-3)
     throw ConfigError(path,
                       fmt::format("is sampled at {:.6g} Hz, expected the rate of the simulation, {:.6g} Hz",

@@ -4,12 +4,13 @@
 #include "simulation/stepper_events.h"
 #include "simulation/stepper_sample.h"
 #include "simulation/stepper_state.h"
+#include "simulation/stepper_uneven.h"
 
 namespace gapscope {
 
 template <class T>
-DriveStepper<T>::DriveStepper(const PlantModel<T>& model, double dt)
-    : impl_(std::make_unique<internal::simulation::StepperImpl<T>>(model, dt)) {}
+DriveStepper<T>::DriveStepper(const PlantModel<T>& model, double dt, double shortest)
+    : impl_(std::make_unique<internal::simulation::StepperImpl<T>>(model, dt, shortest)) {}
 template <class T>
 DriveStepper<T>::~DriveStepper() = default;
 template <class T>
@@ -32,6 +33,10 @@ void DriveStepper<T>::reset(const DriveState<T>& state) {
 template <class T>
 void DriveStepper<T>::step(double u) {
   impl_->step(u);
+}
+template <class T>
+void DriveStepper<T>::step(double u, double dt) {
+  impl_->step(u, dt);
 }
 template <class T>
 void DriveStepper<T>::inject(const T& dx1, const T& dw1) {

@@ -110,12 +110,12 @@ void StepperImpl<T>::set_input(double u) {
   torque = model.drive.torque_constant * input + model.motor_torque;
 }
 
-/// The inertia of the middle of the sample; the precomputed transitions hold as long as it stays.
+/// The inertia of the middle of a span; the precomputed transitions hold as long as it stays.
 template <class T>
-void StepperImpl<T>::set_inertia() {
+void StepperImpl<T>::set_inertia(double span) {
   T factor(1.0);
   for (const ActiveEffect<T>& e : model.effects)
-    if (e.hooks->load_inertia != nullptr) factor *= e.hooks->load_inertia(now + 0.5 * dt, e.parameters);
+    if (e.hooks->load_inertia != nullptr) factor *= e.hooks->load_inertia(now + 0.5 * span, e.parameters);
   bool same = value_of(factor) == value_of(inertia_factor);
   if constexpr (kIsJet<T>) same = same && factor.v == inertia_factor.v;
   if (same) return;

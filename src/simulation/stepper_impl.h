@@ -23,6 +23,9 @@ constexpr int kMostHalvings = 6;
 /// A dying torque divides a sample into at most so many pieces.
 constexpr double kMostDecayPieces = 128.0;
 
+/// Inputs that come closer than this share of a mean step share one place in what a delay holds back.
+constexpr double kShortestStep = 1.0 / 64.0;
+
 /// Passes by which the torques of smooth effects are brought in line with the motion that they cause.
 constexpr int kCorrections = 2;
 
@@ -57,8 +60,10 @@ struct StepperImpl {
   T decay_share{1.0};                           ///< of its amplitude, where its rate had to be limited
   T half_gap{};
   double inverse_m1 = 0.0, inverse_m2 = 0.0;  ///< of f, for the guards
+  T delay{};                                  ///< of the input [s]
   T delay_rest{};              ///< part of a sample in which the older of two inputs still acts [s]
   std::vector<double> inputs;  ///< ring of the last inputs, as long as the delay needs
+  std::vector<double> given;   ///< of steps of their own length: when each of them came [s]
   std::vector<T> memory;       ///< kMostEffectMemory per effect
 
   // --- the state
@@ -68,6 +73,8 @@ struct StepperImpl {
   T torque{};  ///< Km u in force [N m]
   T inertia_factor{1.0};
   std::size_t newest = 0;  ///< place of the newest input in the ring
+  std::size_t acting = 0;  ///< of steps of their own length: place of the input that acts
+  double clock = 0.0;      ///< of steps of their own length: time since the first one [s]
   bool started = false;    ///< the first input has been seen
   int touching_side = 0;   ///< side of an open contact whose guard starts at zero
   int contact_zeros = 0, load_zeros = 0, motor_zeros = 0;  ///< see Guard::zeros
@@ -77,7 +84,7 @@ struct StepperImpl {
   /// Of each segment of a sample (two with a delay), each mode, and how often its pieces are halved.
   StateTransition<T> transitions[2][kFlows][kMostHalvings + 1];
 
-  StepperImpl(const PlantModel<T>& m, double step);
+  StepperImpl(const PlantModel<T>& m, double step, double shortest);
 
   // --- where things stand: stepper_state.h
   void set_decay();
@@ -102,9 +109,11 @@ struct StepperImpl {
   void remember_start();
   void advance_memory(const DriveState<T>& to, const T& end_time);
   void set_input(double u);
-  void set_inertia();
+  void set_inertia(double span);
 
   // --- one sample: stepper_sample.h
+  void begin(double u);
+  void end();
   void step(double u);
   void segment(const T& span, double u, int index);
   StateTransition<T>& transition(const T& span, int index, int times_halved);
@@ -115,6 +124,11 @@ struct StepperImpl {
   void accept(const DriveState<T>& next, const T& h);
   void advance(T span);
   void build_series(const T& h, PowerSeries<T>& series, Forcing<T>& on) const;
+
+  // --- a sample of its own length: stepper_uneven.h
+  void step(double u, double span);
+  void delayed_inputs(double u, double span);
+  void exact_segment(const T& span, double u);
 
   // --- whether an event may lie in a step: stepper_outlook.h
   bool may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end, double h) const;

@@ -112,17 +112,31 @@ void StepperImpl<T>::accept(const DriveState<T>& next, const T& h) {
   now += h;
 }
 
+/// The first input acted before it was given, too.
+template <class T>
+void StepperImpl<T>::begin(double u) {
+  closed = false;
+  if (started) return;
+  std::fill(inputs.begin(), inputs.end(), u);
+  set_input(u);
+  remember_start();
+  started = true;
+  acting = newest;
+  clock = 0.0;
+}
+
+template <class T>
+void StepperImpl<T>::end() {
+  const double sum = value_of(z.x1) + value_of(z.w1) + value_of(z.x2) + value_of(z.w2);
+  if (!(std::abs(sum) < 1e12)) healthy = false;
+}
+
 template <class T>
 void StepperImpl<T>::step(double u) {
-  closed = false;
-  if (!started) {
-    std::fill(inputs.begin(), inputs.end(), u);
-    set_input(u);
-    remember_start();
-    started = true;
-  }
-  if (varies_inertia) set_inertia();
+  begin(u);
+  if (varies_inertia) set_inertia(dt);
   if (delayed) {
+    GAPSCOPE_REQUIRE(given.empty());
     newest = (newest + 1) % inputs.size();
     inputs[newest] = u;
     const std::size_t oldest = (newest + 1) % inputs.size();
@@ -131,8 +145,7 @@ void StepperImpl<T>::step(double u) {
   } else {
     segment(T(dt), u, 0);
   }
-  const double sum = value_of(z.x1) + value_of(z.w1) + value_of(z.x2) + value_of(z.w2);
-  if (!(std::abs(sum) < 1e12)) healthy = false;
+  end();
 }
 
 /// Part of a sample in which the input is constant.
@@ -187,11 +200,11 @@ void StepperImpl<T>::build_series(const T& h, PowerSeries<T>& series, Forcing<T>
 /// The exact path: Taylor series of the running mode up to its first event, then on in the next mode.
 template <class T>
 void StepperImpl<T>::advance(T span) {
-  const double least = 1e-13 * dt;
+  const double least = 1e-13 * dt, most = kMostEventsPerSample * std::max(1.0, value_of(span) / dt);
   PowerSeries<T> series;
   Forcing<T> on;
   for (int count = 0;; ++count) {
-    if (count > kMostEventsPerSample) {
+    if (count > most) {
       healthy = false;
       return;
     }

@@ -5,7 +5,7 @@
 namespace gapscope::internal::simulation {
 
 template <class T>
-StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step) : model(m), dt(step) {
+StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step, double shortest) : model(m), dt(step) {
   const DriveParameters<T>& p = m.drive;
   has_load = m.structure.has_load;
   locked = has_load && m.structure.load == LoadKind::kLocked;
@@ -24,7 +24,6 @@ StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step) : model(m), dt(
   f.rigid = m.structure.contact == ContactLaw::kRigid;
   half_gap = 0.5 * p.gap;
   inverse_m1 = 1.0 / value_of(f.m1), inverse_m2 = 1.0 / value_of(f.m2);
-  T delay(0.0);
   for (const ActiveEffect<T>& e : m.effects) {
     adds_torque = adds_torque || e.hooks->torque != nullptr;
     moves_gap = moves_gap || e.hooks->half_gap != nullptr;
@@ -39,6 +38,11 @@ StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step) : model(m), dt(
   const double whole = std::floor(value_of(delay) / dt);
   delay_rest = delay - whole * dt;
   inputs.assign(static_cast<std::size_t>(whole) + 2, 0.0);
+  if (shortest > 0.0) {
+    inputs.assign(static_cast<std::size_t>(value_of(delay) / std::max(shortest, kShortestStep * dt)) + 3,
+                  0.0);
+    given.assign(inputs.size(), 0.0);
+  }
   memory.assign(m.effects.size() * kMostEffectMemory, T(0.0));
   set_decay();
   reset({});

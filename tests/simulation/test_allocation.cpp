@@ -82,6 +82,18 @@ long allocations_of_a_run(const PlantModel<T>& model, long& events) {
   return made;
 }
 
+/// The same in steps of their own length.
+template <class T>
+long allocations_of_uneven_steps(const PlantModel<T>& model) {
+  const std::vector<double> u = test::several_sines(0.9, kRate, 1.0);
+  DriveStepper<T> stepper(model, 1.0 / kRate, 0.5 / kRate);
+  const long before = allocations;
+  stepper.reset({});
+  for (std::size_t i = 0; i < u.size(); ++i)
+    stepper.step(u[i], (0.5 + 0.25 * static_cast<double>(i % 5)) / kRate);
+  return allocations - before;
+}
+
 TEST(AllocationCounter, SeesAVectorGrow) {
   const long before = allocations;
   std::vector<Jet<8>> v(3);
@@ -104,6 +116,7 @@ TYPED_TEST(Allocation, NoneWithAnyEffectOfTheCatalogue) {
     long events = 0;
     EXPECT_EQ(allocations_of_a_run(model, events), 0) << e->name;
     EXPECT_GT(events, 5) << e->name;
+    EXPECT_EQ(allocations_of_uneven_steps(model), 0) << e->name;
   }
 }
 

@@ -29,13 +29,16 @@ struct StepperImpl;
 /// transition; closing and opening of the contact and every entry and exit of sticking are located by their
 /// own Taylor polynomial and crossed with exact partial steps. With Jets each event time is polished by one
 /// Newton step in Jet arithmetic, so that derivatives carry the jumps at events. u is held constant over a
-/// sample. step() does not allocate.
+/// sample. step() does not allocate. Steps of their own length follow the Taylor polynomials throughout.
 template <class T>
 class DriveStepper {
  public:
-  /// @param dt sampling interval [s]
+  /// @param dt sampling interval, of uneven sampling the mean one [s]
+  /// @param shortest  of the steps to come, where they have their own lengths [s]; 0: all of dt. Of inputs
+  /// that
+  ///   come closer while a delay holds them back, the oldest is passed over.
   /// @throws std::logic_error unless inertias are positive and friction, stiffness and damping not negative.
-  DriveStepper(const PlantModel<T>& model, double dt);
+  DriveStepper(const PlantModel<T>& model, double dt, double shortest = 0.0);
   ~DriveStepper();
   DriveStepper(DriveStepper&&) noexcept;
   DriveStepper& operator=(DriveStepper&&) noexcept;
@@ -46,6 +49,9 @@ class DriveStepper {
 
   /// One sample with input u [unit of u].
   void step(double u);
+  /// One sample that lasts dt [s]. With a delayed input only a stepper that was told the shortest step takes
+  /// these, and no others.
+  void step(double u, double dt);
 
   /// Moves position and speed of the motor, the load with it while in contact (output injection of an
   /// observer). A body that sticks keeps its speed of zero.
