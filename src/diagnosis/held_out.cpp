@@ -28,26 +28,26 @@ double model_quantum(const PlantModel<double>& model) {
 
 bool play_scored(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                  std::size_t restart, double hz, Playback& out) {
-  const reference::ObserverGain gain = reference::ObserverGain::poles(hz, trace.dt);
+  const reference::ObserverGains gains(hz, trace);
   const double quantum = model_quantum(model);
-  DriveStepper<double> runner(model, trace.dt);
+  DriveStepper<double> runner = reference::stepper_for(model, trace);
   out.innovation.resize(trace.size());
   out.free.resize(trace.size());
   const auto [low, high] = std::minmax_element(trace.x1.begin(), trace.x1.end());
   const double lost = *high - *low;  // the error of a free run that diverges
   return reference::roll_out(
-      model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+      model, start, trace, gains, [&](std::size_t i, const DriveStepper<double>& observer) {
         if (i % restart == 0) runner = observer;
         out.innovation[i] = beyond_count(trace.x1[i] - observer.measured(), quantum);
         out.free[i] = runner.healthy() ? beyond_count(trace.x1[i] - runner.measured(), quantum) : lost;
-        if (runner.healthy()) runner.step(trace.u[i]);
+        if (runner.healthy()) reference::play_step(runner, trace, i);
       });
 }
 
 bool play_slow(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
   const double quantum = model_quantum(model);
-  return reference::roll_out(model, start, trace, reference::ObserverGain::poles(kSlowHz, trace.dt),
+  return reference::roll_out(model, start, trace, reference::ObserverGains(kSlowHz, trace),
                              [&](std::size_t i, const DriveStepper<double>& observer) {
                                out.slow.push_back(beyond_count(trace.x1[i] - observer.measured(), quantum));
                              });
@@ -56,29 +56,32 @@ bool play_slow(const PlantModel<double>& model, const DriveState<double>& start,
 /// Residual torque of an observer's innovation.
 class ResidualTorque {
  public:
-  ResidualTorque(const PlantModel<double>& model, const reference::ObserverGain& gain, double dt)
-      : motor_(model.drive.motor_inertia * gain.speed / dt), both_(motor_) {
+  ResidualTorque(const PlantModel<double>& model, const reference::ObserverGains& gains)
+      : gains_(gains), inertia_(model.drive.motor_inertia) {
     if (model.structure.has_load && model.structure.load == LoadKind::kFree)
-      both_ *= 1.0 + model.drive.mass_ratio;
+      both_ = 1.0 + model.drive.mass_ratio;
   }
-  double operator()(const DriveStepper<double>& observer, double error) const {
-    return (observer.mode().contact != 0 ? both_ : motor_) * error;
+  /// At sample i, of the interval that ends there.
+  double operator()(std::size_t i, const DriveStepper<double>& observer, double error) const {
+    const double motor = inertia_ * gains_.at(i).speed / gains_.interval(i);
+    return (observer.mode().contact != 0 ? motor * both_ : motor) * error;
   }
 
  private:
-  double motor_, both_;
+  const reference::ObserverGains& gains_;
+  double inertia_, both_ = 1.0;
 };
 
 bool play_fast(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
-  const reference::ObserverGain gain = reference::ObserverGain::poles(kFastHz, trace.dt);
+  const reference::ObserverGains gains(kFastHz, trace);
   const double quantum = model_quantum(model);
-  const ResidualTorque torque(model, gain, trace.dt);
+  const ResidualTorque torque(model, gains);
   return reference::roll_out(
-      model, start, trace, gain, [&](std::size_t i, const DriveStepper<double>& observer) {
+      model, start, trace, gains, [&](std::size_t i, const DriveStepper<double>& observer) {
         const double e = beyond_count(trace.x1[i] - observer.measured(), quantum);
         out.fast.push_back(e);
-        out.torque.push_back(torque(observer, e));
+        out.torque.push_back(torque(i, observer, e));
         out.w1.push_back(observer.state().w1);
         out.mode.push_back(model.structure.has_load ? mode_of(observer) : Mode::kEngagementPlus);
       });
@@ -86,11 +89,11 @@ bool play_fast(const PlantModel<double>& model, const DriveState<double>& start,
 
 bool play_ripple(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                  Playback& out) {
-  const reference::ObserverGain gain = reference::ObserverGain::poles(ripple_hz(trace.dt), trace.dt);
-  const ResidualTorque torque(model, gain, trace.dt);
-  return reference::roll_out(model, start, trace, gain,
+  const reference::ObserverGains gains(ripple_hz(trace.dt), trace);
+  const ResidualTorque torque(model, gains);
+  return reference::roll_out(model, start, trace, gains,
                              [&](std::size_t i, const DriveStepper<double>& observer) {
-                               out.ripple.push_back(torque(observer, trace.x1[i] - observer.measured()));
+                               out.ripple.push_back(torque(i, observer, trace.x1[i] - observer.measured()));
                              });
 }
 

@@ -25,7 +25,8 @@ struct HeldOut {
   double innovation_repeats = 0.0, free_repeats = 0.0;
   std::string repeats_in;  ///< what that was read from, in words
 
-  std::size_t restart(std::size_t r) const;  ///< samples from one restart to the next, even
+  /// Samples from one restart to the next, a number that 2 divides; counted in (mean) steps.
+  std::size_t restart(std::size_t r) const;
   double innovation_floor(std::size_t r) const { return std::max(floors[r], innovation_repeats); }
   double free_floor(std::size_t r) const { return std::max(floors[r], free_repeats); }
 };

@@ -23,7 +23,8 @@ constexpr double kFine = 0.02;         ///< step of the refined period, in cycle
 constexpr int kFineSteps = 20;
 constexpr double kSure = 2.33;  ///< normal quantile of 99 %
 
-/// What the observer makes of a torque: the double pole that its residual torque answers with.
+/// What the observer makes of a torque: the double pole that its residual torque answers with, of uneven
+/// sampling at the mean step.
 class Passed {
  public:
   explicit Passed(double dt) : p_(std::exp(-2.0 * kPi * ripple_hz(dt) * dt)) {}

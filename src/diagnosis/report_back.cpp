@@ -84,7 +84,8 @@ std::vector<MismatchTrace> traces_of(const Study& study, const std::vector<Playb
                         {},
                         before[r].torque,
                         {},
-                        before[r].mode};
+                        before[r].mode,
+                        {t.stamps.begin(), t.stamps.end()}};
     if (r < after.size()) trace.error_after = after[r].free, trace.torque_after = after[r].torque;
     traces.push_back(std::move(trace));
   }

@@ -29,8 +29,7 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
     const MotorTrace& t = held_out.traces[r];
     const Playback& p = playbacks[r];
     for (std::size_t i = std::max(held_out.scored_from[r], held_out.restart(r)); i < t.size(); ++i)
-      samples.push_back(
-          {p.torque[i], p.w1[i], t.x1[i], km * t.u[i], t.dt * static_cast<double>(i), p.mode[i]});
+      samples.push_back({p.torque[i], p.w1[i], t.x1[i], km * t.u[i], t.elapsed(i), p.mode[i]});
   }
   return samples;
 }
@@ -72,7 +71,8 @@ std::vector<MapShare> class_map(const std::vector<Sample>& samples, const std::v
   return map;
 }
 
-/// Power of the residual torque in octaves, by a plain Fourier sum over a thinned series of each recording.
+/// Power of the residual torque in octaves, by a plain Fourier sum over a thinned series of each recording;
+/// of uneven sampling over its mean step.
 std::vector<MapShare> frequency_map(const std::vector<Playback>& playbacks, const HeldOut& held_out) {
   const std::vector<double> edges = {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
   std::vector<MapShare> map;

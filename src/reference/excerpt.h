@@ -14,7 +14,7 @@ class Excerpt {
   Excerpt(const FitProblem& whole, double share) : share_(share), part_(whole) {
     for (const MotorTrace& trace : whole.recordings) {
       const auto samples = static_cast<std::size_t>(share * static_cast<double>(trace.size()));
-      traces_.push_back(part_of(trace, 0, std::min(std::max(samples, kFewest), trace.size())));
+      traces_.push_back(part(trace, 0, std::min(std::max(samples, kFewest), trace.size())));
     }
     part_.recordings = traces_;
   }
@@ -24,7 +24,7 @@ class Excerpt {
     double samples = 0.0;
     for (const MotorTrace& trace : whole.recordings) samples += static_cast<double>(trace.size());
     share_ = static_cast<double>(last - first) / samples;
-    traces_.push_back(part_of(whole.recordings[r], first, last - first));
+    traces_.push_back(part(whole.recordings[r], first, last - first));
     part_.floors = {whole.floors[r]};
     part_.recordings = traces_;
   }
@@ -38,13 +38,6 @@ class Excerpt {
 
  private:
   static constexpr std::size_t kFewest = 200;  ///< samples
-
-  static MotorTrace part_of(MotorTrace trace, std::size_t first, std::size_t count) {
-    trace.start = trace.time(first);
-    trace.u = trace.u.subspan(first, count);
-    trace.x1 = trace.x1.subspan(first, count);
-    return trace;
-  }
 
   double share_ = 0.0;
   std::vector<MotorTrace> traces_;

@@ -43,8 +43,8 @@ FitTrace trace_of(const FitProblem& problem, const FitPoint& at, std::size_t r, 
       })) {
     t.x1.clear(), t.x2.clear(), t.mode.clear();
   }
-  const ObserverGain gain = ObserverGain::poles(observer_hz, recording.dt);
-  if (!roll_out(model, start, recording, gain, [&](std::size_t, const DriveStepper<double>& stepper) {
+  const ObserverGains gains(observer_hz, recording);
+  if (!roll_out(model, start, recording, gains, [&](std::size_t, const DriveStepper<double>& stepper) {
         t.predicted_x1.push_back(stepper.measured());
       }))
     t.predicted_x1.clear();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording.h"
@@ -9,7 +11,7 @@
 namespace gapscope::internal::reference {
 
 /// Output injection of the model run as an observer: x1 += l1 e, w1 += l2 e/dt.
-/// Both poles of the position error of a free mass lie at exp(−2π f dt).
+/// Both poles of the position error of a free mass lie at exp(−2π f dt), dt the interval before the sample.
 struct ObserverGain {
   double position = 0.0;  ///< l1 [-]
   double speed = 0.0;     ///< l2/dt [1/s]
@@ -20,6 +22,46 @@ struct ObserverGain {
     return {1.0 - p * p, (1.0 - p) * (1.0 - p) / dt};
   }
 };
+
+/// The gain at each sample of a recording: of uneven sampling each interval has its own.
+class ObserverGains {
+ public:
+  ObserverGains() = default;  ///< no correction: the free run
+  ObserverGains(double hz, const MotorTrace& recording)
+      : hz_(hz), dt_(recording.dt), stamps_(recording.stamps), mean_(ObserverGain::poles(hz, recording.dt)) {}
+
+  bool corrects() const { return mean_.position > 0.0; }
+  ObserverGain at(std::size_t i) const {
+    return stamps_.empty() || i == 0 ? mean_ : ObserverGain::poles(hz_, interval(i));
+  }
+  /// The time that ends with sample i [s].
+  double interval(std::size_t i) const {
+    return stamps_.empty() || i == 0 ? dt_ : stamps_[i] - stamps_[i - 1];
+  }
+
+ private:
+  double hz_ = 0.0, dt_ = 0.0;
+  std::span<const double> stamps_;
+  ObserverGain mean_;
+};
+
+/// A stepper for the intervals of a recording.
+template <class T>
+DriveStepper<T> stepper_for(const PlantModel<T>& model, const MotorTrace& recording) {
+  double shortest = recording.even() ? 0.0 : recording.dt;
+  for (std::size_t i = 1; i < recording.stamps.size(); ++i)
+    shortest = std::min(shortest, recording.step(i - 1));
+  return DriveStepper<T>(model, recording.dt, shortest);
+}
+
+/// One interval of the recording, from sample i on.
+template <class T>
+void play_step(DriveStepper<T>& stepper, const MotorTrace& recording, std::size_t i) {
+  if (recording.even())
+    stepper.step(recording.u[i]);
+  else
+    stepper.step(recording.u[i], recording.step(i));
+}
 
 /// The drive's state where the sensor reads start.x1: what the sensor adds to the motor's angle shifts the
 /// drive, not the first sample.
@@ -38,16 +80,17 @@ DriveState<T> behind_the_sensor(DriveStepper<T>& stepper, const DriveState<T>& s
 /// @param start of the drive, with the motor where the sensor reads it
 template <class T, class Visit>
 bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const MotorTrace& recording,
-              const ObserverGain& gain, Visit&& visit) {
-  DriveStepper<T> stepper(model, recording.dt);
+              const ObserverGains& gains, Visit&& visit) {
+  DriveStepper<T> stepper = stepper_for(model, recording);
   stepper.reset(behind_the_sensor(stepper, start));
   for (std::size_t i = 0; i < recording.size(); ++i) {
     visit(i, stepper);
-    if (gain.position > 0.0) {
+    if (gains.corrects()) {
+      const ObserverGain gain = gains.at(i);
       const T innovation = recording.x1[i] - stepper.measured();
       stepper.inject(gain.position * innovation, gain.speed * innovation);
     }
-    stepper.step(recording.u[i]);
+    play_step(stepper, recording, i);
     if (!stepper.healthy() || stepper.events() > 100 + static_cast<long>(recording.size())) return false;
   }
   return true;

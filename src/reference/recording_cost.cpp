@@ -21,7 +21,7 @@ RecordingCost::RecordingCost(const FitProblem& problem, std::size_t recording, c
       start_(start),
       states_(problem.free_states(start, observer_hz <= 0.0)),
       shared_(problem.free_count()),
-      gain_(ObserverGain::poles(observer_hz, problem.recordings[recording].dt)),
+      gains_(observer_hz, problem.recordings[recording]),
       floor_(problem.floors[recording]) {}
 
 template <class T>
@@ -34,7 +34,7 @@ bool RecordingCost::run(const T* q, T* out) const {
   const PlantModel<T> model = problem_.plant_model(numbers);
   const DriveState<T> state = problem_.state(start_, T(0.5 * model.drive.gap), initial.data());
   const double scale = 1.0 / floor_;
-  return roll_out(model, state, recording_, gain_, [&](std::size_t i, const DriveStepper<T>& stepper) {
+  return roll_out(model, state, recording_, gains_, [&](std::size_t i, const DriveStepper<T>& stepper) {
     out[i] = (recording_.x1[i] - stepper.measured()) * scale;
   });
 }

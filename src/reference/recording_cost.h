@@ -40,7 +40,7 @@ class RecordingCost {
   RecordingStart start_;
   std::vector<int> states_;
   std::size_t shared_;
-  ObserverGain gain_;
+  ObserverGains gains_;
   double floor_;
 };
 

@@ -158,7 +158,7 @@ TEST(RecordingCost, TheObserverForgetsAWrongStartAtItsOwnRate) {
   still.u.assign(1000, 0.0), still.x1.assign(1000, 0.0);
   std::vector<double> error;
   ASSERT_TRUE(roll_out(mass, DriveState<double>{1.0, 0.0, 0.0, 0.0}, still.motor_trace(),
-                       ObserverGain::poles(hz, dt),
+                       ObserverGains(hz, still.motor_trace()),
                        [&](std::size_t, const DriveStepper<double>& s) { error.push_back(s.state().x1); }));
   const double p = std::exp(-2.0 * kPi * hz * dt);
   // e(n) = (1 + a n) pⁿ with both poles at p: the second difference of e(n)/pⁿ vanishes.

@@ -124,6 +124,11 @@ struct MismatchTrace {
   std::vector<double> error_before, error_after;    ///< restarted free runs [rad]
   std::vector<double> torque_before, torque_after;  ///< residual torque [N m]
   std::vector<Mode> mode;                           ///< of the nominal model
+  std::vector<double> stamps = {};                  ///< time of each sample [s]; empty: evenly sampled
+
+  double time(std::size_t i) const {
+    return stamps.empty() ? start + dt * static_cast<double>(i) : stamps[i];
+  }
 };
 
 /// What the diagnosis says. A default-built one says that it was not run.

@@ -80,8 +80,9 @@ struct FitOptions {
 ///
 /// 1. Search. The model runs as an observer of the encoder: innovation e = x1 measured − x1 predicted,
 ///      x1 ← x1 + l1 e,  w1 ← w1 + l2 e/dt,   l1 = 1 − p², l2 = (1 − p)², p = exp(−2π f dt),
-///    both bodies alike while in contact. Least squares of e has a wide basin at f = 2 to 3 Hz. Levenberg–
-///    Marquardt from several starts; exact derivatives through every event.
+///    dt the interval before the sample, both bodies alike while in contact. Least squares of e has a wide
+///    basin at f = 2 to 3 Hz. Levenberg–Marquardt from several starts; exact derivatives through every
+///    event.
 /// 2. Polish, when the innovations are at the encoder's floor: the same at zero gain, the free run. Values
 ///    and intervals come from here.
 /// 3. Otherwise the model is not the drive and a free run would bend inertia and friction to hide drift:
