@@ -37,7 +37,7 @@ std::string fitted_model(const Configuration& c, const Diagnosis& d, const Motor
   if (d.traces.empty()) return model_yaml(c, d.fitted, "", recording);
   const MismatchTrace& t = d.traces.front();
   return model_yaml(c, d.fitted, held_out_trace_name(0, t.file),
-                    {t.file, t.start, t.dt, t.u, t.x1, recording.quantum});
+                    {t.file, t.start, t.dt, t.u, t.x1, recording.quantum, t.stamps});
 }
 
 void write_outcome(ReportFolder& report, const Configuration& c, const DiagnosisResult& result,

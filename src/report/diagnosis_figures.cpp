@@ -42,7 +42,7 @@ Series over_time(const std::string& label, const LineStyle& style, const Mismatc
                  const std::vector<double>& values) {
   Series s{label, style, {}, {}};
   for (std::size_t i = t.scored_from; i < values.size(); ++i) {
-    s.x.push_back(t.start + t.dt * static_cast<double>(i));
+    s.x.push_back(t.time(i));
     s.y.push_back(values[i]);
   }
   return s;
@@ -52,8 +52,8 @@ Panel time_panel(const std::string& title, const std::string& name, const std::s
                  const MismatchTrace& t) {
   Panel panel;
   panel.title = title;
-  const double last = t.start + t.dt * static_cast<double>(t.x1.size() - 1);
-  panel.x = {"time $t$", "s", {t.start + t.dt * static_cast<double>(t.scored_from), last}, {}, {}};
+  panel.x = {
+      "time $t$", "s", {t.time(std::min(t.scored_from, t.x1.size() - 1)), t.time(t.x1.size() - 1)}, {}, {}};
   panel.y = {name, unit, {}, {}, {}};
   panel.height = 400.0;
   return panel;

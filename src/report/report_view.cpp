@@ -67,7 +67,8 @@ void find_window(ReportView& view) {
   const std::vector<std::size_t> crossings = middle_crossings(view.recording->x1);
   std::vector<double> halves;
   for (std::size_t i = 1; i < crossings.size(); ++i)
-    halves.push_back(view.recording->dt * static_cast<double>(crossings[i] - crossings[i - 1]));
+    halves.push_back(view.recording->dt *
+                     static_cast<double>(crossings[i] - crossings[i - 1]));  // mean steps
   view.half_period = median(halves);
   view.window = {view.time.front(), view.time.back()};
   if (halves.size() <= kMostHalfPeriods) return;
@@ -88,6 +89,11 @@ ReportView::ReportView(const RunResult& result)
 }
 
 std::size_t ReportView::index(double t) const {
+  if (!recording->even()) {
+    const auto after = std::lower_bound(time.begin(), time.end() - 1, t);
+    const bool before = after != time.begin() && t - *(after - 1) < *after - t;
+    return static_cast<std::size_t>(after - time.begin()) - (before ? 1 : 0);
+  }
   const double i = std::round((t - recording->start) / recording->dt);
   return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(recording->size() - 1)));
 }

@@ -29,7 +29,7 @@ void require_consistent(const Diagnosis& d) {
 }
 
 TraceSet set_of(const MismatchTrace& m) {
-  Recording r{m.file, m.start, m.dt, m.u, m.x1, {}, m.mode, 0.0, ""};
+  Recording r{m.file, m.start, m.dt, m.u, m.x1, {}, m.mode, 0.0, "", false, m.stamps};
   return {std::move(r), {}, {}, m.error_before, m.error_after, m.torque_before, m.torque_after};
 }
 
@@ -46,6 +46,7 @@ StoredMismatch store(const std::string& folder, std::size_t index, const Mismatc
 MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
   const std::string path = internal::results::trace_path(folder, stored.trace);
   TraceSet set;
+  set.recording.start = stored.mismatch.start, set.recording.dt = stored.mismatch.dt;
   internal::results::read_trace(path, set);
   if (static_cast<int>(set.recording.size()) != stored.samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
@@ -53,7 +54,7 @@ MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
   MismatchTrace m = stored.mismatch;
   m.scored_from = static_cast<std::size_t>(stored.scored_from);
   m.u = std::move(set.recording.u), m.x1 = std::move(set.recording.x1),
-  m.mode = std::move(set.recording.mode);
+  m.mode = std::move(set.recording.mode), m.stamps = std::move(set.recording.stamps);
   m.error_before = std::move(set.error_before), m.error_after = std::move(set.error_after);
   m.torque_before = std::move(set.torque_before), m.torque_after = std::move(set.torque_after);
   return m;

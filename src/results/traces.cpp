@@ -177,9 +177,25 @@ void read_row(std::string_view line, const Columns& columns, TraceSet& set) {
     throw std::invalid_argument("has " + std::to_string(commas + 1) + " fields, expected " +
                                 std::to_string(1 + columns.numbers.size() + columns.modes.size()) +
                                 " as in the header");
-  next_field(line);  // time is start + i dt
+  set.recording.stamps.push_back(number_of(next_field(line)));
   for (const NumberColumn& column : columns.numbers) column.into(set).push_back(number_of(next_field(line)));
   for (const ModeColumn& column : columns.modes) column.into(set).push_back(mode_of(next_field(line)));
+}
+
+/// Drops the stamps of a recording that is even, whose t_s is start + i dt.
+/// @throws std::invalid_argument unless the others increase
+void settle_stamps(Recording& r) {
+  constexpr double kRounding = 1e-6;  // steps
+  std::vector<double> stamps = std::move(r.stamps);
+  r.stamps.clear();
+  bool even = true;
+  for (std::size_t i = 0; i < stamps.size(); ++i)
+    even = even && std::abs(stamps[i] - r.time(i)) <= kRounding * r.dt + 1e-15 * std::abs(stamps[i]);
+  if (even) return;
+  for (std::size_t i = 0; i < stamps.size(); ++i)
+    if (!std::isfinite(stamps[i]) || (i > 0 && !(stamps[i] > stamps[i - 1])))
+      throw std::invalid_argument("t_s does not increase, expected the time of each sample");
+  r.stamps = std::move(stamps);
 }
 
 }  // namespace
@@ -235,6 +251,11 @@ void read_trace(const std::string& path, TraceSet& set) {
     } catch (const std::invalid_argument& error) {
       throw ConfigError(path, line, error.what());
     }
+  }
+  try {
+    settle_stamps(set.recording);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(path, error.what());
   }
 }
 

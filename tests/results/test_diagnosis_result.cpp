@@ -117,6 +117,17 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.traces[0].scored_from, 2u);
 }
 
+TEST(DiagnosisResult, KeepsTheTimesOfUnevenSamples) {
+  ScratchFolder scratch;
+  DiagnosisResult written = sample();
+  MismatchTrace& t = written.diagnosis.traces[0];
+  t.stamps = {0.1, 0.1004, 0.1005, 0.1012, 0.2};
+  write_diagnosis_result(scratch.path.string(), written);
+  const MismatchTrace read = read_diagnosis_result(scratch.path.string()).diagnosis.traces[0];
+  EXPECT_EQ(read.stamps, t.stamps);
+  EXPECT_EQ(read.time(3), 0.1012);
+}
+
 TEST(DiagnosisResult, IsReadWithoutWhatEarlierVersionsDidNotStore) {
   ScratchFolder scratch;
   write_diagnosis_result(scratch.path.string(), sample());

@@ -97,6 +97,17 @@ TEST(RunResult, TheModelFreeEstimateComesBackExactly) {
   }
 }
 
+TEST(RunResult, StampsOfUnevenRecordingsComeBackExactly) {
+  RunResult run = full_result();
+  Recording& r = run.recordings[0];
+  for (std::size_t i = 0; i < r.size(); ++i)
+    r.stamps.push_back(r.start +
+                       r.dt * (static_cast<double>(i) + 0.3 * std::sin(7.0 * static_cast<double>(i))));
+  const RunResult read = round_trip(run);
+  EXPECT_EQ(read.recordings[0].stamps, r.stamps);
+  EXPECT_TRUE(read.recordings[1].even());
+}
+
 TEST(RunResult, EventsComeBackExactly) {
   const auto x = full_result().model_free->events;
   const auto y = round_trip(full_result()).model_free->events;
