@@ -53,7 +53,7 @@ void add_check(CommandLine& app) {
   command.footer(
       "One line for each question: fine, note (worth knowing) or spoils (the estimates will be wrong or\n"
       "refused), with the figures and, after ->, what to do. Nothing but t, u and x1 is looked at.\n"
-      "  time           rows in order, none missing, uniform, t in seconds\n"
+      "  time           rows in order, none missing, uniform (for the detector), t in seconds\n"
       "  unit of x1     as declared: rad (m), not counts, degrees or turns\n"
       "  encoder        its step, its noise, the smallest gap that can be read\n"
       "  jumps          wrapped or lost counts, spikes\n"

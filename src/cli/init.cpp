@@ -57,8 +57,8 @@ void add_init(CommandLine& app) {
       .value("KIND")
       .one_of({"gap", "locked", "one_body"});
   command.footer(
-      "Reads off the recording what it tells: columns, a uniform rate where the time is not, the step of "
-      "the\n"
+      "Reads off the recording what it tells: columns, a rate for the detector where time is not uniform, "
+      "the step of the\n"
       "encoder [rad], and whether the model needs a gap, a locked output or one body (the detector "
       "decides).\n"
       "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit. A "

@@ -20,6 +20,13 @@ void InitialState::fields(FieldVisitor& v) {
   v.field({"w2", "rad/s", "load speed", -1e6, 1e6}, w2);
 }
 
+ReadOptions RecordingConfig::reading_for(UnevenRows uneven) const {
+  ReadOptions options = reading;
+  options.uneven = uneven;
+  if (resample_for_detector && uneven == UnevenRows::kStamped) options.resample_rate.reset();
+  return options;
+}
+
 std::size_t SimulationConfig::samples() const {
   return static_cast<std::size_t>(std::llround(rate * duration));
 }
@@ -94,6 +101,13 @@ void require_sensible_size(const SimulationConfig& s, const Section& section) {
         fmt::format("gives rate x duration = {:.6g} samples, expected at least {}", samples, kFewestSamples));
 }
 
+void read_resampling(const Value& value, RecordingConfig& recording) {
+  const Section section(value, {"rate", "for"});
+  recording.reading.resample_rate = section.require("rate", "a number [Hz]").number({1e-3, 1e7, "Hz"});
+  if (const auto who = section.find("for"))
+    recording.resample_for_detector = who->word({"all", "detector"}) == 1;
+}
+
 }  // namespace
 
 RecordingConfig read_recording_block(const Value& value, const std::string& folder,
@@ -108,9 +122,7 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
   read_units(section, encoder, coordinates, recording);
   if (const auto window = section.find("window"))
     recording.reading.window = window->rising_pair({-kInfinity, kInfinity, "s"});
-  if (const auto resample = section.find("resample"))
-    recording.reading.resample_rate =
-        Section(*resample, {"rate"}).require("rate", "a number [Hz]").number({1e-3, 1e7, "Hz"});
+  if (const auto resample = section.find("resample")) read_resampling(*resample, recording);
   return recording;
 }
 

@@ -46,7 +46,9 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   if (const auto& window = recording.reading.window)
     out.entry("window", fmt::format("[{}, {}]", window->first, window->second), "s");
   if (const auto& rate = recording.reading.resample_rate)
-    out.entry("resample", fmt::format("{{rate: {}}}", *rate), "Hz");
+    out.entry("resample",
+              fmt::format("{{rate: {}{}}}", *rate, recording.resample_for_detector ? ", for: detector" : ""),
+              "Hz");
   out.close();
 }
 

@@ -91,8 +91,9 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
   if (options.window)
     out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second), "s");
   if (options.resample_rate)
-    out.entry("resample", fmt::format("{{rate: {}}}", *options.resample_rate),
-              resampled ? "Hz; the time in the file is not uniform" : "Hz");
+    out.entry("resample",
+              fmt::format("{{rate: {}{}}}", *options.resample_rate, resampled ? ", for: detector" : ""),
+              resampled ? "Hz; time is not uniform: fit and diagnose take it as it is" : "Hz");
   out.close();
 }
 

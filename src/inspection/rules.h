@@ -17,7 +17,7 @@ struct Material {
   recording::RecordedRows rows;  ///< as they stand in the file
   Recording recording;           ///< the same on a uniform grid
   signals::SignalFacts signal;   ///< of its x1
-  bool resampled = false;        ///< on request: irregular time is taken care of
+  bool resampled = false;        ///< on request: also for fit and diagnose, which need no grid
   Coordinates coordinates;
   const char* unit() const { return coordinates.position_unit(); }
   bool moves() const { return signal.speed_rms > 0.0; }

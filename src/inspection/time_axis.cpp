@@ -37,8 +37,8 @@ Steps steps_of(const recording::RecordedRows& rows) {
 
 std::string resample_advice(const RecordingFacts& facts) {
   return fmt::format(
-      "every command refuses it as it stands: recording: resample: {{rate: {:.4g}}} makes it uniform, times "
-      "within a step stay unsure",
+      "fit and diagnose take each step with its own length; the detector (run, detect) needs recording: "
+      "resample: {{rate: {:.4g}, for: detector}}, times within a step stay unsure there",
       facts.rate);
 }
 
@@ -56,12 +56,13 @@ Finding pauses(const Material& m, const Steps& s, const RecordingFacts& facts) {
                   s.missing, s.pauses, s.longest, m.rows.t[s.longest_row]),
       m.resampled
           ? "the resampled motion is a straight line there; better record without losses"
-          : "record without losses, or cut a whole part with recording: window; " + resample_advice(facts)};
+          : "u is held over each gap: record without losses, or cut a whole part with recording: window; " +
+                resample_advice(facts)};
 }
 
 Finding jitter(const Material& m, const Steps& s, const RecordingFacts& facts) {
   return {
-      kTimeRule, m.resampled ? Severity::kNote : Severity::kSpoils,
+      kTimeRule, Severity::kNote,
       fmt::format("steps of {:.4g} to {:.4g} ms, {:.4g} ms in the middle: not uniform within 0.1 %",
                   1e3 * s.shortest, 1e3 * s.longest, 1e3 * s.median),
       m.resampled ? "resampled; delays and high frequencies are not to be trusted" : resample_advice(facts)};

@@ -34,13 +34,13 @@ void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>&
                                  c.coordinates.position_unit(), sheet));
 }
 
-Recording read_one(const RecordedFile& file, const Configuration& c) {
+Recording read_one(const RecordedFile& file, const Configuration& c, UnevenRows uneven) {
   if (std::error_code unreachable; !std::filesystem::exists(file.path, unreachable))
     throw ConfigError(c.file, file.line,
                       fmt::format("there is no recording {}, expected a CSV or .mat file (relative to this "
                                   "configuration)",
                                   file.given));
-  return read_recording(file.path, c.recording->reading);
+  return read_recording(file.path, c.recording->reading_for(uneven));
 }
 
 /// The plant of a configuration in the terms of the independent code.
@@ -80,16 +80,22 @@ Recording independent_recording(const Configuration& c, const std::vector<double
       .recording;
 }
 
-LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile>& files,
+/// What becomes of the time of a recording that is not uniform.
+void note_time(const Recording& r, std::vector<std::string>& notes) {
+  if (!r.resampling.empty()) notes.push_back(r.file + ": " + r.resampling);
+  if (!r.even()) notes.push_back(r.file + ": uneven steps, each taken with its own length");
+}
+
+LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile>& files, UnevenRows uneven,
                           const Progress& progress) {
   LoadedRecordings loaded;
   for (const RecordedFile& file : files) {
     stop_point();
     progress("reading " + file.given);
-    Recording r = read_one(file, c);
+    Recording r = read_one(file, c, uneven);
     r.file = name_of(file, files);
     apply_sheet(r, c, loaded.warnings);
-    if (!r.resampling.empty()) loaded.notes.push_back(r.file + ": " + r.resampling);
+    note_time(r, loaded.notes);
     if (r.open_end)
       loaded.notes.push_back(r.file + ": its last line has no end, so the last number may be cut off");
     loaded.recordings.push_back(std::move(r));
@@ -149,8 +155,8 @@ std::vector<MotorTrace> LoadedRecordings::motor_traces() const {
   return traces;
 }
 
-LoadedRecordings load_recordings(const Configuration& c, const Progress& progress) {
-  if (!c.simulation) return read_all(c, c.recording->files, progress);
+LoadedRecordings load_recordings(const Configuration& c, UnevenRows uneven, const Progress& progress) {
+  if (!c.simulation) return read_all(c, c.recording->files, uneven, progress);
   progress("simulating " + c.name);
   LoadedRecordings loaded;
   loaded.recordings.push_back(simulated_recording(c));
@@ -159,7 +165,7 @@ LoadedRecordings load_recordings(const Configuration& c, const Progress& progres
 
 LoadedRecordings load_held_out(const Configuration& c, const Progress& progress) {
   if (!c.recording) return {};
-  return read_all(c, c.recording->held_out, progress);
+  return read_all(c, c.recording->held_out, UnevenRows::kStamped, progress);
 }
 
 }  // namespace gapscope

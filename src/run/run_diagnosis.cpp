@@ -16,7 +16,8 @@ namespace {
 std::vector<std::string> spoiling(const Configuration& c, const std::vector<RecordedFile>& files) {
   std::vector<std::string> warnings;
   for (const RecordedFile& file : files)
-    for (const Finding& f : inspect(file.path, c.recording->reading, c.coordinates).findings)
+    for (const Finding& f :
+         inspect(file.path, c.recording->reading_for(UnevenRows::kStamped), c.coordinates).findings)
       if (f.severity == Severity::kSpoils && f.rule != kReversalsRule)
         warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
   return warnings;
@@ -42,7 +43,7 @@ void ask_further(const Configuration& c, const MotorTrace& like, const Diagnosis
 }  // namespace
 
 DiagnosisRecordings load_for_diagnosis(const Configuration& c, const Progress& progress) {
-  DiagnosisRecordings all{load_recordings(c, progress), {}};
+  DiagnosisRecordings all{load_recordings(c, UnevenRows::kStamped, progress), {}};
   require_possible_experiment(c, all.train.recordings.front().dt);
   all.held_out = load_held_out(c, progress);
   return all;

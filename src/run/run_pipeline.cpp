@@ -74,6 +74,47 @@ void put_into_words(RunResult& r) {
   if (r.reference) put(r.reference->message), put_all(r.reference->warnings), put_all(r.reference->advice);
 }
 
+std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
+  std::vector<MotorTrace> traces;
+  for (const Recording& recording : recordings) traces.push_back(recording.motor_trace());
+  return traces;
+}
+
+/// What the detector takes: the recordings themselves where they are even, or the same on a grid.
+/// @returns the grids, empty where there are none
+LoadedRecordings grids_for_detector(const Configuration& c, const std::vector<Recording>& recordings,
+                                    const Progress& progress) {
+  const bool even = std::all_of(recordings.begin(), recordings.end(), [](const auto& r) { return r.even(); });
+  if (even && !(c.recording && c.recording->resample_for_detector)) return {};
+  return load_recordings(c, UnevenRows::kRefused, progress);
+}
+
+/// What the detector saw on its grid, at the recorded samples: of the nearest one each.
+ErrorTrace at_recorded(const Recording& recorded, const Recording& grid, const ErrorTrace& seen) {
+  ErrorTrace trace{seen.file, {}, {}};
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    const double place = std::round((recorded.time(i) - grid.start) / grid.dt);
+    const auto nearest =
+        static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(grid.size() - 1)));
+    trace.error.push_back(seen.error[nearest]);
+    trace.velocity.push_back(seen.velocity[nearest]);
+  }
+  return trace;
+}
+
+/// The estimate of the grids, or of the recordings where there are none.
+GapEstimate model_free(const Configuration& c, const LoadedRecordings& grids, RunResult& r) {
+  if (grids.recordings.empty()) {
+    const std::vector<MotorTrace> traces = traces_of(r.recordings);
+    return detect_gap(traces, detector_options(c, traces, r.notes));
+  }
+  const std::vector<MotorTrace> traces = grids.motor_traces();
+  GapEstimate g = detect_gap(traces, detector_options(c, traces, r.notes));
+  for (std::size_t i = 0; i < g.traces.size(); ++i)
+    g.traces[i] = at_recorded(r.recordings[i], grids.recordings[i], g.traces[i]);
+  return g;
+}
+
 void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
@@ -88,25 +129,28 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.version = version();
   r.configuration = resolved_yaml(c);
   r.coordinates = c.coordinates;
-  LoadedRecordings loaded = load_recordings(c, progress);
+  const UnevenRows uneven = wanted.reference ? UnevenRows::kStamped : UnevenRows::kRefused;
+  LoadedRecordings loaded = load_recordings(c, uneven, progress);
+  const LoadedRecordings grids = wanted.model_free && wanted.reference
+                                     ? grids_for_detector(c, loaded.recordings, progress)
+                                     : LoadedRecordings{};
   r.notes = std::move(loaded.notes);
+  for (const Recording& grid : grids.recordings)
+    r.notes.push_back(grid.file + ": for the detector alone " + grid.resampling);
   out.warnings = std::move(loaded.warnings);
   r.recordings = std::move(loaded.recordings);
   if (c.simulation && c.simulation->plant.structure.has_load) r.simulated_gap = c.simulation->plant.drive.gap;
-  std::vector<MotorTrace> traces;
-  for (const Recording& recording : r.recordings) traces.push_back(recording.motor_trace());
   if (wanted.model_free) {
     stop_point();
     progress("model-free detector");
-    const DetectorOptions options = detector_options(c, traces, r.notes);
-    r.model_free = timed(out.timing.model_free_s, [&] { return detect_gap(traces, options); });
+    r.model_free = timed(out.timing.model_free_s, [&] { return model_free(c, grids, r); });
   }
   if (wanted.reference) {
     stop_point();
     progress("reference fit");
     note_defaults(c.model, r.notes);
-    r.reference =
-        timed(out.timing.reference_s, [&] { return fit(traces, c.model.reference_model(), c.fit); });
+    r.reference = timed(out.timing.reference_s,
+                        [&] { return fit(traces_of(r.recordings), c.model.reference_model(), c.fit); });
   }
   put_into_words(r);
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));

@@ -78,7 +78,7 @@ TEST(Init, AGapThatTheDetectorDoesNotSeeIsMarkedAsAGuess) {
   EXPECT_THAT(testing::text_of(place.folder() / "asked.yaml"), Not(HasSubstr("GUESS that there is one")));
 }
 
-TEST(Init, IrregularTimeIsResampledAndWhatSpoilsIsWrittenDown) {
+TEST(Init, IrregularTimeIsResampledForTheDetectorAndWhatSpoilsIsWrittenDown) {
   Workplace place;
   testing::Rows rows = testing::rig();
   for (std::size_t i = 0; i < rows.t.size(); ++i) {
@@ -92,8 +92,9 @@ TEST(Init, IrregularTimeIsResampledAndWhatSpoilsIsWrittenDown) {
   const std::string yaml = testing::text_of(place.folder() / "r.yaml");
   EXPECT_THAT(yaml, HasSubstr("# SPOILS THE ESTIMATES, sign:"));
   EXPECT_THAT(yaml, HasSubstr("columns: {time: \"when\""));
-  EXPECT_THAT(yaml, HasSubstr("resample: {rate: "));
+  EXPECT_THAT(yaml, HasSubstr(", for: detector}"));
   EXPECT_EQ(place.run("detect r.yaml").status, 0);
+  EXPECT_EQ(place.run("run r.yaml").status, 0);
 }
 
 TEST(Init, ARealAxisFromTheFileToTheDiagnosis) {

@@ -117,6 +117,8 @@ const std::vector<BadConfig> kBadData = {
     {"window_reversed", recorded("[0, 20.31]", "[9, 3]"),
      "c.yaml:6: recording.window is [9, 3], expected [low, high]"},
     {"window_three", recorded("[0, 20.31]", "[1, 2, 3]"), "c.yaml:6: recording.window has 3 numbers"},
+    {"resample_for_whom", recorded("{rate: 400}", "{rate: 400, for: fit}"),
+     "c.yaml:7: recording.resample.for is 'fit'"},
     {"rate_zero", recorded("400", "0"), "c.yaml:7: recording.resample.rate is 0 Hz"},
     {"bits_text", recorded("20}", "twenty}"),
      "c.yaml:8: encoder.bits is 'twenty', expected a whole number from 1 to 40"},

@@ -21,6 +21,18 @@ const ParameterSetting& parameter(const Configuration& c, const char* key) {
   return c.model.parameters[drive_parameter_index(key)];
 }
 
+TEST(Configuration, AResamplingForTheDetectorLeavesFitAndDiagnoseTheRowsAsTheyAre) {
+  const Configuration all = parse_configuration(kRecorded, "rig.yaml");
+  EXPECT_EQ(all.recording->reading_for(UnevenRows::kStamped).resample_rate, 400.0);
+  const std::string own = with(kRecorded, "{rate: 400}", "{rate: 400, for: detector}");
+  const Configuration c = parse_configuration(own, "rig.yaml");
+  EXPECT_EQ(c.recording->reading_for(UnevenRows::kRefused).resample_rate, 400.0);
+  const ReadOptions as_it_is = c.recording->reading_for(UnevenRows::kStamped);
+  EXPECT_FALSE(as_it_is.resample_rate);
+  EXPECT_EQ(as_it_is.uneven, UnevenRows::kStamped);
+  EXPECT_NE(resolved_yaml(c).find("resample: {rate: 400, for: detector}"), std::string::npos);
+}
+
 TEST(Configuration, EveryKeyOfTheSchemaArrives) {
   const Configuration c = parse_configuration(kRecorded, "configs/rig.yaml");
   EXPECT_EQ(c.name, "rig_p");

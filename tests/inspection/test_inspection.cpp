@@ -84,14 +84,6 @@ const std::vector<Fault> kFaults = {
      [] { return changed([](Rows& r) { r.erase(3000, 12); }); },
      {"time"},
      "12 samples are missing"},
-    {"jitter",
-     [] {
-       return changed([](Rows& r) {
-         for (std::size_t i = 0; i < r.t.size(); ++i) r.t[i] += 2e-4 * noise_of(i);
-       });
-     },
-     {"time"},
-     "resample: {rate: "},
     {"milliseconds",
      [] { return changed([](Rows& r) { scale(r.t, 1000.0); }); },
      {"time"},
@@ -167,9 +159,16 @@ TEST(Inspection, AnInputThatDoesNotRepeatLeavesTheDiagnosisTheEncoderAlone) {
   EXPECT_EQ(finding(inspected(good()), "diagnosis").severity, Severity::kFine);
 }
 
-TEST(Inspection, IrregularTimeIsANoteOnceItIsResampled) {
+TEST(Inspection, IrregularTimeIsANoteForFitAndDiagnoseAndNeedsAGridForTheDetector) {
   Rows rows = good();
   for (std::size_t i = 0; i < rows.t.size(); ++i) rows.t[i] += 2e-4 * noise_of(i);
+  const Inspection raw = inspected(rows);
+  EXPECT_FALSE(raw.spoilt()) << raw.report();
+  EXPECT_FALSE(raw.facts.uniform);
+  const Finding& time = finding(raw, "time");
+  EXPECT_EQ(time.severity, Severity::kNote);
+  EXPECT_THAT(time.advice, HasSubstr("fit and diagnose take each step with its own length"));
+  EXPECT_THAT(time.advice, HasSubstr("resample: {rate: "));
   ReadOptions options;
   options.resample_rate = 900.0;
   const Inspection i = inspected(rows, options);
@@ -201,7 +200,7 @@ TEST(Inspection, TheRealRecordings) {
   EXPECT_FALSE(inspect(data + "/emps/emps_pulses.csv", {}, Coordinates::kTranslation).spoilt());
   for (const char* reducer : {"baseline_pos1", "splitpreload3_pos1"}) {
     const std::string path = data + "/cycloidal/" + reducer + ".csv";
-    EXPECT_THAT(rules_with(inspect(path), Severity::kSpoils), ElementsAre("time"));
+    EXPECT_EQ(finding(inspect(path), "time").severity, Severity::kNote);
     ReadOptions options;
     options.resample_rate = 400.0;
     const Inspection uniform = inspect(path, options);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/random.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/run/run_diagnosis.h"
 #include "results/scratch_folder.h"
@@ -115,6 +116,53 @@ TEST(RunDiagnosis, RefusesARecordingThatChangesWhileItIsRead) {
   };
   EXPECT_THAT(testing::refusal([&] { run_diagnosis(c, options); }),
               HasSubstr("drive.yaml: names a file that changed while it was read, expected it to stay"));
+}
+
+/// The recording of before with steps of their own length.
+class RecordedUnevenly : public Recorded {
+ public:
+  explicit RecordedUnevenly(const std::string& resample) {
+    Recording r = read_recording(at("drive.csv"));
+    auto draw = random_stream(1, "stamps");
+    std::vector<double> stamps;
+    for (std::size_t i = 0; i < r.size(); ++i) stamps.push_back(r.time(i) + 1e-4 * uniform(draw, 0.0, 1.0));
+    r.stamps = stamps;
+    write_csv(at("uneven.csv"), r);
+    std::ofstream(at("drive.yaml")) << "recording: {file: uneven.csv" << resample
+                                    << "}\nmodel: " << testing::kPaperModel;
+  }
+};
+
+TEST(UnevenRecordings, AreFittedAndDiagnosedAsTheyAre) {
+  const RecordedUnevenly recorded("");
+  const RunResult r = run_pipeline(recorded.configuration(), {false, true}, kSilent).result;
+  ASSERT_FALSE(r.recordings.front().even());
+  EXPECT_EQ(r.reference->traces.front().x1.size(), r.recordings.front().size());
+  EXPECT_THAT(r.notes, ::testing::Contains(HasSubstr("each taken with its own length")));
+  EXPECT_FALSE(load_for_diagnosis(recorded.configuration(), kSilent).train.recordings.front().even());
+}
+
+TEST(UnevenRecordings, AreRefusedWhereTheDetectorIsAskedFor) {
+  const RecordedUnevenly recorded("");
+  for (const bool reference : {false, true})
+    EXPECT_THAT(testing::refusal([&] {
+                  run_pipeline(recorded.configuration(), {true, reference}, kSilent);
+                }),
+                HasSubstr("time is not uniform"));
+}
+
+TEST(UnevenRecordings, AreResampledForTheDetectorAlone) {
+  const RecordedUnevenly recorded(", resample: {rate: 1000, for: detector}");
+  const RunResult r = run_pipeline(recorded.configuration(), {true, true}, kSilent).result;
+  const Recording& shown = r.recordings.front();
+  EXPECT_FALSE(shown.even());
+  EXPECT_TRUE(shown.resampling.empty());
+  ASSERT_TRUE(r.model_free && r.reference);
+  for (const ErrorTrace& trace : r.model_free->traces) EXPECT_EQ(trace.error.size(), shown.size());
+  EXPECT_EQ(r.reference->traces.front().x1.size(), shown.size());
+  EXPECT_THAT(r.notes, ::testing::Contains(HasSubstr("for the detector alone resampled")));
+  EXPECT_TRUE(
+      run_pipeline(recorded.configuration(), {true, false}, kSilent).result.recordings.front().even());
 }
 
 }  // namespace

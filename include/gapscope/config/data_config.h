@@ -28,8 +28,12 @@ struct RecordingConfig {
   std::vector<RecordedFile> files;
   std::vector<RecordedFile> held_out;  ///< only read by the diagnosis
   ReadOptions reading;                 ///< columns with what units and gears make of them, window, resampling
+  bool resample_for_detector = false;  ///< fit and diagnose take the rows as they are
   DeclaredUnits units;
   GearRatios gear;
+
+  /// For an estimator that needs a grid (kRefused), or for one that takes uneven rows as they are (kStamped).
+  ReadOptions reading_for(UnevenRows uneven) const;
 };
 
 /// `simulation.initial:` – the state at the first sample.

@@ -17,9 +17,9 @@ struct Starter {
   std::vector<std::string> spoiling;  ///< what `check` says will spoil the estimates
 };
 
-/// Reads off a recording what it tells (columns, uniform rate, encoder, whether there is a gap, a locked
-/// output or one body, and of one body the first numbers) and marks the rest as GUESS or leaves it to the
-/// fit. Torques are in units of u until torque_constant is given; gaps do not depend on it.
+/// Reads off a recording what it tells (columns, a rate for the detector, encoder, whether there is a gap, a
+/// locked output or one body, and of one body the first numbers) and marks the rest as GUESS or leaves it to
+/// the fit. Torques are in units of u until torque_constant is given; gaps do not depend on it.
 /// @param recording  one file
 /// @param encoder what is known of it; else the step that is seen
 /// @param model   kAsSeen: the detector decides

@@ -30,7 +30,7 @@ struct Finding {
 struct RecordingFacts {
   int samples = 0;                                   ///< rows that go forward in time
   int skipped_rows = 0;                              ///< rows that do not
-  bool uniform = false;                              ///< time, as every command expects it
+  bool uniform = false;                              ///< time, as the detector expects it
   int missing_samples = 0;                           ///< that the pauses have room for
   double start = kNaN, duration = kNaN;              ///< [s]
   double rate = kNaN;                                ///< one over the median step [Hz]

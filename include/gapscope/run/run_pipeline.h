@@ -24,7 +24,9 @@ struct RunOutcome {
   std::vector<std::string> warnings;  ///< what the user should know beside the result
 };
 
-/// Data, both estimators, comparison: everything of `run`, `detect` and `fit` but the writing.
+/// Data, both estimators, comparison: everything of `run`, `detect` and `fit` but the writing. Uneven rows
+/// need a resampling for the detector; the reference takes them as they are where that is for the detector
+/// alone.
 /// @throws ConfigError, Interrupted
 RunOutcome run_pipeline(const Configuration& configuration, const Estimators& wanted,
                         const Progress& progress);
@@ -38,10 +40,12 @@ struct LoadedRecordings {
 };
 
 /// The recordings of a configuration, read or simulated, with the encoder's sheet applied.
+/// @param uneven  for whom: the detector needs a grid, fit and diagnosis take uneven rows as they are
 /// @throws ConfigError, Interrupted
-LoadedRecordings load_recordings(const Configuration& configuration, const Progress& progress);
+LoadedRecordings load_recordings(const Configuration& configuration, UnevenRows uneven,
+                                 const Progress& progress);
 
-/// The recordings of `held_out:`, read likewise; empty where there are none.
+/// The recordings of `held_out:`, read as a diagnosis takes them; empty where there are none.
 LoadedRecordings load_held_out(const Configuration& configuration, const Progress& progress);
 
 /// What a result will be made from, each with its SHA-256: the configuration as resolved (but for effects
