@@ -22,7 +22,7 @@ const fs::path kRoot = GAPSCOPE_SOURCE_DIR;
 const std::map<std::string, Names>& allowed_modules() {
   static const std::map<std::string, Names> table = [] {
     const std::vector<std::string> order = {"base",      "recording",  "signals",      "inspection",
-                                            "plant",     "simulation", "sliding_mode", "reference",
+                                            "plant",     "torque_view", "simulation", "sliding_mode", "reference",
                                             "diagnosis", "config",     "results",      "run",
                                             "campaign",  "blind",      "report",       "cli"};
     std::map<std::string, Names> t = {
@@ -31,6 +31,7 @@ const std::map<std::string, Names>& allowed_modules() {
         {"signals", {"base", "recording"}},
         {"inspection", {"base", "recording", "signals"}},
         {"plant", {"base"}},
+        {"torque_view", {"base", "recording", "signals", "plant"}},  // no simulator, no solver
         {"simulation", {"base", "recording", "plant"}},
         {"sliding_mode", {"base", "recording", "signals"}},  // the detector sees no model
         {"reference", {"base", "recording", "signals", "plant", "simulation"}},

@@ -1,0 +1,95 @@
+#include "torque_view/band.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal::torque_view {
+namespace {
+
+/// Mean products of the rows of one band: differences between bands are those of the octave between.
+struct Products {
+  double aa = 0.0, ar = 0.0, uu = 0.0;  ///< acceleration, input less all that is no inertia, input
+};
+
+/// What a drive mostly has: only so that a missing friction or weight does not pass for inertia.
+Model probe_model(bool rotates) {
+  Model model = nominal_model();
+  for (const char* name : {"motor_coulomb_friction", "friction_asymmetry"})
+    model.push_back({&law(name), kNaN, Eigen::VectorXd::Zero(law(name).columns)});
+  if (rotates) model.push_back({&law("load_unbalance"), 1.0, Eigen::VectorXd::Zero(2)});
+  return model;
+}
+
+Products products_of(Rows& rows, const Model& model) {
+  Eigen::VectorXd a(rows.size());
+  fill_columns(rows, *model.front().law, kNaN, a);
+  const Eigen::VectorXd rest = residual(rows, model, false) + a * model.front().theta[0];
+  const double count = static_cast<double>(std::max<Eigen::Index>(1, rows.size()));
+  return {a.squaredNorm() / count, a.dot(rest) / count, rows.u.squaredNorm() / count};
+}
+
+/// Tops of the octaves that the slowest sampling of the recordings can carry.
+std::vector<double> tops(std::span<const StampedTrace> traces, const TorqueViewOptions& options) {
+  double step = 0.0, duration = kInfinity;
+  for (const StampedTrace& t : traces) {
+    step = std::max(step, t.step());
+    duration = std::min(duration, t.t.back() - t.t.front());
+  }
+  std::vector<double> hz;
+  const double most = options.inner_share * kernel_sigma(1.0) / (options.fewest_samples * step);
+  for (double f = options.lowest_hz; f < most; f *= 2.0)
+    if (10.0 * options.kernel_reach * kernel_sigma(f) < duration) hz.push_back(f);
+  return hz;
+}
+
+double noise_power(std::span<const StampedTrace> traces, double hz) {
+  double power = 0.0;
+  for (const StampedTrace& t : traces)
+    power += std::pow(noise_acceleration(position_noise(t), t.step(), hz), 2) / static_cast<double>(traces.size());
+  return power;
+}
+
+void read_octaves(Band& band, std::vector<Rows>& rows, const std::vector<double>& hz,
+                  std::span<const StampedTrace> traces, const Model& full) {
+  Products below;
+  double noise_below = 0.0;
+  for (std::size_t i = 0; i < hz.size(); ++i) {
+    const Products all = products_of(rows[i], full);
+    const double noise = noise_power(traces, hz[i]), aa = all.aa - below.aa, J = (all.ar - below.ar) / aa;
+    band.octaves.push_back({hz[i], J, std::sqrt((noise - noise_below) / aa), J * J * aa / (all.uu - below.uu)});
+    below = all, noise_below = noise;
+  }
+}
+
+}  // namespace
+
+Band choose_band(std::span<const StampedTrace> traces, bool rotates, const TorqueViewOptions& options) {
+  Band band;
+  const std::vector<double> hz =
+      options.given_hz > 0.0 ? std::vector<double>{options.given_hz} : tops(traces, options);
+  if (hz.empty()) return band;
+  std::vector<Rows> rows;
+  for (const double f : hz) rows.push_back(stacked(traces, f, false, options));
+  for (const BandRecord& r : rows.front().records) band.free_constant |= is_constant_speed(r, options);
+
+  const Model probe = probe_model(rotates);
+  read_octaves(band, rows, hz, traces, fitted(rows.front(), probe));
+  std::size_t quiet = 0;
+  while (quiet + 1 < hz.size() && band.octaves[quiet + 1].noise <= options.most_noise) ++quiet;
+  band.octaves.clear();
+  read_octaves(band, rows, hz, traces, fitted(rows[quiet], probe));
+
+  double power = 0.0, weighted = 0.0;  // of the octaves below that have a say
+  band.hz = hz.front();
+  for (const Octave& o : std::span(band.octaves).first(quiet + 1)) {
+    const double J = weighted / power;
+    if (o.inertial >= options.least_inertia) {
+      if (power > 0.0 && std::abs(o.inertia - J) > options.inertia_drift * std::abs(J)) break;
+      power += o.inertial, weighted += o.inertial * o.inertia;
+    }
+    band.hz = o.top_hz;
+  }
+  return band;
+}
+
+}  // namespace gapscope::internal::torque_view

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "torque_view/screening.h"
+
+namespace gapscope::internal::torque_view {
+
+/// Recordings as they come, and what the caller knows of them.
+struct SplitRecordings {
+  std::vector<StampedTrace> fit, judge;
+  bool rotates = true;     ///< positions are angles
+  bool new_phase = false;  ///< the encoder counts anew in every recording: a line keeps its amplitude only
+};
+
+/// What no model can get below, as rms of a torque [unit of u]; NaN where the recordings do not show it.
+struct Floors {
+  double encoder = kNaN;        ///< J times the acceleration that the noise of the encoder makes in the band
+  double repeatability = kNaN;  ///< what of the residual does not come back after a period of the input
+  double joint = kNaN;          ///< left of all recordings by one set of coefficients ...
+  double each = kNaN;           ///< ... and by one set for each
+  double disagreement() const;  ///< √(joint² − each²)
+};
+Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model, const TorqueViewOptions& options);
+
+}  // namespace gapscope::internal::torque_view

@@ -1,0 +1,89 @@
+#include "torque_view/ladder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "torque_view/floors.h"
+
+namespace gapscope::internal::torque_view {
+namespace {
+
+double rms_of(const Eigen::VectorXd& v) {
+  return std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
+}
+
+constexpr std::size_t kNominalTerms = 2;
+
+Model without(Model model, std::size_t term) {
+  model.erase(model.begin() + static_cast<std::ptrdiff_t>(term));
+  return model;
+}
+
+/// Another term adds to this one.
+bool carries_another(const Model& model, std::size_t term) {
+  return std::any_of(model.begin(), model.end(), [&](const Term& t) {
+    return t.law->simpler != nullptr && t.law->simpler == std::string_view(model[term].law->name);
+  });
+}
+
+/// Terms that the others say as well are taken out again.
+void step_back(Bench& bench, Budget& budget) {
+  for (std::size_t i = budget.model.size(); i-- > kNominalTerms;) {
+    if (carries_another(budget.model, i)) continue;
+    const Model less = fitted(bench.fit, without(budget.model, i));
+    if (bench.squares(less).sum() > bench.squares(budget.model).sum()) continue;
+    budget.dropped.emplace_back(budget.model[i].law->name);
+    budget.model = less;
+  }
+}
+
+void climb(Bench& bench, Budget& budget, const TorqueViewOptions& options) {
+  while (static_cast<int>(budget.rungs.size()) < options.most_rungs) {
+    budget.rungs.push_back(next_rung(bench, budget.model, options));
+    const Rung& rung = budget.rungs.back();
+    if (!rung.helps) return;
+    budget.model = rung.choice().model;
+    const Term* line = find_term(budget.model, "cogging_torque");
+    if (line != nullptr) bench.scales.line = line->shape;
+    step_back(bench, budget);
+    budget.rungs.back().rms = rms_of(bench.left(budget.model));
+  }
+}
+
+Share share_of(Bench& bench, const Budget& budget, std::size_t i, const TorqueViewOptions& options) {
+  const Term& term = budget.model[i];
+  Share share{term.law, term.shape, term.theta, {}, {}, {}};
+  Model alone = budget.nominal;
+  alone.push_back(term);
+  share.alone = bench.blocks.compare(bench.squares(budget.nominal), bench.squares(fitted(bench.fit, alone)));
+  const Model less = fitted(bench.fit, without(budget.model, i));
+  share.last = bench.blocks.compare(bench.squares(less), bench.squares(budget.model));
+  share.seen = visibility(bench, less, term, options);
+  return share;
+}
+
+}  // namespace
+
+Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options) {
+  Budget budget;
+  budget.band = choose_band(data.fit, data.rotates, options);
+  if (std::isnan(budget.band.hz)) return budget;
+  Bench bench{stacked(data.fit, budget.band.hz, budget.band.free_constant, options),
+              stacked(data.judge, budget.band.hz, budget.band.free_constant, options),
+              {},
+              {},
+              data.new_phase};
+  bench.scales = scales_of(bench.fit, data.rotates);
+  bench.blocks = Blocks(bench.judge, options);
+  budget.nominal = budget.model = fitted(bench.fit, nominal_model());
+  budget.input_rms = rms_of(bench.judge.u);
+  budget.nominal_rms = rms_of(bench.left(budget.nominal));
+  climb(bench, budget, options);
+  budget.rms = rms_of(bench.left(budget.model));
+  for (std::size_t i = kNominalTerms; i < budget.model.size(); ++i)
+    budget.shares.push_back(share_of(bench, budget, i, options));
+  budget.floors = floors_of(data, bench, budget.model, options);
+  return budget;
+}
+
+}  // namespace gapscope::internal::torque_view

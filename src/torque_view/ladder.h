@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "torque_view/band.h"
+#include "torque_view/floors.h"
+
+namespace gapscope::internal::torque_view {
+
+/// What of the budget one law of the last model carries.
+struct Share {
+  const Law* law = nullptr;
+  double shape = kNaN;
+  Eigen::VectorXd theta;
+  Evidence alone, last;  ///< on top of the nominal model; taken out of the full one
+  Visibility seen;
+};
+
+/// The error budget from the nominal model to what no law explains.
+struct Budget {
+  Band band;
+  Model nominal, model;
+  double input_rms = 0.0, nominal_rms = 0.0, rms = 0.0;  ///< of the held-out rows [unit of u]
+  std::vector<Rung> rungs;
+  std::vector<std::string> dropped;  ///< by the backward step: the others say it as well
+  std::vector<Share> shares;
+  Floors floors;
+};
+
+Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options = {});
+
+}  // namespace gapscope::internal::torque_view

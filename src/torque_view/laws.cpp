@@ -1,0 +1,237 @@
+#include "torque_view/laws.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gapscope/base/require.h"
+
+namespace gapscope::internal::torque_view {
+namespace {
+
+using Columns = Eigen::Ref<Eigen::MatrixXd>;
+
+constexpr double kDamping = 0.1;  ///< of the linear resonance [-]; study 11
+constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< study 8
+constexpr int kHarmonics = 3;                                                     ///< study 8
+
+double direction(double w) { return w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0; }
+
+template <class Value>  // one column, sample by sample
+void each(const Samples& s, Columns g, int column, Value value) {
+  for (std::size_t i = 0; i < s.t.size(); ++i) g(static_cast<Eigen::Index>(i), column) = value(i);
+}
+
+std::vector<double> geometric(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from * std::pow(to / from, i / (count - 1.0)));
+  return values;
+}
+
+// Grids: study 10.3.
+std::vector<double> no_shape(const Scales&) { return {kNaN}; }
+std::vector<double> only_angles(const Scales& s) {
+  return s.rotates ? std::vector<double>{1.0} : std::vector<double>{};
+}
+std::vector<double> low_speeds(const Scales& s) { return geometric(0.02 * s.speed_std, 0.4 * s.speed_std, 8); }
+std::vector<double> lengths(const Scales& s) { return geometric(1e-3 * s.travel, 1e-2 * s.travel, 5); }
+std::vector<double> dead_zones(const Scales& s) { return geometric(0.01 * s.torque_rms, 0.3 * s.torque_rms, 5); }
+std::vector<double> powers(const Scales&) { return {2.0, 4.0, 8.0}; }
+std::vector<double> times(const Scales& s) {
+  std::vector<double> at;
+  for (int i = 1; i <= 5; ++i) at.push_back(s.start + s.duration * i / 6.0);
+  return at;
+}
+std::vector<double> spans(const Scales& s) { return geometric(0.1 * s.duration, 3.0 * s.duration, 4); }
+std::vector<double> resonances(const Scales& s) { return geometric(2.0, std::max(4.0, std::min(80.0, 2.0 * s.hz)), 12); }
+std::vector<double> found_line(const Scales& s) {
+  return std::isfinite(s.line) ? std::vector<double>{s.line} : std::vector<double>{};
+}
+std::vector<double> top_speed(const Scales& s) { return {s.top_speed}; }
+
+void inertia(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.a[i]; }); }
+void viscous(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.w[i]; }); }
+void constant(const Samples&, double, Columns g) { g.col(0).setOnes(); }
+void coulomb(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return direction(s.w[i]); }); }
+
+/// Fc (1 + a sign w) sign w + d (1 + b sign w) w: beside Coulomb and viscous friction a constant and |w|.
+void asymmetry(const Samples& s, double, Columns g) {
+  g.col(0).setOnes();
+  each(s, g, 1, [&](auto i) { return std::abs(s.w[i]); });
+}
+
+void stribeck(const Samples& s, double speed, Columns g) {
+  each(s, g, 0, [&](auto i) {
+    const double r = s.w[i] / speed;
+    return direction(s.w[i]) * std::exp(-r * r);
+  });
+}
+
+/// Dahl's bristle between the samples: z(x) = σ + (z0 − σ) exp(−|x − x0|/length), σ = sign w.
+void presliding(const Samples& s, double length, Columns g) {
+  double z = 0.0;
+  each(s, g, 0, [&](auto i) {
+    const double move = i > 0 ? 0.5 * (s.w[i - 1] + s.w[i]) * (s.t[i] - s.t[i - 1]) : 0.0;
+    const double side = direction(move);
+    return z = side + (z - side) * std::exp(-std::abs(move) / length);
+  });
+}
+
+void drag(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.w[i] * std::abs(s.w[i]); }); }
+
+void load_friction(const Samples& s, double, Columns g) {
+  each(s, g, 0, [&](auto i) { return std::abs(s.tau_load[i]) * direction(s.w[i]); });
+}
+
+void sines(const Samples& s, double k, Columns g) {
+  each(s, g, 0, [&](auto i) { return std::sin(k * s.x[i]); });
+  each(s, g, 1, [&](auto i) { return std::cos(k * s.x[i]); });
+}
+
+void harmonics(const Samples& s, double k, Columns g) {
+  for (int h = 1; h <= kHarmonics; ++h) {
+    each(s, g, 2 * h - 2, [&](auto i) { return std::sin(h * k * s.x[i]); });
+    each(s, g, 2 * h - 1, [&](auto i) { return std::cos(h * k * s.x[i]); });
+  }
+}
+
+void ripple(const Samples& s, double k, Columns g) {
+  each(s, g, 0, [&](auto i) { return s.tau[i] * std::sin(k * s.x[i]); });
+  each(s, g, 1, [&](auto i) { return s.tau[i] * std::cos(k * s.x[i]); });
+}
+
+/// The encoder says x + e sin(x + φ): J and d act on less than what is measured.
+void eccentricity(const Samples& s, double, Columns g) {
+  each(s, g, 0, [&](auto i) {
+    const double sine = std::sin(s.x[i]), cosine = std::cos(s.x[i]);
+    return s.inertia * (sine * s.w[i] * s.w[i] - cosine * s.a[i]) - s.viscous * cosine * s.w[i];
+  });
+  each(s, g, 1, [&](auto i) {
+    const double sine = std::sin(s.x[i]), cosine = std::cos(s.x[i]);
+    return s.inertia * (cosine * s.w[i] * s.w[i] + sine * s.a[i]) + s.viscous * sine * s.w[i];
+  });
+}
+
+void drift(const Samples& s, double span, Columns g) {
+  each(s, g, 0, [&](auto i) { return s.w[i] * -std::expm1(-s.t[i] / span); });
+}
+
+void inertia_step(const Samples& s, double time, Columns g) {
+  each(s, g, 0, [&](auto i) { return s.t[i] > time ? s.a[i] : 0.0; });
+}
+
+/// A load behind a spring follows as R(s) = ω²/(s² + 2 ζ ω s + ω²): what its inertia feels is R a − a away
+/// from the rigid one. Stepped in closed form under the acceleration at the middle of each interval.
+void resonance(const Samples& s, double hz, Columns g) {
+  const double omega = 2.0 * kPi * hz, decay = kDamping * omega;
+  const double damped = omega * std::sqrt(1.0 - kDamping * kDamping);
+  double y = s.a[0], rate = 0.0, last = -1.0, e = 1.0, c = 1.0, q = 0.0;
+  each(s, g, 0, [&](auto i) {
+    if (i == 0) return 0.0;
+    const double h = s.t[i] - s.t[i - 1], input = 0.5 * (s.a[i - 1] + s.a[i]);
+    if (h != last) e = std::exp(-decay * h), c = std::cos(damped * h), q = std::sin(damped * h), last = h;
+    const double away = y - input, turn = (rate + decay * away) / damped;
+    y = input + e * (away * c + turn * q);
+    rate = e * (damped * (turn * c - away * q) - decay * (away * c + turn * q));
+    return y - s.a[i];
+  });
+}
+
+void spring(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.x[i]; }); }
+
+void torque_rate(const Samples& s, double, Columns g) {
+  each(s, g, 0, [&](auto i) {
+    const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, s.t.size() - 1);
+    return (s.tau[after] - s.tau[before]) / (s.t[after] - s.t[before]);
+  });
+}
+
+void dead_zone(const Samples& s, double width, Columns g) {
+  each(s, g, 0, [&](auto i) { return std::tanh(s.tau[i] / width); });
+}
+
+void saturation(const Samples& s, double power, Columns g) {
+  double square = 0.0;
+  for (const double tau : s.tau) square += tau * tau;
+  const double scale = std::sqrt(square / static_cast<double>(s.tau.size())) + 1e-300;
+  each(s, g, 0, [&](auto i) { return s.tau[i] * std::pow(std::abs(s.tau[i]) / scale, power); });
+}
+
+/// Hats between the knots, of one direction each; beyond the last knot as there.
+void speed_curve(const Samples& s, double top, Columns g) {
+  g.setZero();
+  for (std::size_t i = 0; i < s.w.size(); ++i) {
+    const double v = std::min(std::abs(s.w[i]) / top, 1.0);
+    std::size_t k = 1;
+    while (k + 1 < kKnots.size() && v > kKnots[k]) ++k;
+    const double share = (v - kKnots[k - 1]) / (kKnots[k] - kKnots[k - 1]);
+    const auto first = static_cast<Eigen::Index>(k - 1 + (s.w[i] < 0.0 ? kKnots.size() : 0));
+    g(static_cast<Eigen::Index>(i), first) = 1.0 - share;
+    g(static_cast<Eigen::Index>(i), first + 1) = share;
+  }
+}
+
+constexpr const char* kCoulomb = "motor_coulomb_friction";
+constexpr int kBothCurves = 2 * static_cast<int>(kKnots.size());
+
+constexpr Law kLaws[] = {
+    // name, effect of the catalogue, simpler law, columns, kind, follows the states, line, sign, shapes, fill
+    {"inertia", "", nullptr, 1, Kind::kMotion, true, false, Sign::kAny, no_shape, inertia},
+    {"viscous", "", nullptr, 1, Kind::kFriction, true, false, Sign::kAny, no_shape, viscous},
+    {kCoulomb, kCoulomb, nullptr, 1, Kind::kFriction, false, false, Sign::kPositive, no_shape, coulomb},
+    {"constant_load_torque", "constant_load_torque", nullptr, 1, Kind::kMotion, true, false, Sign::kAny, no_shape,
+     constant},
+    {"friction_asymmetry", "friction_asymmetry", kCoulomb, 2, Kind::kFriction, true, false, Sign::kAny, no_shape,
+     asymmetry},
+    {"stribeck_friction", "stribeck_friction", kCoulomb, 1, Kind::kFriction, false, false, Sign::kPositive,
+     low_speeds, stribeck},
+    {"low_speed_dip", "", kCoulomb, 1, Kind::kFriction, false, false, Sign::kNegative, low_speeds, stribeck},
+    {"presliding_friction", "presliding_friction", nullptr, 1, Kind::kFriction, false, false, Sign::kPositive,
+     lengths, presliding},
+    {"quadratic_drag", "quadratic_drag", nullptr, 1, Kind::kFriction, true, false, Sign::kPositive, no_shape,
+     drag},
+    {"load_friction", "", nullptr, 1, Kind::kOnTorque, false, false, Sign::kPositive, no_shape, load_friction},
+    {"load_unbalance", "load_unbalance", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, only_angles, sines},
+    {"cogging_torque", "cogging_torque", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, line_grid, sines},
+    {"torque_ripple", "torque_ripple", nullptr, 2, Kind::kOnTorque, true, true, Sign::kAny, line_grid, ripple},
+    {"encoder_eccentricity", "encoder_eccentricity", nullptr, 2, Kind::kOnTorque, true, true, Sign::kAny,
+     only_angles, eccentricity},
+    {"viscous_drift", "viscous_drift", nullptr, 1, Kind::kFriction, true, false, Sign::kAny, spans, drift},
+    {"load_inertia_variation", "load_inertia_variation", nullptr, 1, Kind::kMotion, true, false, Sign::kAny, times,
+     inertia_step},
+    {"resonance", "shaft_compliance", nullptr, 1, Kind::kMotion, true, false, Sign::kShareOfInertia, resonances,
+     resonance},
+    {"spring_to_ground", "shaft_compliance", nullptr, 1, Kind::kMotion, false, false, Sign::kPositive, no_shape,
+     spring},
+    {"input_delay", "input_delay", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive, no_shape,
+     torque_rate},
+    {"input_dead_zone", "input_dead_zone", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive, dead_zones,
+     dead_zone},
+    {"torque_saturation", "torque_saturation", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive, powers,
+     saturation},
+    {"free_speed_curve", "", nullptr, kBothCurves, Kind::kFriction, false, false, Sign::kAny, top_speed,
+     speed_curve},
+    {"free_position_curve", "", nullptr, 2 * kHarmonics, Kind::kMotion, false, false, Sign::kAny, found_line,
+     harmonics},
+};
+
+}  // namespace
+
+int Law::parameters() const { return columns + (shapes == no_shape || shapes == only_angles ? 0 : 1); }
+
+std::span<const Law> laws() { return kLaws; }
+
+const Law& law(std::string_view name) {
+  const auto at = std::find_if(std::begin(kLaws), std::end(kLaws), [&](const Law& l) { return name == l.name; });
+  GAPSCOPE_REQUIRE(at != std::end(kLaws));
+  return *at;
+}
+
+std::vector<double> line_grid(const Scales& s) {
+  const double step = 0.5 * kPi / s.travel, top = 2.0 * kPi * s.hz / s.speed_rms;
+  std::vector<double> k;
+  for (double at = 4.0 * kPi / 3.0 / s.travel; at <= top; at += step) k.push_back(at);
+  return k;
+}
+
+}  // namespace gapscope::internal::torque_view

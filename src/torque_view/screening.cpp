@@ -1,0 +1,178 @@
+#include "torque_view/screening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace gapscope::internal::torque_view {
+namespace {
+
+Model with(Model model, const Law& law, double shape) {
+  model.push_back({&law, shape, Eigen::VectorXd::Zero(law.columns)});
+  return model;
+}
+
+bool lacks_simpler(const Model& model, const Law& law) {
+  return law.simpler != nullptr && find_term(model, law.simpler) == nullptr;
+}
+
+/// A law may come again only as a further line.
+bool is_open(const Model& model, const Law& l) {
+  return l.name != std::string_view("inertia") && (find_term(model, l.name) == nullptr || l.shapes == line_grid);
+}
+
+Candidate judged(Bench& bench, const Law& l, Model model, const Eigen::VectorXd& before) {
+  Candidate c{&l, fitted(bench.fit, std::move(model)), {}, {}};
+  if (!has_its_sign(l, c.model.back().theta[0], coefficient(c.model, "inertia"))) return c;
+  c.squares = bench.squares(c.model);
+  c.evidence = bench.blocks.compare(before, c.squares);
+  return c;
+}
+
+std::vector<Candidate> screened(Bench& bench, const Model& model) {
+  const Eigen::VectorXd before = bench.squares(model);
+  set_torque(bench.fit, model);
+  Projection plain(bench.fit, model);
+  std::optional<Projection> with_simpler;  // the only simpler law of the table is Coulomb friction
+  std::vector<Candidate> ranking;
+  for (const Law& l : laws()) {
+    if (!is_open(model, l)) continue;
+    Model below = model;
+    if (lacks_simpler(model, l)) {
+      below = with(below, law(l.simpler), kNaN);
+      if (!with_simpler) with_simpler.emplace(bench.fit, below);
+    }
+    set_torque(bench.fit, model);
+    const BestShape best = best_shape(bench.fit, below.size() > model.size() ? *with_simpler : plain, l, bench.scales);
+    if (std::isnan(best.gain)) continue;
+    Candidate c = judged(bench, l, with(below, l, best.shape), before);
+    if (std::isfinite(c.evidence.share)) ranking.push_back(std::move(c));
+  }
+  std::sort(ranking.begin(), ranking.end(),
+            [](const Candidate& a, const Candidate& b) { return a.evidence.share > b.evidence.share; });
+  return ranking;
+}
+
+/// Torque on the held-out rows of what a candidate has beyond the model below.
+Eigen::VectorXd added_torque(Bench& bench, const Candidate& c, std::size_t below) {
+  Eigen::VectorXd torque = Eigen::VectorXd::Zero(bench.judge.size());
+  set_torque(bench.judge, c.model);
+  for (std::size_t i = below; i < c.model.size(); ++i) {
+    Eigen::MatrixXd g(bench.judge.size(), c.model[i].law->columns);
+    fill_columns(bench.judge, *c.model[i].law, c.model[i].shape, g);
+    torque += g * c.model[i].theta;
+  }
+  return torque;
+}
+
+/// o_ij: the share of what i adds, away from the model, that j says as well.
+double overlap(Bench& bench, Projection& of_i, const Candidate& j, std::size_t below) {
+  int columns = 0;
+  for (std::size_t t = below; t < j.model.size(); ++t) columns += j.model[t].law->columns;
+  Eigen::MatrixXd g(bench.judge.size(), columns);
+  set_torque(bench.judge, j.model);
+  int first = 0;
+  for (std::size_t t = below; t < j.model.size(); ++t) {
+    const Law& l = *j.model[t].law;
+    fill_columns(bench.judge, l, j.model[t].shape, g.middleCols(first, l.columns));
+    first += l.columns;
+  }
+  return of_i.gain(g).share;
+}
+
+int parameters(const Candidate& c, std::size_t below) {
+  int count = 0;
+  for (std::size_t t = below; t < c.model.size(); ++t) count += c.model[t].law->parameters();
+  return count;
+}
+
+bool contains(const Candidate& c, const Candidate& other) {
+  return c.law->simpler != nullptr && c.law->simpler == std::string_view(other.law->name);
+}
+
+bool is_worth_having(const Candidate& c, const TorqueViewOptions& options) {
+  return c.evidence.share >= options.last_share && c.evidence.interval.low > 0.0;
+}
+
+/// Members of the leader's group, itself left out.
+std::vector<std::size_t> group_of(Bench& bench, const Rung& rung, const Model& model,
+                                  const TorqueViewOptions& options) {
+  const Candidate& leader = rung.choice();
+  const Eigen::VectorXd added = added_torque(bench, leader, model.size());
+  set_torque(bench.judge, model);
+  Projection of_leader(bench.judge, model, added);
+  std::vector<std::size_t> group;
+  for (std::size_t j = 0; j < rung.ranking.size(); ++j)
+    if (j != rung.chosen && !is_free_form(*rung.ranking[j].law) &&
+        overlap(bench, of_leader, rung.ranking[j], model.size()) >= options.same_group)
+      group.push_back(j);
+  return group;
+}
+
+/// The simplest of a group that the leader does not clearly lead; a law that the leader contains comes first.
+std::size_t simplest(const Bench& bench, const Rung& rung, const std::vector<std::size_t>& group,
+                     std::size_t below, const TorqueViewOptions& options) {
+  const Candidate& leader = rung.choice();
+  for (std::size_t j = 0; j < rung.ranking.size(); ++j)
+    if (contains(leader, rung.ranking[j]) && is_worth_having(rung.ranking[j], options)) return j;
+  std::size_t best = rung.chosen;
+  for (const std::size_t j : group)
+    if (parameters(rung.ranking[j], below) < parameters(rung.ranking[best], below) &&
+        bench.blocks.leading(leader.squares, rung.ranking[j].squares) < options.least_leading)
+      best = j;
+  return best;
+}
+
+void decide(const Bench& bench, Rung& rung, const std::vector<std::size_t>& group, const TorqueViewOptions& options) {
+  const Candidate& c = rung.choice();
+  rung.leading = rung.margin = 1.0;
+  for (const std::size_t j : group) rung.group.emplace_back(rung.ranking[j].law->name);
+  for (std::size_t j = 0; j < rung.ranking.size(); ++j) {
+    const Candidate& rival = rung.ranking[j];
+    if (j == rung.chosen || is_free_form(*rival.law) || contains(rival, c) || contains(c, rival) ||
+        std::find(group.begin(), group.end(), j) != group.end())
+      continue;
+    rung.rival = rival.law->name;
+    rung.margin = (c.evidence.share - rival.evidence.share) / c.evidence.share;
+    rung.leading = bench.blocks.leading(c.squares, rival.squares);
+    break;
+  }
+  rung.helps = is_worth_having(c, options);
+  rung.named = rung.helps && c.evidence.share >= options.least_share &&
+               c.evidence.interval.low >= options.least_low && c.evidence.better >= options.least_better &&
+               rung.margin >= options.least_margin && rung.leading >= options.least_leading;
+}
+
+}  // namespace
+
+bool is_free_form(const Law& law) { return std::string_view(law.name).starts_with("free_"); }
+
+Rung next_rung(Bench& bench, const Model& model, const TorqueViewOptions& options) {
+  Rung rung;
+  rung.ranking = screened(bench, model);
+  while (rung.chosen < rung.ranking.size() && is_free_form(*rung.choice().law)) ++rung.chosen;
+  if (rung.chosen == rung.ranking.size()) return rung;
+  std::vector<std::size_t> group = group_of(bench, rung, model, options);
+  const std::size_t simpler = simplest(bench, rung, group, model.size(), options);
+  if (simpler != rung.chosen) {
+    rung.chosen = simpler;
+    group = group_of(bench, rung, model, options);
+  }
+  decide(bench, rung, group, options);
+  return rung;
+}
+
+Visibility visibility(Bench& bench, const Model& without, const Term& term, const TorqueViewOptions& options) {
+  set_torque(bench.judge, without);
+  Eigen::MatrixXd g(bench.judge.size(), term.law->columns);
+  fill_columns(bench.judge, *term.law, term.shape, g);
+  const Eigen::VectorXd torque = g * term.theta;
+  const double away = Projection(bench.judge, without, torque).square();
+  Model full = without;
+  full.push_back(term);
+  const double left = bench.squares(fitted(bench.fit, full)).sum();
+  const double odds = options.least_share / (1.0 - options.least_share);
+  return {away / (away + left), 1.0 - away / torque.squaredNorm(), std::sqrt(odds * left / away)};
+}
+
+}  // namespace gapscope::internal::torque_view
