@@ -37,7 +37,7 @@ std::vector<double> tops(std::span<const StampedTrace> traces, const TorqueViewO
   }
   std::vector<double> hz;
   const double most = options.inner_share * kernel_sigma(1.0) / (options.fewest_samples * step);
-  for (double f = options.lowest_hz; f < most; f *= 2.0)
+  for (double f = options.lowest_hz; f < most; f *= std::sqrt(2.0))
     if (10.0 * options.kernel_reach * kernel_sigma(f) < duration) hz.push_back(f);
   return hz;
 }

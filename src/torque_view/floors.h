@@ -8,6 +8,7 @@ namespace gapscope::internal::torque_view {
 struct SplitRecordings {
   std::vector<StampedTrace> fit, judge;
   bool rotates = true;     ///< positions are angles
+  bool held_output = false;  ///< the load is locked
   bool new_phase = false;  ///< the encoder counts anew in every recording: a line keeps its amplitude only
 };
 

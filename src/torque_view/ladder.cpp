@@ -73,7 +73,7 @@ Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& option
               {},
               {},
               data.new_phase};
-  bench.scales = scales_of(bench.fit, data.rotates);
+  bench.scales = scales_of(bench.fit, data.rotates, data.held_output);
   bench.blocks = Blocks(bench.judge, options);
   budget.nominal = budget.model = fitted(bench.fit, nominal_model());
   budget.input_rms = rms_of(bench.judge.u);

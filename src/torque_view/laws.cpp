@@ -30,9 +30,11 @@ std::vector<double> geometric(double from, double to, int count) {
 
 // Grids: study 10.3.
 std::vector<double> no_shape(const Scales&) { return {kNaN}; }
-std::vector<double> only_angles(const Scales& s) {
-  return s.rotates ? std::vector<double>{1.0} : std::vector<double>{};
+std::vector<double> only_if(bool true_here, double shape) {
+  return true_here ? std::vector<double>{shape} : std::vector<double>{};
 }
+std::vector<double> only_angles(const Scales& s) { return only_if(s.rotates, 1.0); }
+std::vector<double> only_held(const Scales& s) { return only_if(s.held_output, kNaN); }
 std::vector<double> low_speeds(const Scales& s) { return geometric(0.02 * s.speed_std, 0.4 * s.speed_std, 8); }
 std::vector<double> lengths(const Scales& s) { return geometric(1e-3 * s.travel, 1e-2 * s.travel, 5); }
 std::vector<double> dead_zones(const Scales& s) { return geometric(0.01 * s.torque_rms, 0.3 * s.torque_rms, 5); }
@@ -44,9 +46,7 @@ std::vector<double> times(const Scales& s) {
 }
 std::vector<double> spans(const Scales& s) { return geometric(0.1 * s.duration, 3.0 * s.duration, 4); }
 std::vector<double> resonances(const Scales& s) { return geometric(2.0, std::max(4.0, std::min(80.0, 2.0 * s.hz)), 12); }
-std::vector<double> found_line(const Scales& s) {
-  return std::isfinite(s.line) ? std::vector<double>{s.line} : std::vector<double>{};
-}
+std::vector<double> found_line(const Scales& s) { return only_if(std::isfinite(s.line), s.line); }
 std::vector<double> top_speed(const Scales& s) { return {s.top_speed}; }
 
 void inertia(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.a[i]; }); }
@@ -201,7 +201,7 @@ constexpr Law kLaws[] = {
      inertia_step},
     {"resonance", "shaft_compliance", nullptr, 1, Kind::kMotion, true, false, Sign::kShareOfInertia, resonances,
      resonance},
-    {"spring_to_ground", "shaft_compliance", nullptr, 1, Kind::kMotion, false, false, Sign::kPositive, no_shape,
+    {"spring_to_ground", "shaft_compliance", nullptr, 1, Kind::kMotion, false, false, Sign::kPositive, only_held,
      spring},
     {"input_delay", "input_delay", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive, no_shape,
      torque_rate},
@@ -217,7 +217,7 @@ constexpr Law kLaws[] = {
 
 }  // namespace
 
-int Law::parameters() const { return columns + (shapes == no_shape || shapes == only_angles ? 0 : 1); }
+int Law::parameters() const { return columns + (shapes == no_shape || shapes == only_angles || shapes == only_held ? 0 : 1); }
 
 std::span<const Law> laws() { return kLaws; }
 

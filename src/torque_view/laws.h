@@ -24,6 +24,7 @@ struct Scales {
   double travel = 1.0, torque_rms = 1.0;
   double hz = 1.0;        ///< top of the band
   bool rotates = true;    ///< positions are angles
+  bool held_output = false;
   double line = kNaN;     ///< cycles per 2π of the strongest line in the model; NaN: none
 };
 

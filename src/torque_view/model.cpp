@@ -18,8 +18,9 @@ bool reads_torque(const Model& model) {
 Eigen::VectorXd solved(Eigen::MatrixXd columns, const Eigen::VectorXd& u) {
   const Eigen::VectorXd norm = columns.colwise().norm().transpose().cwiseMax(1e-300);
   columns = columns * norm.cwiseInverse().asDiagonal();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
   qr.setThreshold(kDependent);
+  qr.compute(columns);
   return qr.solve(u).cwiseQuotient(norm);
 }
 
@@ -79,9 +80,9 @@ Rows stacked(std::span<const StampedTrace> traces, double hz, bool free_constant
   return rows;
 }
 
-Scales scales_of(const Rows& rows, bool rotates) {
+Scales scales_of(const Rows& rows, bool rotates, bool held_output) {
   Scales s;
-  s.rotates = rotates;
+  s.rotates = rotates, s.held_output = held_output;
   s.hz = rows.records.front().hz;
   s.start = kInfinity;
   double low = kInfinity, high = -kInfinity, end = -kInfinity;

@@ -116,11 +116,14 @@ double position_noise(const StampedTrace& trace) {
   const std::vector<double> cells = cell_lengths(trace.t);
   SmoothingKernel kernel(trace.t, cells, sigma, 3.0);
   std::vector<double> left;
-  for (std::size_t i = 8; i + 8 < trace.t.size(); ++i)
-    left.push_back(trace.x[i] - kernel.motion(trace.x, trace.t[i]).x);
-  // Of white noise 1 − 2 k(0) + Σk² of the variance is left, with k the Gaussian of 1.5 samples.
-  const double centre = 1.0 / (std::sqrt(2.0 * kPi) * kShortestKernel);
-  const double passed = 1.0 - 2.0 * centre + 1.0 / (2.0 * std::sqrt(kPi) * kShortestKernel);
+  for (std::size_t i = 8; i + 8 < trace.t.size(); ++i) {
+    const SmoothMotion m = kernel.motion(trace.x, trace.t[i]);
+    left.push_back(trace.x[i] - (m.x - 0.5 * m.a * sigma * sigma));  // a parabola leaves nothing
+  }
+  // Of white noise 1 − 2 k(0) + Σk² of the variance is left, with k = (3 − s²)/2 times a Gaussian of
+  // 1.5 samples: k(0) = 3/(2 √(2π) 1.5), Σk² = 27/(32 √π 1.5).
+  const double centre = 1.5 / (std::sqrt(2.0 * kPi) * kShortestKernel);
+  const double passed = 1.0 - 2.0 * centre + 27.0 / (32.0 * std::sqrt(kPi) * kShortestKernel);
   return rms(left) / std::sqrt(passed);
 }
 

@@ -123,14 +123,25 @@ std::size_t simplest(const Bench& bench, const Rung& rung, const std::vector<std
   return best;
 }
 
-void decide(const Bench& bench, Rung& rung, const std::vector<std::size_t>& group, const TorqueViewOptions& options) {
+/// The choice says all that the rival says, and clearly more.
+bool says_more(Bench& bench, const Candidate& c, const Candidate& rival, const Model& model,
+               const TorqueViewOptions& options) {
+  if (bench.blocks.leading(c.squares, rival.squares) < options.least_leading) return false;
+  const Eigen::VectorXd added = added_torque(bench, rival, model.size());
+  set_torque(bench.judge, model);
+  Projection of_rival(bench.judge, model, added);
+  return overlap(bench, of_rival, c, model.size()) >= options.same_group;
+}
+
+void decide(Bench& bench, Rung& rung, const Model& model, const std::vector<std::size_t>& group,
+            const TorqueViewOptions& options) {
   const Candidate& c = rung.choice();
   rung.leading = rung.margin = 1.0;
   for (const std::size_t j : group) rung.group.emplace_back(rung.ranking[j].law->name);
   for (std::size_t j = 0; j < rung.ranking.size(); ++j) {
     const Candidate& rival = rung.ranking[j];
     if (j == rung.chosen || is_free_form(*rival.law) || contains(rival, c) || contains(c, rival) ||
-        std::find(group.begin(), group.end(), j) != group.end())
+        std::find(group.begin(), group.end(), j) != group.end() || says_more(bench, c, rival, model, options))
       continue;
     rung.rival = rival.law->name;
     rung.margin = (c.evidence.share - rival.evidence.share) / c.evidence.share;
@@ -158,7 +169,7 @@ Rung next_rung(Bench& bench, const Model& model, const TorqueViewOptions& option
     rung.chosen = simpler;
     group = group_of(bench, rung, model, options);
   }
-  decide(bench, rung, group, options);
+  decide(bench, rung, model, group, options);
   return rung;
 }
 

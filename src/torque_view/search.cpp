@@ -9,7 +9,9 @@ namespace {
 constexpr double kSaidAlready = 1e-6;  ///< of a column's square: what is left of it is rounding
 constexpr int kRefinements = 7;        ///< of a line, within ± half a cell; study 10.3
 
-using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 16, 16>;
+constexpr double kRidge = 1e-10;       ///< of columns that say the same
+
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
 
 /// sin kx and cos kx at the samples, turned on from k to k + Δk by four multiplications.
 class TurningLine {
@@ -90,28 +92,27 @@ Projection::Projection(Rows& rows, const Model& model, const Eigen::VectorXd& y)
   basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(rows.size(), qr.rank());
   left_ = y - basis_ * (basis_.transpose() * y);
   square_ = left_.squaredNorm();
-  along_.resize(basis_.cols(), 16);
+  along_.resize(basis_.cols(), kMostColumns);
 }
 
-Projection::Gain Projection::gain(Eigen::Ref<Eigen::MatrixXd> g) {
+Projection::Gain Projection::gain(const Eigen::Ref<const Eigen::MatrixXd>& g) {
   const Eigen::Index n = g.cols();
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 16, 1> before(n), against(n);
-  for (Eigen::Index c = 0; c < n; ++c) before[c] = g.col(c).squaredNorm();
   auto along = along_.leftCols(n);
   along.noalias() = basis_.transpose() * g;
-  g.noalias() -= basis_ * along;
   Small gram(n, n);
+  Coefficients against(n);
   gram.noalias() = g.transpose() * g;
-  against.noalias() = g.transpose() * left_;
+  const Coefficients before = gram.diagonal();
+  gram.noalias() -= along.transpose() * along;  // ‖(I − P) g‖², as P is a projection
+  against.noalias() = g.transpose() * left_;    // and left = (I − P) y
   for (Eigen::Index c = 0; c < n; ++c) {
     if (gram(c, c) > kSaidAlready * before[c]) continue;
     gram.row(c).setZero(), gram.col(c).setZero();
     gram(c, c) = 1.0, against[c] = 0.0;
   }
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 16, 1> scale =
-      gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  const Coefficients scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   gram = scale.asDiagonal() * gram * scale.asDiagonal();
-  gram.diagonal().array() += 1e-10;
+  gram.diagonal().array() += kRidge;
   Gain gain;
   gain.theta = scale.cwiseProduct(gram.ldlt().solve(scale.cwiseProduct(against)));
   gain.share = square_ > 0.0 ? gain.theta.dot(against) / square_ : 0.0;

@@ -4,6 +4,10 @@
 
 namespace gapscope::internal::torque_view {
 
+/// Of a law and the one that it adds to.
+constexpr int kMostColumns = 16;
+using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1>;
+
 /// What a model's columns leave of a signal y (the input, if none is given) and of other columns:
 /// (I − P) y, (I − P) g.
 class Projection {
@@ -13,13 +17,13 @@ class Projection {
   const Eigen::VectorXd& left() const { return left_; }
   double square() const { return square_; }
 
-  /// What columns gain when they are fitted jointly with the model, as a share of what it leaves, and their
-  /// coefficients. The columns are projected in place. Does not allocate.
+  /// What columns (at most kMostColumns) gain when they are fitted jointly with the model, as a share of
+  /// what it leaves, and their coefficients. Does not allocate.
   struct Gain {
     double share = 0.0;
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 16, 1> theta;
+    Coefficients theta;
   };
-  Gain gain(Eigen::Ref<Eigen::MatrixXd> columns);
+  Gain gain(const Eigen::Ref<const Eigen::MatrixXd>& columns);
 
  private:
   Eigen::MatrixXd basis_, along_;

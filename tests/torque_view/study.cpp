@@ -1,11 +1,11 @@
 // The error budget of recordings of real drives.
-//   study_torque_view [--translation] [--new-phase] [--held] [--band=HZ] [--ranks=N] FIT.csv ... -- JUDGE.csv ...
+//   study_torque_view [--translation] [--new-phase] [--held] [--locked] [--band=HZ] [--ranks=N] FIT.csv ... -- JUDGE.csv ...
 // Columns t, u, x1, or the raw ones of a Dynamixel servo (stamped_file.h). One file without "--" is split in
 // halves. Prints the octaves, the ladder with the best laws of every rung, the shares and the floors.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 
 #include "stamped_file.h"
 #include "torque_view/ladder.h"
@@ -30,6 +30,7 @@ Order read_order(int argc, char** argv) {
     else if (word == "--translation") order.data.rotates = false;
     else if (word == "--new-phase") order.data.new_phase = true;
     else if (word == "--held") order.held = true;
+    else if (word == "--locked") order.data.held_output = true;
     else if (word.starts_with("--band=")) order.options.given_hz = std::atof(word.c_str() + 7);
     else if (word.starts_with("--ranks=")) order.ranks = std::strtoul(word.c_str() + 8, nullptr, 10);
     else (judge ? order.data.judge : order.data.fit).push_back(test::read_stamped(word));
@@ -93,12 +94,12 @@ void print_shares(const Budget& b) {
 
 int main(int argc, char** argv) {
   const Order order = read_order(argc, argv);
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   const Budget budget = error_budget(order.data, order.options);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   print_band(budget.band);
   print_rungs(budget, order.ranks);
   print_shares(budget);
-  fmt::print("{:.2f} s\n", seconds);
+  fmt::print("{:.2f} s of processor time\n", seconds);
   return 0;
 }

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drives.h"
+#include "gapscope/plant/effect.h"
+#include "stamped_file.h"
+#include "support/data.h"
+#include "torque_view/ladder.h"
+
+namespace gapscope::internal::torque_view {
+namespace {
+
+using test::kInertia, test::Motion;
+using Torque = std::function<double(const Motion&)>;
+
+double side(double w) { return w > 0.0 ? 1.0 : -1.0; }
+
+/// Fitted on one motion, judged on the same at other phases.
+Budget diagnosed(const Torque& extra, double noise = 0.01) {
+  return error_budget({{test::recorded(extra, 0.3, noise)}, {test::recorded(extra, 1.7, noise)}});
+}
+
+std::vector<std::string> names(const Budget& b) {
+  std::vector<std::string> all;
+  for (std::size_t i = 2; i < b.model.size(); ++i) all.emplace_back(b.model[i].law->name);
+  return all;
+}
+
+/// The torque that a command of dead zone b must ask for is u = τ + b sign τ, and so on: inverse laws.
+double tau(const Motion& m) { return kInertia * m.a + test::kDamping * m.w; }
+
+TEST(Ladder, EveryLawNamesAnEffectOfTheCatalogueOrNone) {
+  for (const Law& l : laws())
+    if (*l.effect != '\0') EXPECT_NE(find_effect(l.effect), nullptr) << l.name;
+}
+
+TEST(Ladder, AnUnbalanceIsNamedAndMeasured) {
+  const Budget b = diagnosed([](const Motion& m) { return 0.4 * std::sin(m.x + 0.5); });
+  ASSERT_EQ(names(b), std::vector<std::string>{"load_unbalance"});
+  EXPECT_TRUE(b.rungs.front().named);
+  EXPECT_NEAR(b.model[2].theta.norm(), 0.4, 0.01);
+  EXPECT_NEAR(std::atan2(b.model[2].theta[1], b.model[2].theta[0]), 0.5, 0.02);
+  EXPECT_NEAR(coefficient(b.model, "inertia"), kInertia, 0.02 * kInertia);
+  EXPECT_GT(b.shares.front().last.share, 0.9);
+}
+
+TEST(Ladder, NothingIsAddedToADriveThatLacksNothing) {
+  for (const double noise : {0.01, 0.1}) EXPECT_TRUE(names(diagnosed([](const Motion&) { return 0.0; }, noise)).empty());
+}
+
+TEST(Ladder, CoulombFrictionComesBeforeTheLawsThatContainIt) {
+  const Budget b = diagnosed([](const Motion& m) { return 0.2 * side(m.w); });
+  ASSERT_FALSE(names(b).empty());
+  EXPECT_EQ(names(b).front(), "motor_coulomb_friction");
+  EXPECT_NEAR(coefficient(b.model, "motor_coulomb_friction"), 0.2, 0.01);
+}
+
+TEST(Ladder, TwoEffectsAreTwoRungs) {
+  const Budget b = diagnosed([](const Motion& m) { return 0.2 * side(m.w) + 0.1 * std::sin(9.0 * m.x); });
+  const auto found = names(b);
+  EXPECT_EQ(std::count(found.begin(), found.end(), "motor_coulomb_friction"), 1);
+  const Term* line = find_term(b.model, "cogging_torque");
+  ASSERT_NE(line, nullptr);
+  EXPECT_NEAR(line->shape, 9.0, 0.02);
+  EXPECT_NEAR(line->theta.norm(), 0.1, 0.01);
+}
+
+struct Implant {
+  const char* law;
+  Torque extra;
+};
+
+/// Each law by a formula of its own, beside an inertia and a viscous damping: first, or of the first's group.
+TEST(Ladder, EveryLawIsFirstWhereItIsTheTruth) {
+  const Implant implants[] = {
+      {"constant_load_torque", [](const Motion&) { return 0.1; }},
+      {"quadratic_drag", [](const Motion& m) { return 0.01 * m.w * std::abs(m.w); }},
+      {"input_dead_zone", [](const Motion& m) { return 0.1 * side(tau(m)); }},
+      {"torque_saturation", [](const Motion& m) { return 0.5 * std::pow(tau(m), 3); }},
+      {"torque_ripple", [](const Motion& m) { return 0.3 * tau(m) * std::sin(5.0 * m.x); }},
+      {"load_inertia_variation", [](const Motion& m) { return m.t > 6.0 ? 0.4 * kInertia * m.a : 0.0; }},
+      {"viscous_drift", [](const Motion& m) { return 0.05 * m.w * (1.0 - std::exp(-m.t / 4.0)); }},
+      {"spring_to_ground", [](const Motion& m) { return 0.2 * m.x; }},
+  };
+  for (const Implant& implant : implants) {
+    const Budget b = diagnosed(implant.extra);
+    ASSERT_FALSE(b.rungs.empty()) << implant.law;
+    const Rung& first = b.rungs.front();
+    ASSERT_FALSE(first.ranking.empty()) << implant.law;
+    const bool in_group = std::count(first.group.begin(), first.group.end(), implant.law) > 0;
+    EXPECT_TRUE(first.choice().law->name == std::string(implant.law) || in_group)
+        << implant.law << ": " << first.choice().law->name;
+    EXPECT_TRUE(first.helps) << implant.law;
+  }
+}
+
+TEST(Ladder, WhatCouldHaveBeenSeenIsForeseen) {
+  const Budget b = diagnosed([](const Motion& m) { return 0.05 * std::sin(m.x); }, 0.1);
+  for (const Share& s : b.shares) {
+    EXPECT_NEAR(s.seen.predicted, s.last.share, 0.1);
+    EXPECT_GT(s.seen.smallest, 0.0);
+  }
+}
+
+using test::read_stamped;
+
+StampedTrace real(const char* folder, const std::string& name) {
+  return read_stamped((testing::data_folder() / folder / name).string());
+}
+
+TEST(LadderOnRealDrives, ABallScrewLacksFrictionThatDiffersWithTheDirection) {
+  GAPSCOPE_NEEDS_DATA();
+  const StampedTrace whole = real("emps", "emps_train.csv");
+  SplitRecordings data{{test::between(whole, 0.0, 0.5)}, {test::between(whole, 0.5, 1.0)}, false, false};
+  const Budget b = error_budget(data);
+  ASSERT_FALSE(b.rungs.empty());
+  EXPECT_STREQ(b.rungs.front().ranking.front().law->simpler, "motor_coulomb_friction");
+  EXPECT_GT(b.rungs.front().ranking.front().evidence.share, 0.97);
+  EXPECT_NEAR(coefficient(b.model, "inertia"), 95.1, 2.0);
+  EXPECT_NEAR(find_term(b.model, "motor_coulomb_friction")->theta[0], 20.4, 3.0);
+  const Term* line = find_term(b.model, "cogging_torque");
+  ASSERT_NE(line, nullptr);
+  EXPECT_NEAR(2.0 * kPi / line->shape, 2.5e-3, 2e-5);
+  EXPECT_LT(b.rms, 1.2);
+}
+
+TEST(LadderOnRealDrives, AServoLacksItsPendulumFirstByFar) {
+  GAPSCOPE_NEEDS_DATA();
+  for (const char* motion : {"sin_sin", "sin_time_square", "up_and_down", "lift_and_drop"})
+    for (const auto& [fit, judge] : {std::pair{"_kp100.csv", "_kp400.csv"}, {"_kp400.csv", "_kp100.csv"}}) {
+      const std::string name = motion;
+      const Budget b = error_budget({{real("xl330", name + fit)}, {real("xl330", name + judge)}});
+      ASSERT_FALSE(b.rungs.empty()) << name;
+      EXPECT_STREQ(b.rungs.front().choice().law->name, "load_unbalance") << name << fit;
+      EXPECT_GT(b.rungs.front().choice().evidence.share, 0.8) << name << fit;
+    }
+}
+
+}  // namespace
+}  // namespace gapscope::internal::torque_view
