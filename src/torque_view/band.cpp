@@ -45,7 +45,8 @@ std::vector<double> tops(std::span<const StampedTrace> traces, const TorqueViewO
 double noise_power(std::span<const StampedTrace> traces, double hz) {
   double power = 0.0;
   for (const StampedTrace& t : traces)
-    power += std::pow(noise_acceleration(position_noise(t), t.step(), hz), 2) / static_cast<double>(traces.size());
+    power +=
+        std::pow(noise_acceleration(position_noise(t), t.step(), hz), 2) / static_cast<double>(traces.size());
   return power;
 }
 
@@ -56,7 +57,8 @@ void read_octaves(Band& band, std::vector<Rows>& rows, const std::vector<double>
   for (std::size_t i = 0; i < hz.size(); ++i) {
     const Products all = products_of(rows[i], full);
     const double noise = noise_power(traces, hz[i]), aa = all.aa - below.aa, J = (all.ar - below.ar) / aa;
-    band.octaves.push_back({hz[i], J, std::sqrt((noise - noise_below) / aa), J * J * aa / (all.uu - below.uu)});
+    band.octaves.push_back(
+        {hz[i], J, std::sqrt((noise - noise_below) / aa), J * J * aa / std::abs(all.uu - below.uu), aa});
     below = all, noise_below = noise;
   }
 }
@@ -82,10 +84,9 @@ Band choose_band(std::span<const StampedTrace> traces, bool rotates, const Torqu
   double power = 0.0, weighted = 0.0;  // of the octaves below that have a say
   band.hz = hz.front();
   for (const Octave& o : std::span(band.octaves).first(quiet + 1)) {
-    const double J = weighted / power;
     if (o.inertial >= options.least_inertia) {
-      if (power > 0.0 && std::abs(o.inertia - J) > options.inertia_drift * std::abs(J)) break;
-      power += o.inertial, weighted += o.inertial * o.inertia;
+      if (power > 0.0 && o.inertia < (1.0 - options.inertia_drift) * weighted / power) break;
+      power += o.power, weighted += o.power * o.inertia;
     }
     band.hz = o.top_hz;
   }

@@ -37,11 +37,13 @@ Evidence Blocks::compare(const Eigen::VectorXd& before, const Eigen::VectorXd& a
   Evidence evidence;
   if (count_ == 0 || before.sum() <= 0.0) return evidence;
   evidence.share = 1.0 - after.sum() / before.sum();
-  evidence.better = static_cast<double>((after.array() < before.array()).count()) / static_cast<double>(count_);
+  evidence.better =
+      static_cast<double>((after.array() < before.array()).count()) / static_cast<double>(count_);
   std::vector<double> shares;
   for (const auto& draw : draws_) {
     double b = 0.0, a = 0.0;
-    for (const std::size_t i : draw) b += before[static_cast<Eigen::Index>(i)], a += after[static_cast<Eigen::Index>(i)];
+    for (const std::size_t i : draw)
+      b += before[static_cast<Eigen::Index>(i)], a += after[static_cast<Eigen::Index>(i)];
     shares.push_back(1.0 - a / b);
   }
   evidence.interval = {quantile(shares, 0.025), quantile(shares, 0.975)};

@@ -14,7 +14,8 @@ constexpr double kEven = 0.01;  ///< of a step: stamps that count as uniform
 double input_period(const StampedTrace& trace) {
   const double dt = trace.step();
   for (std::size_t i = 0; i < trace.t.size(); ++i)
-    if (std::abs(trace.t[i] - trace.t.front() - dt * static_cast<double>(i)) > kEven * dt * static_cast<double>(i + 1))
+    if (std::abs(trace.t[i] - trace.t.front() - dt * static_cast<double>(i)) >
+        kEven * dt * static_cast<double>(i + 1))
       return 0.0;
   const MotorTrace even{trace.file, trace.t.front(), dt, trace.u, trace.x, trace.quantum};
   const double exact = signals::exact_period(even, 2.0);
@@ -30,7 +31,8 @@ std::pair<double, double> not_repeated(const BandRecord& record, const double* l
     while (later + 1 < record.row_time.size() && record.row_time[later + 1] <= at) ++later;
     if (later + 1 >= record.row_time.size()) break;
     if (record.row_number[later + 1] != record.row_number[later] + 1) continue;
-    const double share = (at - record.row_time[later]) / (record.row_time[later + 1] - record.row_time[later]);
+    const double share =
+        (at - record.row_time[later]) / (record.row_time[later + 1] - record.row_time[later]);
     const double difference = (1.0 - share) * left[later] + share * left[later + 1] - left[i];
     sum += 0.5 * difference * difference, count += 1.0;
   }
@@ -43,7 +45,8 @@ double repeatability(const SplitRecordings& data, Bench& bench, const Model& mod
   for (std::size_t r = 0; r < data.judge.size(); ++r) {
     const double period = input_period(data.judge[r]);
     if (!(period > 0.0)) continue;
-    const auto [squares, rows] = not_repeated(bench.judge.records[r], left.data() + bench.judge.first[r], period);
+    const auto [squares, rows] =
+        not_repeated(bench.judge.records[r], left.data() + bench.judge.first[r], period);
     sum += squares, count += rows;
   }
   return count > 0.0 ? std::sqrt(sum / count) : kNaN;
@@ -53,7 +56,8 @@ double repeatability(const SplitRecordings& data, Bench& bench, const Model& mod
 
 double Floors::disagreement() const { return std::sqrt(std::max(0.0, joint * joint - each * each)); }
 
-Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model, const TorqueViewOptions& options) {
+Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model,
+                 const TorqueViewOptions& options) {
   Floors floors;
   const double hz = bench.scales.hz;
   double noise = 0.0;
@@ -66,7 +70,8 @@ Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model, 
   traces.insert(traces.end(), data.judge.begin(), data.judge.end());
   Rows all = stacked(traces, hz, bench.fit.free_constant, options);
   const Model joint = fitted(all, model);
-  floors.joint = std::sqrt(residual(all, joint, data.new_phase).squaredNorm() / static_cast<double>(all.size()));
+  floors.joint =
+      std::sqrt(residual(all, joint, data.new_phase).squaredNorm() / static_cast<double>(all.size()));
   double each = 0.0;
   for (const StampedTrace& trace : traces) {
     Rows one = stacked({&trace, 1}, hz, bench.fit.free_constant, options);

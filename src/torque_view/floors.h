@@ -7,9 +7,9 @@ namespace gapscope::internal::torque_view {
 /// Recordings as they come, and what the caller knows of them.
 struct SplitRecordings {
   std::vector<StampedTrace> fit, judge;
-  bool rotates = true;     ///< positions are angles
+  bool rotates = true;       ///< positions are angles
   bool held_output = false;  ///< the load is locked
-  bool new_phase = false;  ///< the encoder counts anew in every recording: a line keeps its amplitude only
+  bool new_phase = false;    ///< the encoder counts anew in every recording: a line keeps its amplitude only
 };
 
 /// What no model can get below, as rms of a torque [unit of u]; NaN where the recordings do not show it.
@@ -20,6 +20,7 @@ struct Floors {
   double each = kNaN;           ///< ... and by one set for each
   double disagreement() const;  ///< √(joint² − each²)
 };
-Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model, const TorqueViewOptions& options);
+Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model,
+                 const TorqueViewOptions& options);
 
 }  // namespace gapscope::internal::torque_view

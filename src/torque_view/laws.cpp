@@ -13,7 +13,7 @@ using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
 constexpr double kDamping = 0.1;  ///< of the linear resonance [-]; study 11
 constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< study 8
-constexpr int kHarmonics = 3;                                                     ///< study 8
+constexpr int kHarmonics = 3;                                                      ///< study 8
 
 double direction(double w) { return w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0; }
 
@@ -34,10 +34,15 @@ std::vector<double> only_if(bool true_here, double shape) {
   return true_here ? std::vector<double>{shape} : std::vector<double>{};
 }
 std::vector<double> only_angles(const Scales& s) { return only_if(s.rotates, 1.0); }
+std::vector<double> only_free(const Scales& s) { return only_if(s.rotates && !s.held_output, 1.0); }
 std::vector<double> only_held(const Scales& s) { return only_if(s.held_output, kNaN); }
-std::vector<double> low_speeds(const Scales& s) { return geometric(0.02 * s.speed_std, 0.4 * s.speed_std, 8); }
+std::vector<double> low_speeds(const Scales& s) {
+  return geometric(0.02 * s.speed_std, 0.4 * s.speed_std, 8);
+}
 std::vector<double> lengths(const Scales& s) { return geometric(1e-3 * s.travel, 1e-2 * s.travel, 5); }
-std::vector<double> dead_zones(const Scales& s) { return geometric(0.01 * s.torque_rms, 0.3 * s.torque_rms, 5); }
+std::vector<double> dead_zones(const Scales& s) {
+  return geometric(0.01 * s.torque_rms, 0.3 * s.torque_rms, 5);
+}
 std::vector<double> powers(const Scales&) { return {2.0, 4.0, 8.0}; }
 std::vector<double> times(const Scales& s) {
   std::vector<double> at;
@@ -45,14 +50,22 @@ std::vector<double> times(const Scales& s) {
   return at;
 }
 std::vector<double> spans(const Scales& s) { return geometric(0.1 * s.duration, 3.0 * s.duration, 4); }
-std::vector<double> resonances(const Scales& s) { return geometric(2.0, std::max(4.0, std::min(80.0, 2.0 * s.hz)), 12); }
+std::vector<double> resonances(const Scales& s) {
+  return geometric(2.0, std::max(4.0, std::min(80.0, 2.0 * s.hz)), 12);
+}
 std::vector<double> found_line(const Scales& s) { return only_if(std::isfinite(s.line), s.line); }
 std::vector<double> top_speed(const Scales& s) { return {s.top_speed}; }
 
-void inertia(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.a[i]; }); }
-void viscous(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.w[i]; }); }
+void inertia(const Samples& s, double, Columns g) {
+  each(s, g, 0, [&](auto i) { return s.a[i]; });
+}
+void viscous(const Samples& s, double, Columns g) {
+  each(s, g, 0, [&](auto i) { return s.w[i]; });
+}
 void constant(const Samples&, double, Columns g) { g.col(0).setOnes(); }
-void coulomb(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return direction(s.w[i]); }); }
+void coulomb(const Samples& s, double, Columns g) {
+  each(s, g, 0, [&](auto i) { return direction(s.w[i]); });
+}
 
 /// Fc (1 + a sign w) sign w + d (1 + b sign w) w: beside Coulomb and viscous friction a constant and |w|.
 void asymmetry(const Samples& s, double, Columns g) {
@@ -77,7 +90,9 @@ void presliding(const Samples& s, double length, Columns g) {
   });
 }
 
-void drag(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.w[i] * std::abs(s.w[i]); }); }
+void drag(const Samples& s, double, Columns g) {
+  each(s, g, 0, [&](auto i) { return s.w[i] * std::abs(s.w[i]); });
+}
 
 void load_friction(const Samples& s, double, Columns g) {
   each(s, g, 0, [&](auto i) { return std::abs(s.tau_load[i]) * direction(s.w[i]); });
@@ -137,7 +152,11 @@ void resonance(const Samples& s, double hz, Columns g) {
   });
 }
 
-void spring(const Samples& s, double, Columns g) { each(s, g, 0, [&](auto i) { return s.x[i]; }); }
+/// Of a locked output: k (x − x0).
+void spring(const Samples& s, double, Columns g) {
+  each(s, g, 0, [&](auto i) { return s.x[i]; });
+  g.col(1).setOnes();
+}
 
 void torque_rate(const Samples& s, double, Columns g) {
   each(s, g, 0, [&](auto i) {
@@ -179,10 +198,10 @@ constexpr Law kLaws[] = {
     {"inertia", "", nullptr, 1, Kind::kMotion, true, false, Sign::kAny, no_shape, inertia},
     {"viscous", "", nullptr, 1, Kind::kFriction, true, false, Sign::kAny, no_shape, viscous},
     {kCoulomb, kCoulomb, nullptr, 1, Kind::kFriction, false, false, Sign::kPositive, no_shape, coulomb},
-    {"constant_load_torque", "constant_load_torque", nullptr, 1, Kind::kMotion, true, false, Sign::kAny, no_shape,
-     constant},
-    {"friction_asymmetry", "friction_asymmetry", kCoulomb, 2, Kind::kFriction, true, false, Sign::kAny, no_shape,
-     asymmetry},
+    {"constant_load_torque", "constant_load_torque", nullptr, 1, Kind::kMotion, true, false, Sign::kAny,
+     no_shape, constant},
+    {"friction_asymmetry", "friction_asymmetry", kCoulomb, 2, Kind::kFriction, true, false, Sign::kAny,
+     no_shape, asymmetry},
     {"stribeck_friction", "stribeck_friction", kCoulomb, 1, Kind::kFriction, false, false, Sign::kPositive,
      low_speeds, stribeck},
     {"low_speed_dip", "", kCoulomb, 1, Kind::kFriction, false, false, Sign::kNegative, low_speeds, stribeck},
@@ -190,25 +209,29 @@ constexpr Law kLaws[] = {
      lengths, presliding},
     {"quadratic_drag", "quadratic_drag", nullptr, 1, Kind::kFriction, true, false, Sign::kPositive, no_shape,
      drag},
-    {"load_friction", "", nullptr, 1, Kind::kOnTorque, false, false, Sign::kPositive, no_shape, load_friction},
-    {"load_unbalance", "load_unbalance", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, only_angles, sines},
-    {"cogging_torque", "cogging_torque", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, line_grid, sines},
-    {"torque_ripple", "torque_ripple", nullptr, 2, Kind::kOnTorque, true, true, Sign::kAny, line_grid, ripple},
+    {"load_friction", "", nullptr, 1, Kind::kOnTorque, false, false, Sign::kPositive, no_shape,
+     load_friction},
+    {"load_unbalance", "load_unbalance", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, only_free,
+     sines},
+    {"cogging_torque", "cogging_torque", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, line_grid,
+     sines},
+    {"torque_ripple", "torque_ripple", nullptr, 2, Kind::kOnTorque, true, true, Sign::kAny, line_grid,
+     ripple},
     {"encoder_eccentricity", "encoder_eccentricity", nullptr, 2, Kind::kOnTorque, true, true, Sign::kAny,
      only_angles, eccentricity},
     {"viscous_drift", "viscous_drift", nullptr, 1, Kind::kFriction, true, false, Sign::kAny, spans, drift},
-    {"load_inertia_variation", "load_inertia_variation", nullptr, 1, Kind::kMotion, true, false, Sign::kAny, times,
-     inertia_step},
-    {"resonance", "shaft_compliance", nullptr, 1, Kind::kMotion, true, false, Sign::kShareOfInertia, resonances,
-     resonance},
-    {"spring_to_ground", "shaft_compliance", nullptr, 1, Kind::kMotion, false, false, Sign::kPositive, only_held,
-     spring},
+    {"load_inertia_variation", "load_inertia_variation", nullptr, 1, Kind::kMotion, true, false, Sign::kAny,
+     times, inertia_step},
+    {"resonance", "shaft_compliance", nullptr, 1, Kind::kMotion, true, false, Sign::kShareOfInertia,
+     resonances, resonance},
+    {"spring_to_ground", "shaft_compliance", nullptr, 2, Kind::kMotion, false, false, Sign::kPositive,
+     only_held, spring},
     {"input_delay", "input_delay", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive, no_shape,
      torque_rate},
-    {"input_dead_zone", "input_dead_zone", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive, dead_zones,
-     dead_zone},
-    {"torque_saturation", "torque_saturation", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive, powers,
-     saturation},
+    {"input_dead_zone", "input_dead_zone", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive,
+     dead_zones, dead_zone},
+    {"torque_saturation", "torque_saturation", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive,
+     powers, saturation},
     {"free_speed_curve", "", nullptr, kBothCurves, Kind::kFriction, false, false, Sign::kAny, top_speed,
      speed_curve},
     {"free_position_curve", "", nullptr, 2 * kHarmonics, Kind::kMotion, false, false, Sign::kAny, found_line,
@@ -217,12 +240,17 @@ constexpr Law kLaws[] = {
 
 }  // namespace
 
-int Law::parameters() const { return columns + (shapes == no_shape || shapes == only_angles || shapes == only_held ? 0 : 1); }
+int Law::parameters() const {
+  const bool given =
+      shapes == no_shape || shapes == only_angles || shapes == only_free || shapes == only_held;
+  return columns + (given ? 0 : 1);
+}
 
 std::span<const Law> laws() { return kLaws; }
 
 const Law& law(std::string_view name) {
-  const auto at = std::find_if(std::begin(kLaws), std::end(kLaws), [&](const Law& l) { return name == l.name; });
+  const auto at =
+      std::find_if(std::begin(kLaws), std::end(kLaws), [&](const Law& l) { return name == l.name; });
   GAPSCOPE_REQUIRE(at != std::end(kLaws));
   return *at;
 }

@@ -19,13 +19,13 @@ struct Samples {
 
 /// What the grids of the laws' shapes are measured in; of the fit recordings.
 struct Scales {
-  double start = 0.0, duration = 1.0;         ///< [s]
+  double start = 0.0, duration = 1.0;  ///< [s]
   double speed_std = 1.0, speed_rms = 1.0, top_speed = 1.0;
   double travel = 1.0, torque_rms = 1.0;
-  double hz = 1.0;        ///< top of the band
-  bool rotates = true;    ///< positions are angles
+  double hz = 1.0;      ///< top of the band
+  bool rotates = true;  ///< positions are angles
   bool held_output = false;
-  double line = kNaN;     ///< cycles per 2π of the strongest line in the model; NaN: none
+  double line = kNaN;  ///< cycles per 2π of the strongest line in the model; NaN: none
 };
 
 /// The shapes that a law is tried at, in rising order; one NaN where it has none.

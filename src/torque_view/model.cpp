@@ -8,11 +8,12 @@
 namespace gapscope::internal::torque_view {
 namespace {
 
-constexpr int kTorqueRounds = 3;       ///< fit, torque, fit again; study 4.1 does two
-constexpr double kDependent = 1e-9;    ///< of a column that others say as well
+constexpr int kTorqueRounds = 3;     ///< beyond the first fit; study 4.1 does one
+constexpr double kDependent = 1e-9;  ///< of a column that others say as well
 
 bool reads_torque(const Model& model) {
-  return std::any_of(model.begin(), model.end(), [](const Term& t) { return t.law->kind == Kind::kOnTorque; });
+  return std::any_of(model.begin(), model.end(),
+                     [](const Term& t) { return t.law->kind == Kind::kOnTorque; });
 }
 
 Eigen::VectorXd solved(Eigen::MatrixXd columns, const Eigen::VectorXd& u) {
@@ -22,6 +23,15 @@ Eigen::VectorXd solved(Eigen::MatrixXd columns, const Eigen::VectorXd& u) {
   qr.setThreshold(kDependent);
   qr.compute(columns);
   return qr.solve(u).cwiseQuotient(norm);
+}
+
+void take_solution(Rows& rows, Model& model) {
+  const Eigen::VectorXd theta = solved(model_columns(rows, model), rows.u);
+  Eigen::Index first = 0;
+  for (Term& term : model) {
+    term.theta = theta.segment(first, term.law->columns);
+    first += term.law->columns;
+  }
 }
 
 /// The amplitude of a line as fitted, at the phase that suits these rows.
@@ -38,7 +48,8 @@ Model nominal_model() {
 }
 
 const Term* find_term(const Model& model, std::string_view name) {
-  const auto at = std::find_if(model.begin(), model.end(), [&](const Term& t) { return name == t.law->name; });
+  const auto at =
+      std::find_if(model.begin(), model.end(), [&](const Term& t) { return name == t.law->name; });
   return at == model.end() ? nullptr : &*at;
 }
 
@@ -99,7 +110,8 @@ Scales scales_of(const Rows& rows, bool rotates, bool held_output) {
   s.speed_std = std::sqrt(std::max(0.0, s.speed_rms * s.speed_rms - std::pow(mean(speeds), 2)));
   for (double& v : speeds) v = std::abs(v);
   s.top_speed = *std::max_element(speeds.begin(), speeds.end());
-  s.torque_rms = std::sqrt(rows.u.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, rows.size())));
+  s.torque_rms =
+      std::sqrt(rows.u.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, rows.size())));
   return s;
 }
 
@@ -158,17 +170,18 @@ void set_torque(Rows& rows, const Model& model) {
 }
 
 Model fitted(Rows& rows, Model model) {
-  const int rounds = reads_torque(model) ? kTorqueRounds : 1;
-  for (int round = 0; round < rounds; ++round) {
-    const Eigen::VectorXd theta = solved(model_columns(rows, model), rows.u);
-    Eigen::Index first = 0;
-    for (Term& term : model) {
-      term.theta = theta.segment(first, term.law->columns);
-      first += term.law->columns;
-    }
-    set_torque(rows, model);
+  const int rounds = reads_torque(model) ? kTorqueRounds : 0;
+  take_solution(rows, model);
+  Model best = model;
+  double least = rounds > 0 ? residual(rows, model, false).squaredNorm() : 0.0;
+  for (int round = 0; round < rounds;
+       ++round) {  // torque of the model, fit again: mostly, not always, better
+    take_solution(rows, model);
+    const double square = residual(rows, model, false).squaredNorm();
+    if (square < least) least = square, best = model;
   }
-  return model;
+  set_torque(rows, best);
+  return best;
 }
 
 Eigen::VectorXd residual(Rows& rows, const Model& model, bool new_phase) {

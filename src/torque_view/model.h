@@ -20,17 +20,17 @@ using Model = std::vector<Term>;
 
 Model nominal_model();
 const Term* find_term(const Model& model, std::string_view law);  ///< nullptr if there is none
-double coefficient(const Model& model, std::string_view law);    ///< its first; 0 if it has none
+double coefficient(const Model& model, std::string_view law);     ///< its first; 0 if it has none
 
 /// Recordings of one purpose in one band, their rows one below the other.
 struct Rows {
   std::vector<BandRecord> records;
   std::vector<Eigen::Index> first;  ///< row of each record, and the end
   Eigen::VectorXd u;
-  bool free_constant = false;       ///< one per recording: all columns without their mean
+  bool free_constant = false;                      ///< one per recording: all columns without their mean
   std::vector<std::vector<double>> tau, tau_load;  ///< of the model, at the samples
   double inertia = 0.0, viscous = 0.0;
-  Eigen::MatrixXd at_samples;       ///< scratch
+  Eigen::MatrixXd at_samples;  ///< scratch
 
   Eigen::Index size() const { return u.size(); }
   Samples samples(std::size_t record) const;
@@ -54,7 +54,7 @@ Eigen::MatrixXd model_columns(Rows& rows, const Model& model);
 /// The torque that laws of the command and of the load read: Σ θ g of all terms that read none.
 void set_torque(Rows& rows, const Model& model);
 
-/// All coefficients by least squares; where a term reads the model's torque, three times.
+/// All coefficients by least squares; where a term reads the model's torque, the best of a few rounds.
 Model fitted(Rows& rows, Model model);
 
 /// u − Σ θ g. @param new_phase  a recording keeps a line's amplitude but not where it counts from

@@ -46,7 +46,8 @@ void keep_rows(BandRecord& record, const std::vector<bool>& good) {
   std::vector<std::size_t> number;
   for (std::size_t r = 0; r < good.size(); ++r)
     if (good[r]) time.push_back(record.row_time[r]), number.push_back(r);
-  record.masked = 1.0 - static_cast<double>(time.size()) / static_cast<double>(std::max<std::size_t>(1, good.size()));
+  record.masked =
+      1.0 - static_cast<double>(time.size()) / static_cast<double>(std::max<std::size_t>(1, good.size()));
   record.row_time = std::move(time);
   record.row_number = std::move(number);
   record.rest.keep(good);
@@ -85,8 +86,9 @@ double StampedTrace::step() const {
 }
 
 StampedTrace stamped(const MotorTrace& trace, bool held_command) {
-  StampedTrace s{trace.file, {}, {trace.u.begin(), trace.u.end()}, {trace.x1.begin(), trace.x1.end()},
-                 trace.quantum, held_command};
+  StampedTrace s{
+      trace.file,    {},          {trace.u.begin(), trace.u.end()}, {trace.x1.begin(), trace.x1.end()},
+      trace.quantum, held_command};
   for (std::size_t i = 0; i < trace.size(); ++i) s.t.push_back(trace.time(i));
   return s;
 }
@@ -101,7 +103,8 @@ BandRecord in_band(const StampedTrace& trace, double hz, const TorqueViewOptions
   const std::vector<double> cells = cell_lengths(record.t);
   read_states(record, cells, inner, options.kernel_reach);
   const double trim = options.kernel_reach * (inner + outer), every = 1.0 / (options.rows_per_hertz * hz);
-  for (double T = record.t.front() + trim; T <= record.t.back() - trim; T += every) record.row_time.push_back(T);
+  for (double T = record.t.front() + trim; T <= record.t.back() - trim; T += every)
+    record.row_time.push_back(T);
   record.rest = RowFilter(record.t, cells, record.row_time, outer, options.kernel_reach);
   record.whole = RowFilter(record.t, cells, record.row_time, sigma, options.kernel_reach);
   mask(record, trace, sigma, options);

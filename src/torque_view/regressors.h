@@ -20,7 +20,7 @@ struct StampedTrace {
   double quantum = 0.0;       ///< of the encoder; 0: unknown
   bool held_command = false;  ///< u is a command that is held to the next sample, no measured current
 
-  double step() const;        ///< median of the time steps [s]
+  double step() const;  ///< median of the time steps [s]
 };
 StampedTrace stamped(const MotorTrace& trace, bool held_command);
 
@@ -29,13 +29,13 @@ StampedTrace stamped(const MotorTrace& trace, bool held_command);
 ///   linear in the states (J a, d w, what follows the model's torque): G_o, σ_o = 0.8 σ, as G_o ∗ G_i = G;
 ///   what the states only switch (a direction, an angle, the time):    G itself, as the input does.
 struct BandRecord {
-  double hz = 0.0;                   ///< top of the band
-  std::vector<double> t, x, w, a;    ///< at the samples: t, x raw, w and a through G_i
-  std::vector<double> row_time;      ///< [s]
+  double hz = 0.0;                      ///< top of the band
+  std::vector<double> t, x, w, a;       ///< at the samples: t, x raw, w and a through G_i
+  std::vector<double> row_time;         ///< [s]
   std::vector<std::size_t> row_number;  ///< on the even grid that masked rows were dropped from
-  Eigen::VectorXd u;                 ///< G ∗ u at the rows
-  RowFilter rest, whole;             ///< G_o and G
-  double masked = 0.0;               ///< share of the rows that were dropped
+  Eigen::VectorXd u;                    ///< G ∗ u at the rows
+  RowFilter rest, whole;                ///< G_o and G
+  double masked = 0.0;                  ///< share of the rows that were dropped
 };
 BandRecord in_band(const StampedTrace& trace, double hz, const TorqueViewOptions& options);
 

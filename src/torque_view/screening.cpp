@@ -18,7 +18,8 @@ bool lacks_simpler(const Model& model, const Law& law) {
 
 /// A law may come again only as a further line.
 bool is_open(const Model& model, const Law& l) {
-  return l.name != std::string_view("inertia") && (find_term(model, l.name) == nullptr || l.shapes == line_grid);
+  return l.name != std::string_view("inertia") &&
+         (find_term(model, l.name) == nullptr || l.shapes == line_grid);
 }
 
 Candidate judged(Bench& bench, const Law& l, Model model, const Eigen::VectorXd& before) {
@@ -43,7 +44,8 @@ std::vector<Candidate> screened(Bench& bench, const Model& model) {
       if (!with_simpler) with_simpler.emplace(bench.fit, below);
     }
     set_torque(bench.fit, model);
-    const BestShape best = best_shape(bench.fit, below.size() > model.size() ? *with_simpler : plain, l, bench.scales);
+    const BestShape best =
+        best_shape(bench.fit, below.size() > model.size() ? *with_simpler : plain, l, bench.scales);
     if (std::isnan(best.gain)) continue;
     Candidate c = judged(bench, l, with(below, l, best.shape), before);
     if (std::isfinite(c.evidence.share)) ranking.push_back(std::move(c));
@@ -173,7 +175,8 @@ Rung next_rung(Bench& bench, const Model& model, const TorqueViewOptions& option
   return rung;
 }
 
-Visibility visibility(Bench& bench, const Model& without, const Term& term, const TorqueViewOptions& options) {
+Visibility visibility(Bench& bench, const Model& without, const Term& term,
+                      const TorqueViewOptions& options) {
   set_torque(bench.judge, without);
   Eigen::MatrixXd g(bench.judge.size(), term.law->columns);
   fill_columns(bench.judge, *term.law, term.shape, g);

@@ -37,7 +37,7 @@ struct Rung {
   bool named = false;                  ///< the whole rule holds
   bool helps = false;                  ///< it takes a share worth having, whatever its cause
 
-  double rms = kNaN;                   ///< of the held-out residual after it [unit of u]
+  double rms = kNaN;  ///< of the held-out residual after it [unit of u]
 
   const Candidate& choice() const { return ranking[chosen]; }
 };

@@ -9,7 +9,7 @@ namespace {
 constexpr double kSaidAlready = 1e-6;  ///< of a column's square: what is left of it is rounding
 constexpr int kRefinements = 7;        ///< of a line, within ± half a cell; study 10.3
 
-constexpr double kRidge = 1e-10;       ///< of columns that say the same
+constexpr double kRidge = 1e-10;  ///< of columns that say the same
 
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
 
@@ -121,10 +121,14 @@ Projection::Gain Projection::gain(const Eigen::Ref<const Eigen::MatrixXd>& g) {
 
 bool has_its_sign(const Law& law, double theta, double inertia) {
   switch (law.sign) {
-    case Sign::kAny: return true;
-    case Sign::kPositive: return theta > 0.0;
-    case Sign::kNegative: return theta < 0.0;
-    case Sign::kShareOfInertia: return theta > 0.0 && theta < inertia;
+    case Sign::kAny:
+      return true;
+    case Sign::kPositive:
+      return theta > 0.0;
+    case Sign::kNegative:
+      return theta < 0.0;
+    case Sign::kShareOfInertia:
+      return theta > 0.0 && theta < inertia;
   }
   return false;
 }

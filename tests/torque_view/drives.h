@@ -29,8 +29,8 @@ inline Motion swing(double t, double phase) {
 }
 
 /// u = J a + d w + extra(motion) at 500 Hz ± 30 % of a step, encoder of 14 bit, a little noise on u.
-inline StampedTrace recorded(const std::function<double(const Motion&)>& extra, double phase, double noise = 0.01,
-                             double seconds = 12.0) {
+inline StampedTrace recorded(const std::function<double(const Motion&)>& extra, double phase,
+                             double noise = 0.01, double seconds = 12.0) {
   std::mt19937_64 generator = random_stream(static_cast<std::uint64_t>(100.0 * phase) + 1, "recorded");
   StampedTrace trace;
   trace.quantum = 2.0 * kPi / 16384.0;

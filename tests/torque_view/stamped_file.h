@@ -43,7 +43,8 @@ inline StampedTrace read_stamped(const std::string& path) {
 /// Samples from one share of the recording to another.
 inline StampedTrace between(const StampedTrace& whole, double from, double to) {
   const auto count = static_cast<double>(whole.t.size());
-  const auto first = static_cast<std::ptrdiff_t>(from * count), last = static_cast<std::ptrdiff_t>(to * count);
+  const auto first = static_cast<std::ptrdiff_t>(from * count),
+             last = static_cast<std::ptrdiff_t>(to * count);
   StampedTrace part = whole;
   part.t.assign(whole.t.begin() + first, whole.t.begin() + last);
   part.u.assign(whole.u.begin() + first, whole.u.begin() + last);

@@ -1,5 +1,6 @@
 // The error budget of recordings of real drives.
-//   study_torque_view [--translation] [--new-phase] [--held] [--locked] [--band=HZ] [--ranks=N] FIT.csv ... -- JUDGE.csv ...
+//   study_torque_view [--translation] [--new-phase] [--held] [--locked] [--band=HZ] [--ranks=N] FIT.csv ...
+//   -- JUDGE.csv ...
 // Columns t, u, x1, or the raw ones of a Dynamixel servo (stamped_file.h). One file without "--" is split in
 // halves. Prints the octaves, the ladder with the best laws of every rung, the shares and the floors.
 #include <fmt/format.h>
@@ -26,14 +27,22 @@ Order read_order(int argc, char** argv) {
   bool judge = false;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--") judge = true;
-    else if (word == "--translation") order.data.rotates = false;
-    else if (word == "--new-phase") order.data.new_phase = true;
-    else if (word == "--held") order.held = true;
-    else if (word == "--locked") order.data.held_output = true;
-    else if (word.starts_with("--band=")) order.options.given_hz = std::atof(word.c_str() + 7);
-    else if (word.starts_with("--ranks=")) order.ranks = std::strtoul(word.c_str() + 8, nullptr, 10);
-    else (judge ? order.data.judge : order.data.fit).push_back(test::read_stamped(word));
+    if (word == "--")
+      judge = true;
+    else if (word == "--translation")
+      order.data.rotates = false;
+    else if (word == "--new-phase")
+      order.data.new_phase = true;
+    else if (word == "--held")
+      order.held = true;
+    else if (word == "--locked")
+      order.data.held_output = true;
+    else if (word.starts_with("--band="))
+      order.options.given_hz = std::atof(word.c_str() + 7);
+    else if (word.starts_with("--ranks="))
+      order.ranks = std::strtoul(word.c_str() + 8, nullptr, 10);
+    else
+      (judge ? order.data.judge : order.data.fit).push_back(test::read_stamped(word));
   }
   if (order.data.judge.empty()) {
     const StampedTrace whole = order.data.fit.front();
@@ -46,12 +55,14 @@ Order read_order(int argc, char** argv) {
 }
 
 std::string text(const Evidence& e) {
-  return fmt::format("{:6.3f} [{:.2f}, {:.2f}] {:3.0f} %", e.share, e.interval.low, e.interval.high, 100.0 * e.better);
+  return fmt::format("{:6.3f} [{:.2f}, {:.2f}] {:3.0f} %", e.share, e.interval.low, e.interval.high,
+                     100.0 * e.better);
 }
 
 std::string text(const Eigen::VectorXd& theta) {
   std::string s;
-  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(theta.size(), 4); ++i) s += fmt::format(" {:.4g}", theta[i]);
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(theta.size(), 4); ++i)
+    s += fmt::format(" {:.4g}", theta[i]);
   return s;
 }
 
@@ -70,8 +81,11 @@ void print_rungs(const Budget& b, std::size_t ranks) {
     if (r.ranking.empty()) continue;
     const Candidate& c = r.choice();
     fmt::print("{} {:22} {:.4g} ({:.2f} %) {} | {} {:.2f} behind, {:.2f} | J {:.4g}\n",
-               r.named ? "named " : r.helps ? "helps " : "(not) ", c.law->name, r.rms, percent * r.rms, text(c.evidence),
-               r.rival, r.margin, r.leading, coefficient(c.model, "inertia"));
+               r.named   ? "named "
+               : r.helps ? "helps "
+                         : "(not) ",
+               c.law->name, r.rms, percent * r.rms, text(c.evidence), r.rival, r.margin, r.leading,
+               coefficient(c.model, "inertia"));
     for (std::size_t i = 0; i < std::min(ranks, r.ranking.size()); ++i)
       fmt::print("         {:26} {:10.4g} {} :{}\n", r.ranking[i].law->name, r.ranking[i].model.back().shape,
                  text(r.ranking[i].evidence), text(r.ranking[i].model.back().theta));
@@ -80,14 +94,18 @@ void print_rungs(const Budget& b, std::size_t ranks) {
 }
 
 void print_shares(const Budget& b) {
-  fmt::print("law                        shape       alone                      last                 s_pred absorbed least\n");
+  fmt::print(
+      "law                        shape       alone                      last                 s_pred "
+      "absorbed least\n");
   for (const Share& s : b.shares)
-    fmt::print("{:26} {:<10.4g} {} {} {:.2f} {:.2f} {:.3f} x:{}\n", s.law->name, s.shape, text(s.alone), text(s.last),
-               s.seen.predicted, s.seen.absorbed, s.seen.smallest, text(s.theta));
+    fmt::print("{:26} {:<10.4g} {} {} {:.2f} {:.2f} {:.3f} x:{}\n", s.law->name, s.shape, text(s.alone),
+               text(s.last), s.seen.predicted, s.seen.absorbed, s.seen.smallest, text(s.theta));
   for (const std::string& name : b.dropped) fmt::print("dropped: {}\n", name);
-  fmt::print("left {:.4g} ({:.2f} %); encoder {:.3g}, repeatability {:.3g}, joint {:.4g}, each {:.4g}, disagreement {:.3g}\n",
-             b.rms, 100.0 * b.rms / b.input_rms, b.floors.encoder, b.floors.repeatability, b.floors.joint,
-             b.floors.each, b.floors.disagreement());
+  fmt::print(
+      "left {:.4g} ({:.2f} %); encoder {:.3g}, repeatability {:.3g}, joint {:.4g}, each {:.4g}, disagreement "
+      "{:.3g}\n",
+      b.rms, 100.0 * b.rms / b.input_rms, b.floors.encoder, b.floors.repeatability, b.floors.joint,
+      b.floors.each, b.floors.disagreement());
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ TEST(Ladder, AnUnbalanceIsNamedAndMeasured) {
 }
 
 TEST(Ladder, NothingIsAddedToADriveThatLacksNothing) {
-  for (const double noise : {0.01, 0.1}) EXPECT_TRUE(names(diagnosed([](const Motion&) { return 0.0; }, noise)).empty());
+  for (const double noise : {0.01, 0.1})
+    EXPECT_TRUE(names(diagnosed([](const Motion&) { return 0.0; }, noise)).empty());
 }
 
 TEST(Ladder, CoulombFrictionComesBeforeTheLawsThatContainIt) {
@@ -82,7 +83,6 @@ TEST(Ladder, EveryLawIsFirstWhereItIsTheTruth) {
       {"torque_ripple", [](const Motion& m) { return 0.3 * tau(m) * std::sin(5.0 * m.x); }},
       {"load_inertia_variation", [](const Motion& m) { return m.t > 6.0 ? 0.4 * kInertia * m.a : 0.0; }},
       {"viscous_drift", [](const Motion& m) { return 0.05 * m.w * (1.0 - std::exp(-m.t / 4.0)); }},
-      {"spring_to_ground", [](const Motion& m) { return 0.2 * m.x; }},
   };
   for (const Implant& implant : implants) {
     const Budget b = diagnosed(implant.extra);

@@ -36,9 +36,12 @@ TEST(Regressors, RowsBesideLostSamplesAndJumpsAreDropped) {
   StampedTrace trace = test::recorded(nothing, 0.3);
   const std::size_t lost = trace.t.size() / 2;
   const double at = trace.t[lost];
-  trace.t.erase(trace.t.begin() + static_cast<std::ptrdiff_t>(lost), trace.t.begin() + static_cast<std::ptrdiff_t>(lost + 50));
-  trace.u.erase(trace.u.begin() + static_cast<std::ptrdiff_t>(lost), trace.u.begin() + static_cast<std::ptrdiff_t>(lost + 50));
-  trace.x.erase(trace.x.begin() + static_cast<std::ptrdiff_t>(lost), trace.x.begin() + static_cast<std::ptrdiff_t>(lost + 50));
+  trace.t.erase(trace.t.begin() + static_cast<std::ptrdiff_t>(lost),
+                trace.t.begin() + static_cast<std::ptrdiff_t>(lost + 50));
+  trace.u.erase(trace.u.begin() + static_cast<std::ptrdiff_t>(lost),
+                trace.u.begin() + static_cast<std::ptrdiff_t>(lost + 50));
+  trace.x.erase(trace.x.begin() + static_cast<std::ptrdiff_t>(lost),
+                trace.x.begin() + static_cast<std::ptrdiff_t>(lost + 50));
   for (std::size_t i = trace.x.size() / 4; i < trace.x.size(); ++i) trace.x[i] += 1.0;
   const double jump = trace.t[trace.x.size() / 4];
   const BandRecord record = in_band(trace, 8.0, {});
