@@ -11,7 +11,8 @@ namespace {
 
 using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
-constexpr double kDamping = 0.1;  ///< of the linear resonance [-]; study 11
+constexpr double kFewestCycles = 2.0;  ///< of a line over the travel: fewer are a slope or an offset; here
+constexpr double kDamping = 0.1;       ///< of the linear resonance [-]; study 11
 constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< study 8
 constexpr int kHarmonics = 3;                                                      ///< study 8
 
@@ -258,7 +259,7 @@ const Law& law(std::string_view name) {
 std::vector<double> line_grid(const Scales& s) {
   const double step = 0.5 * kPi / s.travel, top = 2.0 * kPi * s.hz / s.speed_rms;
   std::vector<double> k;
-  for (double at = 4.0 * kPi / 3.0 / s.travel; at <= top; at += step) k.push_back(at);
+  for (double at = 2.0 * kPi * kFewestCycles / s.travel; at <= top; at += step) k.push_back(at);
   return k;
 }
 

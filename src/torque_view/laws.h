@@ -59,7 +59,7 @@ struct Law {
 std::span<const Law> laws();
 const Law& law(std::string_view name);  ///< @throws std::logic_error if there is none
 
-/// 2/3 of a cycle over the travel to what passes the band at the rms speed, Δk = π/2 over the travel.
+/// Two cycles over the travel to what passes the band at the rms speed, Δk = π/2 over the travel.
 std::vector<double> line_grid(const Scales& scales);
 
 }  // namespace gapscope::internal::torque_view
