@@ -50,7 +50,7 @@ double noise_power(std::span<const StampedTrace> traces, double hz) {
   return power;
 }
 
-void read_octaves(Band& band, std::vector<Rows>& rows, const std::vector<double>& hz,
+void read_octaves(FrequencyBand& band, std::vector<Rows>& rows, const std::vector<double>& hz,
                   std::span<const StampedTrace> traces, const Model& full) {
   Products below;
   double noise_below = 0.0;
@@ -65,8 +65,9 @@ void read_octaves(Band& band, std::vector<Rows>& rows, const std::vector<double>
 
 }  // namespace
 
-Band choose_band(std::span<const StampedTrace> traces, bool rotates, const TorqueViewOptions& options) {
-  Band band;
+FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
+                          const TorqueViewOptions& options) {
+  FrequencyBand band;
   const std::vector<double> hz =
       options.given_hz > 0.0 ? std::vector<double>{options.given_hz} : tops(traces, options);
   if (hz.empty()) return band;

@@ -19,11 +19,12 @@ struct Octave {
 /// The widest band that the recordings admit: the last half octave with N/A ≤ 0.3 up to which none has a J of
 /// less than 0.9 of those below. Noise of the encoder only ever takes from J (1 − N²/A²), so one that is
 /// larger ends nothing. Where J a is a small part of the input an octave has no say about J.
-struct Band {
+struct FrequencyBand {
   double hz = kNaN;
   bool free_constant = false;  ///< a recording has one speed
   std::vector<Octave> octaves;
 };
-Band choose_band(std::span<const StampedTrace> traces, bool rotates, const TorqueViewOptions& options);
+FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
+                          const TorqueViewOptions& options);
 
 }  // namespace gapscope::internal::torque_view

@@ -20,6 +20,8 @@ struct Floors {
   double each = kNaN;           ///< ... and by one set for each
   double disagreement() const;  ///< √(joint² − each²)
 };
+/// J times the acceleration that the encoder's noise makes in the band [unit of u].
+double encoder_floor(const SplitRecordings& data, double hz, double inertia);
 Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model,
                  const TorqueViewOptions& options);
 

@@ -37,8 +37,17 @@ void step_back(Bench& bench, Budget& budget) {
   }
 }
 
-void climb(Bench& bench, Budget& budget, const TorqueViewOptions& options) {
-  while (static_cast<int>(budget.rungs.size()) < options.most_rungs) {
+/// What is left above the encoder's floor is no share worth having.
+bool is_at_the_floor(const SplitRecordings& data, Bench& bench, const Model& model,
+                     const TorqueViewOptions& options) {
+  const double left = rms_of(bench.left(model));
+  const double floor = encoder_floor(data, bench.scales.hz, first_coefficient(model, "inertia"));
+  return left * left - floor * floor < options.last_share * left * left;
+}
+
+void climb(const SplitRecordings& data, Bench& bench, Budget& budget, const TorqueViewOptions& options) {
+  while (static_cast<int>(budget.rungs.size()) < options.most_rungs &&
+         !is_at_the_floor(data, bench, budget.model, options)) {
     budget.rungs.push_back(next_rung(bench, budget.model, options));
     const Rung& rung = budget.rungs.back();
     if (!rung.helps) return;
@@ -78,7 +87,7 @@ Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& option
   budget.nominal = budget.model = fitted(bench.fit, nominal_model());
   budget.input_rms = rms_of(bench.judge.u);
   budget.nominal_rms = rms_of(bench.left(budget.nominal));
-  climb(bench, budget, options);
+  climb(data, bench, budget, options);
   budget.rms = rms_of(bench.left(budget.model));
   for (std::size_t i = kNominalTerms; i < budget.model.size(); ++i)
     budget.shares.push_back(share_of(bench, budget, i, options));

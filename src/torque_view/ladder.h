@@ -20,7 +20,7 @@ struct Share {
 
 /// The error budget from the nominal model to what no law explains.
 struct Budget {
-  Band band;
+  FrequencyBand band;
   Model nominal, model;
   double input_rms = 0.0, nominal_rms = 0.0, rms = 0.0;  ///< of the held-out rows [unit of u]
   std::vector<Rung> rungs;

@@ -53,7 +53,7 @@ const Term* find_term(const Model& model, std::string_view name) {
   return at == model.end() ? nullptr : &*at;
 }
 
-double coefficient(const Model& model, std::string_view name) {
+double first_coefficient(const Model& model, std::string_view name) {
   const Term* term = find_term(model, name);
   return term == nullptr ? 0.0 : term->theta[0];
 }
@@ -153,8 +153,8 @@ Eigen::MatrixXd model_columns(Rows& rows, const Model& model) {
 }
 
 void set_torque(Rows& rows, const Model& model) {
-  rows.inertia = coefficient(model, "inertia");
-  rows.viscous = coefficient(model, "viscous");
+  rows.inertia = first_coefficient(model, "inertia");
+  rows.viscous = first_coefficient(model, "viscous");
   for (std::size_t r = 0; r < rows.records.size(); ++r) {
     const auto count = static_cast<Eigen::Index>(rows.records[r].t.size());
     Eigen::Map<Eigen::VectorXd> tau(rows.tau[r].data(), count), load(rows.tau_load[r].data(), count);

@@ -19,8 +19,8 @@ struct Term {
 using Model = std::vector<Term>;
 
 Model nominal_model();
-const Term* find_term(const Model& model, std::string_view law);  ///< nullptr if there is none
-double coefficient(const Model& model, std::string_view law);     ///< its first; 0 if it has none
+const Term* find_term(const Model& model, std::string_view law);     ///< nullptr if there is none
+double first_coefficient(const Model& model, std::string_view law);  ///< its first; 0 if it has none
 
 /// Recordings of one purpose in one band, their rows one below the other.
 struct Rows {

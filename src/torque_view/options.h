@@ -16,7 +16,7 @@ struct TorqueViewOptions {
   double stuck_speed = 0.01;    ///< below it the drive stands [std of the speed]; study 2
   double stuck_quanta = 3.0;    ///< or where a kernel sees no more than these [quanta]; study 2
   double most_stuck = 0.3;      ///< of a row's kernel [-]; study 2
-  // Band
+  // FrequencyBand
   double lowest_hz = 1.0;       ///< top of the lowest octave [Hz]; study 2
   double fewest_samples = 1.2;  ///< in σ of the states in the widest band [samples]; here
   double most_noise = 0.3;      ///< N/A of the band's last octave [-]; study 2

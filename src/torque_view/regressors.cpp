@@ -62,7 +62,8 @@ void mask(BandRecord& record, const StampedTrace& trace, double sigma, const Tor
   std::vector<bool> good(share.size());
   for (std::size_t r = 0; r < good.size(); ++r) {
     const std::size_t first = record.whole.first(r), end = record.whole.end(r);
-    good[r] = end > first + 3 && faults[end] == faults[first + 1] && share[r] <= options.most_stuck;
+    good[r] = end > first + 3 && faults[std::min(end + 1, trace.t.size())] == faults[first] &&
+              share[r] <= options.most_stuck;
   }
   keep_rows(record, good);
 }

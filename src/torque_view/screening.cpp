@@ -24,7 +24,7 @@ bool is_open(const Model& model, const Law& l) {
 
 Candidate judged(Bench& bench, const Law& l, Model model, const Eigen::VectorXd& before) {
   Candidate c{&l, fitted(bench.fit, std::move(model)), {}, {}};
-  if (!has_its_sign(l, c.model.back().theta[0], coefficient(c.model, "inertia"))) return c;
+  if (!has_its_sign(l, c.model.back().theta[0], first_coefficient(c.model, "inertia"))) return c;
   c.squares = bench.squares(c.model);
   c.evidence = bench.blocks.compare(before, c.squares);
   return c;

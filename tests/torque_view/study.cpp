@@ -66,7 +66,7 @@ std::string text(const Eigen::VectorXd& theta) {
   return s;
 }
 
-void print_band(const Band& band) {
+void print_band(const FrequencyBand& band) {
   fmt::print("octave up to  J          N/A     share of J a\n");
   for (const Octave& o : band.octaves)
     fmt::print("{:8.3g} Hz   {:<10.4g} {:.3f}   {:.3f}\n", o.top_hz, o.inertia, o.noise, o.inertial);
@@ -85,7 +85,7 @@ void print_rungs(const Budget& b, std::size_t ranks) {
                : r.helps ? "helps "
                          : "(not) ",
                c.law->name, r.rms, percent * r.rms, text(c.evidence), r.rival, r.margin, r.leading,
-               coefficient(c.model, "inertia"));
+               first_coefficient(c.model, "inertia"));
     for (std::size_t i = 0; i < std::min(ranks, r.ranking.size()); ++i)
       fmt::print("         {:26} {:10.4g} {} :{}\n", r.ranking[i].law->name, r.ranking[i].model.back().shape,
                  text(r.ranking[i].evidence), text(r.ranking[i].model.back().theta));
