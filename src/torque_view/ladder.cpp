@@ -37,12 +37,12 @@ void step_back(Bench& bench, Budget& budget) {
   }
 }
 
-/// What is left above the encoder's floor is no share worth having.
+/// What is left is mostly noise of the encoder: J that it attenuates would pass for a resonance.
 bool is_at_the_floor(const SplitRecordings& data, Bench& bench, const Model& model,
                      const TorqueViewOptions& options) {
   const double left = rms_of(bench.left(model));
   const double floor = encoder_floor(data, bench.scales.hz, first_coefficient(model, "inertia"));
-  return left * left - floor * floor < options.last_share * left * left;
+  return floor * floor >= options.most_encoder * left * left;
 }
 
 void climb(const SplitRecordings& data, Bench& bench, Budget& budget, const TorqueViewOptions& options) {

@@ -8,8 +8,9 @@ namespace gapscope::internal::torque_view {
 /// origins name; "here" means set with study_torque_view on the recordings that it lists.
 struct TorqueViewOptions {
   // Regressors
-  double inner_share = 0.6;   ///< σ of the states over σ of the band [-]; here: (0.6, 0.8, 1) is a triangle
-  double kernel_reach = 3.0;  ///< half the length of a kernel [σ]; study 2 and 10.1 (trim)
+  double inner_share = 0.6;  ///< σ of the states over σ of the band [-]; here: (0.6, 0.8, 1) is a triangle
+  double kernel_reach =
+      4.0;  ///< half the length of a kernel [σ]; here: with 3 (study 10.1) J rises by 3 % with frequency
   double rows_per_hertz = 6.0;  ///< rows a second per hertz of the band [-]; study 10.1
   double lost_step = 2.5;       ///< a time step beyond it lost samples [median steps]; study 4.4
   double jump = 12.0;           ///< a step of x beyond it is a jump [median moving steps]; study 4.4
@@ -35,8 +36,9 @@ struct TorqueViewOptions {
   double least_leading = 0.95;  ///< share of the draws in which it leads them [-]; study 1.4
   double same_group = 0.9;      ///< overlap from which laws are one group [-]; study 9
   // Ladder
-  int most_rungs = 8;       ///< study 10.5
-  double last_share = 0.1;  ///< below it the ladder ends [-]; study 10.5
+  int most_rungs = 8;         ///< study 10.5
+  double most_encoder = 0.5;  ///< share of what is left that is the encoder's, at which it ends [-]; here
+  double last_share = 0.1;    ///< below it the ladder ends [-]; study 10.5
 };
 
 }  // namespace gapscope::internal::torque_view
