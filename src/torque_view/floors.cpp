@@ -56,7 +56,7 @@ double repeatability(const SplitRecordings& data, Bench& bench, const Model& mod
 
 double Floors::disagreement() const { return std::sqrt(std::max(0.0, joint * joint - each * each)); }
 
-double encoder_floor(const SplitRecordings& data, double hz, double inertia) {
+double encoder_torque_floor(const SplitRecordings& data, double hz, double inertia) {
   double noise = 0.0;
   for (const StampedTrace& t : data.judge)
     noise = std::max(noise, noise_acceleration(position_noise(t), t.step(), hz));
@@ -67,7 +67,7 @@ Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model,
                  const TorqueViewOptions& options) {
   Floors floors;
   const double hz = bench.scales.hz;
-  floors.encoder = encoder_floor(data, hz, first_coefficient(model, "inertia"));
+  floors.encoder = encoder_torque_floor(data, hz, first_coefficient(model, "inertia"));
   floors.repeatability = repeatability(data, bench, model);
 
   std::vector<StampedTrace> traces = data.fit;

@@ -21,7 +21,7 @@ struct Floors {
   double disagreement() const;  ///< √(joint² − each²)
 };
 /// J times the acceleration that the encoder's noise makes in the band [unit of u].
-double encoder_floor(const SplitRecordings& data, double hz, double inertia);
+double encoder_torque_floor(const SplitRecordings& data, double hz, double inertia);
 Floors floors_of(const SplitRecordings& data, Bench& bench, const Model& model,
                  const TorqueViewOptions& options);
 

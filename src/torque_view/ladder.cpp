@@ -41,7 +41,7 @@ void step_back(Bench& bench, Budget& budget) {
 bool is_at_the_floor(const SplitRecordings& data, Bench& bench, const Model& model,
                      const TorqueViewOptions& options) {
   const double left = rms_of(bench.left(model));
-  const double floor = encoder_floor(data, bench.scales.hz, first_coefficient(model, "inertia"));
+  const double floor = encoder_torque_floor(data, bench.scales.hz, first_coefficient(model, "inertia"));
   return floor * floor >= options.most_encoder * left * left;
 }
 
