@@ -23,11 +23,6 @@
 namespace gapscope {
 namespace {
 
-std::string word_of(DiagnosisVerdict verdict) {
-  if (verdict == DiagnosisVerdict::kEffect) return "effect";
-  return verdict == DiagnosisVerdict::kNone ? "none" : "unknown";
-}
-
 /// What a sheet names was sealed with it.
 void require_sealed(const Configuration& c, const SealedCase& sealed) {
   if (!c.recording) throw ConfigError(c.file, "simulates, expected recording: {file, held_out}");
@@ -67,7 +62,7 @@ BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
   stop_point();  // a diagnosis that was asked to stop has judged by less than it had
   return {c.name,
           c.files,
-          word_of(d.verdict),
+          to_string(d.verdict),
           d.effects,
           d.group,
           d.where.headline,
@@ -96,12 +91,12 @@ void require_answer(const BlindAnswer& a, const std::string& file) {
   const auto fail = [&](const std::string& what) {
     throw ConfigError(file, "its answer to " + shown(a.name) + what);
   };
-  const bool effect = a.verdict == "effect";
-  if (!effect && a.verdict != "none" && a.verdict != "unknown")
-    fail(" is " + shown(a.verdict) + ", expected effect, none or unknown");
-  if (effect == a.effects.empty() || effect == a.group.empty())
+  const bool added = a.verdict == "effect" || a.verdict == "helps";
+  if (!added && a.verdict != "none" && a.verdict != "unknown")
+    fail(" is " + shown(a.verdict) + ", expected effect, helps, none or unknown");
+  if (added == a.effects.empty() || added == a.group.empty())
     fail(" is " + shown(a.verdict) + " with " + std::to_string(a.effects.size()) +
-         " effects, expected at least one where it is 'effect' and none elsewhere");
+         " effects, expected at least one where it is 'effect' or 'helps' and none elsewhere");
   if (a.headline.size() > kLongestHeadline) fail(" has a headline of that length, expected a sentence");
   for (const ModelEvidence& e : a.evidence.candidates)
     if (find_effect(e.effect) == nullptr)

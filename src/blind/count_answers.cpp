@@ -74,7 +74,7 @@ std::vector<BlindCount> count_answers(const CountedCases& cases) {
   counts.push_back(count("no effect: one blamed", cases, none, blamed, 1.0 / 150.0, true));
   counts.push_back(count(
       "outside the catalogue: unknown", cases, seen_outside,
-      [](const ScoredAnswer& s) { return s.answer->verdict == "unknown"; }, 0.9));
+      [](const ScoredAnswer& s) { return s.claims_no_cause(); }, 0.9));
   counts.push_back(count("outside the catalogue: an effect blamed", cases, seen_outside, blamed));
   counts.push_back(count("truth taken out: another effect blamed", cases, seen_known, blames_another));
   counts.push_back(count("truth and look-alikes taken out: no other effect blamed", cases, seen_known,

@@ -19,6 +19,10 @@ bool ScoredAnswer::outside() const {
   return label->effects.size() == 1 && find_effect(label->effects.front()) == nullptr;
 }
 
+bool ScoredAnswer::claims_no_cause() const {
+  return answer->verdict == "unknown" || answer->verdict == "helps";
+}
+
 bool ScoredAnswer::in_group() const {
   return std::any_of(label->effects.begin(), label->effects.end(),
                      [&](const std::string& truth) { return contains(first.group, truth); });
@@ -36,7 +40,7 @@ std::size_t ScoredAnswer::found() const {
 
 bool ScoredAnswer::right() const {
   if (none()) return answer->verdict == "none";
-  if (outside()) return answer->verdict == "unknown";
+  if (outside()) return claims_no_cause();
   return blamed() && found() == label->effects.size() && standing() == found();
 }
 
@@ -79,6 +83,7 @@ std::string truth_name(const ScoredAnswer& s) {
 }
 
 std::string answer_name(const ScoredAnswer& s) {
+  if (s.claims_no_cause()) return "unknown";
   if (!s.blamed()) return s.answer->verdict;
   return s.known() && s.named() ? s.label->effects.front() : s.answer->effects.front();
 }

@@ -18,7 +18,8 @@ struct ScoredAnswer {
   bool known() const { return label->effects.size() == 1 && !outside(); }
   bool reported() const { return label->part == "report"; }
   bool seen() const { return answer->evidence.before() > 2.0; }
-  bool in_group() const;  ///< one of the truths is in the first step's group
+  bool in_group() const;         ///< one of the truths is in the first step's group
+  bool claims_no_cause() const;  ///< unknown, or an effect that helps while its cause is open
   bool blamed() const { return answer->verdict == "effect"; }
   bool holds(const std::string& effect) const;  ///< it is among those named, or in the first one's group
   bool named() const { return blamed() && holds(label->effects.front()); }

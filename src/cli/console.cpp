@@ -99,9 +99,7 @@ void print_headline(const std::string& folder, const RunResult& r) {
 void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {
   const Diagnosis& d = r.diagnosis;
   line("report", folder);
-  line("verdict", d.verdict == DiagnosisVerdict::kEffect ? "effect"
-                  : d.verdict == DiagnosisVerdict::kNone ? "none"
-                                                         : "unknown");
+  line("verdict", to_string(d.verdict));
   for (const std::string& effect : d.effects) line("effect", effect);
   line("answer", d.sentence);
   if (d.verdict != DiagnosisVerdict::kNone) line("place", d.where.headline);

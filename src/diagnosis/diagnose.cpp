@@ -104,6 +104,9 @@ Findings first_look(Study& study) {
   Findings found;
   study.options.progress("fitting the nominal model");
   found.before = scored_nominal(study);
+  if (study.nominal_work == 0) study.nominal_work = *study.options.fit.work;
+  study.options.progress("weighing torques");
+  found.budget = torque_budget(study, found.before.fitted.model);
   if (at_floor(found.before)) return found;
   if (std::optional<ScoredModel> together = explained_together(study, found.before)) {
     found.alone = std::max(found.before.median_free, found.before.median_innovation);
@@ -120,12 +123,13 @@ Findings first_look(Study& study) {
       found.before = std::move(repeated);
     }
   }
-  found.candidates = candidates_of(study, found.before, study.catalogue);
+  const auto catalogue = found.budget ? worth_refitting(study, *found.budget) : study.catalogue;
+  found.candidates = candidates_of(study, found.before, catalogue);
   if (std::optional<ScoredModel> better = nominal_near(study, found)) {
     found.before = std::move(*better);
     found.candidates.clear();
     if (at_floor(found.before)) return found;
-    found.candidates = candidates_of(study, found.before, study.catalogue);
+    found.candidates = candidates_of(study, found.before, catalogue);
   }
   if (const EffectEntry* parent = excluded_parent(study, found.candidates))
     found.excluded_parents = candidates_of(study, found.before, {parent});
@@ -184,11 +188,32 @@ std::optional<Findings> look_wider(Study& study, const Findings& found) {
   return wider;
 }
 
+/// The ladder of the torque balance, unless one effect explains all that the encoder shows.
+TorqueSearch climb(const Study& study, const Findings& found) {
+  if (!found.budget || (found.candidates.empty() && at_floor(found.before))) return {};
+  if (found.decision.accepted && at_floor(found.candidates.front()) && !study.repeats_badly()) return {};
+  if (!found.budget->says_most) return {};
+  study.options.progress("refitting what leads in torque");
+  return take_ladder(study, found.before, *found.budget);
+}
+
 /// Where hardly anything but noise moves x1, nothing seems to be missing.
 void require_driven(const Study& study, const ScoredModel& model) {
   if (const std::string left = motion_left(study.held_out, model); !left.empty())
     throw ConfigError(study.held_out.traces.front().file,
                       "u does not move x1: " + left + ", expected the recording of a driven motion");
+}
+
+/// @param explains false: what was added leaves the motion unexplained
+Diagnosis report(const Study& study, const Findings& found, const Additions& added,
+                 const TorqueSearch& ladder, bool explains) {
+  if (!ladder.added.empty()) return report_ladder(study, found, ladder);
+  const bool helped = !added.accepted && explains && !found.candidates.empty() &&
+                      shrink_of(found.before.median_free, found.candidates.front().median_free) > 0.0 &&
+                      std::isfinite(found.candidates.front().score) && !found.decision.group.empty() &&
+                      helps(found.before, found.candidates.front(), study.repeats_badly()) &&
+                      motion_left(study.held_out, found.candidates.front()).empty();
+  return helped ? report_help(study, found) : report_back(study, found, added);
 }
 
 }  // namespace
@@ -202,14 +227,17 @@ Findings investigate(Study& study) {
 
 EffectSearch search_effects(Study& study) {
   Findings found = investigate(study);
+  if (TorqueSearch ladder = climb(study, found); !ladder.added.empty())
+    return {std::move(found), {}, std::move(ladder)};
   Additions added = add_further(study, found);
   if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
-  if (added.accepted || !asked_far_too_little(study, found)) return {std::move(found), std::move(added)};
+  if (added.accepted || study.is_exhausted() || !asked_far_too_little(study, found))
+    return {std::move(found), std::move(added), {}};
   if (std::optional<Findings> wider = look_wider(study, found)) {
     added = add_further(study, *wider);
     found = std::move(*wider);
   }
-  return {std::move(found), std::move(added)};
+  return {std::move(found), std::move(added), {}};
 }
 
 }  // namespace internal::diagnosis
@@ -228,14 +256,21 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   GAPSCOPE_REQUIRE(!train.empty());
   for (const auto& traces : {train, held_out})
     for (const MotorTrace& t : traces) require_motion(t);
-  Study study = make_study(train, held_out, model, options);
-  auto [found, added] = search_effects(study);
-  const std::string left = added.accepted ? motion_left(study.held_out, added.after) : "";
+  DiagnosisOptions counted = options;
+  counted.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
+  Study study = make_study(train, held_out, model, counted);
+  require_motion(study.held_out);
+  auto [found, added, ladder] = search_effects(study);
+  std::string left = added.accepted ? motion_left(study.held_out, added.after) : "";
   if (!left.empty()) added = {};
-  Diagnosis diagnosis = report_back(study, found, added);
+  Diagnosis diagnosis = report(study, found, added, ladder, left.empty());
   if (!left.empty()) diagnosis.warnings.push_back("no effect is named: with it, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);
+  if (study.is_exhausted())
+    diagnosis.warnings.push_back(fmt::format(
+        "the search for further effects was cut off at the work of {:.0f} fits of the nominal model.",
+        Study::kMostNominalFits));
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "diagnosis/study.h"
+#include "torque_view/ladder.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -14,6 +16,7 @@ struct Findings {
   std::vector<ScoredModel> candidates;        ///< best first; empty at the floor
   std::vector<ScoredModel> excluded_parents;  ///< of the first candidate
   Decision decision;
+  std::optional<torque_view::Budget> budget;  ///< of a drive of one body
 };
 
 /// A drive that repeats its own motion far worse than its encoder reads cannot be explained to the encoder's

@@ -94,7 +94,7 @@ void drop_stand_ins(const Study& study, Additions& a) {
 /// Where an effect was chosen while later ones were still missing, one of its look-alikes may now be better.
 void choose_among_look_alikes(const Study& study, Additions& a) {
   for (Addition& effect : a.effects) {
-    if (at_floor(a.after)) return;
+    if (at_floor(a.after) || study.is_exhausted()) return;
     if (effect.entry == a.effects.back().entry || !has_effect(a.after.fitted.model, effect.entry)) continue;
     std::vector<const EffectEntry*> alike{effect.entry};
     for (const EffectEntry* e : study.catalogue)
@@ -154,7 +154,7 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
   a.effects = {{first.entry, std::move(group)}};
   std::optional<ScoredModel> narrow;  // the model so far, before half of what is held out was fitted
   std::size_t steps_before = 0;
-  while (a.steps.size() + 1 < kMostEffects && !at_floor(a.after)) {
+  while (a.steps.size() + 1 < kMostEffects && !at_floor(a.after) && !study.is_exhausted()) {
     a.explained = explained_together(study, a.after);
     if (a.explained) break;
     study.options.progress("looking for a further effect");
@@ -244,6 +244,7 @@ Additions add_further(const Study& study, const Findings& found) {
     a.accepted = borne_out(nominal_of(found, a), a) || (is_best && sure.in_part && a.effects.size() > 1);
     const bool better = a.accepted && (!best.accepted || a.after.score < best.after.score);
     if (better || (is_best && !best.accepted)) best = std::move(a);
+    if (study.is_exhausted()) break;
     if (best.accepted && (best.explained || leaves_little(nominal_of(found, best), best.after))) break;
   }
   return best;

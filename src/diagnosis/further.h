@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/diagnose.h"
+#include "diagnosis/torque_search.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -56,6 +56,7 @@ const ScoredModel& nominal_of(const Findings& found, const Additions& additions)
 struct EffectSearch {
   Findings found;
   Additions added;
+  TorqueSearch ladder;  ///< where it leads: nothing else is added then
 };
 /// Where they lead nowhere and what is held out shows far more than what was fitted, the first half of it is
 /// fitted, too, as in investigate().

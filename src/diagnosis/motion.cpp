@@ -27,6 +27,13 @@ void require_motion(const MotorTrace& t) {
       fmt::format("x1 does not move ({:.3g} in all), expected the recording of a motion", *high - *low));
 }
 
+void require_motion(const HeldOut& held_out) {
+  const std::vector<double> still = still_windows(held_out);
+  if (std::any_of(still.begin(), still.end(), [](double square) { return square > kMoves; })) return;
+  throw ConfigError(held_out.traces.front().file,
+                    "x1 does not move where the model is judged, expected the recording of a motion");
+}
+
 double unexplained_motion(const HeldOut& held_out, const ScoredModel& model) {
   const std::vector<double> still = still_windows(held_out);
   const std::vector<double>& left = model.windows.free;
@@ -38,10 +45,7 @@ double unexplained_motion(const HeldOut& held_out, const ScoredModel& model) {
 
 std::string motion_left(const HeldOut& held_out, const ScoredModel& model) {
   const double left = unexplained_motion(held_out, model);
-  if (std::isnan(left))
-    throw ConfigError(held_out.traces.front().file,
-                      "x1 does not move where the model is judged, expected the recording of a motion");
-  if (left <= kMostLeft) return "";
+  if (!(left > kMostLeft)) return "";
   return fmt::format("the best model leaves {:.0f} % of the motion unexplained", 100.0 * left);
 }
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 #include "diagnosis/probability.h"
+#include "gapscope/base/random.h"
+#include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -27,10 +30,14 @@ constexpr double kNestedShare = 0.8;       ///< of the child's gain: the parent 
 constexpr double kNestedMargin = 0.6;      ///< S from which on the child is better nevertheless
 constexpr double kNestedShareOfSize =
     0.5;  ///< share of the prediction error's decrease above which the parent is enough
-constexpr double kLeastDistance = 0.3;  ///< S to the floor of which a share can be told
-constexpr double kTrace = 0.02;         ///< share of the free runs' size that such a law may leave
-constexpr double kParentAsGood = 0.1;   ///< S, at the floor
-constexpr double kFarMore = 20.0;       ///< times the size that is left of what was fitted
+constexpr double kLeastDistance = 0.3;     ///< S to the floor of which a share can be told
+constexpr double kTrace = 0.02;            ///< share of the free runs' size that such a law may leave
+constexpr double kParentAsGood = 0.1;      ///< S, at the floor
+constexpr double kFarMore = 20.0;          ///< times the size that is left of what was fitted
+constexpr double kLeastHelp = 0.1;         ///< of the mean square of the held-out windows
+constexpr double kHelpFitted = 0.97;       ///< of the fitted mean square, at most, that what helps leaves
+constexpr std::size_t kFewestWindows = 4;  ///< of which an interval can be told
+constexpr int kDraws = 400;
 const double kFloorScore = std::log(1.0 + kScoreOffset);
 
 bool names(std::span<const char* const> list, std::string_view name) {
@@ -83,6 +90,31 @@ bool at_floor(const ScoredModel& j) {
 
 bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_cost) {
   return model.median_free > kFarMore * std::sqrt(fitted_mean_cost);
+}
+
+bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_badly) {
+  const auto windows = repeats_badly ? &Windows::innovation : &Windows::free;
+  const std::vector<double>&b = before.windows.*windows, &a = after.windows.*windows;
+  const std::size_t count = std::min(a.size(), b.size());
+  if (count < kFewestWindows || !(after.fitted.mean_square < kHelpFitted * before.fitted.mean_square))
+    return false;
+  const auto share = [&](const std::vector<std::size_t>& drawn) {
+    double left = 0.0, all = 0.0;
+    for (const std::size_t i : drawn) left += a[i], all += b[i];
+    return 1.0 - left / all;
+  };
+  std::vector<std::size_t> drawn(count);
+  std::iota(drawn.begin(), drawn.end(), 0u);
+  if (!(share(drawn) >= kLeastHelp) || !(share_of_windows_better(before, after) >= kLeastWindows))
+    return false;
+  std::mt19937_64 generator = random_stream(1, "windows that help");
+  std::vector<double> shares;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    for (std::size_t& i : drawn)
+      i = static_cast<std::size_t>(uniform(generator, 0.0, static_cast<double>(count)));
+    shares.push_back(share(drawn));
+  }
+  return quantile(std::move(shares), 0.025) > 0.0;
 }
 
 double relative_gain(const ScoredModel& before, const ScoredModel& after) {

@@ -66,6 +66,11 @@ Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& befor
 Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, bool repeats_badly,
                       std::span<const ScoredModel> excluded_parents);
 
+/// Whether a candidate shrinks the held-out error beyond chance and by what is worth having, whatever its
+/// cause: by at least a tenth of the mean square, of which the 95 % interval over windows is above zero, in
+/// most of them, and asked for by what was fitted.
+bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_badly);
+
 double relative_gain(const ScoredModel& before, const ScoredModel& after);
 /// Of the free runs above the floor; of the innovations where none is.
 double share_of_windows_better(const ScoredModel& before, const ScoredModel& after);

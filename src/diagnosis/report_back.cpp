@@ -10,6 +10,7 @@
 #include "diagnosis/periodic_torque.h"
 #include "diagnosis/probability.h"
 #include "diagnosis/remark.h"
+#include "diagnosis/tell_budget.h"
 #include "diagnosis/where.h"
 #include "diagnosis/words.h"
 
@@ -20,17 +21,6 @@ constexpr double kClearMargin = 0.6;  ///< S to the best other group: the eviden
 constexpr std::size_t kMostRivals = 2;
 constexpr double kRivalGain = 0.1;   ///< S that a rival gains at least,
 constexpr double kRivalShare = 0.5;  ///< and of what the best gains: else no experiment is worth its time
-
-std::vector<NamedValue> effect_values(const ModelEffect& effect) {
-  std::vector<NamedValue> values;
-  for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i) {
-    const EffectParameterSpec& spec = effect.entry->parameters[i];
-    double value = effect.parameters[i].value;
-    if (spec.key == std::string("phase_rad")) value = std::remainder(value, 2.0 * kPi);
-    values.push_back({spec.key, spec.unit, value});
-  }
-  return values;
-}
 
 std::vector<RankedEffect> ranking_of(const Study& study, const ScoredModel& before,
                                      const std::vector<ScoredModel>& candidates, const Decision& decision) {
@@ -173,16 +163,43 @@ std::vector<Rival> open_question(const Findings& found, const Additions& added) 
   return rivals;
 }
 
-}  // namespace
+/// What each accepted step takes, by the measure of the whole; a step that made others superfluous has none.
+void tell_added(const Study& study, const ScoredModel& nominal, const Additions& additions, Diagnosis& d) {
+  const bool one_each =
+      additions.effects.size() == d.effects.size() && d.steps.size() + 1 >= d.effects.size();
+  for (std::size_t i = 0; i < additions.effects.size(); ++i) {
+    const Addition& effect = additions.effects[i];
+    AddedEffect a;
+    a.effect = effect.entry->name;
+    a.established = true;
+    a.group = names_of(effect.group);
+    a.parameters = values_in(additions.after.fitted.model, *effect.entry);
+    const bool alone = additions.steps.empty() || !additions.steps.front().decision.accepted;
+    const MismatchSize size = i > 0   ? (one_each ? d.steps[i - 1].mismatch : MismatchSize{})
+                              : alone ? d.mismatch
+                                      : mismatch_size(study, nominal, additions.steps.front().before);
+    a.shrink = size.shrink, a.shrink_ci95 = size.shrink_ci95;
+    if (i + 1 == additions.effects.size()) a.after_torque = d.mismatch.after_torque;
+    d.added.push_back(std::move(a));
+  }
+}
 
-Diagnosis report_back(const Study& study, const Findings& found, const Additions& additions) {
-  Diagnosis d;
-  d.verdict = verdict_of(found, additions);
+/// The size of the mismatch in torque as the observer's residual shows it.
+void tell_torque(const Study& study, double torque_constant, Diagnosis& d) {
+  const MismatchMeasure& torque = d.measures.back();
+  d.mismatch.before_torque = torque.before, d.mismatch.after_torque = torque.after;
+  double square = 0.0, samples = 0.0;
+  for (const MotorTrace& t : study.held_out.traces)
+    for (const double u : t.u) square += u * u, samples += 1.0;
+  d.mismatch.input_torque = torque_constant * std::sqrt(square / samples);
+}
+
+/// What does not depend on how the additions were found.
+/// @param first the effect that was added first, as it was fitted alone; nullptr: none
+void tell_models(const Study& study, const Findings& found, const ScoredModel& nominal,
+                 const ScoredModel& after, const ModelEffect* first, Diagnosis& d) {
+  const bool added = first != nullptr;
   d.observer_hz = study.observer_hz;
-  const bool added = d.verdict == DiagnosisVerdict::kEffect;
-  const ScoredModel& nominal = added ? nominal_of(found, additions) : found.before;
-  const ScoredModel& after = added ? additions.after : nominal;
-  tell_steps(study, additions, d);
   if (added) d.blame = blame_of(nominal, after);
   d.ranking = ranking_of(study, found.before, found.candidates, found.decision);
   d.fitted = after.fitted.model;
@@ -195,12 +212,67 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
         probability_shares(found.candidates, found.decision, study.options.known.outside_catalogue).outside;
   d.mismatch = mismatch_size(study, nominal, after);
   d.measures = measures_of(study, before_played, after_played);
-  d.where = place_of(before_played, study.held_out, km, study.options.coordinates,
-                     added ? &alone(found, additions.effects.front().entry) : nullptr);
+  d.where = place_of(before_played, study.held_out, km, study.options.coordinates, first);
   d.remaining = place_of(after_played, study.held_out, km, study.options.coordinates, nullptr);
   d.traces = traces_of(study, before_played, after_played);
+  tell_torque(study, km, d);
+  if (found.budget) tell_budget(study, *found.budget, d);
+}
+
+}  // namespace
+
+Diagnosis report_back(const Study& study, const Findings& found, const Additions& additions) {
+  Diagnosis d;
+  d.verdict = verdict_of(found, additions);
+  const bool added = d.verdict == DiagnosisVerdict::kEffect;
+  const ScoredModel& nominal = added ? nominal_of(found, additions) : found.before;
+  tell_steps(study, additions, d);
+  tell_models(study, found, nominal, added ? additions.after : nominal,
+              added ? &alone(found, additions.effects.front().entry) : nullptr, d);
+  if (added) tell_added(study, nominal, additions, d);
   d.rivals = open_question(found, additions);
-  d.sentence = sentence_of(d);
+  d.sentence = sentence_of(d, study.options.coordinates);
+  return d;
+}
+
+namespace {
+
+/// The model with what was added, in order.
+Diagnosis report_added(const Study& study, const Findings& found, const ScoredModel& after,
+                       std::vector<AddedEffect> added) {
+  Diagnosis d;
+  d.verdict = added.front().established ? DiagnosisVerdict::kEffect : DiagnosisVerdict::kHelps;
+  for (const AddedEffect& a : added) d.effects.push_back(a.effect);
+  d.group = added.front().group;
+  d.added = std::move(added);
+  const EffectEntry* first = find_effect(d.effects.front());
+  const auto& fitted = after.fitted.model.effects;
+  const auto at = std::find_if(fitted.begin(), fitted.end(), [&](const ModelEffect& e) {
+    return e.entry == first || contained_effect(*e.entry) == first;
+  });
+  tell_models(study, found, found.before, after, at == fitted.end() ? nullptr : &*at, d);
+  return d;
+}
+
+}  // namespace
+
+Diagnosis report_ladder(const Study& study, const Findings& found, const TorqueSearch& ladder) {
+  Diagnosis d = report_added(study, found, ladder.after, added_effects(*found.budget, ladder));
+  d.sentence = sentence_of(d, study.options.coordinates);
+  return d;
+}
+
+Diagnosis report_help(const Study& study, const Findings& found) {
+  const ScoredModel& best = found.candidates.front();
+  AddedEffect a;
+  a.effect = best.entry->name;
+  a.group = names_of(found.decision.group);
+  a.parameters = values_in(best.fitted.model, *best.entry);
+  Diagnosis d = report_added(study, found, best, {a});
+  d.added.front().shrink = d.mismatch.shrink, d.added.front().shrink_ci95 = d.mismatch.shrink_ci95;
+  d.added.front().after_torque = d.mismatch.after_torque;
+  d.rivals = open_question(found, {});
+  d.sentence = sentence_of(d, study.options.coordinates);
   return d;
 }
 

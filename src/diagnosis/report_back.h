@@ -7,4 +7,10 @@ namespace gapscope::internal::diagnosis {
 /// Puts the findings into the public result: sizes, ranking, places, blame, traces, words.
 Diagnosis report_back(const Study& study, const Findings& found, const Additions& added);
 
+/// The same of what the torque balance has led to.
+Diagnosis report_ladder(const Study& study, const Findings& found, const TorqueSearch& ladder);
+
+/// The same of a first candidate that shrinks the held-out error while its cause is open.
+Diagnosis report_help(const Study& study, const Findings& found);
+
 }  // namespace gapscope::internal::diagnosis

@@ -109,6 +109,7 @@ void further_rounds(const Study& study, const ScoredModel& before, std::vector<S
     return retry(study.train, candidate, first, study.sheet, options, study.observer_hz);
   });
   if (!all || relative_gain(before, ranked.front()) > kExplainsMuch || study.repeats_badly()) return;
+  if (study.is_exhausted()) return;
   for (std::size_t i = 0; i < ranked.size(); ++i)
     if (!tried.contains(ranked[i].entry)) rest.push_back(i);
   once_more(study, before, rest, ranked, [&](const FittedModel& candidate) {

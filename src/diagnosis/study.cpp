@@ -75,6 +75,10 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
   return study;
 }
 
+bool Study::is_exhausted() const {
+  return static_cast<double>(*options.fit.work) > kMostNominalFits * static_cast<double>(nominal_work);
+}
+
 bool may_fit_half_of_the_held_out(const Study& study) {
   return !study.repeats_badly() && !(study.held_out.scored_from.front() > 0);
 }

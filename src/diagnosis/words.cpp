@@ -55,6 +55,42 @@ std::string effect_sentence(const Diagnosis& d) {
   return text + fmt::format(", to {}.", ratio(d.mismatch.remains, d));
 }
 
+/// "9.66 N to 1.1 N (from 17.8 % to 2 % of what the input brings)"
+std::string torque_fall(const Diagnosis& d, Coordinates coordinates) {
+  const MismatchSize& m = d.mismatch;
+  const char* const unit = coordinates.torque_unit();
+  return fmt::format(
+      "the residual {} on held-out data falls from {:.3g} {} to {:.3g} {} ({:.3g} % to {:.3g} % "
+      "of what the input brings)",
+      coordinates.torque_word(), m.before_torque, unit, m.after_torque, unit,
+      100.0 * m.before_torque / m.input_torque, 100.0 * m.after_torque / m.input_torque);
+}
+
+/// The same by the measure of a drive whose torque balance depends on its contact.
+std::string error_fall(const Diagnosis& d) {
+  return fmt::format("the held-out error shrinks by {:.0f} % of what is above the floor, to {}",
+                     100.0 * d.mismatch.shrink, ratio(d.mismatch.remains, d));
+}
+
+/// What is added, in order: causes that are established, then what helps.
+std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
+  std::vector<std::string> causes, open;
+  for (const AddedEffect& a : d.added) {
+    const std::string name = readable(a.effect);
+    a.established ? causes.push_back(name) : open.push_back(name + likeness(a.group));
+  }
+  const std::string fall = d.budget.exists() ? torque_fall(d, coordinates) : error_fall(d);
+  const char* const with = d.added.size() > 1 ? "them" : "it";
+  if (causes.empty())
+    return fmt::format("Adding {} helps, but the cause stays open: with {} {}.", fmt::join(open, ", then "),
+                       with, fall);
+  std::string text = fmt::format("The model lacks {}", fmt::join(causes, ", then "));
+  if (!open.empty())
+    text += fmt::format("; {} {} as well, though {} cause stays open", fmt::join(open, " and "),
+                        open.size() > 1 ? "help" : "helps", open.size() > 1 ? "their" : "its");
+  return text + fmt::format(": with {} {}.", with, fall);
+}
+
 std::string unknown_sentence(const Diagnosis& d) {
   std::string text =
       fmt::format("Something is missing that the catalogue does not explain: the held-out error is {}, {}",
@@ -69,10 +105,12 @@ std::string unknown_sentence(const Diagnosis& d) {
 
 }  // namespace
 
-std::string sentence_of(const Diagnosis& d) {
+std::string sentence_of(const Diagnosis& d, Coordinates coordinates) {
   switch (d.verdict) {
     case DiagnosisVerdict::kEffect:
-      return effect_sentence(d);
+      return d.added.empty() ? effect_sentence(d) : ladder_sentence(d, coordinates);
+    case DiagnosisVerdict::kHelps:
+      return ladder_sentence(d, coordinates);
     case DiagnosisVerdict::kNone:
       return fmt::format("Nothing is missing that this recording could show: the held-out error is {}.",
                          ratio(d.mismatch.before / d.mismatch.floor, d));
@@ -85,6 +123,22 @@ std::string sentence_of(const Diagnosis& d) {
 }
 
 }  // namespace internal::diagnosis
+
+const char* to_string(DiagnosisVerdict verdict) {
+  switch (verdict) {
+    case DiagnosisVerdict::kEffect:
+      return "effect";
+    case DiagnosisVerdict::kHelps:
+      return "helps";
+    case DiagnosisVerdict::kNone:
+      return "none";
+    case DiagnosisVerdict::kUnknown:
+      return "unknown";
+    case DiagnosisVerdict::kNotRun:
+      return "not run";
+  }
+  return "";
+}
 
 std::string Diagnosis::brief_report() const { return sentence; }
 

@@ -6,7 +6,7 @@
 
 namespace gapscope::internal::diagnosis {
 
-/// The answer in one sentence.
-std::string sentence_of(const Diagnosis& diagnosis);
+/// The answer in a sentence or two.
+std::string sentence_of(const Diagnosis& diagnosis, Coordinates coordinates);
 
 }  // namespace gapscope::internal::diagnosis

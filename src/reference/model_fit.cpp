@@ -28,10 +28,17 @@ FitLinearisation::FitLinearisation(std::vector<double> q, std::vector<LinearResi
 ModelFit::ModelFit(std::span<const MotorTrace> recordings, const ReferenceModel& model,
                    const FitOptions& options, double observer_hz)
     : problem_(std::make_unique<const FitProblem>(make_problem(recordings, model, options))),
+      work_(options.work),
       model_(model),
-      observer_hz_(observer_hz) {}
+      observer_hz_(observer_hz) {
+  for (const MotorTrace& t : recordings) samples_ += static_cast<double>(t.size());
+}
 ModelFit::~ModelFit() = default;
 ModelFit::ModelFit(ModelFit&&) noexcept = default;
+
+void ModelFit::count(double simulations) const {
+  if (work_) *work_ += std::llround(samples_ * simulations);
+}
 
 bool ModelFit::values_are_given() const { return reference::values_are_given(*problem_); }
 
@@ -56,13 +63,17 @@ std::optional<FitPoint> ModelFit::with_loads_placed(const FitPoint& at) const {
 }
 
 std::optional<FitPoint> ModelFit::search() const {
-  const Solution best = find_minima(*problem_).best();
+  const SearchResult found = find_minima(*problem_);
+  count(found.simulations);
+  const Solution best = found.best();
   if (!best.usable()) return {};
   return best;
 }
 
 RefinedFit ModelFit::refine(const FitPoint& from, const RefineEffort& effort) const {
-  return reference::refine(*problem_, from, observer_hz_, effort);
+  RefinedFit found = reference::refine(*problem_, from, observer_hz_, effort);
+  count(found.simulations);
+  return found;
 }
 
 RefinedFit ModelFit::refine_with_loads_placed(const FitPoint& from, const RefineEffort& effort) const {
@@ -80,7 +91,9 @@ RefinedFit ModelFit::refine_with_loads_placed(const FitPoint& from, const Refine
 }
 
 AdjustedFit ModelFit::adjust(const FitPoint& from, const FitLinearisation& borrowed, int steps) const {
-  return reference::adjust(*problem_, from, *borrowed.recordings_, observer_hz_, steps);
+  AdjustedFit found = reference::adjust(*problem_, from, *borrowed.recordings_, observer_hz_, steps);
+  count(found.simulations);
+  return found;
 }
 
 std::optional<FitLinearisation> ModelFit::linearise(const FitPoint& at) const {

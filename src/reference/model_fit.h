@@ -141,7 +141,12 @@ class ModelFit {
   Interval bounds(ParameterId id) const;  ///< NaN for a number that the model's structure does not have
 
  private:
+  /// Counts what was spent, in samples, where the options ask for it.
+  void count(double simulations) const;
+
   std::unique_ptr<const FitProblem> problem_;
+  std::shared_ptr<std::atomic<std::int64_t>> work_;
+  double samples_ = 0.0;  ///< of all recordings
   ReferenceModel model_;
   double observer_hz_;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gapscope/base/text.h"
+#include "report/error_budget.h"
 #include "report/rich_text.h"
 #include "report/ticks.h"
 #include "report/wording.h"
@@ -265,10 +266,11 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
   sheet.lines.push_back(literal(r.diagnosis.sentence));
   sheet.width = 3200.0;
   sheet.columns = 2;
+  borrow(sheet, figures, "diagnosis_budget.png", 1);
   borrow(sheet, figures, "diagnosis_traces.png", 2);
   borrow(sheet, figures, "diagnosis_ranking.png", 1);
   borrow(sheet, figures, "diagnosis_torque_map.png", 1);
-  borrow(sheet, figures, "diagnosis_where.png", 2);
+  borrow(sheet, figures, "diagnosis_where.png", sheet.panels.size() % 2 == 0 ? 2 : 1);
   for (std::size_t i = 0; i + 1 < sheet.panels.size(); i += 2)  // neighbours are equally high
     sheet.panels[i].height = sheet.panels[i + 1].height =
         std::max(sheet.panels[i].height, sheet.panels[i + 1].height);
@@ -280,8 +282,8 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
 }  // namespace
 
 std::vector<FigureData> diagnosis_figures(const DiagnosisResult& r) {
-  std::vector<FigureData> figures = {diagnosis_traces(r), diagnosis_ranking(r), diagnosis_where(r),
-                                     diagnosis_torque_map(r)};
+  std::vector<FigureData> figures = {diagnosis_budget(r), diagnosis_traces(r), diagnosis_ranking(r),
+                                     diagnosis_where(r), diagnosis_torque_map(r)};
   figures.insert(figures.begin(), sheet(r, figures));
   return figures;
 }

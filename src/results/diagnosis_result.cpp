@@ -24,7 +24,8 @@ using internal::results::TraceSet;
 /// What the contract of the file promises; another state is a bug of the caller.
 void require_consistent(const Diagnosis& d) {
   GAPSCOPE_REQUIRE(d.verdict != DiagnosisVerdict::kNotRun);
-  GAPSCOPE_REQUIRE((d.verdict == DiagnosisVerdict::kEffect) == !d.effects.empty());
+  const bool found = d.verdict == DiagnosisVerdict::kEffect || d.verdict == DiagnosisVerdict::kHelps;
+  GAPSCOPE_REQUIRE(found == !d.effects.empty() && d.added.size() == d.effects.size());
   GAPSCOPE_REQUIRE(d.effects.empty() == d.group.empty());
 }
 

@@ -10,7 +10,7 @@
 /// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
 namespace gapscope::internal::results {
 
-inline constexpr const char* kDiagnosisSchema = "gapscope.diagnosis/1";
+inline constexpr const char* kDiagnosisSchema = "gapscope.diagnosis/2";
 
 /// A trace without its columns, which are in the trace file.
 struct StoredMismatch {
@@ -55,11 +55,56 @@ void fields(Archive& archive, MismatchSize& g) {
   archive.choice("floor_from", g.floor_from,
                  Words<FloorSource>{{FloorSource::kEncoder, "encoder"},
                                     {FloorSource::kNoise, "noise"},
-                                    {FloorSource::kRepeatability, "repeatability"}});
+                                    {FloorSource::kRepeatability, "repeatability"},
+                                    {FloorSource::kRecords, "records"}});
+  archive("before_torque_nm", g.before_torque);
+  archive("after_torque_nm", g.after_torque);
+  archive("floor_torque_nm", g.floor_torque);
+  archive("input_torque_rms_nm", g.input_torque);
   archive.addition("floor_of", g.floor_of);
   archive("shrink", g.shrink);
   archive("shrink_ci95", g.shrink_ci95);
   archive("remains_ratio", g.remains);
+}
+
+template <class Archive>
+void fields(Archive& archive, AddedEffect& a) {
+  archive("effect", a.effect);
+  archive.choice("cause", a.established, Words<bool>{{true, "established"}, {false, "open"}});
+  archive("group", a.group);
+  archive("probability", a.probability);
+  archive.named_members("parameters", a.parameters, &NamedValue::key, &NamedValue::value);
+  units(archive, "units", a.parameters);
+  archive("shrink", a.shrink);
+  archive("shrink_ci95", a.shrink_ci95);
+  archive("after_torque_nm", a.after_torque);
+}
+
+template <class Archive>
+void fields(Archive& archive, BudgetRung& r) {
+  archive("law", r.law);
+  archive("effect", r.effect);
+  archive("added", r.added);
+  archive("before_nm", r.before);
+  archive("after_nm", r.after);
+  archive("share", r.share);
+  archive("share_ci95", r.share_ci95);
+  archive("share_alone", r.alone);
+  archive("share_last", r.last);
+  archive("period_rad", r.period);
+}
+
+template <class Archive>
+void fields(Archive& archive, ErrorBudget& b) {
+  archive("band_hz", b.band_hz);
+  archive("input_nm", b.input);
+  archive("nominal_nm", b.nominal);
+  archive("with_effects_nm", b.with_effects);
+  archive("remains_nm", b.remains);
+  archive("encoder_floor_nm", b.encoder);
+  archive("repeatability_floor_nm", b.repeatability);
+  archive("records_floor_nm", b.records);
+  archive.list("rungs", b.rungs);
 }
 
 template <class Archive>
@@ -174,11 +219,15 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("schema", d.schema);
   archive.choice("verdict", g.verdict,
                  Words<DiagnosisVerdict>{{DiagnosisVerdict::kEffect, "effect"},
+                                         {DiagnosisVerdict::kHelps, "helps"},
                                          {DiagnosisVerdict::kNone, "none"},
                                          {DiagnosisVerdict::kUnknown, "unknown"}});
   archive("effects", g.effects);
   archive("group", g.group);
+  archive.list("added", g.added);
   archive.single("gap", g.mismatch);
+  archive("undetermined_rad", g.undetermined);
+  archive.single("error_budget", g.budget);
   archive.list("ranking", g.ranking);
   archive("outside_catalogue_probability", g.outside_probability);
   archive.list("steps", g.steps);

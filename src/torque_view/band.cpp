@@ -8,7 +8,7 @@ namespace {
 
 /// Mean products of the rows of one band: differences between bands are those of the octave between.
 struct Products {
-  double aa = 0.0, ar = 0.0, uu = 0.0;  ///< acceleration, input less all that is no inertia, input
+  double aa = 0.0, ar = 0.0, rr = 0.0, uu = 0.0;  ///< acceleration, input less all that is no inertia, input
 };
 
 /// What a drive mostly has: only so that a missing friction or weight does not pass for inertia.
@@ -25,7 +25,8 @@ Products products_of(Rows& rows, const Model& model) {
   fill_columns(rows, *model.front().law, kNaN, a);
   const Eigen::VectorXd rest = residual(rows, model, false) + a * model.front().theta[0];
   const double count = static_cast<double>(std::max<Eigen::Index>(1, rows.size()));
-  return {a.squaredNorm() / count, a.dot(rest) / count, rows.u.squaredNorm() / count};
+  return {a.squaredNorm() / count, a.dot(rest) / count, rest.squaredNorm() / count,
+          rows.u.squaredNorm() / count};
 }
 
 /// Tops of the octaves that the slowest sampling of the recordings can carry.
@@ -50,6 +51,13 @@ double noise_power(std::span<const StampedTrace> traces, double hz) {
   return power;
 }
 
+/// Independent numbers that an octave of the recordings holds: two per hertz and second.
+double freedom(std::span<const StampedTrace> traces, double width_hz) {
+  double seconds = 0.0;
+  for (const StampedTrace& t : traces) seconds += t.t.back() - t.t.front();
+  return std::max(1.0, 2.0 * width_hz * seconds);
+}
+
 void read_octaves(FrequencyBand& band, std::vector<Rows>& rows, const std::vector<double>& hz,
                   std::span<const StampedTrace> traces, const Model& full) {
   Products below;
@@ -57,8 +65,11 @@ void read_octaves(FrequencyBand& band, std::vector<Rows>& rows, const std::vecto
   for (std::size_t i = 0; i < hz.size(); ++i) {
     const Products all = products_of(rows[i], full);
     const double noise = noise_power(traces, hz[i]), aa = all.aa - below.aa, J = (all.ar - below.ar) / aa;
-    band.octaves.push_back(
-        {hz[i], J, std::sqrt((noise - noise_below) / aa), J * J * aa / std::abs(all.uu - below.uu), aa});
+    const double left = std::max(0.0, all.rr - below.rr - J * J * aa);
+    const double width = hz[i] - (i > 0 ? hz[i - 1] : 0.0);
+    band.octaves.push_back({hz[i], J, std::sqrt(left / aa / freedom(traces, width)),
+                            std::sqrt((noise - noise_below) / aa), J * J * aa / std::abs(all.uu - below.uu),
+                            aa});
     below = all, noise_below = noise;
   }
 }
@@ -86,7 +97,7 @@ FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
   band.hz = hz.front();
   for (const Octave& o : std::span(band.octaves).first(quiet + 1)) {
     if (o.inertial >= options.least_inertia) {
-      if (power > 0.0 && o.inertia < (1.0 - options.inertia_drift) * weighted / power) break;
+      if (power > 0.0 && o.inertia + o.inertia_std < (1.0 - options.inertia_drift) * weighted / power) break;
       power += o.power, weighted += o.power * o.inertia;
     }
     band.hz = o.top_hz;

@@ -10,15 +10,17 @@ namespace gapscope::internal::torque_view {
 /// What one half octave of frequency says.
 struct Octave {
   double top_hz = 0.0;
-  double inertia = kNaN;   ///< from this octave alone, all else as fitted over the whole band
-  double noise = kNaN;     ///< N/A: rms of the acceleration that is noise, over what is measured [-]
-  double inertial = kNaN;  ///< power of J a over that of the input [-]
-  double power = kNaN;     ///< mean square acceleration [rad²/s⁴]
+  double inertia = kNaN;      ///< from this octave alone, all else as fitted over the whole band
+  double inertia_std = kNaN;  ///< what the rest of the torque leaves it open by
+  double noise = kNaN;        ///< N/A: rms of the acceleration that is noise, over what is measured [-]
+  double inertial = kNaN;     ///< power of J a over that of the input [-]
+  double power = kNaN;        ///< mean square acceleration [rad²/s⁴]
 };
 
-/// The widest band that the recordings admit: the last half octave with N/A ≤ 0.3 up to which none has a J of
-/// less than 0.9 of those below. Noise of the encoder only ever takes from J (1 − N²/A²), so one that is
-/// larger ends nothing. Where J a is a small part of the input an octave has no say about J.
+/// The widest band that the recordings admit: the last half octave with N/A ≤ 0.2 up to which none has a J of
+/// less than 0.9 of those below, by more than what else the octave holds lets it vary. Noise of the
+/// encoder only ever takes from J (1 − N²/A²), so one that is larger ends nothing. Where J a is a small part
+/// of the input an octave has no say about J.
 struct FrequencyBand {
   double hz = kNaN;
   bool free_constant = false;  ///< a recording has one speed

@@ -10,6 +10,9 @@ struct SplitRecordings {
   bool rotates = true;       ///< positions are angles
   bool held_output = false;  ///< the load is locked
   bool new_phase = false;    ///< the encoder counts anew in every recording: a line keeps its amplitude only
+  Model known = {};          ///< what the nominal model has beside inertia and viscous damping
+  std::vector<std::string> closed = {};   ///< effects of the catalogue that are no candidates
+  std::vector<std::string> addable = {};  ///< effects that the caller's model can have
 };
 
 /// What no model can get below, as rms of a torque [unit of u]; NaN where the recordings do not show it.

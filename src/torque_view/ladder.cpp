@@ -12,8 +12,6 @@ double rms_of(const Eigen::VectorXd& v) {
   return std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
 }
 
-constexpr std::size_t kNominalTerms = 2;
-
 Model without(Model model, std::size_t term) {
   model.erase(model.begin() + static_cast<std::ptrdiff_t>(term));
   return model;
@@ -28,7 +26,7 @@ bool carries_another(const Model& model, std::size_t term) {
 
 /// Terms that the others say as well are taken out again.
 void step_back(Bench& bench, Budget& budget) {
-  for (std::size_t i = budget.model.size(); i-- > kNominalTerms;) {
+  for (std::size_t i = budget.model.size(); i-- > budget.nominal.size();) {
     if (carries_another(budget.model, i)) continue;
     const Model less = fitted(bench.fit, without(budget.model, i));
     if (bench.squares(less).sum() > bench.squares(budget.model).sum()) continue;
@@ -45,6 +43,11 @@ bool is_at_the_floor(const SplitRecordings& data, Bench& bench, const Model& mod
   return floor * floor >= options.most_encoder * left * left;
 }
 
+/// The position curve has the period of the strongest line.
+void take_line(Bench& bench, const Model& model) {
+  if (const Term* line = find_term(model, "cogging_torque")) bench.scales.line = line->shape;
+}
+
 void climb(const SplitRecordings& data, Bench& bench, Budget& budget, const TorqueViewOptions& options) {
   while (static_cast<int>(budget.rungs.size()) < options.most_rungs &&
          !is_at_the_floor(data, bench, budget.model, options)) {
@@ -52,8 +55,7 @@ void climb(const SplitRecordings& data, Bench& bench, Budget& budget, const Torq
     const Rung& rung = budget.rungs.back();
     if (!rung.helps) return;
     budget.model = rung.choice().model;
-    const Term* line = find_term(budget.model, "cogging_torque");
-    if (line != nullptr) bench.scales.line = line->shape;
+    take_line(bench, budget.model);
     step_back(bench, budget);
     budget.rungs.back().rms = rms_of(bench.left(budget.model));
   }
@@ -73,6 +75,23 @@ Share share_of(Bench& bench, const Budget& budget, std::size_t i, const TorqueVi
 
 }  // namespace
 
+/// The terms that the caller's model can have, refitted.
+void keep_addable(const SplitRecordings& data, Bench& bench, Budget& budget) {
+  const auto can = [&](const Term& term) {
+    return std::find(data.addable.begin(), data.addable.end(), term.law->effect) != data.addable.end();
+  };
+  budget.addable = budget.nominal;
+  for (std::size_t i = budget.nominal.size(); i < budget.model.size(); ++i)
+    if (budget.model[i].law->values != nullptr && can(budget.model[i]))
+      budget.addable.push_back(budget.model[i]);
+  budget.addable = fitted(bench.fit, std::move(budget.addable));
+  double square = 0.0, count = 0.0;
+  for (const std::vector<double>& tau : bench.fit.tau)
+    for (const double torque : tau) square += torque * torque, count += 1.0;
+  budget.torque_rms = std::sqrt(square / std::max(1.0, count));
+  budget.addable_rms = rms_of(bench.left(budget.addable));
+}
+
 Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options) {
   Budget budget;
   budget.band = choose_band(data.fit, data.rotates, options);
@@ -81,16 +100,22 @@ Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& option
               stacked(data.judge, budget.band.hz, budget.band.free_constant, options),
               {},
               {},
-              data.new_phase};
+              data.new_phase,
+              data.closed};
   bench.scales = scales_of(bench.fit, data.rotates, data.held_output);
   bench.blocks = Blocks(bench.judge, options);
-  budget.nominal = budget.model = fitted(bench.fit, nominal_model());
+  Model nominal = nominal_model();
+  nominal.insert(nominal.end(), data.known.begin(), data.known.end());
+  budget.nominal = budget.model = fitted(bench.fit, std::move(nominal));
+  take_line(bench, budget.model);
   budget.input_rms = rms_of(bench.judge.u);
   budget.nominal_rms = rms_of(bench.left(budget.nominal));
   climb(data, bench, budget, options);
   budget.rms = rms_of(bench.left(budget.model));
-  for (std::size_t i = kNominalTerms; i < budget.model.size(); ++i)
+  for (std::size_t i = budget.nominal.size(); i < budget.model.size(); ++i)
     budget.shares.push_back(share_of(bench, budget, i, options));
+  keep_addable(data, bench, budget);
+  budget.says_most = budget.addable_rms < options.most_left * budget.input_rms;
   budget.floors = floors_of(data, bench, budget.model, options);
   return budget;
 }

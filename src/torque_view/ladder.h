@@ -23,7 +23,11 @@ struct Budget {
   FrequencyBand band;
   Model nominal, model;
   double input_rms = 0.0, nominal_rms = 0.0, rms = 0.0;  ///< of the held-out rows [unit of u]
+  Model addable;             ///< the model without the terms that the caller's model cannot have
+  double addable_rms = 0.0;  ///< what it leaves of the held-out rows [unit of u]
+  double torque_rms = 0.0;   ///< of the model, at the samples that were fitted [unit of u]
   std::vector<Rung> rungs;
+  bool says_most = false;            ///< of the held-out input: the terms that the caller's model can have
   std::vector<std::string> dropped;  ///< by the backward step: the others say it as well
   std::vector<Share> shares;
   Floors floors;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "torque_view/effect_values.h"
 
 namespace gapscope::internal::torque_view {
 
@@ -53,6 +54,8 @@ struct Law {
   Sign sign;            ///< of the first coefficient; a candidate that violates it is absent
   Shapes shapes;
   Fill fill;
+  EffectValues values;     ///< of the effect; nullptr: it has none, or one that needs another structure
+  int shape_at;            ///< place of the shape among the effect's parameters; -1: it is none of them
   int parameters() const;  ///< coefficients and shape
 };
 

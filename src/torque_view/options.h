@@ -20,7 +20,7 @@ struct TorqueViewOptions {
   // FrequencyBand
   double lowest_hz = 1.0;       ///< top of the lowest octave [Hz]; study 2
   double fewest_samples = 1.2;  ///< in σ of the states in the widest band [samples]; here
-  double most_noise = 0.3;      ///< N/A of the band's last octave [-]; study 2
+  double most_noise = 0.2;      ///< N/A of the band's last octave: J is 4 % low there [-]; study 2 (0.3: 9 %)
   double inertia_drift = 0.1;   ///< an octave's J below that of those under it [-]; study 2
   double least_inertia = 0.03;  ///< share of the input's power in an octave for its J to count; study 2, here
   double constant_speed = 0.3;  ///< std over mean of the speed: below it a free constant [-]; study 2
@@ -34,7 +34,10 @@ struct TorqueViewOptions {
   double least_better = 0.6;    ///< share of the blocks that improve [-]; study 1.4
   double least_margin = 0.3;    ///< over rivals outside the group, of its own share [-]; study 5
   double least_leading = 0.95;  ///< share of the draws in which it leads them [-]; study 1.4
-  double same_group = 0.9;      ///< overlap from which laws are one group [-]; study 9
+  double most_left = 0.5;       ///< of the input's rms by a model whose torque a law may read; here
+  double most_absorbed =
+      0.98;                 ///< of a law's torque by the model that it adds to: beyond it they are one; here
+  double same_group = 0.9;  ///< overlap from which laws are one group [-]; study 9
   // Ladder
   int most_rungs = 8;         ///< study 10.5
   double most_encoder = 0.5;  ///< share of what is left that is the encoder's, at which it ends [-]; here

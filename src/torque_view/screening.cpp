@@ -17,27 +17,49 @@ bool lacks_simpler(const Model& model, const Law& law) {
 }
 
 /// A law may come again only as a further line.
-bool is_open(const Model& model, const Law& l) {
+bool is_open(const Bench& bench, const Model& model, const Law& l) {
+  if (*l.effect != '\0' &&
+      std::find(bench.closed.begin(), bench.closed.end(), l.effect) != bench.closed.end())
+    return false;
   return l.name != std::string_view("inertia") &&
          (find_term(model, l.name) == nullptr || l.shapes == line_grid);
 }
 
-Candidate judged(Bench& bench, const Law& l, Model model, const Eigen::VectorXd& before) {
+/// Whether the model's torque is worth reading: it makes most of the input's.
+bool says_most(Bench& bench, const Model& model, const TorqueViewOptions& options) {
+  return residual(bench.fit, model, false).norm() < options.most_left * bench.fit.u.norm();
+}
+
+/// How much of the last term's torque on the fitted rows the terms before it could say.
+double absorbed(Bench& bench, const Model& model) {
+  const Term& last = model.back();
+  set_torque(bench.fit, model);
+  Eigen::MatrixXd g(bench.fit.size(), last.law->columns);
+  fill_columns(bench.fit, *last.law, last.shape, g);
+  const Eigen::VectorXd torque = g * last.theta;
+  return 1.0 -
+         Projection(bench.fit, {model.begin(), model.end() - 1}, torque).square() / torque.squaredNorm();
+}
+
+Candidate judged(Bench& bench, const Law& l, Model model, const Eigen::VectorXd& before,
+                 const TorqueViewOptions& options) {
   Candidate c{&l, fitted(bench.fit, std::move(model)), {}, {}};
   if (!has_its_sign(l, c.model.back().theta[0], first_coefficient(c.model, "inertia"))) return c;
+  if (absorbed(bench, c.model) > options.most_absorbed) return c;
   c.squares = bench.squares(c.model);
   c.evidence = bench.blocks.compare(before, c.squares);
   return c;
 }
 
-std::vector<Candidate> screened(Bench& bench, const Model& model) {
+std::vector<Candidate> screened(Bench& bench, const Model& model, const TorqueViewOptions& options) {
   const Eigen::VectorXd before = bench.squares(model);
+  const bool torque_is_there = says_most(bench, model, options);
   set_torque(bench.fit, model);
   Projection plain(bench.fit, model);
   std::optional<Projection> with_simpler;  // the only simpler law of the table is Coulomb friction
   std::vector<Candidate> ranking;
   for (const Law& l : laws()) {
-    if (!is_open(model, l)) continue;
+    if (!is_open(bench, model, l) || (l.kind == Kind::kOnTorque && !torque_is_there)) continue;
     Model below = model;
     if (lacks_simpler(model, l)) {
       below = with(below, law(l.simpler), kNaN);
@@ -47,7 +69,7 @@ std::vector<Candidate> screened(Bench& bench, const Model& model) {
     const BestShape best =
         best_shape(bench.fit, below.size() > model.size() ? *with_simpler : plain, l, bench.scales);
     if (std::isnan(best.gain)) continue;
-    Candidate c = judged(bench, l, with(below, l, best.shape), before);
+    Candidate c = judged(bench, l, with(below, l, best.shape), before, options);
     if (std::isfinite(c.evidence.share)) ranking.push_back(std::move(c));
   }
   std::sort(ranking.begin(), ranking.end(),
@@ -162,7 +184,7 @@ bool is_free_form(const Law& law) { return std::string_view(law.name).starts_wit
 
 Rung next_rung(Bench& bench, const Model& model, const TorqueViewOptions& options) {
   Rung rung;
-  rung.ranking = screened(bench, model);
+  rung.ranking = screened(bench, model, options);
   while (rung.chosen < rung.ranking.size() && is_free_form(*rung.choice().law)) ++rung.chosen;
   if (rung.chosen == rung.ranking.size()) return rung;
   std::vector<std::size_t> group = group_of(bench, rung, model, options);

@@ -14,6 +14,7 @@ struct Bench {
   Scales scales;
   Blocks blocks;
   bool new_phase = false;
+  std::vector<std::string> closed;  ///< effects that are no candidates
 
   Eigen::VectorXd left(const Model& model) { return residual(judge, model, new_phase); }
   Eigen::VectorXd squares(const Model& model) { return blocks.squares(left(model)); }

@@ -14,7 +14,7 @@ std::string sentence(std::vector<std::string> effects) {
   d.verdict = DiagnosisVerdict::kEffect;
   d.effects = std::move(effects);
   d.mismatch.shrink = 0.9;
-  return internal::diagnosis::sentence_of(d);
+  return internal::diagnosis::sentence_of(d, Coordinates::kRotation);
 }
 
 TEST(Words, AnEffectThatBringsASimplerOneSaysSo) {

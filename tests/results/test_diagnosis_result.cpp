@@ -31,8 +31,15 @@ DiagnosisResult sample() {
   d.sentence = "The model lacks cogging torque.";
   d.effects = {"cogging_torque"};
   d.group = {"cogging_torque", "torque_ripple"};
-  d.mismatch = {"free run", 3e-3 * kThird, 1e-5, kThird * 1e-6, FloorSource::kNoise, "the noise of x1",
-                0.9,        {0.8, 1.1},    1.5};
+  d.mismatch.measure = "free run";
+  d.mismatch.before = 3e-3 * kThird, d.mismatch.after = 1e-5, d.mismatch.floor = kThird * 1e-6;
+  d.mismatch.before_torque = kThird, d.mismatch.input_torque = 3.0;
+  d.mismatch.floor_from = FloorSource::kNoise, d.mismatch.floor_of = "the noise of x1";
+  d.mismatch.shrink = 0.9, d.mismatch.shrink_ci95 = {0.8, 1.1}, d.mismatch.remains = 1.5;
+  d.added = {
+      {"cogging_torque", true, d.group, 0.9, {{"amplitude_nm", "N m", kThird}}, 0.9, {0.8, 1.1}, kThird}};
+  d.budget.band_hz = 30.0, d.budget.nominal = kThird;
+  d.budget.rungs = {{"cogging_torque", "cogging_torque", true, 1.0, kThird, 0.8, {0.7, 0.9}, 0.8, kThird}};
   d.measures = {{"free run", "rad", 1.0, kThird, kNaN}};
   RankedEffect first;
   first.effect = "cogging_torque";

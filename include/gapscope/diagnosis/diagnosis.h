@@ -10,6 +10,7 @@
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/fields.h"
 #include "gapscope/base/statistics.h"
+#include "gapscope/diagnosis/error_budget.h"
 #include "gapscope/diagnosis/evidence.h"
 #include "gapscope/diagnosis/next_experiment.h"
 #include "gapscope/recording/recording.h"
@@ -17,11 +18,17 @@
 
 namespace gapscope {
 
-enum class DiagnosisVerdict { kNotRun, kEffect, kNone, kUnknown };
+/// Effect: the cause of the first addition is established. Helps: something of the catalogue shrinks the
+/// held-out error, but its cause stays open. None: nothing is missing. Unknown: something is, and nothing
+/// shrinks it.
+enum class DiagnosisVerdict { kNotRun, kEffect, kHelps, kNone, kUnknown };
+
+/// "effect", "helps", "none" or "unknown": the words of diagnosis.json.
+const char* to_string(DiagnosisVerdict verdict);
 
 /// Where the floor of the mismatch comes from: the encoder's quantum, its noise, or how far a drive that
-/// repeats its input repeats its motion.
-enum class FloorSource { kEncoder, kNoise, kRepeatability };
+/// repeats its input repeats its motion, or by how much its recordings disagree.
+enum class FloorSource { kEncoder, kNoise, kRepeatability, kRecords };
 
 /// The floor as readers are told of it; that of the encoder is its quantum or its noise.
 inline const char* floor_name(FloorSource from) {
@@ -49,7 +56,9 @@ struct MismatchSize {
   std::string measure;
   double before = kNaN, after = kNaN, floor = kNaN;  ///< [rad]
   FloorSource floor_from = FloorSource::kEncoder;
-  std::string floor_of;   ///< what it was read from, in words: recordings, periods
+  std::string floor_of;                              ///< what it was read from, in words: recordings, periods
+  double before_torque = kNaN, after_torque = kNaN;  ///< rms of the residual torque [N m]
+  double floor_torque = kNaN, input_torque = kNaN;   ///< what no model gets below; what the input brings
   double shrink = kNaN;   ///< (before − after)/(before − floor); NaN while before < 1.3 floors
   Interval shrink_ci95;   ///< for the next recording of the same drive
   double remains = kNaN;  ///< after/floor
@@ -66,6 +75,18 @@ struct RankedEffect {
   double windows_better = kNaN;  ///< share of the windows above the floor that improve
   std::vector<NamedValue> parameters;
   std::string remark;  ///< why it was listed and not added, where that needs a word
+};
+
+/// An effect that was added to the model: what it takes of the held-out error, and whether it is its cause.
+struct AddedEffect {
+  std::string effect;
+  bool established = false;  ///< no other effect and no free law of another variable does nearly as well
+  std::vector<std::string> group;  ///< itself, and the rivals that this recording cannot tell from it
+  double probability = kNaN;
+  std::vector<NamedValue> parameters;
+  double shrink = kNaN;  ///< (before − after)/(before − floor) of this step alone
+  Interval shrink_ci95;
+  double after_torque = kNaN;  ///< rms of the residual torque with it [N m]
 };
 
 /// What a nominal parameter reads with and without the effect: what it had to take the blame for.
@@ -137,7 +158,11 @@ struct Diagnosis {
   std::string sentence = "diagnose() was not called.";
   std::vector<std::string> effects;  ///< what was added, in order
   std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
+  std::vector<AddedEffect> added;    ///< the same effects, each with what it takes
   MismatchSize mismatch;
+  double undetermined =
+      kNaN;  ///< what the fit leaves open of the held-out motion, as a standard deviation [rad]
+  ErrorBudget budget;
   std::vector<MismatchMeasure> measures;
   std::vector<RankedEffect> ranking;     ///< first step, best first
   double outside_probability = kNaN;     ///< that no effect of the catalogue is what is missing first

@@ -1,0 +1,121 @@
+#include "diagnosis/tell_budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/statistics.h"
+
+namespace gapscope {
+namespace internal::diagnosis {
+namespace {
+
+namespace view = torque_view;
+
+/// Blocks of one recording agree too well for the next one; the study of real drives, section 5.
+constexpr double kInflation = 2.0;
+
+/// Shrink of an rms that a share of the mean square stands for, above a floor.
+double shrink_by(double share, double before, double floor) {
+  const double after = before * std::sqrt(std::max(0.0, 1.0 - share));
+  return before > floor ? (before - after) / (before - floor) : kNaN;
+}
+
+Interval inflated(const Interval& interval, double about) {
+  return {about - kInflation * (about - interval.low), about + kInflation * (interval.high - about)};
+}
+
+/// What the choice of a rung leaves of what there was before it.
+double before_of(const view::Budget& budget, std::size_t rung) {
+  return rung == 0 ? budget.nominal_rms : budget.rungs[rung - 1].rms;
+}
+
+const view::Share* share_of(const view::Budget& budget, const view::Law& law) {
+  const auto at = std::find_if(budget.shares.begin(), budget.shares.end(),
+                               [&](const view::Share& s) { return s.law == &law; });
+  return at == budget.shares.end() ? nullptr : &*at;
+}
+
+BudgetRung rung_of(const view::Budget& budget, std::size_t i, const std::vector<std::string>& effects) {
+  const view::Candidate& choice = budget.rungs[i].choice();
+  BudgetRung rung;
+  rung.law = choice.law->name;
+  rung.effect = choice.law->effect;
+  rung.added = std::find(effects.begin(), effects.end(), rung.effect) != effects.end();
+  rung.before = before_of(budget, i), rung.after = budget.rungs[i].rms;
+  rung.share = choice.evidence.share;
+  rung.share_ci95 = choice.evidence.interval;
+  if (choice.law->line) rung.period = 2.0 * kPi / choice.model.back().shape;
+  if (const view::Share* share = share_of(budget, *choice.law))
+    rung.alone = share->alone.share, rung.last = share->last.share;
+  return rung;
+}
+
+double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
+
+}  // namespace
+
+std::vector<NamedValue> effect_values(const ModelEffect& effect) {
+  std::vector<NamedValue> values;
+  for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i) {
+    const EffectParameterSpec& spec = effect.entry->parameters[i];
+    double value = effect.parameters[i].value;
+    if (spec.key == std::string("phase_rad")) value = std::remainder(value, 2.0 * kPi);
+    values.push_back({spec.key, spec.unit, value});
+  }
+  return values;
+}
+
+std::vector<NamedValue> values_in(const ReferenceModel& model, const EffectEntry& entry) {
+  const ModelEffect* found = nullptr;
+  for (const ModelEffect& e : model.effects)
+    if (e.entry == &entry || (found == nullptr && contained_effect(*e.entry) == &entry)) found = &e;
+  return found == nullptr ? std::vector<NamedValue>{} : effect_values(*found);
+}
+
+void tell_budget(const Study& study, const view::Budget& budget, Diagnosis& d) {
+  ErrorBudget& told = d.budget;
+  told.band_hz = budget.band.hz;
+  told.input = budget.input_rms, told.nominal = budget.nominal_rms;
+  told.with_effects = d.effects.empty() ? budget.nominal_rms : budget.addable_rms;
+  told.remains = budget.rms;
+  told.encoder = budget.floors.encoder;
+  told.repeatability = budget.floors.repeatability;
+  told.records = study.train.size() + study.held_out.traces.size() > 1 ? budget.floors.disagreement() : kNaN;
+  for (std::size_t i = 0; i < budget.rungs.size(); ++i)
+    if (budget.rungs[i].helps) told.rungs.push_back(rung_of(budget, i, d.effects));
+  d.mismatch.before_torque = told.nominal, d.mismatch.after_torque = told.with_effects;
+  d.mismatch.floor_torque = told.floor(), d.mismatch.input_torque = told.input;
+}
+
+std::vector<AddedEffect> added_effects(const view::Budget& budget, const TorqueSearch& ladder) {
+  ErrorBudget floors;
+  floors.encoder = budget.floors.encoder, floors.repeatability = budget.floors.repeatability;
+  std::vector<AddedEffect> added;
+  for (const TorqueAddition& addition : ladder.added) {
+    const view::Rung& rung = budget.rungs[addition.rung];
+    AddedEffect a;
+    a.effect = addition.group.front()->name;
+    a.established = addition.established;
+    for (const EffectEntry* entry : addition.group) a.group.emplace_back(entry->name);
+    const double before = before_of(budget, addition.rung);
+    const double floor = std::min(floors.floor(), 0.5 * before);
+    const Interval share = inflated(rung.choice().evidence.interval, rung.choice().evidence.share);
+    a.shrink = shrink_by(rung.choice().evidence.share, before, floor);
+    a.shrink_ci95 = {shrink_by(share.low, before, floor), shrink_by(share.high, before, floor)};
+    a.after_torque = rung.rms;
+    a.parameters = values_in(ladder.after.fitted.model, *addition.group.front());
+    added.push_back(std::move(a));
+  }
+  return added;
+}
+
+}  // namespace internal::diagnosis
+
+bool ErrorBudget::exists() const { return !std::isnan(band_hz); }
+
+double ErrorBudget::floor() const {
+  using internal::diagnosis::or_zero;
+  return std::max({or_zero(encoder), or_zero(repeatability), or_zero(records)});
+}
+
+}  // namespace gapscope

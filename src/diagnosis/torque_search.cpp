@@ -1,0 +1,238 @@
+#include "diagnosis/torque_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+namespace view = torque_view;
+
+constexpr std::size_t kRefitted = 5;  ///< effects that lead in torque; the study of real drives, 1.9
+constexpr double kNearFirst =
+    0.3;  ///< share by which one may stay behind the first and be refitted; the same
+constexpr double kFreeAsGood = 0.7;     ///< of the share: a free law of another variable that takes as much
+constexpr double kMostAbsorbed = 0.95;  ///< of a law that the model says in its place: no cause of its own
+
+/// One body, or a locked output without play: no contact opens and closes.
+bool has_one_balance(const ReferenceModel& model) {
+  const ParameterSetting& gap = model.parameters[place::kGap];
+  const bool play = gap.estimate || !(gap.value == 0.0);
+  return !model.structure.has_load || (model.structure.load == LoadKind::kLocked && !play);
+}
+
+/// u in torque, as a view of a part of the trace.
+view::StampedTrace in_torque(const MotorTrace& trace, std::size_t from, double torque_constant) {
+  view::StampedTrace t{trace.file, {}, {}, {}, trace.quantum, true};
+  for (std::size_t i = from; i < trace.size(); ++i) {
+    t.t.push_back(trace.time(i));
+    t.u.push_back(torque_constant * trace.u[i]);
+    t.x.push_back(trace.x1[i]);
+  }
+  return t;
+}
+
+const view::Law* law_of(const EffectEntry& entry) {
+  for (const view::Law& l : view::laws())
+    if (l.values != nullptr && entry.name == std::string_view(l.effect)) return &l;
+  return nullptr;
+}
+
+void add_once(view::Model& model, const view::Law& law, double shape) {
+  if (view::find_term(model, law.name) == nullptr)
+    model.push_back({&law, shape, Eigen::VectorXd::Zero(law.columns)});
+}
+
+/// What the model has beside inertia and viscous damping, at its shapes.
+view::Model known_terms(const ReferenceModel& model, const view::Scales& scales) {
+  view::Model known;
+  for (const ModelEffect& e : model.effects) {
+    const view::Law* law = law_of(*e.entry);
+    if (law == nullptr) continue;
+    const std::vector<double> shapes = law->shapes(scales);
+    if (law->shape_at < 0 && shapes.empty()) continue;
+    if (law->simpler != nullptr) add_once(known, view::law(law->simpler), kNaN);
+    const double shape =
+        law->shape_at < 0 ? shapes.front() : e.parameters[static_cast<std::size_t>(law->shape_at)].value;
+    known.push_back({law, shape, Eigen::VectorXd::Zero(law->columns)});
+  }
+  return known;
+}
+
+bool is_named(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// What a law follows: a free law of the same variable says the same.
+bool follows_speed(const EffectEntry& entry) {
+  return entry.follows == ResidualPattern::kDirection || entry.follows == ResidualPattern::kSpeed;
+}
+
+/// Whether a torque that follows another variable freely takes nearly as much.
+bool free_law_as_good(const view::Rung& rung, const EffectEntry& entry) {
+  const bool speed = follows_speed(entry), angle = entry.follows == ResidualPattern::kAngle;
+  const double enough = kFreeAsGood * rung.choice().evidence.share;
+  return std::any_of(rung.ranking.begin(), rung.ranking.end(), [&](const view::Candidate& c) {
+    const std::string_view name = c.law->name;
+    const bool other = (name == "free_speed_curve" && !speed) || (name == "free_position_curve" && !angle);
+    return other && c.evidence.share >= enough;
+  });
+}
+
+/// The rung that has brought a term; nothing for a simpler law that came with it.
+std::optional<std::size_t> rung_of(const view::Budget& budget, const view::Law& law) {
+  for (std::size_t i = 0; i < budget.rungs.size(); ++i)
+    if (budget.rungs[i].helps && budget.rungs[i].choice().law == &law) return i;
+  return {};
+}
+
+/// All that the choice of a rung cannot be told from: its group, and rivals that it does not lead clearly.
+std::vector<const EffectEntry*> group_of(const view::Rung& rung, const EffectEntry& chosen,
+                                         const view::TorqueViewOptions& options) {
+  std::vector<const EffectEntry*> group{&chosen};
+  const double near = (1.0 - options.least_margin) * rung.choice().evidence.share;
+  for (const view::Candidate& c : rung.ranking) {
+    const EffectEntry* entry = find_effect(c.law->effect);
+    const bool alike = is_named(rung.group, c.law->name) || (!rung.named && c.evidence.share >= near);
+    const bool nested =
+        entry != nullptr && (contained_effect(*entry) == &chosen || contained_effect(chosen) == entry);
+    if (entry != nullptr && alike && !nested && std::find(group.begin(), group.end(), entry) == group.end())
+      group.push_back(entry);
+  }
+  return group;
+}
+
+ModelEffect effect_of(const EffectEntry& entry, const std::vector<double>& values) {
+  ModelEffect effect;
+  effect.entry = &entry;
+  for (std::size_t i = 0; i < entry.parameters.size(); ++i)
+    effect.parameters[i] = ParameterSetting::sought(values[i]);
+  return effect;
+}
+
+/// Puts an effect in the place of the simpler one that it contains. Where another one has already taken that
+/// place, both share its level, which is then a number of the first alone.
+void put_into(ReferenceModel& model, ModelEffect effect) {
+  constexpr double kPart = 0.25;
+  const EffectEntry* simpler = contained_effect(*effect.entry);
+  ParameterSetting &level = effect.parameters[0], &ratio = effect.parameters[1];
+  for (ModelEffect& other : model.effects) {
+    if (simpler == nullptr || contained_effect(*other.entry) != simpler) continue;
+    if (effect.entry->parameters[1].scale != Scale::kOne) continue;
+    other.parameters[0].value -= kPart * level.value;
+    level.value *= kPart, level.estimate = false, ratio.value /= kPart;
+  }
+  std::erase_if(model.effects, [&](const ModelEffect& e) { return e.entry == simpler; });
+  model.effects.push_back(effect);
+}
+
+/// The nominal model with the terms of the ladder that it can have, at their values in the torque balance.
+ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
+  view::Drive drive;
+  drive.inertia = view::first_coefficient(budget.addable, "inertia");
+  drive.viscous = view::first_coefficient(budget.addable, "viscous");
+  drive.coulomb = view::first_coefficient(budget.addable, "motor_coulomb_friction");
+  drive.torque_constant = model.parameters[place::kTorqueConstant].value;
+  drive.torque_rms = budget.torque_rms;
+  const auto take = [&](int index, double value) {
+    ParameterSetting& p = model.parameters[static_cast<std::size_t>(index)];
+    if (p.estimate && value > 0.0) p.value = value;
+  };
+  take(place::kMotorInertia, drive.inertia);
+  take(place::kMotorDamping, drive.viscous);
+  for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
+    const view::Term& term = budget.addable[i];
+    put_into(model,
+             effect_of(*find_effect(term.law->effect), term.law->values(term.theta, term.shape, drive)));
+  }
+  return model;
+}
+
+/// The numbers of the torque balance, or, where the simulator comes near the floor from there, those of its
+/// refit. Where torque is missing that nothing explains, the innovations of an observer favour a heavy drive,
+/// which hides it.
+ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
+  const FitOptions& options = study.options.fit;
+  ScoredModel refitted = judge(nullptr, fit_near(study.train, balanced, options, study.observer_hz),
+                               study.held_out, study.observer_hz);
+  if (std::max(refitted.median_free, refitted.median_innovation) < options.rejected_ratio) return refitted;
+  return judge(nullptr, {balanced, {}, 0.0, {}}, study.held_out, study.observer_hz);
+}
+
+/// Whether the simulator's refit has taken the effect away again.
+bool has_vanished(const ModelEffect& effect) {
+  return effect.entry->parameters[0].absent == 0.0 && effect.parameters[0].value == 0.0;
+}
+
+/// Additions that the refitted model does not confirm are told of no more.
+void drop_what_vanished(TorqueSearch& search) {
+  auto& effects = search.after.fitted.model.effects;
+  std::erase_if(search.added, [&](const TorqueAddition& a) {
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const ModelEffect& e) { return e.entry == a.group.front() && has_vanished(e); });
+  });
+  std::erase_if(effects, has_vanished);
+}
+
+}  // namespace
+
+std::optional<view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal) {
+  if (!has_one_balance(nominal)) return {};
+  const double km = nominal.parameters[place::kTorqueConstant].value;
+  view::SplitRecordings data;
+  for (const MotorTrace& t : study.train) data.fit.push_back(in_torque(t, 0, km));
+  for (std::size_t r = 0; r < study.held_out.traces.size(); ++r)
+    data.judge.push_back(in_torque(study.held_out.traces[r], study.held_out.scored_from[r], km));
+  data.rotates = study.options.coordinates.rotational();
+  data.held_output = nominal.structure.has_load;
+  data.new_phase = study.held_out.scored_from.front() == 0;  // other recordings, not the rest of these
+  view::Scales scales;
+  scales.rotates = data.rotates, scales.held_output = data.held_output;
+  data.known = known_terms(nominal, scales);
+  data.closed = study.options.excluded;
+  for (const EffectEntry* entry : study.catalogue)
+    if (is_candidate(*entry, nominal)) data.addable.emplace_back(entry->name);
+  view::Budget budget = view::error_budget(data);
+  if (std::isnan(budget.band.hz)) return {};
+  return budget;
+}
+
+std::vector<const EffectEntry*> worth_refitting(const Study& study, const view::Budget& budget) {
+  if (budget.rungs.empty()) return study.catalogue;
+  const std::vector<view::Candidate>& ranking = budget.rungs.front().ranking;
+  std::vector<std::string> leading;
+  for (const view::Candidate& c : ranking)
+    if (*c.law->effect != '\0' &&
+        (leading.size() < kRefitted || c.evidence.share >= ranking.front().evidence.share - kNearFirst))
+      leading.emplace_back(c.law->effect);
+  std::vector<const EffectEntry*> entries = study.catalogue;
+  std::erase_if(entries,
+                [&](const EffectEntry* e) { return law_of(*e) != nullptr && !is_named(leading, e->name); });
+  return entries;
+}
+
+TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const view::Budget& budget) {
+  const view::TorqueViewOptions options;
+  TorqueSearch search;
+  for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
+    const view::Law& law = *budget.addable[i].law;
+    const std::optional<std::size_t> at = rung_of(budget, law);
+    const EffectEntry& entry = *find_effect(law.effect);
+    if (!at) continue;
+    const view::Rung& rung = budget.rungs[*at];
+    const auto share = std::find_if(budget.shares.begin(), budget.shares.end(),
+                                    [&](const view::Share& s) { return s.law == &law; });
+    const bool absorbed = share != budget.shares.end() && share->seen.absorbed > kMostAbsorbed;
+    search.added.push_back(
+        {*at, rung.named && !absorbed && !free_law_as_good(rung, entry), group_of(rung, entry, options)});
+  }
+  std::stable_sort(search.added.begin(), search.added.end(),
+                   [](const TorqueAddition& a, const TorqueAddition& b) { return a.rung < b.rung; });
+  if (search.added.empty()) return search;
+  search.after = refitted_from(study, with_terms(nominal.fitted.model, budget));
+  drop_what_vanished(search);
+  return search;
+}
+
+}  // namespace gapscope::internal::diagnosis

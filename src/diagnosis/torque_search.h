@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "diagnosis/diagnose.h"
+
+namespace gapscope::internal::diagnosis {
+
+/// The error budget in torque of a drive of one body, or of one whose output is locked without play; nothing
+/// for others, whose torque balance depends on the contact, or where the recordings admit no band.
+std::optional<torque_view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal);
+
+/// The effects that the exact simulator refits: those that lead in torque, and those that have no law there.
+std::vector<const EffectEntry*> worth_refitting(const Study& study, const torque_view::Budget& budget);
+
+/// A rung of the ladder that stands for an effect of the catalogue, added to the model.
+struct TorqueAddition {
+  std::size_t rung = 0;  ///< of the budget
+  bool established = false;
+  std::vector<const EffectEntry*> group;  ///< with it: what this recording cannot tell apart; itself first
+};
+
+/// What the ladder comes to, refitted by the simulator.
+struct TorqueSearch {
+  std::vector<TorqueAddition> added;
+  ScoredModel after;  ///< the nominal model with all of them
+};
+TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const torque_view::Budget& budget);
+
+}  // namespace gapscope::internal::diagnosis

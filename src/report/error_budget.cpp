@@ -1,0 +1,130 @@
+#include "report/error_budget.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/text.h"
+#include "report/rich_text.h"
+#include "report/wording.h"
+
+namespace gapscope::internal::report {
+namespace {
+
+std::string budget_unit(const DiagnosisResult& r) { return r.coordinates.shown_unit("N m"); }
+std::string torque_of(const DiagnosisResult& r) { return r.coordinates.torque_word(); }
+
+/// "cogging torque, every 2.50 mm"
+std::string law_of(const DiagnosisResult& r, const BudgetRung& rung) {
+  std::string text = readable(rung.law);
+  if (std::isfinite(rung.period) && rung.law != "load_unbalance" && rung.law != "encoder_eccentricity")
+    text += r.coordinates.rotational() ? fmt::format(", {} per turn", rounded(2.0 * kPi / rung.period))
+                                       : ", every " + quantity(rung.period, "m");
+  return text;
+}
+
+std::string size_text(const DiagnosisResult& r, double size) {
+  return fmt::format("{} ({} %)", quantity(size, budget_unit(r)),
+                     rounded(100.0 * size / r.diagnosis.budget.input, 2));
+}
+
+/// A bar of the waterfall, in a row of its own.
+Tile bar(double row, double from, double to, const Colour& colour) {
+  constexpr double kHalf = 0.3;
+  return {{std::min(from, to), std::max(from, to)}, {row - kHalf, row + kHalf}, colour, ""};
+}
+
+/// A legend entry for bars of this colour.
+Series entry(const std::string& label, const Colour& colour) {
+  return {label, {colour, 14.0, {}}, {kNaN}, {kNaN}};
+}
+
+struct Floor {
+  const char* name;
+  double size;
+};
+
+/// Those that are there, the largest first.
+std::vector<Floor> floors_of(const ErrorBudget& b) {
+  std::vector<Floor> floors = {
+      {"repeatability", b.repeatability}, {"encoder", b.encoder}, {"records disagree", b.records}};
+  std::erase_if(floors, [](const Floor& f) { return !(f.size > 0.0); });
+  std::stable_sort(floors.begin(), floors.end(),
+                   [](const Floor& one, const Floor& other) { return one.size > other.size; });
+  return floors;
+}
+
+}  // namespace
+
+FigureData diagnosis_budget(const DiagnosisResult& r) {
+  const ErrorBudget& b = r.diagnosis.budget;
+  FigureData figure;
+  figure.file = "diagnosis_budget.png";
+  figure.title = "Error budget: residual " + torque_of(r) + " on held-out data";
+  if (!b.exists()) {
+    figure = missing_figure(figure.file, figure.title, "the drive has a contact that opens and closes");
+    figure.expected = false;
+    return figure;
+  }
+  Panel panel;
+  panel.title = fmt::format("Error budget: rms below {} Hz (of the input's)", rounded(b.band_hz, 2));
+  panel.x = {"residual " + torque_of(r), budget_unit(r), {0.0, 1.02 * b.nominal}, {}, {}};
+  double row = 0.0;
+  const auto add = [&](const std::string& text, double from, double to, double left, const Colour& colour) {
+    panel.y.categories.push_back(typeset(text));
+    panel.y.remarks.push_back(size_text(r, left));
+    panel.tiles.push_back(bar(row++, from, to, colour));
+  };
+  add("inertia and viscous damping", 0.0, b.nominal, b.nominal, kInk);
+  for (const BudgetRung& rung : b.rungs)
+    add("− " + law_of(r, rung), rung.before, rung.after, rung.after, rung.added ? kBlue : kGrey);
+  add("what remains", 0.0, b.remains, b.remains, kInk);
+  const auto has = [&](bool effect) {
+    return std::any_of(b.rungs.begin(), b.rungs.end(),
+                       [=](const BudgetRung& g) { return g.added == effect; });
+  };
+  if (has(true)) panel.series.push_back(entry("taken by an effect that was added", kBlue));
+  if (has(false)) panel.series.push_back(entry("taken by a law that this model cannot have", kGrey));
+  for (const Floor& floor : floors_of(b)) panel.x_marks.push_back({floor.size, guide_style(), floor.name});
+  if (panel.x_marks.size() > 1) panel.x_marks.resize(1);
+  panel.height = 90.0 + 64.0 * row;
+  figure.width = 2000.0;
+  figure.panels.push_back(panel);
+  figure.reading =
+      fmt::format("The residual {} falls from {} to {}, {} of what the input brings.", torque_of(r),
+                  quantity(b.nominal, budget_unit(r)), quantity(b.remains, budget_unit(r)),
+                  rounded(100.0 * b.remains / b.input, 2) + " %");
+  return figure;
+}
+
+std::string budget_table(const DiagnosisResult& r) {
+  const ErrorBudget& b = r.diagnosis.budget;
+  if (!b.exists()) return "";
+  std::string text = fmt::format(
+      "\n## Error budget\n\nHeld-out residual {}, rms below {} Hz; the input brings {}. Every line refits "
+      "all numbers of the "
+      "lines above it. *Share*: of the mean square that was left (95 % by blocks of held-out time); *alone*: "
+      "of "
+      "what the nominal model leaves; *last*: of what all the others leave, which is what no other can "
+      "say.\n\n"
+      "| added | left | of the input | share | 95 % | alone | last |\n|---|---|---|---|---|---|---|\n"
+      "| inertia and viscous damping | {} | {} % | | | | |\n",
+      torque_of(r), rounded(b.band_hz, 2), quantity(b.input, budget_unit(r)),
+      quantity(b.nominal, budget_unit(r)), rounded(100.0 * b.nominal / b.input, 2));
+  for (const BudgetRung& rung : b.rungs)
+    text += fmt::format("| {}{} | {} | {} % | {} | {} to {} | {} | {} |\n", law_of(r, rung),
+                        rung.added ? "" : " (not in the model)", quantity(rung.after, budget_unit(r)),
+                        rounded(100.0 * rung.after / b.input, 2), rounded(rung.share, 2),
+                        rounded(rung.share_ci95.low, 2), rounded(rung.share_ci95.high, 2),
+                        rounded(rung.alone, 2), rounded(rung.last, 2));
+  std::vector<std::string> floors;
+  for (const Floor& f : floors_of(b))
+    floors.push_back(fmt::format("{} {}", f.name, quantity(f.size, budget_unit(r))));
+  if (!floors.empty())
+    text += fmt::format("\nFloors, which no model gets below: {}.\n", fmt::join(floors, ", "));
+  return text;
+}
+
+}  // namespace gapscope::internal::report

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/results/diagnosis_result.h"
+#include "report/figure_data.h"
+
+namespace gapscope::internal::report {
+
+/// The error budget as a waterfall: what each law takes of the held-out residual torque, down to the floors.
+FigureData diagnosis_budget(const DiagnosisResult& result);
+
+/// The same as a table; nothing for a drive that has none.
+std::string budget_table(const DiagnosisResult& result);
+
+}  // namespace gapscope::internal::report

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+
+namespace gapscope::internal::torque_view {
+
+/// What the coefficients of a law are told relative to.
+struct Drive {
+  double inertia = kNaN, viscous = kNaN;  ///< of the same model
+  double coulomb = 0.0;                   ///< Coulomb friction of the same model; 0: none
+  double torque_constant = 1.0;           ///< [N m per unit of u]
+  double torque_rms = kNaN;               ///< of the model's torque [N m]
+};
+
+/// The values of the effect of the catalogue, in the order of its parameters, that coefficients and a shape
+/// stand for. What the law leaves open (an exponent, a second harmonic) is as small or as usual as can be.
+using EffectValues = std::vector<double> (*)(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+
+std::vector<double> coulomb_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> constant_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> asymmetry_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> stribeck_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> presliding_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> drag_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> unbalance_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> cogging_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> ripple_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> drift_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> inertia_step_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> delay_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> dead_zone_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> saturation_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+
+}  // namespace gapscope::internal::torque_view
