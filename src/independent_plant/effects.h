@@ -49,6 +49,7 @@ struct MotorEffects {
   double drag_nms2 = 0.0;  ///< −drag·sign(w1)·|w1|^drag_exponent
   double drag_exponent = 2.0;
   AngleHarmonic cogging;              ///< −cogging
+  AngleHarmonic second_cogging;       ///< the same, of another origin, such as poles beside teeth
   double viscous_drift_ratio = 0.0;   ///< d1·(1 + ratio·(1 − exp(−t/T)))
   double viscous_drift_time_s = 5.0;  ///< T
   Knocks knocks;

@@ -8,17 +8,9 @@
 #include "gapscope/base/require.h"
 
 namespace gapscope::independent_plant {
-/// What the sizes of an effect are measured by.
-struct EffectScale {
+struct EffectScale : MotionScale {
   double severity;
   std::mt19937_64 draw;
-  double torque;  ///< peak [N·m]
-  double input;   ///< peak [unit of u]
-  double travel;  ///< of the motor, peak to peak [rad]
-  double speed;   ///< of the motor, peak [rad/s]
-  double period;  ///< of the excitation [s]
-  double record;  ///< duration [s]
-  double quantum;
 
   double between(double weak, double strong) const { return weak * std::pow(strong / weak, severity); }
   double any(double low, double high) { return uniform(draw, low, high); }
@@ -37,23 +29,10 @@ namespace {
 
 constexpr double kSkew = 0.2;  ///< of detents and ripple [rad]
 
-EffectScale scale_of(const BlindCase& c, double severity, std::uint64_t seed) {
+MotionScale scale_of(const BlindCase& c) {
   BlindOptions options = c.options;
   options.tolerance = kFastTolerance;
-  const BlindRun run = simulate_blind(c.drive, c.excitation, {}, options);
-  double input = 0.0, speed = 0.0;
-  for (const double u : run.recording.u) input = std::max(input, std::abs(u));
-  for (const double w : run.truth.w1) speed = std::max(speed, std::abs(w));
-  const auto [low, high] = std::minmax_element(run.truth.x1.begin(), run.truth.x1.end());
-  return {severity,
-          random_stream(seed, "blind effect"),
-          c.drive.torque_constant * input,
-          input,
-          *high - *low,
-          speed,
-          1.0 / c.excitation.frequency,
-          c.options.duration,
-          c.sensor.quantum};
+  return scale_of_motion(c, simulate_blind(c.drive, c.excitation, {}, options), 1.0 / c.excitation.frequency);
 }
 
 // Motor side
@@ -275,12 +254,31 @@ bool can_have(const BlindDrive& drive, const DrawnEffect& entry) {
   return false;
 }
 
+MotionScale scale_of_motion(const BlindCase& c, const BlindRun& run, double period) {
+  double input = 0.0, speed = 0.0;
+  for (const double u : run.recording.u) input = std::max(input, std::abs(u));
+  for (const double w : run.truth.w1) speed = std::max(speed, std::abs(w));
+  const auto [low, high] = std::minmax_element(run.truth.x1.begin(), run.truth.x1.end());
+  return {c.drive.torque_constant * input,
+          input,
+          *high - *low,
+          speed,
+          period,
+          c.options.duration,
+          c.sensor.quantum};
+}
+
 void give_effect(BlindCase& c, std::string_view name, double severity, std::uint64_t seed) {
+  give_effect(c, name, severity, seed, scale_of(c));
+}
+
+void give_effect(BlindCase& c, std::string_view name, double severity, std::uint64_t seed,
+                 const MotionScale& scale) {
   const DrawnEffect* entry = find_drawn_effect(name);
   GAPSCOPE_REQUIRE(entry != nullptr);
   GAPSCOPE_REQUIRE(can_have(c.drive, *entry));
-  EffectScale scale = scale_of(c, severity, seed);
-  entry->give(c, scale);
+  EffectScale full{scale, severity, random_stream(seed, "blind effect")};
+  entry->give(c, full);
 }
 
 }  // namespace gapscope::independent_plant

@@ -15,7 +15,20 @@ enum class Needs {
   kNoGap,  ///< `backlash`, where the nominal drive has none
 };
 
-struct EffectScale;  // what sizes are relative to
+/// What the sizes of effects are relative to, as the drive moves without them.
+struct MotionScale {
+  double torque = 0.0;  ///< peak [N·m]
+  double input = 0.0;   ///< peak [unit of u]
+  double travel = 0.0;  ///< of the motor, peak to peak [rad]
+  double speed = 0.0;   ///< of the motor, peak [rad/s]
+  double period = 0.0;  ///< of the excitation [s]
+  double record = 0.0;  ///< duration [s]
+  double quantum = 0.0;
+};
+/// Of what was driven and recorded; the motion as it truly was.
+MotionScale scale_of_motion(const BlindCase& c, const BlindRun& run, double period);
+
+struct EffectScale;  // that, with the severity and what is drawn
 
 /// What else there is to know of an effect.
 struct EffectTraits {
@@ -47,5 +60,9 @@ bool can_have(const BlindDrive& drive, const DrawnEffect& entry);
 /// the seed. Sizes are relative to the case's own peak torque, travel, speed, period and encoder.
 /// @throws std::logic_error for an unknown name or an effect that the drive cannot have.
 void give_effect(BlindCase& c, std::string_view name, double severity, std::uint64_t seed);
+
+/// The same for a drive that its excitation does not drive.
+void give_effect(BlindCase& c, std::string_view name, double severity, std::uint64_t seed,
+                 const MotionScale& scale);
 
 }  // namespace gapscope::independent_plant

@@ -60,6 +60,7 @@ double Dynamics::motor_drive(double t, const State& s, int direction, double hel
   double torque = drive_torque(drive_, t, s[kX1], command) - damping * w;
   if (e.drag_nms2 != 0.0) torque -= std::copysign(e.drag_nms2 * std::pow(std::abs(w), e.drag_exponent), w);
   if (e.cogging.amplitude != 0.0) torque -= harmonic(e.cogging, s[kX1]);
+  if (e.second_cogging.amplitude != 0.0) torque -= harmonic(e.second_cogging, s[kX1]);
   if (e.bristle.level_nm != 0.0)
     torque -= e.bristle.level_nm / e.bristle.length_rad * s[kBristle] +
               e.bristle.damping_nms * bristle_rate(e.bristle, s);

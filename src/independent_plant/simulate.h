@@ -6,16 +6,9 @@
 #include "gapscope/recording/recording.h"
 #include "independent_plant/drive.h"
 #include "independent_plant/excitation.h"
-#include "independent_plant/motion.h"
+#include "independent_plant/rig.h"
 
 namespace gapscope::independent_plant {
-
-struct BlindSensor {
-  double quantum = 0.0;  ///< counts are rounded to the nearest; 0: a perfect encoder [rad]
-  double noise = 0.0;    ///< rms, before rounding [rad]
-  /// 2^bits counts per revolution, noise in quanta.
-  static BlindSensor with_bits(int bits, double noise_quanta = 0.0);
-};
 
 constexpr double kFastTolerance = 1e-9;  ///< trajectories within about 1e-7 rad over 10 s, for statistics
 
