@@ -1,0 +1,176 @@
+// The diagnosis on drives of one body of the independent plant, recorded as real drives are: in closed loop,
+// at constant speed, or under a given command.
+//   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open] [--effect NAME|none] [-j
+//   THREADS]
+// Effects follow from the seed unless one is given; "none" lacks nothing. Prints a line a case and counts
+// with Wilson limits.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <mutex>
+#include <string_view>
+
+#include "diagnosis/loop_cases.h"
+#include "gapscope/base/parallel.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace {
+
+using namespace gapscope;
+using test::Driven;
+
+struct Order {
+  std::uint64_t first = 1, count = 15;
+  Driven driven = Driven::kLoop;
+  std::string effect;
+  int threads = 0;
+};
+
+Order read_order(int argc, char** argv) {
+  Order order;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string_view key = argv[i], value = argv[i + 1];
+    if (key == "--seed") order.first = std::strtoull(argv[i + 1], nullptr, 10);
+    if (key == "--count") order.count = std::strtoull(argv[i + 1], nullptr, 10);
+    if (key == "--effect") order.effect = value;
+    if (key == "-j") order.threads = std::atoi(argv[i + 1]);
+    if (key == "--kind")
+      order.driven = value == "constant" ? Driven::kConstantSpeed
+                     : value == "open"   ? Driven::kOpen
+                                         : Driven::kLoop;
+  }
+  return order;
+}
+
+struct Answer {
+  std::uint64_t seed = 0;
+  std::string truth, line;
+  DiagnosisVerdict verdict = DiagnosisVerdict::kNotRun;
+  bool first = false;        ///< the truth is named first, or right after the simpler law that it contains
+  bool in_group = false;     ///< it, or that law, is the first one or in its group
+  bool wrong_later = false;  ///< a cause that was established after the first and is none
+  double floors = kNaN;      ///< torque that is missing, over its floor
+  double seconds = 0.0;
+
+  bool is_effect() const { return verdict == DiagnosisVerdict::kEffect; }
+};
+
+/// Whether the name is that of the truth, or of the simpler law that it contains.
+bool is_true(const std::string& name, const std::string& truth) {
+  const EffectEntry* entry = find_effect(truth);
+  const EffectEntry* part = entry == nullptr ? nullptr : contained_effect(*entry);
+  return name == truth || (part != nullptr && name == part->name);
+}
+
+bool holds(const std::vector<std::string>& names, const std::string& truth) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return is_true(n, truth); });
+}
+
+bool is_first(const Diagnosis& d, const std::string& truth) {
+  for (const std::string& name : d.effects) {
+    if (name == truth) return true;
+    if (!is_true(name, truth)) return false;
+  }
+  return false;
+}
+
+std::string told(const Diagnosis& d) {
+  std::string text = fmt::format("{} {} group {}", to_string(d.verdict), d.effects, d.group);
+  for (const BudgetRung& r : d.budget.rungs)
+    text += fmt::format("; {}{} {:.2f} [{:.2f}, {:.2f}]", r.law, r.added ? "" : " (not added)", r.share,
+                        r.share_ci95.low, r.share_ci95.high);
+  text += fmt::format("; {:.1f} Hz, {:.2g} of {:.2g}, left {:.2g}, floor {:.2g}; {:.3g} floors in x1",
+                      d.budget.band_hz, d.mismatch.before_torque, d.mismatch.input_torque, d.budget.remains,
+                      d.mismatch.floor_torque, d.mismatch.before / d.mismatch.floor);
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, d.ranking.size()); ++i)
+    text += fmt::format("; refit {} {:.2f}", d.ranking[i].effect, d.ranking[i].shrink);
+  return text;
+}
+
+/// Processor time of the calling thread.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Answer examine(const test::LoopCase& c) {
+  DiagnosisOptions options;
+  options.threads = 1;
+  const MotorTrace train[] = {c.train.motor_trace()}, held_out[] = {c.held_out.motor_trace()};
+  const double begin = thread_seconds();
+  const Diagnosis d = diagnose(train, held_out, c.sheet, options);
+  Answer a;
+  a.seconds = thread_seconds() - begin;
+  a.seed = c.seed, a.truth = c.effect, a.verdict = d.verdict;
+  a.first = a.is_effect() && is_first(d, c.effect);
+  a.in_group = a.is_effect() && (is_true(d.effects.front(), c.effect) || holds(d.group, c.effect));
+  for (std::size_t i = 1; i < d.added.size(); ++i)
+    a.wrong_later = a.wrong_later || (d.added[i].established && !holds(d.added[i].group, c.effect));
+  a.floors = d.mismatch.before / d.mismatch.floor;
+  a.line = fmt::format("{} {} ({:.0f} % missing; {}): {}; {:.1f} s", c.seed, c.effect, 100.0 * c.missing,
+                       c.set_up, told(d), a.seconds);
+  return a;
+}
+
+template <class Property>
+void count(const char* what, const std::vector<Answer>& answers, Property property) {
+  const auto yes = static_cast<int>(std::count_if(answers.begin(), answers.end(), property));
+  const auto all = static_cast<int>(answers.size());
+  const Interval w = wilson(yes, all);
+  fmt::print("{:<44}{:4} of {:4} = {:5.1f} %  [{:.1f}, {:.1f}]\n", what, yes, all, 100.0 * yes / all,
+             100.0 * std::max(0.0, w.low), 100.0 * w.high);
+}
+
+void print_counts(const std::vector<Answer>& answers) {
+  std::vector<Answer> lacking, whole;
+  for (const Answer& a : answers) (a.truth == "none" ? whole : lacking).push_back(a);
+  std::erase_if(lacking, [](const Answer& a) { return !(a.floors > 2.0); });
+  const auto says = [](DiagnosisVerdict verdict) {
+    return [=](const Answer& a) { return a.verdict == verdict; };
+  };
+  if (!lacking.empty()) {
+    fmt::print("{} cases lack an effect and are above 2 floors\n", lacking.size());
+    count("named first, as effect", lacking, [](const Answer& a) { return a.first; });
+    count("first or in the group, as effect (85 %)", lacking, [](const Answer& a) { return a.in_group; });
+    count("wrong effect (at most 3 %)", lacking,
+          [](const Answer& a) { return a.is_effect() && !a.in_group; });
+    count("a wrong one among later causes", lacking, [](const Answer& a) { return a.wrong_later; });
+    count("helps", lacking, says(DiagnosisVerdict::kHelps));
+    count("unknown", lacking, says(DiagnosisVerdict::kUnknown));
+    count("none", lacking, says(DiagnosisVerdict::kNone));
+  }
+  if (!whole.empty()) {
+    fmt::print("{} cases lack nothing\n", whole.size());
+    count("none", whole, says(DiagnosisVerdict::kNone));
+    count("an effect blamed (at most 1 of 100)", whole, [](const Answer& a) { return a.is_effect(); });
+    count("helps", whole, says(DiagnosisVerdict::kHelps));
+    count("unknown", whole, says(DiagnosisVerdict::kUnknown));
+  }
+  std::vector<double> seconds;
+  for (const Answer& a : answers) seconds.push_back(a.seconds);
+  if (!seconds.empty())
+    fmt::print("processor time a case: median {:.1f} s, longest {:.1f} s\n", median(seconds),
+               *std::max_element(seconds.begin(), seconds.end()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Order order = read_order(argc, argv);
+  const std::vector<std::string>& effects = test::loop_effects(order.driven);
+  std::vector<Answer> answers(order.count);
+  std::mutex writing;
+  parallel_for(order.count, order.threads, [&](std::size_t i) {
+    const std::uint64_t seed = order.first + i;
+    const std::string effect = order.effect.empty() ? effects[seed % effects.size()] : order.effect;
+    answers[i] = examine(test::loop_case(order.driven, effect, seed));
+    const std::lock_guard lock(writing);
+    fmt::print("{}\n", answers[i].line);
+    std::fflush(stdout);
+  });
+  print_counts(answers);
+}

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gapscope/reference/fit.h"
+#include "independent_plant/drive.h"
+
+namespace gapscope::test {
+
+enum class Driven {
+  kLoop,           ///< by a controller that follows a reference
+  kConstantSpeed,  ///< the same, at one speed
+  kOpen,           ///< by a given command
+};
+
+/// A drive of one body on the independent plant, which has an effect that its sheet does not tell of.
+struct LoopCase {
+  std::uint64_t seed = 0;
+  std::string effect;  ///< "none" without
+  double missing =
+      0.0;  ///< rms of the held-out torque that inertia and viscous damping leave, over the input's
+  std::string set_up;  ///< in words
+  independent_plant::BlindDrive drive;
+  Recording train, held_out;
+  ReferenceModel sheet;  ///< inertia and viscous damping to be estimated, off by up to 30 %
+};
+
+/// Effects that a drive of one body can have and that such recordings can show.
+const std::vector<std::string>& loop_effects(Driven driven);
+
+/// Drawn from the seed: inertia 4e-4 to 4e-3 kg·m², J/d 0.1 to 2 s; an encoder of 12 bit read at 200 Hz, 14
+/// at 500, 16 at 1000 or 20 at 2000 Hz; speed loops that cross 1 at 3 to 20 Hz, P or PI, with or without a
+/// position loop, with dead time and a limit; references of 2 to 15 rad and 3 to 15 rad/s, another one for
+/// what is held out; recordings of 8 s that begin in motion. The effect's size is chosen for `missing` to be
+/// a log-uniform share from 10 to 60 %, as near as its severity can bring it.
+LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed);
+
+}  // namespace gapscope::test
