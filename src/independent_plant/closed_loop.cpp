@@ -17,7 +17,7 @@ struct Instant {
   bool turn = false, row = false;
 };
 
-constexpr double kSameTime = 1e-9;  // [s]
+constexpr double kSameTime = 1e-9;  ///< sums of times that should be equal differ by less [s]
 
 std::vector<Instant> turns(const ControllerSettings& controller, double end, std::uint64_t seed) {
   std::mt19937_64 jitter = random_stream(seed, "blind loop jitter");
@@ -55,7 +55,8 @@ class CommandLine {
  public:
   void send(double from, double u) { coming_.push_back({from, u}); }
   double at(double t) {
-    for (; !coming_.empty() && coming_.front().from <= t; coming_.pop_front()) now_ = coming_.front().u;
+    for (; !coming_.empty() && coming_.front().from <= t + kSameTime; coming_.pop_front())
+      now_ = coming_.front().u;
     return now_;
   }
 

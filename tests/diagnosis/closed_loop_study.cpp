@@ -16,6 +16,7 @@
 #include "diagnosis/loop_cases.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/recording/recording_file.h"
 
 namespace {
 
@@ -25,7 +26,7 @@ using test::Driven;
 struct Order {
   std::uint64_t first = 1, count = 15;
   Driven driven = Driven::kLoop;
-  std::string effect;
+  std::string effect, folder;
   int threads = 0;
 };
 
@@ -36,6 +37,7 @@ Order read_order(int argc, char** argv) {
     if (key == "--seed") order.first = std::strtoull(argv[i + 1], nullptr, 10);
     if (key == "--count") order.count = std::strtoull(argv[i + 1], nullptr, 10);
     if (key == "--effect") order.effect = value;
+    if (key == "--write") order.folder = value;
     if (key == "-j") order.threads = std::atoi(argv[i + 1]);
     if (key == "--kind")
       order.driven = value == "constant" ? Driven::kConstantSpeed
@@ -51,6 +53,7 @@ struct Answer {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNotRun;
   bool first = false;        ///< the truth is named first, or right after the simpler law that it contains
   bool in_group = false;     ///< it, or that law, is the first one or in its group
+  bool helped = false;       ///< its cause open, the truth was added
   bool wrong_later = false;  ///< a cause that was established after the first and is none
   double floors = kNaN;      ///< torque that is missing, over its floor
   double seconds = 0.0;
@@ -108,6 +111,8 @@ Answer examine(const test::LoopCase& c) {
   a.seed = c.seed, a.truth = c.effect, a.verdict = d.verdict;
   a.first = a.is_effect() && is_first(d, c.effect);
   a.in_group = a.is_effect() && (is_true(d.effects.front(), c.effect) || holds(d.group, c.effect));
+  a.helped =
+      a.verdict == DiagnosisVerdict::kHelps && (holds(d.effects, c.effect) || holds(d.group, c.effect));
   for (std::size_t i = 1; i < d.added.size(); ++i)
     a.wrong_later = a.wrong_later || (d.added[i].established && !holds(d.added[i].group, c.effect));
   a.floors = d.mismatch.before / d.mismatch.floor;
@@ -140,6 +145,7 @@ void print_counts(const std::vector<Answer>& answers) {
           [](const Answer& a) { return a.is_effect() && !a.in_group; });
     count("a wrong one among later causes", lacking, [](const Answer& a) { return a.wrong_later; });
     count("helps", lacking, says(DiagnosisVerdict::kHelps));
+    count("  of it with the truth among what was added", lacking, [](const Answer& a) { return a.helped; });
     count("unknown", lacking, says(DiagnosisVerdict::kUnknown));
     count("none", lacking, says(DiagnosisVerdict::kNone));
   }
@@ -157,17 +163,32 @@ void print_counts(const std::vector<Answer>& answers) {
                *std::max_element(seconds.begin(), seconds.end()));
 }
 
+test::LoopCase case_of(const Order& order, std::uint64_t seed) {
+  const std::vector<std::string>& effects = test::loop_effects(order.driven);
+  return test::loop_case(order.driven, order.effect.empty() ? effects[seed % effects.size()] : order.effect,
+                         seed);
+}
+
+void write_cases(const Order& order) {
+  for (std::uint64_t seed = order.first; seed < order.first + order.count; ++seed) {
+    const test::LoopCase c = case_of(order, seed);
+    write_csv(fmt::format("{}/{}_train.csv", order.folder, seed), c.train);
+    write_csv(fmt::format("{}/{}_held_out.csv", order.folder, seed), c.held_out);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const Order order = read_order(argc, argv);
-  const std::vector<std::string>& effects = test::loop_effects(order.driven);
+  if (!order.folder.empty()) {
+    write_cases(order);
+    return 0;
+  }
   std::vector<Answer> answers(order.count);
   std::mutex writing;
   parallel_for(order.count, order.threads, [&](std::size_t i) {
-    const std::uint64_t seed = order.first + i;
-    const std::string effect = order.effect.empty() ? effects[seed % effects.size()] : order.effect;
-    answers[i] = examine(test::loop_case(order.driven, effect, seed));
+    answers[i] = examine(case_of(order, order.first + i));
     const std::lock_guard lock(writing);
     fmt::print("{}\n", answers[i].line);
     std::fflush(stdout);

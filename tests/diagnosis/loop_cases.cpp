@@ -106,6 +106,17 @@ void draw_amplifier(std::mt19937_64& g, Bench& b, double peak) {
   if (b.recorder.input == RecordedInput::kCurrent) b.recorder.input_noise = peak * uniform(g, 0.002, 0.01);
 }
 
+/// The true motion as a perfect encoder that runs out of centre tells it.
+struct Seen {
+  double x, w;
+};
+Seen seen(const BlindDrive& d, const BlindTruth& truth, std::size_t k) {
+  const SensorEffects& e = d.effects.sensor;
+  const double angle = truth.x1[k] + e.eccentricity_phase_rad;
+  return {truth.x1[k] + e.eccentricity_rad * std::sin(angle),
+          truth.w1[k] * (1.0 + e.eccentricity_rad * std::cos(angle))};
+}
+
 /// Rows of Km ∫u dt = J Δw + d Δx (+ c ∫dt), on the true motion over windows.
 struct Balance {
   Eigen::MatrixXd g;
@@ -122,7 +133,8 @@ Balance balance_of(const Bench& b, const BlindRun& run) {
     const std::size_t from = i * step, to = from + step;
     for (std::size_t k = from; k < to; ++k)
       rows.pushed[row] += b.c.drive.torque_constant * run.recording.u[k] * dt;
-    rows.g.row(row) << run.truth.w1[to] - run.truth.w1[from], run.truth.x1[to] - run.truth.x1[from],
+    const Seen last = seen(b.c.drive, run.truth, to), first = seen(b.c.drive, run.truth, from);
+    rows.g.row(row) << last.w - first.w, last.x - first.x,
         b.driven == Driven::kConstantSpeed ? dt * static_cast<double>(step) : 0.0;
   }
   return rows;
@@ -180,6 +192,11 @@ std::string in_words(const Bench& b) {
                      b.recorder.input == RecordedInput::kCurrent ? ", current" : "");
 }
 
+/// A current that is measured has gone through them: nothing is missing then.
+bool acts_before_the_current(const std::string& effect) {
+  return effect == "input_delay" || effect == "input_dead_zone" || effect == "torque_saturation";
+}
+
 Bench drawn_bench(std::mt19937_64& g, Driven driven, std::uint64_t seed) {
   Bench b;
   b.driven = driven;
@@ -212,6 +229,7 @@ const std::vector<std::string>& loop_effects(Driven driven) {
 LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed) {
   std::mt19937_64 g = random_stream(seed, "closed loop study");
   Bench b = drawn_bench(g, driven, seed);
+  if (acts_before_the_current(effect)) b.recorder.input = RecordedInput::kCommand;
   const double share = log_uniform(g, 0.1, 0.6);
   LoopCase result;
   result.seed = seed, result.effect = effect;
