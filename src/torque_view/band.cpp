@@ -95,12 +95,14 @@ FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
 
   double power = 0.0, weighted = 0.0;  // of the octaves below that have a say
   band.hz = hz.front();
+  bool holds = true;
   for (const Octave& o : std::span(band.octaves).first(quiet + 1)) {
     if (o.inertial >= options.least_inertia) {
-      if (power > 0.0 && o.inertia + o.inertia_std < (1.0 - options.inertia_drift) * weighted / power) break;
+      const double expected = power > 0.0 ? (1.0 - options.inertia_drift) * weighted / power : -kInfinity;
+      holds = !(o.inertia + o.inertia_std < expected);
       power += o.power, weighted += o.power * o.inertia;
     }
-    band.hz = o.top_hz;
+    if (holds) band.hz = o.top_hz;
   }
   return band;
 }
