@@ -89,7 +89,8 @@ FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
   const Model probe = probe_model(rotates);
   read_octaves(band, rows, hz, traces, fitted(rows.front(), probe));
   std::size_t quiet = 0;
-  while (quiet + 1 < hz.size() && band.octaves[quiet + 1].noise <= options.most_noise) ++quiet;
+  for (std::size_t i = 0; i < hz.size(); ++i)
+    if (band.octaves[i].noise <= options.most_noise) quiet = i;  // at one speed those below may be empty
   band.octaves.clear();
   read_octaves(band, rows, hz, traces, fitted(rows[quiet], probe));
 
