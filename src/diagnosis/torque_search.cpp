@@ -12,8 +12,7 @@ namespace view = torque_view;
 constexpr std::size_t kRefitted = 5;  ///< effects that lead in torque; the study of real drives, 1.9
 constexpr double kNearFirst =
     0.3;  ///< share by which one may stay behind the first and be refitted; the same
-constexpr double kFreeAsGood = 0.7;     ///< of the share: a free law of another variable that takes as much
-constexpr double kMostAbsorbed = 0.95;  ///< of a law that the model says in its place: no cause of its own
+constexpr double kFreeAsGood = 0.7;  ///< of the share: a free law of another variable that takes as much
 
 /// One body, or a locked output without play: no contact opens and closes.
 bool has_one_balance(const ReferenceModel& model) {
@@ -85,6 +84,26 @@ std::optional<std::size_t> rung_of(const view::Budget& budget, const view::Law& 
   for (std::size_t i = 0; i < budget.rungs.size(); ++i)
     if (budget.rungs[i].helps && budget.rungs[i].choice().law == &law) return i;
   return {};
+}
+
+/// Whether the recordings show the simpler law that this one adds to: where a speed and its sign are one,
+/// they show neither Coulomb friction nor a law that contains it.
+bool shows_simpler(const view::Budget& budget, const view::Rung& rung, const view::Law& law) {
+  if (law.simpler == nullptr || view::find_term(budget.nominal, law.simpler) != nullptr) return true;
+  const auto is_simpler = [&](const view::Candidate& c) {
+    return c.law->name == std::string_view(law.simpler);
+  };
+  return rung_of(budget, view::law(law.simpler)).has_value() ||
+         std::any_of(rung.ranking.begin(), rung.ranking.end(), is_simpler);
+}
+
+/// A law is established with one that contains it.
+void establish_contained(std::vector<TorqueAddition>& added) {
+  for (TorqueAddition& a : added)
+    a.established =
+        a.established || std::any_of(added.begin(), added.end(), [&](const TorqueAddition& other) {
+          return other.established && contained_effect(*other.group.front()) == a.group.front();
+        });
 }
 
 /// All that the choice of a rung cannot be told from: its group, and rivals that it does not lead clearly.
@@ -223,12 +242,14 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
     const view::Rung& rung = budget.rungs[*at];
     const auto share = std::find_if(budget.shares.begin(), budget.shares.end(),
                                     [&](const view::Share& s) { return s.law == &law; });
-    const bool absorbed = share != budget.shares.end() && share->seen.absorbed > kMostAbsorbed;
+    const bool needed = share == budget.shares.end() || share->last.share >= options.least_share;
     search.added.push_back(
-        {*at, rung.named && !absorbed && !free_law_as_good(rung, entry), group_of(rung, entry, options)});
+        {*at, rung.named && needed && shows_simpler(budget, rung, law) && !free_law_as_good(rung, entry),
+         group_of(rung, entry, options)});
   }
   std::stable_sort(search.added.begin(), search.added.end(),
                    [](const TorqueAddition& a, const TorqueAddition& b) { return a.rung < b.rung; });
+  establish_contained(search.added);
   if (search.added.empty()) return search;
   search.after = refitted_from(study, with_terms(nominal.fitted.model, budget));
   drop_what_vanished(search);
