@@ -108,7 +108,8 @@ Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& option
   nominal.insert(nominal.end(), data.known.begin(), data.known.end());
   budget.nominal = budget.model = fitted(bench.fit, std::move(nominal));
   take_line(bench, budget.model);
-  budget.input_rms = rms_of(bench.judge.u);
+  budget.input_rms = std::sqrt(bench.judge.input_square() /
+                               static_cast<double>(std::max<Eigen::Index>(1, bench.judge.size())));
   budget.nominal_rms = rms_of(bench.left(budget.nominal));
   climb(data, bench, budget, options);
   budget.rms = rms_of(bench.left(budget.model));

@@ -63,6 +63,13 @@ Samples Rows::samples(std::size_t r) const {
   return {record.t, record.x, record.w, record.a, tau[r], tau_load[r], inertia, viscous};
 }
 
+double Rows::input_square() const {
+  double square = u.squaredNorm();
+  for (std::size_t r = 0; r < level.size(); ++r)
+    square += level[r] * level[r] * static_cast<double>(first[r + 1] - first[r]);
+  return square;
+}
+
 bool is_constant_speed(const BandRecord& record, const TorqueViewOptions& options) {
   const double average = mean(record.w), square = std::pow(rms(record.w), 2) - average * average;
   return std::sqrt(std::max(0.0, square)) < options.constant_speed * std::abs(average);
@@ -87,6 +94,8 @@ Rows stacked(std::span<const StampedTrace> traces, double hz, bool free_constant
   int widest = 0;
   for (const Law& l : laws()) widest = std::max(widest, l.columns);
   rows.at_samples.resize(samples, widest);
+  for (const BandRecord& r : rows.records)
+    rows.level.push_back(free_constant && r.u.size() > 0 ? r.u.mean() : 0.0);
   centre(rows, rows.u);
   return rows;
 }
@@ -110,8 +119,7 @@ Scales scales_of(const Rows& rows, bool rotates, bool held_output) {
   s.speed_std = std::sqrt(std::max(0.0, s.speed_rms * s.speed_rms - std::pow(mean(speeds), 2)));
   for (double& v : speeds) v = std::abs(v);
   s.top_speed = *std::max_element(speeds.begin(), speeds.end());
-  s.torque_rms =
-      std::sqrt(rows.u.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, rows.size())));
+  s.torque_rms = std::sqrt(rows.input_square() / static_cast<double>(std::max<Eigen::Index>(1, rows.size())));
   return s;
 }
 
@@ -166,6 +174,7 @@ void set_torque(Rows& rows, const Model& model) {
       tau.noalias() += g * term.theta;
       if (term.law->kind == Kind::kMotion) load.noalias() += g * term.theta;
     }
+    if (rows.free_constant) tau.array() += rows.level[r] - tau.mean();
   }
 }
 

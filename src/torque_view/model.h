@@ -27,12 +27,14 @@ struct Rows {
   std::vector<BandRecord> records;
   std::vector<Eigen::Index> first;  ///< row of each record, and the end
   Eigen::VectorXd u;
-  bool free_constant = false;                      ///< one per recording: all columns without their mean
+  bool free_constant = false;  ///< one per recording: all columns without their mean
+  std::vector<double> level;   ///< of the inputs, which the constants take; 0 without them [unit of u]
   std::vector<std::vector<double>> tau, tau_load;  ///< of the model, at the samples
   double inertia = 0.0, viscous = 0.0;
   Eigen::MatrixXd at_samples;  ///< scratch
 
   Eigen::Index size() const { return u.size(); }
+  double input_square() const;  ///< of the input with its level
   Samples samples(std::size_t record) const;
 };
 

@@ -27,7 +27,7 @@ bool is_open(const Bench& bench, const Model& model, const Law& l) {
 
 /// Whether the model's torque is worth reading: it makes most of the input's.
 bool says_most(Bench& bench, const Model& model, const TorqueViewOptions& options) {
-  return residual(bench.fit, model, false).norm() < options.most_left * bench.fit.u.norm();
+  return residual(bench.fit, model, false).norm() < options.most_left * std::sqrt(bench.fit.input_square());
 }
 
 /// How much of the last term's torque on the fitted rows the terms before it could say.
