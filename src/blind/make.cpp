@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 std::string sheet_of(const std::string& name, const blind::BlindPair& pair) {
   Configuration c;
   c.name = name;
-  c.recording =
-      RecordingConfig{{{name + "_train.csv", "", 0}}, {{name + "_held_out.csv", "", 0}}, {}, {}, {}};
+  c.recording.emplace();
+  c.recording->files = {{name + "_train.csv", "", 0}};
+  c.recording->held_out = {{name + "_held_out.csv", "", 0}};
   c.encoder.quantum = pair.train.quantum;
   c.model.given = true;
   c.model.structure = pair.sheet.structure;

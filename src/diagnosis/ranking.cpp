@@ -96,7 +96,7 @@ bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_bad
   const auto windows = repeats_badly ? &Windows::innovation : &Windows::free;
   const std::vector<double>&b = before.windows.*windows, &a = after.windows.*windows;
   const std::size_t count = std::min(a.size(), b.size());
-  if (count < kFewestWindows || !(after.fitted.mean_square < kHelpFitted * before.fitted.mean_square))
+  if (count < kFewestWindows || !(after.fitted.mean_cost < kHelpFitted * before.fitted.mean_cost))
     return false;
   const auto share = [&](const std::vector<std::size_t>& drawn) {
     double left = 0.0, all = 0.0;

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,7 +8,10 @@
 
 #include "gapscope/report/report.h"
 #include "gapscope/results/diagnosis_result.h"
+#include "report/clear_texts.h"
 #include "report/diagnosis_figures.h"
+#include "report/draw_figure.h"
+#include "report/error_budget.h"
 #include "results/scratch_folder.h"
 #include "support/png_file.h"
 #include "support/reading.h"
@@ -15,6 +19,7 @@
 namespace gapscope {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::text_of;
 namespace fs = std::filesystem;
 
@@ -30,8 +35,13 @@ DiagnosisResult sample(DiagnosisVerdict verdict) {
   d.verdict = verdict;
   d.sentence = "The model lacks cogging torque.";
   if (verdict == DiagnosisVerdict::kEffect) d.effects = d.group = {"cogging_torque"};
-  d.mismatch = {"free run restarted every 0.5 s",         2e-3, 3e-5,       2e-5, FloorSource::kEncoder,
-                "the quantum of the encoder in held.csv", 0.99, {0.9, 1.0}, 1.5};
+  d.mismatch.measure = "free run restarted every 0.5 s";
+  d.mismatch.before = 2e-3, d.mismatch.after = 3e-5, d.mismatch.floor = 2e-5;
+  d.mismatch.floor_of = "the quantum of the encoder in held.csv";
+  d.mismatch.shrink = 0.99, d.mismatch.shrink_ci95 = {0.9, 1.0}, d.mismatch.remains = 1.5;
+  if (verdict == DiagnosisVerdict::kEffect)
+    d.added = {
+        {"cogging_torque", true, d.group, kNaN, {{"amplitude_nm", "N m", 0.004}}, 0.99, {0.9, 1.0}, 0.01}};
   d.measures = {{"free run restarted every 0.5 s", "rad", 2e-3, 3e-5, 2e-5},
                 {"residual torque", "N m", 0.1, 0.01, kNaN}};
   for (const char* name : {"cogging_torque", "torque_ripple", "input_delay"}) {
@@ -157,6 +167,37 @@ TEST(DiagnosisReport, BarsEndAtTheShares) {
   const auto& series = figure.panels[0].series.front();
   ASSERT_EQ(series.x.size(), 3u);
   EXPECT_DOUBLE_EQ(series.x_intervals[0].high, 1.0 / 3.0);
+}
+
+/// A drive of one body whose budget has an effect of the model and a law that the catalogue lacks.
+DiagnosisResult with_budget() {
+  DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
+  ErrorBudget& b = r.diagnosis.budget;
+  b.band_hz = 64.0, b.input = 1.0, b.nominal = 0.1, b.with_effects = 0.05, b.remains = 0.02,
+  b.encoder = 0.004;
+  BudgetRung cogging{"cogging_torque", "cogging_torque", true, 0.1, 0.05, 0.75, {0.6, 0.9}, 0.75, 0.8,
+                     2.0 * kPi / 24.0};
+  BudgetRung friction{"load_friction", "", false, 0.05, 0.02, 0.84, {0.7, 0.9}, 0.2, 0.84, kNaN};
+  b.rungs = {cogging, friction};
+  return r;
+}
+
+TEST(ErrorBudgetReport, TellsEachLawWithItsShareAndTheFloor) {
+  const std::string text = internal::report::budget_table(with_budget());
+  EXPECT_THAT(
+      text, HasSubstr("| cogging torque, 24 per turn | 50.0 mN·m | 5 % | 0.75 | 0.6 to 0.9 | 0.75 | 0.8 |"));
+  EXPECT_THAT(text, HasSubstr("| load friction (not in the model) | 20.0 mN·m | 2 % |"));
+  EXPECT_THAT(text, HasSubstr("Floors, which no model gets below: encoder 4.00 mN·m."));
+  EXPECT_EQ(internal::report::budget_table(sample(DiagnosisVerdict::kEffect)), "");
+}
+
+TEST(ErrorBudgetReport, TheFigureShowsTheFallAndHoldsItsTextsApart) {
+  const internal::report::FigureData figure = internal::report::diagnosis_budget(with_budget());
+  ASSERT_EQ(figure.panels.size(), 1u);
+  EXPECT_EQ(figure.panels[0].tiles.size(), 4u);  // before, two laws, what remains
+  const internal::report::Drawing drawing = internal::report::draw_with_notes(figure);
+  internal::report::expect_clear_texts(figure, drawing);
+  EXPECT_FALSE(internal::report::diagnosis_budget(sample(DiagnosisVerdict::kEffect)).missing.empty());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ struct StribeckFriction {
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
-      {"stiction_ratio", "-", 0.0, -0.95, 5.0, Scale::kOne},
+      {"stiction_ratio", "-", 0.0, 0.0, 5.0, Scale::kOne},
       {"stribeck_speed_rad_s", "rad/s", 0.05, 1e-3, 1.0, Scale::kPeakSpeed},
       {"exponent", "-", 2.0, 0.5, 3.0, Scale::kOne}};
   static constexpr std::array<const char*, 3> look_alikes = {"motor_coulomb_friction", "presliding_friction",
@@ -47,8 +47,7 @@ struct StribeckFriction {
   template <class T>
   static double rate(const EffectPoint<T>& at, const T* p) {
     if (std::abs(value_of(at.state.w1)) > 4.0 * value_of(p[2])) return 0.0;
-    const double torque =
-        std::abs(value_of(at.drive_torque)) + value_of(p[0]) * (1.0 + std::abs(value_of(p[1])));
+    const double torque = std::abs(value_of(at.drive_torque)) + value_of(p[0]) * (1.0 + value_of(p[1]));
     return 3.0 * torque / (value_of(at.plant.drive.motor_inertia) * value_of(p[2]) * value_of(p[3]));
   }
 };
