@@ -17,11 +17,11 @@ struct Octave {
   double power = kNaN;        ///< mean square acceleration [rad²/s⁴]
 };
 
-/// The widest band that the recordings admit: the last half octave with N/A ≤ 0.2 whose J is not less than 0.9
-/// of those below, by more than what else the octave holds lets it vary. Noise of the encoder only ever takes
-/// from J (1 − N²/A²), and more the higher the octave: one that is larger ends nothing, and neither does a low
-/// one above which J comes back, as a torque that the model lacks makes it. Where J a is a small part of the
-/// input an octave has no say about J.
+/// The widest band that the recordings admit: the last half octave with N/A ≤ 0.2 whose J is not less than
+/// 0.9 of those below, by more than what else the octave holds lets it vary. Noise of the encoder only ever
+/// takes from J (1 − N²/A²), and more the higher the octave: one that is larger ends nothing, and neither
+/// does a low one above which J comes back, as a torque that the model lacks makes it. Where J a is a small
+/// part of the input an octave has no say about J.
 struct FrequencyBand {
   double hz = kNaN;
   bool free_constant = false;  ///< a recording has one speed

@@ -160,9 +160,8 @@ TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereTheOtherRecordingAsksForTooLittle) {
   const Diagnosis d = diagnosis_of(blind::blind_pair("heavy", "encoder_eccentricity", 0.117, 442492),
                                    among({"encoder_eccentricity", "quadratic_drag"}));
   EXPECT_EQ(d.effects, std::vector<std::string>{"encoder_eccentricity"}) << d.sentence;
-  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
-    return w.find("first half") != std::string::npos;
-  }));
+  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(),
+                          [](const std::string& w) { return w.find("first half") != std::string::npos; }));
 }
 
 TEST(Diagnosis, AcceptsNoRefusedFirstStepForReachingTheFloorAlone) {
@@ -256,9 +255,8 @@ TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereOnlyThatShowsTheSecondEffect) {
       diagnosis_of(blind::blind_pair("geared", both, 0.536, 717007),
                    among({"motor_coulomb_friction", "encoder_eccentricity", "shaft_compliance"}));
   EXPECT_EQ(d.effects, both) << d.sentence;
-  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
-    return w.find("first half") != std::string::npos;
-  }));
+  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(),
+                          [](const std::string& w) { return w.find("first half") != std::string::npos; }));
   for (const MismatchTrace& t : d.traces) EXPECT_GT(t.scored_from, 0u) << "only the other half judges";
 }
 

@@ -21,10 +21,10 @@ const fs::path kRoot = GAPSCOPE_SOURCE_DIR;
 /// Which modules each module may include, itself left out.
 const std::map<std::string, Names>& allowed_modules() {
   static const std::map<std::string, Names> table = [] {
-    const std::vector<std::string> order = {"base",      "recording",  "signals",      "inspection",
-                                            "plant",     "torque_view", "simulation", "sliding_mode", "reference",
-                                            "diagnosis", "config",     "results",      "run",
-                                            "campaign",  "blind",      "report",       "cli"};
+    const std::vector<std::string> order = {
+        "base",       "recording",    "signals",   "inspection", "plant",  "torque_view",
+        "simulation", "sliding_mode", "reference", "diagnosis",  "config", "results",
+        "run",        "campaign",     "blind",     "report",     "cli"};
     std::map<std::string, Names> t = {
         {"base", {}},
         {"recording", {"base"}},

@@ -69,8 +69,8 @@ std::string text(const Eigen::VectorXd& theta) {
 void print_band(const FrequencyBand& band) {
   fmt::print("octave up to  J          std        N/A     share of J a\n");
   for (const Octave& o : band.octaves)
-    fmt::print("{:8.3g} Hz   {:<10.4g} {:<10.4g} {:.3f}   {:.3f}\n", o.top_hz, o.inertia, o.inertia_std, o.noise,
-               o.inertial);
+    fmt::print("{:8.3g} Hz   {:<10.4g} {:<10.4g} {:.3f}   {:.3f}\n", o.top_hz, o.inertia, o.inertia_std,
+               o.noise, o.inertial);
   fmt::print("band {:.3g} Hz{}\n", band.hz, band.free_constant ? ", one speed: a free constant" : "");
 }
 
