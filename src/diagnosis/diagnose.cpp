@@ -267,6 +267,11 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   if (!left.empty()) diagnosis.warnings.push_back("no effect is named: with it, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);
+  if (!ladder.added.empty() && diagnosis.mismatch.after > diagnosis.mismatch.before)
+    diagnosis.warnings.push_back(
+        "in x1 the model with what was added errs more than the nominal one: the torque balance says "
+        "otherwise, "
+        "and a model that is too heavy hides in x1 what it lacks.");
   if (study.is_exhausted())
     diagnosis.warnings.push_back(fmt::format(
         "the search for further effects was cut off at the work of {:.0f} fits of the nominal model.",
