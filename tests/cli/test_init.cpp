@@ -85,6 +85,7 @@ TEST(Init, IrregularTimeIsResampledForTheDetectorAndWhatSpoilsIsWrittenDown) {
     rows.t[i] += 1e-4 * static_cast<double>(i % 3);
     rows.u[i] = -rows.u[i];
   }
+  rows.erase(2500, rows.t.size() - 2500);  // a fit with the wrong sign ends nowhere for long
   place.file("r.csv", "when,u,x1" + rows.csv().substr(6));
   const auto init = place.run("init r.csv --time when");
   EXPECT_EQ(init.status, 0) << init.err;
