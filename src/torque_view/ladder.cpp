@@ -85,6 +85,12 @@ void keep_addable(const SplitRecordings& data, Bench& bench, Budget& budget) {
     if (budget.model[i].law->values != nullptr && can(budget.model[i]))
       budget.addable.push_back(budget.model[i]);
   budget.addable = fitted(bench.fit, std::move(budget.addable));
+  for (std::size_t i = budget.addable.size();
+       i-- > budget.nominal.size();) {  // without the others it may turn round
+    const Term& term = budget.addable[i];
+    if (has_its_sign(*term.law, term.theta[0], first_coefficient(budget.addable, "inertia"))) continue;
+    budget.addable = fitted(bench.fit, without(budget.addable, i));
+  }
   double square = 0.0, count = 0.0;
   for (const std::vector<double>& tau : bench.fit.tau)
     for (const double torque : tau) square += torque * torque, count += 1.0;
