@@ -269,13 +269,14 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   diagnosis.evidence = evidence_of(study, found);
   if (!ladder.added.empty() && diagnosis.mismatch.after > diagnosis.mismatch.before)
     diagnosis.warnings.push_back(
-        "in x1 the model with what was added errs more than the nominal one: the torque balance says "
-        "otherwise, "
-        "and a model that is too heavy hides in x1 what it lacks.");
+        "in x1 the model with what was added errs more than the nominal one, other than in torque: a model "
+        "that "
+        "is too heavy hides in x1 what it lacks.");
   if (study.is_exhausted())
-    diagnosis.warnings.push_back(fmt::format(
-        "the search for further effects was cut off at the work of {:.0f} fits of the nominal model.",
-        Study::kMostNominalFits));
+    diagnosis.warnings.push_back(
+        fmt::format("the search has taken the work of {:.0f} fits of the nominal model, after which it "
+                    "begins no further step.",
+                    Study::kMostNominalFits));
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "

@@ -21,11 +21,11 @@ bool has_one_balance(const ReferenceModel& model) {
   return !model.structure.has_load || (model.structure.load == LoadKind::kLocked && !play);
 }
 
-/// u in torque, as a view of a part of the trace.
+/// u in torque and the time since the recording began, as the simulator counts it, from a sample on.
 view::StampedTrace in_torque(const MotorTrace& trace, std::size_t from, double torque_constant) {
   view::StampedTrace t{trace.file, {}, {}, {}, trace.quantum, true};
   for (std::size_t i = from; i < trace.size(); ++i) {
-    t.t.push_back(trace.time(i));
+    t.t.push_back(trace.elapsed(i));
     t.u.push_back(torque_constant * trace.u[i]);
     t.x.push_back(trace.x1[i]);
   }
@@ -208,6 +208,10 @@ std::optional<view::Budget> torque_budget(const Study& study, const ReferenceMod
   data.new_phase = study.held_out.scored_from.front() == 0;  // other recordings, not the rest of these
   view::Scales scales;
   scales.rotates = data.rotates, scales.held_output = data.held_output;
+  double square = 0.0, samples = 0.0;
+  for (const view::StampedTrace& t : data.fit)
+    for (const double torque : t.u) square += torque * torque, samples += 1.0;
+  scales.torque_rms = std::sqrt(square / samples);
   data.known = known_terms(nominal, scales);
   data.closed = study.options.excluded;
   for (const EffectEntry* entry : study.catalogue)
