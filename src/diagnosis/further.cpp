@@ -25,7 +25,7 @@ constexpr double kLaterMargin = 0.5;   ///< S by which such a step beats all oth
 constexpr double kRefinedGain = 0.3;   ///< S of a law that contains an earlier one's, also over all others
 constexpr double kFitCollapses =
     0.1;  ///< of the fitted mean square that a step leaves: fewer windows then suffice
-constexpr double kAskedFor = 0.85;  ///< of the fitted mean square that a step leaves at most
+constexpr double kLaterAskedFor = 0.85;  ///< of the fitted mean square that a step leaves at most
 constexpr double kMuchOfTheWay =
     0.4;  ///< share of the log distance to the floor that two steps close, where the first was unsure
 constexpr double kMostOfTheSize =
@@ -111,7 +111,7 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
 
 /// Whether one set of numbers leaves nothing to explain, though those of the fitted recordings alone leave
 /// something on the others: these asked for what the fitted ones do not determine.
-bool explained_together(const Study& study, const ScoredModel& model) {
+bool explained_without(const Study& study, const ScoredModel& model) {
   if (study.repeats_badly() || !(model.fitted.mean_cost < kExplained)) return false;
   const ScoredModel together =
       judge(nullptr, fit_near(everything(study), model.fitted.model, study.options.fit, study.observer_hz),
@@ -155,7 +155,7 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
   std::optional<ScoredModel> narrow;  // the model so far, before half of what is held out was fitted
   std::size_t steps_before = 0;
   while (a.steps.size() + 1 < kMostEffects && !at_floor(a.after) && !study.is_exhausted()) {
-    a.explained = explained_together(study, a.after);
+    a.explained = explained_without(study, a.after);
     if (a.explained) break;
     study.options.progress("looking for a further effect");
     if (asks_elsewhere(study, a.after)) {
@@ -195,14 +195,15 @@ bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
 bool clearly_better(const ScoredModel& before, const ScoredModel& best, const Decision& d) {
   const double left = best.fitted.mean_cost / before.fitted.mean_cost;
   const double windows = left < kFitCollapses ? kWorthFollowingWindows : kLaterWindows;
-  return d.gain >= kLaterGain && d.windows_better >= windows && d.margin >= kLaterMargin && left < kAskedFor;
+  return d.gain >= kLaterGain && d.windows_better >= windows && d.margin >= kLaterMargin &&
+         left < kLaterAskedFor;
 }
 
 bool refines(const ScoredModel& before, const ScoredModel& best, const Decision& d) {
   const EffectEntry* contained = contained_effect(*best.entry);
   return contained != nullptr && has_effect(before.fitted.model, contained) && d.gain >= kRefinedGain &&
          d.margin >= kRefinedGain && d.windows_better >= kWorthFollowingWindows &&
-         best.fitted.mean_cost < kAskedFor * before.fitted.mean_cost;
+         best.fitted.mean_cost < kLaterAskedFor * before.fitted.mean_cost;
 }
 
 bool borne_out(const ScoredModel& nominal, const Additions& a) {

@@ -13,13 +13,13 @@ using Weights = double[4];
 constexpr Weights kFirst = {-1.706, 2.294, 1.026, 0.091};
 constexpr Weights kLater = {-0.698, 2.136, 1.382, 0.326};
 constexpr double kMarginOffset = 0.05;
-constexpr double kLeastGain = 1e-3;
+constexpr double kTinyGain = 1e-3;
 constexpr double kMistakenOrder = 0.04;  ///< of the cases where the group is wrong, at even odds
 
 double probability(const Weights& w, double rel, double margin, double gain) {
   if (!(gain > 0.0)) return 0.0;
   const double z = w[0] + w[1] * rel + w[2] * std::log(std::max(margin, 0.0) + kMarginOffset) +
-                   w[3] * std::log(std::max(gain, kLeastGain));
+                   w[3] * std::log(std::max(gain, kTinyGain));
   return 1.0 / (1.0 + std::exp(-z));
 }
 

@@ -13,7 +13,7 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr int kBins = 8;
+constexpr int kMapBins = 8;
 constexpr double kLine =
     0.25;  ///< share of the residual torque that makes a cycle over the angle worth a word
 
@@ -47,13 +47,13 @@ std::vector<MapShare> range_map(const std::vector<Sample>& samples, const Sample
   for (const Sample& s : samples) low = std::min(low, of(s)), high = std::max(high, of(s));
   constexpr double kNarrowest = 1e-9;
   high = std::max(high, low + kNarrowest * std::max(1.0, std::abs(low)));  // a width, whatever is constant
-  const double width = (high - low) / kBins;
+  const double width = (high - low) / kMapBins;
   const int decimals = std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(width))), 0, 9);
-  std::vector<MapShare> map(kBins);
-  for (int b = 0; b < kBins; ++b)
+  std::vector<MapShare> map(kMapBins);
+  for (int b = 0; b < kMapBins; ++b)
     map[static_cast<std::size_t>(b)].bin = range_key(low + b * width, low + (b + 1) * width, decimals, unit);
   for (const Sample& s : samples) {
-    const int b = std::min(kBins - 1, static_cast<int>((of(s) - low) / width));
+    const int b = std::min(kMapBins - 1, static_cast<int>((of(s) - low) / width));
     map[static_cast<std::size_t>(b)].share += s.torque * s.torque;
     map[static_cast<std::size_t>(b)].expected += 1.0;
   }
@@ -164,9 +164,9 @@ std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples, con
       {ResidualPattern::kDirection, explained(
                                         samples, [](const Sample& s) { return s.w1 > 0.0 ? 1.0 : 0.0; }, 2)},
       {ResidualPattern::kSpeed, explained(
-                                    samples, [](const Sample& s) { return s.w1; }, kBins)},
+                                    samples, [](const Sample& s) { return s.w1; }, kMapBins)},
       {ResidualPattern::kInput, explained(
-                                    samples, [](const Sample& s) { return s.u; }, kBins)},
+                                    samples, [](const Sample& s) { return s.u; }, kMapBins)},
       {ResidualPattern::kTime, displaced(place.time)}};
 }
 

@@ -7,6 +7,9 @@
 
 namespace gapscope::internal::reference {
 
+/// Of the recordings, one after the other: a search on little of them costs little.
+inline constexpr double kGrowingShares[] = {0.125, 0.25, 0.5};
+
 /// The same problem on a part of the recordings.
 class Excerpt {
  public:

@@ -13,10 +13,9 @@ namespace {
 
 constexpr Effort kFinal{1e-8, 2.0};  ///< far below what moves a value by its standard error
 constexpr Effort kTrial{1e-4, 0.25};
-constexpr double kShares[] = {0.125, 0.25, 0.5};  ///< of the recordings, one after the other
-constexpr int kShakes = 10;                       ///< points nearby that are tried
-constexpr double kBeginning = 0.125;              ///< of the recordings, where initial states are sought anew
-constexpr double kClearly = 6.0;                  ///< fall of the cost, in mean squares, that is no chance
+constexpr int kShakes = 10;           ///< points nearby that are tried
+constexpr double kBeginning = 0.125;  ///< of the recordings, where initial states are sought anew
+constexpr double kClearly = 6.0;      ///< fall of the cost, in mean squares, that is no chance
 constexpr double kSmallestShake = 1.0, kLargestShake = 100.0;  ///< in standard errors
 
 void keep(const Solution& next, FreeRunMinima& polished) {
@@ -28,7 +27,7 @@ void keep(const Solution& next, FreeRunMinima& polished) {
 
 Solution over_growing_parts(const FitProblem& problem, FitPoint at) {
   double spent = 0.0;
-  for (const double share : kShares) {
+  for (const double share : kGrowingShares) {
     const Excerpt part(problem, share);
     const Solution next = solve(part.problem(), at, 0.0, kTrial);
     spent += part.of_whole(next.simulations);

@@ -6,7 +6,7 @@
 namespace gapscope::internal::reference {
 namespace {
 
-constexpr int kMostLags = 40;
+constexpr int kMostTestedLags = 40;
 constexpr double kBand = 1.96;
 
 /// One recording's residual and input, without their means.
@@ -48,9 +48,9 @@ std::vector<std::size_t> lags_of(const std::vector<Pair>& pairs) {
   std::size_t longest = 0;
   for (const Pair& p : pairs) longest = std::max(longest, p.e.size() / 10);
   std::vector<std::size_t> lags;
-  for (int i = 0; i < kMostLags && longest > 0; ++i) {
-    const auto lag =
-        static_cast<std::size_t>(std::lround(std::pow(static_cast<double>(longest), i / (kMostLags - 1.0))));
+  for (int i = 0; i < kMostTestedLags && longest > 0; ++i) {
+    const auto lag = static_cast<std::size_t>(
+        std::lround(std::pow(static_cast<double>(longest), i / (kMostTestedLags - 1.0))));
     if (lags.empty() || lag > lags.back()) lags.push_back(lag);
   }
   return lags;

@@ -11,11 +11,10 @@
 namespace gapscope::internal::reference {
 namespace {
 
-constexpr double kShares[] = {0.125, 0.25, 0.5};  ///< of the recordings, one after the other
-constexpr Effort kPart{1e-3, 0.25};               ///< on a part of the recordings
-constexpr Effort kSearch{1e-4, 0.5};              ///< enough to tell minima apart
-constexpr double kSameMinimum = 1.01;             ///< costs within this ratio: found again
-constexpr int kMeetings = 3;  ///< of the best minimum that settle a model that is not the drive
+constexpr Effort kPart{1e-3, 0.25};    ///< on a part of the recordings
+constexpr Effort kSearch{1e-4, 0.5};   ///< enough to tell minima apart
+constexpr double kSameMinimum = 1.01;  ///< costs within this ratio: found again
+constexpr int kMeetings = 3;           ///< of the best minimum that settle a model that is not the drive
 constexpr std::size_t kContendersPerStart = 4;
 constexpr double kGains[] = {1.0, 0.4, 2.5};  ///< of the observer on parts, by turns: their minima differ
 
@@ -83,7 +82,7 @@ StartPoints compete(const FitProblem& problem, const std::vector<Solution>& poin
   for (std::size_t i = 0; i < points.size(); ++i)
     field.push_back({points[i], kGains[i % std::size(kGains)] * problem.options.observer_hz});
   StartPoints left;
-  for (const double share : kShares) {
+  for (const double share : kGrowingShares) {
     const Excerpt part(problem, share);
     for (Contender& c : field) {
       stop_point();

@@ -10,7 +10,7 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr std::size_t kFewestSamples = 8;
+constexpr std::size_t kFewestOfBend = 8;
 constexpr double kStandsOut = 4.0;  ///< squared error without the bend, over that with it
 
 std::vector<double> samples_of(const BankRun& run, std::size_t first, std::size_t end) {
@@ -38,10 +38,10 @@ std::vector<KinkShape> impact_shapes(double longest) {
 
 double bend_before_peak(const BankRun& run, const Excursion& ramp, double since) {
   const double flight = static_cast<double>(ramp.peak) - since;
-  const auto back = std::max(kFewestSamples, static_cast<std::size_t>(std::max(0.25 * flight, 0.0)));
+  const auto back = std::max(kFewestOfBend, static_cast<std::size_t>(std::max(0.25 * flight, 0.0)));
   const std::size_t first = ramp.peak - std::min(back, ramp.peak);
   const std::size_t end = std::min(run.samples(), clearly_fallen(run, ramp) + 1);
-  if (end < first + kFewestSamples) return static_cast<double>(ramp.peak);
+  if (end < first + kFewestOfBend) return static_cast<double>(ramp.peak);
   const KinkScan scan(samples_of(run, first, end), first, polynomial_columns(end - first, 2));
   KinkFit best;
   best.time = static_cast<double>(ramp.peak);
@@ -59,7 +59,7 @@ double bend_before_peak(const BankRun& run, const Excursion& ramp, double since)
 std::optional<double> bend_at_release(const BankRun& run, const Excursion& ramp, std::size_t turn) {
   const auto flight = static_cast<double>(ramp.peak - turn);
   const auto back = static_cast<std::size_t>(0.6 * flight), ahead = static_cast<std::size_t>(0.3 * flight);
-  if (turn < ramp.start + back || back + ahead < kFewestSamples) return std::nullopt;
+  if (turn < ramp.start + back || back + ahead < kFewestOfBend) return std::nullopt;
   const std::size_t first = turn - back, end = turn + ahead;
   const KinkScan scan(samples_of(run, first, end), first, polynomial_columns(end - first, 2));
   const KinkFit fit = scan.best({3}, static_cast<double>(first + 3), static_cast<double>(end - 4),

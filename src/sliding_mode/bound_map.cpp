@@ -8,7 +8,7 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr std::size_t kRows = 48;      ///< bounds
+constexpr std::size_t kMapRows = 48;   ///< bounds
 constexpr std::size_t kColumns = 480;  ///< at most
 constexpr double kHalfPeriods = 3.0;   ///< shown
 constexpr double kLead = 1.5;          ///< half periods before them, for the transient of e_x
@@ -17,9 +17,9 @@ constexpr double kLead = 1.5;          ///< half periods before them, for the tr
 std::vector<double> fine_grid(const std::vector<double>& grid, double paper_bound) {
   const bool near = paper_bound > grid.back() && paper_bound < 10.0 * grid.back();
   const double low = grid.front(), high = near ? 1.2 * paper_bound : grid.back();
-  std::vector<double> bounds(kRows);
-  for (std::size_t j = 0; j < kRows; ++j)
-    bounds[j] = low * std::pow(high / low, static_cast<double>(j) / static_cast<double>(kRows - 1));
+  std::vector<double> bounds(kMapRows);
+  for (std::size_t j = 0; j < kMapRows; ++j)
+    bounds[j] = low * std::pow(high / low, static_cast<double>(j) / static_cast<double>(kMapRows - 1));
   return bounds;
 }
 
@@ -50,10 +50,10 @@ std::optional<BoundMap> bound_map(const MotorTrace& trace, const signals::Signal
       run_bank(part(trace, first - lead, lead + columns * width), facts,
                fine_grid(bound_grid(facts, trace.dt), estimate.paper_bound), Discretisation::kMatched);
   BoundMap map{trace.file, trace.time(first), trace.dt * static_cast<double>(width), run.bounds, {}};
-  map.levels.assign(columns * kRows, 0.0);
+  map.levels.assign(columns * kMapRows, 0.0);
   for (std::size_t i = 0; i < columns * width; ++i)
-    for (std::size_t j = 0; j < kRows; ++j) {
-      double& level = map.levels[i / width * kRows + j];
+    for (std::size_t j = 0; j < kMapRows; ++j) {
+      double& level = map.levels[i / width * kMapRows + j];
       level = std::max(level, std::abs(run.error(lead + i, j)) / run.floor[j]);
     }
   for (double& level : map.levels)

@@ -16,8 +16,8 @@ constexpr double kTrust = 0.12;      ///< doubt about a kink, over its distance 
 constexpr double kLeastDoubt = 0.3;  ///< samples: contacts are not quite the strokes that are tried
 constexpr double kHidden = 0.4;  ///< of the time that a contact acts before it shows: doubt about its begin
 constexpr double kLeastReach = 0.5;
-constexpr double kConsistent = 3.0;  ///< standard deviations that the mean square error may exceed the noise
-constexpr double kAlmostAsGood = 4.0;  ///< in χ²
+constexpr double kKinkHolds = 3.0;  ///< standard deviations that the mean square error may exceed the noise
+constexpr double kKinkAlmostAsGood = 4.0;  ///< in χ²
 
 /// Contacts to try: their half period from two samples to four times the window after the impact, light and
 /// heavy damping; the rigid impact is the limit of the fast ones.
@@ -90,8 +90,8 @@ Kink find_kink(const TransitionContext& context, const BankEvent& impact, const 
   kink.found = true;
   const double sigma2 = context.facts.noise * context.facts.noise,
                left = left_over(context.trace, law, kink, from, last);
-  kink.holds = left <= sigma2 * (1.0 + kConsistent * std::sqrt(2.0 / static_cast<double>(last - from + 1)));
-  const double limit = kink.best.sse + kAlmostAsGood * std::max(sigma2, left);
+  kink.holds = left <= sigma2 * (1.0 + kKinkHolds * std::sqrt(2.0 / static_cast<double>(last - from + 1)));
+  const double limit = kink.best.sse + kKinkAlmostAsGood * std::max(sigma2, left);
   kink.time = kink.low = kink.high = kink.best.time;
   for (const KinkFit& fit : fits)
     if (fit.sse <= limit) scan.widen(fit.shape, begin, end, step, limit, kink.low, kink.high);

@@ -140,12 +140,12 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
 namespace {
 
 /// All readings together.
-struct Pool {
+struct PaperPool {
   std::vector<double> up, down, lateness, steps;
   double quiet = 1.0, half_periods = 0.0, travel = kInfinity, noise = 0.0, restless = 0.0;
 };
 
-Remark objection(const Pool& pool) {
+Remark paper_objection(const PaperPool& pool) {
   const auto &up = pool.up, &down = pool.down;
   if (pool.quiet < 0.2) return words::error_never_at_rest();
   const double n = static_cast<double>(up.size() + down.size());
@@ -161,7 +161,7 @@ Remark objection(const Pool& pool) {
   return {};
 }
 
-void add(Pool& pool, const ImpactAnalysis& analysis, const PaperReading& reading) {
+void add_reading(PaperPool& pool, const ImpactAnalysis& analysis, const PaperReading& reading) {
   for (const GapEvent& event : reading.events)
     if (event.accepted) (event.direction > 0 ? pool.up : pool.down).push_back(event.gap);
   pool.lateness.insert(pool.lateness.end(), reading.lateness.begin(), reading.lateness.end());
@@ -173,7 +173,7 @@ void add(Pool& pool, const ImpactAnalysis& analysis, const PaperReading& reading
   pool.noise = std::max(pool.noise, analysis.facts.noise);
 }
 
-void fill_estimate(const Pool& pool, GapEstimate& estimate) {
+void fill_paper_estimate(const PaperPool& pool, GapEstimate& estimate) {
   const double up = median(pool.up), down = median(pool.down), late = median(pool.lateness);
   const double n = static_cast<double>(pool.up.size() + pool.down.size());
   const double scatter = std::max(robust_std(pool.up), robust_std(pool.down)) / std::sqrt(0.5 * n);
@@ -195,7 +195,7 @@ GapEstimate decide_with_bound(std::span<const ImpactAnalysis> analyses,
   estimate.method = GapMethod::kPaper;
   estimate.verdict = GapVerdict::kInconclusive;
   estimate.reason = words::no_recording();
-  Pool pool;
+  PaperPool pool;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!analyses[i].facts.defect.empty()) {
       estimate.reason = analyses[i].facts.defect;
@@ -203,11 +203,11 @@ GapEstimate decide_with_bound(std::span<const ImpactAnalysis> analyses,
     }
     estimate.bound = readings[i].bound;
     estimate.events.insert(estimate.events.end(), readings[i].events.begin(), readings[i].events.end());
-    add(pool, analyses[i], readings[i]);
+    add_reading(pool, analyses[i], readings[i]);
   }
   if (pool.half_periods == 0.0) return estimate;
-  estimate.reason = objection(pool);
-  if (estimate.reason.empty()) fill_estimate(pool, estimate);
+  estimate.reason = paper_objection(pool);
+  if (estimate.reason.empty()) fill_paper_estimate(pool, estimate);
   return estimate;
 }
 
