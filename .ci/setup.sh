@@ -21,13 +21,13 @@ install_packages() {
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# build FOLDER TARGET [CMAKE-OPTION...]: several sources at once, since the headers take longest; who works on them
+# build FOLDER TARGET [CMAKE-OPTION...]: a module at once, since the headers take longest; who works on them
 # has every file apart.
 build() {
   local folder=$1 target=$2
   shift 2
   say "Building $target in $folder ($(nproc) jobs)"
-  cmake -S . -B "$folder" -G Ninja -DCMAKE_UNITY_BUILD=ON "$@" >"$folder.configure.log" 2>&1 ||
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 "$@" >"$folder.configure.log" 2>&1 ||
     { cat "$folder.configure.log" >&2; rm -f "$folder.configure.log"; exit 1; }
   rm -f "$folder.configure.log"
   cmake --build "$folder" --target "$target"

@@ -37,9 +37,9 @@ BlindConfig small(int known, int outside, int none, int pairs) {
 }
 
 /// A check of five cases, made once and copied for each test that damages it.
-class Check {
+class SealedCheck {
  public:
-  Check() : place_("") { fs::copy(made(), place_.folder(), fs::copy_options::recursive); }
+  SealedCheck() : place_("") { fs::copy(made(), place_.folder(), fs::copy_options::recursive); }
   std::string folder() const { return (place_.folder() / "cases").string(); }
   std::string labels() const { return (place_.folder() / "labels.json").string(); }
   BlindManifest manifest() const { return read_blind_manifest(folder() + "/manifest.json"); }
@@ -89,7 +89,7 @@ TEST(CasePlan, NamesCasesInAnOrderThatIsNotThatOfTheirSeeds) {
 }
 
 TEST(BlindMake, WritesRecordingsThatTellNothingButInputAndMotor) {
-  const Check check;
+  const SealedCheck check;
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(check.folder())) files.insert(entry.path().filename());
   EXPECT_EQ(files.size(), 2u + 3u * 5u) << "a manifest, a list, three files a case";
@@ -102,7 +102,7 @@ TEST(BlindMake, WritesRecordingsThatTellNothingButInputAndMotor) {
 }
 
 TEST(BlindMake, WritesSheetsThatTheDiagnosisTakesAsTheyAre) {
-  const Check check;
+  const SealedCheck check;
   const Configuration c = load_configuration(check.folder() + "/case_001.yaml");
   EXPECT_NO_THROW(require_reference_model(c));
   ASSERT_EQ(c.recording->held_out.size(), 1u);
@@ -111,7 +111,7 @@ TEST(BlindMake, WritesSheetsThatTheDiagnosisTakesAsTheyAre) {
 }
 
 TEST(BlindMake, IsAFunctionOfItsConfigurationForAnyNumberOfThreads) {
-  const Check check;
+  const SealedCheck check;
   const testing::TemporaryFile place("");
   make_blind_check(small(1, 1, 1, 1), (place.folder() / "cases").string(),
                    (place.folder() / "labels.json").string(), 1);
@@ -127,13 +127,13 @@ TEST(BlindMake, RefusesToPutTheLabelsAmongTheRecordings) {
 }
 
 TEST(Seal, HoldsForWhatWasMade) {
-  const Check check;
+  const SealedCheck check;
   EXPECT_NO_THROW(verify_recordings(check.manifest(), check.folder()));
   EXPECT_NO_THROW(verify_labels(check.manifest(), read_blind_labels(check.labels()), check.labels()));
 }
 
 TEST(Seal, RefusesAChangedLabel) {
-  const Check check;
+  const SealedCheck check;
   const BlindLabels labels = read_blind_labels(check.labels());
   const auto changes = std::vector<void (*)(BlindLabel&)>{
       [](BlindLabel& l) {
@@ -154,7 +154,7 @@ TEST(Seal, RefusesAChangedLabel) {
 }
 
 TEST(Seal, RefusesASwappedRecordingAndAChangedSheet) {
-  const Check check;
+  const SealedCheck check;
   const fs::path folder = check.folder();
   fs::rename(folder / "case_001_train.csv", folder / "kept.csv");
   fs::copy(folder / "case_002_train.csv", folder / "case_001_train.csv");
@@ -186,7 +186,7 @@ TEST(Seal, NoTwoTruthsHaveOneHash) {
 }
 
 TEST(Seal, RefusesWordsThatCouldBeReadInTwoWays) {
-  const Check check;
+  const SealedCheck check;
   const BlindLabels labels = read_blind_labels(check.labels());
   const auto changes = std::vector<void (*)(BlindLabel&)>{
       [](BlindLabel& l) { l.effects = {"a+b"}; },  [](BlindLabel& l) { l.effects = {""}; },
@@ -202,7 +202,7 @@ TEST(Seal, RefusesWordsThatCouldBeReadInTwoWays) {
 }
 
 TEST(Seal, HoldsNameAndConfigurationToo) {
-  const Check check;
+  const SealedCheck check;
   for (const bool name : {true, false}) {
     BlindLabels changed = read_blind_labels(check.labels());
     (name ? changed.name : changed.configuration) += "9";
@@ -212,7 +212,7 @@ TEST(Seal, HoldsNameAndConfigurationToo) {
 }
 
 TEST(Seal, ReachesNoFileOutsideTheFolder) {
-  const Check check;
+  const SealedCheck check;
   BlindManifest manifest = check.manifest();
   manifest.cases[0].files[1].file = "../labels.json";
   EXPECT_THAT(refusal([&] { verify_recordings(manifest, check.folder()); }),
@@ -224,7 +224,7 @@ TEST(Seal, ReachesNoFileOutsideTheFolder) {
 }
 
 TEST(Seal, TakesOwnRecordingsAndRefusesLabelsThatAreIncomplete) {
-  const Check check;
+  const SealedCheck check;
   BlindLabels labels = read_blind_labels(check.labels());
   const auto sealed = [&] {
     write_blind_labels(check.labels(), labels);
@@ -248,7 +248,7 @@ TEST(Seal, TakesOwnRecordingsAndRefusesLabelsThatAreIncomplete) {
 
 TEST(Seal, TakesNoManifestsPlaceThatSealsAnotherNameOrConfiguration) {
   for (const bool name : {true, false}) {
-    const Check check;
+    const SealedCheck check;
     const std::string before = text_of(check.folder() + "/manifest.json");
     BlindLabels labels = read_blind_labels(check.labels());
     (name ? labels.name : labels.configuration) += "9";
@@ -269,7 +269,7 @@ TEST(Seal, RefusesTruthsThatNobodyCouldMean) {
                                                           [](BlindLabel& l) {
                                                             l.effects = {"a", "b", "c"};
                                                           }};
-  const Check check;
+  const SealedCheck check;
   const BlindLabels labels = read_blind_labels(check.labels());
   for (const auto change : changes) {
     BlindLabels changed = labels;
@@ -284,7 +284,7 @@ TEST(Seal, RefusesTruthsThatNobodyCouldMean) {
 }
 
 TEST(BlindMake, SealsNoTruthThatItDidNotDraw) {
-  const Check check;
+  const SealedCheck check;
   BlindLabels labels = read_blind_labels(check.labels());
   for (BlindLabel& label : labels.cases)
     if (label.effects.size() == 1) label.effects = {"a_bent_shaft"};

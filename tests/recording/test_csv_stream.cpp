@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string rows(int count, double dt = 0.0004) {
+std::string streamed_rows(int count, double dt = 0.0004) {
   std::string text = "# rig\nt,u,x1,x2\n";
   for (int i = 0; i < count; ++i)
     text +=
@@ -33,7 +33,7 @@ std::vector<CsvStream::Sample> read(CsvStream& csv, const std::string& text, std
   return all;
 }
 
-std::string refusal(const std::string& text, std::size_t piece = 7) {
+std::string stream_refusal(const std::string& text, std::size_t piece = 7) {
   CsvStream csv("standard input");
   try {
     read(csv, text, piece);
@@ -44,7 +44,7 @@ std::string refusal(const std::string& text, std::size_t piece = 7) {
 }
 
 TEST(CsvStream, GivesWhatTheFileGivesHoweverItIsCut) {
-  const std::string text = rows(1500);
+  const std::string text = streamed_rows(1500);
   const testing::TemporaryFile file(text);
   const Recording whole = read_recording(file.path());
   for (const std::size_t piece : {std::size_t{1}, std::size_t{13}, text.size()}) {
@@ -61,25 +61,28 @@ TEST(CsvStream, GivesWhatTheFileGivesHoweverItIsCut) {
 }
 
 TEST(CsvStream, RefusesBrokenLinesWithTheirNumber) {
-  EXPECT_THAT(refusal(""),
+  EXPECT_THAT(stream_refusal(""),
               HasSubstr("standard input: is empty, expected a header with the columns t, u, x1"));
-  EXPECT_THAT(refusal("t,u\n0,1\n"), HasSubstr("standard input:1: there is no column 'x1'"));
-  EXPECT_THAT(refusal(rows(49)), HasSubstr("standard input: 49 samples, expected at least 50"));
-  EXPECT_THAT(refusal(rows(60) + "0.024,x,0,0\n"),
+  EXPECT_THAT(stream_refusal("t,u\n0,1\n"), HasSubstr("standard input:1: there is no column 'x1'"));
+  EXPECT_THAT(stream_refusal(streamed_rows(49)),
+              HasSubstr("standard input: 49 samples, expected at least 50"));
+  EXPECT_THAT(stream_refusal(streamed_rows(60) + "0.024,x,0,0\n"),
               HasSubstr("standard input:63: u is 'x', expected a finite number"));
-  EXPECT_THAT(refusal(rows(60) + "0.024,1\n"), HasSubstr("standard input:63: 2 fields, expected 4"));
-  EXPECT_THAT(refusal(rows(60) + "0.0236,0,0,0\n"),
+  EXPECT_THAT(stream_refusal(streamed_rows(60) + "0.024,1\n"),
+              HasSubstr("standard input:63: 2 fields, expected 4"));
+  EXPECT_THAT(stream_refusal(streamed_rows(60) + "0.0236,0,0,0\n"),
               HasSubstr("standard input:63: t goes from 0.0236 to 0.0236 s"));
-  EXPECT_THAT(refusal(rows(1200) + "0.4804,0,0,0\n"),
+  EXPECT_THAT(stream_refusal(streamed_rows(1200) + "0.4804,0,0,0\n"),
               HasSubstr("standard input:1203: time is not uniform: a step of 0.8 ms, expected 0.4 ms"));
-  EXPECT_THAT(refusal(rows(1200) + "nan,0,0,0\n"), HasSubstr("standard input:1203: t is 'nan'"));
-  EXPECT_THAT(refusal(rows(60) + std::string(100000, '1'), 4096),
+  EXPECT_THAT(stream_refusal(streamed_rows(1200) + "nan,0,0,0\n"),
+              HasSubstr("standard input:1203: t is 'nan'"));
+  EXPECT_THAT(stream_refusal(streamed_rows(60) + std::string(100000, '1'), 4096),
               HasSubstr("standard input:63: a line of more than 65536 characters"));
 }
 
 TEST(CsvStream, RowsBeforeABrokenOneCanStillBeTaken) {
   CsvStream csv("standard input");
-  EXPECT_THROW(csv.feed(rows(1100) + "broken\n"), ConfigError);
+  EXPECT_THROW(csv.feed(streamed_rows(1100) + "broken\n"), ConfigError);
   EXPECT_EQ(csv.take().size(), 1100u);
 }
 

@@ -83,7 +83,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-class EveryEffect : public testing::TestWithParam<std::string> {
+class EveryEffect : public ::testing::TestWithParam<std::string> {
  protected:
   const EffectEntry& entry() const { return *find_effect(GetParam()); }
 };
@@ -192,7 +192,7 @@ TEST_P(EveryEffect, StaysHealthyAtRestUntilTheInputBegins) {
   EXPECT_TRUE(healthy);
 }
 
-std::string name_of(const testing::TestParamInfo<std::string>& info) { return info.param; }
+std::string name_of(const ::testing::TestParamInfo<std::string>& info) { return info.param; }
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, ::testing::ValuesIn(names()), name_of);
 
 TEST(ActuatorLag, FarShorterThanASampleIsFollowedAlsoBesideATorqueThatIsNotConstant) {

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kRate = 1000.0;
+constexpr double kSampleRate = 1000.0;
 constexpr std::size_t kCount = 10000;
 
 Excitation make(ExcitationKind kind) {
@@ -36,7 +36,7 @@ Excitation make(ExcitationKind kind) {
 double power_at(const std::vector<double>& u, double frequency) {
   double c = 0.0, s = 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) {
-    const double angle = 2.0 * kPi * frequency * static_cast<double>(i) / kRate;
+    const double angle = 2.0 * kPi * frequency * static_cast<double>(i) / kSampleRate;
     c += u[i] * std::cos(angle);
     s += u[i] * std::sin(angle);
   }
@@ -48,7 +48,7 @@ TEST(Excitation, EveryKindKeepsItsAmplitudeAroundItsOffset) {
     if (spec.kind == ExcitationKind::kRecorded) continue;  // has none of its own
     Excitation e = make(spec.kind);
     e.offset = 3.0;
-    const auto u = sample(e, kRate, kCount, 1);
+    const auto u = sample(e, kSampleRate, kCount, 1);
     ASSERT_EQ(u.size(), kCount);
     const auto [low, high] = std::minmax_element(u.begin(), u.end());
     EXPECT_GE(*low, 2.5 - 1e-12) << spec.name;
@@ -63,31 +63,31 @@ TEST(Excitation, SameSeedSameInputAndOnlyRandomKindsFollowTheSeed) {
     if (spec.kind == ExcitationKind::kRecorded) continue;
     const Excitation e = make(spec.kind);
     const bool random = spec.kind == ExcitationKind::kMultisine || spec.kind == ExcitationKind::kSteps;
-    EXPECT_EQ(sample(e, kRate, kCount, 1), sample(e, kRate, kCount, 1)) << spec.name;
-    EXPECT_EQ(sample(e, kRate, kCount, 1) != sample(e, kRate, kCount, 2), random) << spec.name;
+    EXPECT_EQ(sample(e, kSampleRate, kCount, 1), sample(e, kSampleRate, kCount, 1)) << spec.name;
+    EXPECT_EQ(sample(e, kSampleRate, kCount, 1) != sample(e, kSampleRate, kCount, 2), random) << spec.name;
   }
 }
 
 TEST(Excitation, ASineIsASine) {
   Excitation e = make(ExcitationKind::kSine);
   e.phase = 0.3;
-  const auto u = sample(e, kRate, kCount, 1);
+  const auto u = sample(e, kSampleRate, kCount, 1);
   for (std::size_t i = 0; i < kCount; ++i)  // rounding of 2π·10 cycles: 1e-14
-    EXPECT_NEAR(u[i], 0.5 * std::sin(2.0 * kPi * static_cast<double>(i) / kRate + 0.3), 1e-13);
+    EXPECT_NEAR(u[i], 0.5 * std::sin(2.0 * kPi * static_cast<double>(i) / kSampleRate + 0.3), 1e-13);
 }
 
 TEST(Excitation, TrianglesAndTrapezoidsAreOddInTheHalfPeriod) {
   for (const auto kind : {ExcitationKind::kTriangle, ExcitationKind::kTrapezoid}) {
-    const auto u = sample(make(kind), kRate, kCount, 1);
+    const auto u = sample(make(kind), kSampleRate, kCount, 1);
     EXPECT_EQ(u[0], 0.0);
     for (std::size_t i = 0; i + 500 < kCount; ++i) EXPECT_NEAR(u[i], -u[i + 500], 1e-12);
   }
-  EXPECT_NEAR(sample(make(ExcitationKind::kTriangle), kRate, kCount, 1)[125], 0.25,
+  EXPECT_NEAR(sample(make(ExcitationKind::kTriangle), kSampleRate, kCount, 1)[125], 0.25,
               1e-12);  // T/8: half way up
 }
 
 TEST(Excitation, ATrapezoidDwellsAtZeroAsLongAsAsked) {
-  const auto u = sample(make(ExcitationKind::kTrapezoid), kRate, kCount, 1);
+  const auto u = sample(make(ExcitationKind::kTrapezoid), kSampleRate, kCount, 1);
   const auto still = std::count(u.begin(), u.end(), 0.0);
   // 20 % of 10 periods of 1000 samples; each of the 20 dwells may gain or lose a sample to rounding.
   EXPECT_NEAR(static_cast<double>(still), 2000.0, 20.0);
@@ -96,7 +96,7 @@ TEST(Excitation, ATrapezoidDwellsAtZeroAsLongAsAsked) {
 TEST(Excitation, AMultisineHasEqualLinesAndNothingBetween) {
   Excitation e = make(ExcitationKind::kMultisine);
   e.lines = 20;  // 0.5, 1.0 … 10 Hz
-  const auto u = sample(e, kRate, kCount, 1);
+  const auto u = sample(e, kSampleRate, kCount, 1);
   const double first = power_at(u, 0.5);
   for (int k = 1; k <= 20; ++k) EXPECT_NEAR(power_at(u, 0.5 * k) / first, 1.0, 1e-9);
   EXPECT_LT(power_at(u, 0.7) / first, 1e-20);
@@ -105,7 +105,7 @@ TEST(Excitation, AMultisineHasEqualLinesAndNothingBetween) {
 TEST(Excitation, AMultisineRepeatsWithItsPeriod) {
   Excitation e = make(ExcitationKind::kMultisine);
   e.period = 2.0;
-  const auto u = sample(e, kRate, kCount, 1);
+  const auto u = sample(e, kSampleRate, kCount, 1);
   for (std::size_t i = 0; i + 2000 < kCount; ++i) EXPECT_NEAR(u[i], u[i + 2000], 1e-12);
 }
 
@@ -113,7 +113,7 @@ TEST(Excitation, ASweepHasTheNumberOfCyclesOfItsMeanFrequency) {
   for (const bool logarithmic : {false, true}) {
     Excitation e = make(ExcitationKind::kSweptSine);
     e.logarithmic = logarithmic;
-    const auto u = sample(e, kRate, kCount, 1);
+    const auto u = sample(e, kSampleRate, kCount, 1);
     int rising = 0;
     for (std::size_t i = 1; i < kCount; ++i) rising += u[i - 1] < 0.0 && u[i] >= 0.0;
     const double mean = logarithmic ? (20.0 - 0.5) / std::log(20.0 / 0.5) : (20.0 + 0.5) / 2.0;
@@ -124,7 +124,7 @@ TEST(Excitation, ASweepHasTheNumberOfCyclesOfItsMeanFrequency) {
 TEST(Excitation, StepsHoldTheirLevels) {
   Excitation e = make(ExcitationKind::kSteps);
   e.levels = 5;
-  const auto u = sample(e, kRate, kCount, 1);
+  const auto u = sample(e, kSampleRate, kCount, 1);
   for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(u[i], u[i - i % 100]);
   EXPECT_THAT(std::set<double>(u.begin(), u.end()), ::testing::ElementsAre(-0.5, -0.25, 0.0, 0.25, 0.5));
 }
@@ -132,18 +132,19 @@ TEST(Excitation, StepsHoldTheirLevels) {
 TEST(Excitation, WhatCannotBeIsToldWithWhatWasExpected) {
   Excitation fast = make(ExcitationKind::kSine);
   fast.frequency = 500.0;
-  EXPECT_THAT(excitation_problem(fast, kRate, 10.0), HasSubstr("expected less than half the sampling rate"));
+  EXPECT_THAT(excitation_problem(fast, kSampleRate, 10.0),
+              HasSubstr("expected less than half the sampling rate"));
   Excitation crowded = make(ExcitationKind::kMultisine);
   crowded.lines = 100;
   crowded.period = 1.0;
-  EXPECT_THAT(excitation_problem(crowded, kRate, 10.0), HasSubstr("expected at most 10"));
+  EXPECT_THAT(excitation_problem(crowded, kSampleRate, 10.0), HasSubstr("expected at most 10"));
   Excitation reversed = make(ExcitationKind::kMultisine);
   std::swap(reversed.low, reversed.high);
-  EXPECT_THAT(excitation_problem(reversed, kRate, 10.0), HasSubstr("expected low <= high"));
+  EXPECT_THAT(excitation_problem(reversed, kSampleRate, 10.0), HasSubstr("expected low <= high"));
   Excitation full = make(ExcitationKind::kTrapezoid);
   full.rise = 0.25;
-  EXPECT_THAT(excitation_problem(full, kRate, 10.0), HasSubstr("expected dwell + 4 rise <= 1"));
-  EXPECT_THROW(sample(full, kRate, kCount, 1), std::logic_error);
+  EXPECT_THAT(excitation_problem(full, kSampleRate, 10.0), HasSubstr("expected dwell + 4 rise <= 1"));
+  EXPECT_THROW(sample(full, kSampleRate, kCount, 1), std::logic_error);
 }
 
 TEST(Excitation, TheInputOfARecordingIsPlayedAgainOrRefusedWhereItDoesNotFit) {

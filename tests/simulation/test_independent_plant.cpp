@@ -178,7 +178,7 @@ const std::vector<EqualForm>& equal_forms() {
   return forms;
 }
 
-class OnThreeRigs : public testing::TestWithParam<Rig> {};
+class OnThreeRigs : public ::testing::TestWithParam<Rig> {};
 
 TEST_P(OnThreeRigs, BareDriveFreeRunsTenSecondsWithinAFifthOfACount) {
   const Rig& rig = GetParam();
@@ -201,7 +201,7 @@ TEST_P(OnThreeRigs, EachEffectOfEqualFormFreeRunsTenSecondsWithinAFifthOfACount)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Rigs, OnThreeRigs, testing::ValuesIn(kRigs),
+INSTANTIATE_TEST_SUITE_P(Rigs, OnThreeRigs, ::testing::ValuesIn(kRigs),
                          [](const auto& rig) { return std::string(rig.param.name); });
 
 }  // namespace

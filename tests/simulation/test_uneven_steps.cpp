@@ -62,7 +62,7 @@ std::vector<T> in_their_own_steps(const PlantModel<T>& model, const Rows& rows) 
   return x1;
 }
 
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+double largest_of_uneven(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
   return largest;
@@ -77,11 +77,11 @@ TEST(UnevenSteps, MoveEveryStructureAsFineEvenStepsDo) {
   for (const DriveStructure& structure : {free, locked, rigid, one_body}) {
     const PlantModel<double> model = plant_model(paper_rig(), structure);
     // Both are exact; round-off grows at the impacts.
-    EXPECT_LT(largest_difference(in_their_own_steps(model, rows), in_fine_steps(model, rows)), 1e-8);
+    EXPECT_LT(largest_of_uneven(in_their_own_steps(model, rows), in_fine_steps(model, rows)), 1e-8);
   }
 }
 
-class UnevenStepsWith : public testing::TestWithParam<std::string> {};
+class UnevenStepsWith : public ::testing::TestWithParam<std::string> {};
 
 ScaleContext context() {
   ScaleContext c;
@@ -104,7 +104,7 @@ PlantModel<double> with_effect(const EffectEntry& e) {
 TEST_P(UnevenStepsWith, MovesAsFineEvenStepsDo) {
   const Rows rows = uneven_rows(2.0);
   const PlantModel<double> model = with_effect(*find_effect(GetParam()));
-  const double apart = largest_difference(in_their_own_steps(model, rows), in_fine_steps(model, rows));
+  const double apart = largest_of_uneven(in_their_own_steps(model, rows), in_fine_steps(model, rows));
   std::cout << GetParam() << ": " << apart << " rad\n";
   EXPECT_LT(apart, 1e-5);  // as even steps of the same mean length
 }
@@ -115,7 +115,7 @@ std::vector<std::string> catalogue() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, UnevenStepsWith, testing::ValuesIn(catalogue()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, UnevenStepsWith, ::testing::ValuesIn(catalogue()),
                          [](const auto& effect) { return effect.param; });
 
 TEST(UnevenSteps, ADelayIsATimeWhateverTheSteps) {
