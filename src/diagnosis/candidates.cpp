@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/race.h"
-
 namespace gapscope::internal::diagnosis {
 namespace {
 
@@ -45,22 +43,22 @@ std::vector<reference::FitLinearisation> bases_of(std::span<const MotorTrace> tr
   return bases;
 }
 
-FittedModel fit_candidate(std::span<const MotorTrace> train, const FittedModel& nominal,
-                          std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
-                          std::span<const EffectStart> starts, const FittedModel* parent,
-                          const FitOptions& options, double hz) {
-  const reference::ModelFit fit(train, with_effect(nominal.model, entry), options, hz);
+RacedCandidate::RacedCandidate(std::span<const MotorTrace> train, const FittedModel& nominal,
+                               std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
+                               std::span<const EffectStart> starts, const FittedModel* parent,
+                               const FitOptions& options, double hz)
+    : fit_(std::make_unique<reference::ModelFit>(train, with_effect(nominal.model, entry), options, hz)),
+      race_(*fit_, nominal, bases) {
   const std::size_t shrinking = replaces_last(nominal.model, entry) ? 1 : 0;  // the base has the first one
-  Race race(fit, nominal, bases);
-  if (entry.start_search == StartSearch::kSine && !starts.empty()) race.enter_sines(starts.front());
+  if (entry.start_search == StartSearch::kSine && !starts.empty()) race_.enter_sines(starts.front());
   for (const EffectStart& start : starts) {
-    race.enter(start);
+    race_.enter(start);
     if (parent != nullptr)
-      race.enter_on(*parent, start);
+      race_.enter_on(*parent, start);
     else
-      race.weaken(start, shrinking);
+      race_.weaken(start, shrinking);
   }
-  return fitted_at(fit, race.best());
+  race_.finish();
 }
 
 FittedModel led_by_faster_observer(std::span<const MotorTrace> train, const FittedModel& candidate,

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "diagnosis/effect_starts.h"
-#include "diagnosis/fitted_model.h"
+#include "diagnosis/race.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -15,16 +16,28 @@ std::vector<reference::FitLinearisation> bases_of(std::span<const MotorTrace> tr
                                                   const FittedModel& nominal, const ReferenceModel& sheet,
                                                   const FitOptions& options, double observer_hz);
 
-/// One effect added to a fitted model and everything refitted.
-///
-/// Its starts race from every base (see Race), and the best are refined.
-/// @param starts of the effect, in units of its scales; without any, or without a base, nothing is fitted and
-///   the mean square stays infinite
-/// @param parent a fitted model with the simpler effect that this one contains as its last; may be nullptr
-FittedModel fit_candidate(std::span<const MotorTrace> train, const FittedModel& nominal,
-                          std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
-                          std::span<const EffectStart> starts, const FittedModel* parent,
-                          const FitOptions& options, double observer_hz);
+/// One effect added to a fitted model: its starts have raced from every base (see Race).
+class RacedCandidate {
+ public:
+  /// @param starts of the effect, in units of its scales; without any, or without a base, nothing is fitted
+  ///   and the mean square stays infinite
+  /// @param parent a fitted model with the simpler effect that this one contains as its last; may be nullptr
+  RacedCandidate(std::span<const MotorTrace> train, const FittedModel& nominal,
+                 std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
+                 std::span<const EffectStart> starts, const FittedModel* parent, const FitOptions& options,
+                 double observer_hz);
+
+  /// Mean square of the best start after the race, without priors [floor²].
+  double raced() const { return race_.least(); }
+  /// The best start as it stands.
+  FittedModel as_raced() const { return fitted_at(*fit_, race_.leader()); }
+  /// The best starts refined.
+  FittedModel refined() const { return fitted_at(*fit_, race_.best()); }
+
+ private:
+  std::unique_ptr<reference::ModelFit> fit_;
+  Race race_;
+};
 
 /// A fitted candidate once more, from where a faster observer's fit leads: that forgets sooner what came
 /// before, and there are fewer minima to end in.

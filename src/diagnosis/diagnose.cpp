@@ -23,10 +23,7 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-constexpr double kBadRepetition = 10.0;  ///< floors of the encoder
-constexpr double kAsGood = 0.05;         ///< S: as good a fit
-constexpr double kNearlyWhole = 0.97;    ///< shrink
-constexpr double kFarBetter = 0.5;       ///< of the mean square
+constexpr double kFarBetter = 0.5;  ///< of the mean square: another minimum, not another model
 
 ScoredModel scored_nominal(const Study& study) {
   return judge(nullptr, fit_nominal(study.train, study.sheet, study.options.fit, study.observer_hz),
@@ -38,7 +35,7 @@ ScoredModel scored_nominal(const Study& study) {
 /// A fit leaves undetermined what its recordings do not ask for, and may miss others by that alone. Then
 /// nothing is missing, as long as the other numbers explain what was fitted as well as the fit did.
 std::optional<ScoredModel> explained_together(const Study& study, const ScoredModel& nominal) {
-  if (!(nominal.fitted.mean_cost < kNearFloor)) return {};
+  if (!(nominal.fitted.mean_cost < kRule.near_floor)) return {};
   const double hz = study.observer_hz;
   const std::vector<MotorTrace> all = everything(study);
   const HeldOut own = fitted_as_held_out(study);
@@ -46,7 +43,7 @@ std::optional<ScoredModel> explained_together(const Study& study, const ScoredMo
   const auto explains = [&](const ScoredModel& held_out) {
     if (!at_floor(held_out)) return false;
     const ScoredModel fitted = judge(nullptr, held_out.fitted, own, hz);
-    return at_floor(fitted) && fitted.score < alone + kAsGood;
+    return at_floor(fitted) && fitted.score < alone + kRule.indistinct;
   };
   ScoredModel together =
       judge(nullptr, fit_near(all, nominal.fitted.model, study.options.fit, hz), study.held_out, hz);
@@ -73,7 +70,7 @@ bool take_repeatability(Study& study, const ScoredModel& nominal) {
   HeldOut& held = study.held_out;
   const Repeatability seen = repeatability(study, nominal.fitted.model);
   const double floor = *std::max_element(held.floors.begin(), held.floors.end());
-  if (!(seen.innovation > kBadRepetition * floor) || !seen.stationary) return false;
+  if (!(seen.innovation > kRule.bad_repetition * floor) || !seen.stationary) return false;
   study.observer_hz = kFastHz;
   const Repeatability fast =
       repeatability(study, fit_nominal(study.train, study.sheet, study.options.fit, kFastHz).model);
@@ -133,8 +130,7 @@ Findings first_look(Study& study) {
   }
   if (const EffectEntry* parent = excluded_parent(study, found.candidates))
     found.excluded_parents = candidates_of(study, found.before, {parent});
-  found.decision =
-      decide_alone(found.candidates, found.before, study.repeats_badly(), found.excluded_parents);
+  found.decision = decide_alone(found.candidates, found.before, study.reach(), found.excluded_parents);
   return found;
 }
 
@@ -151,7 +147,7 @@ bool asked_too_little(const Study& study, const Findings& found) {
   if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
   const ScoredModel& best = found.candidates.front();
   if (at_floor(best)) return false;
-  if (found.decision.accepted && !(shrink_of(found.before.median_free, best.median_free) < kNearlyWhole))
+  if (found.decision.accepted && shrink_of(found.before.median_free, best.median_free) > 1.0 - kRule.part)
     return false;
   return least_left(found) < kExplained;
 }
@@ -160,7 +156,7 @@ bool asked_too_little(const Study& study, const Findings& found) {
 bool asked_far_too_little(const Study& study, const Findings& found) {
   if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
   const double least = least_left(found);
-  return least < kNearFloor && leaves_far_more_held_out(found.candidates.front(), least);
+  return least < kRule.near_floor && leaves_far_more_held_out(found.candidates.front(), least);
 }
 
 /// What the fitted recordings leave open, for the reader.

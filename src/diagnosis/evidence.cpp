@@ -55,8 +55,9 @@ StepOutcome decide_again(const StepEvidence& evidence, const std::vector<std::st
   for (const ModelEvidence& e : evidence.candidates)
     (contains(excluded, e.effect) ? parents : candidates).push_back(judged_by(e));
   for (const ModelEvidence& e : evidence.excluded_parents) parents.push_back(judged_by(e));
-  rank(candidates, before, evidence.repeats_badly);
-  const Decision decision = decide_alone(candidates, before, evidence.repeats_badly, parents);
+  rank(candidates);
+  const Decision decision =
+      decide_alone(candidates, before, evidence.repeats_badly ? Reach::kAnyGain : Reach::kFloor, parents);
   StepOutcome out;
   for (const ScoredModel& c : candidates) out.ranking.push_back(c.entry->name);
   for (const EffectEntry* entry : decision.group) out.group.push_back(entry->name);

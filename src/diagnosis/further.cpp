@@ -11,28 +11,8 @@ namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr std::size_t kMostEffects = 4;
-constexpr double kWorthFollowing = 0.3;         ///< S that an unsure first step gains
-constexpr double kWorthFollowingWindows = 0.6;  ///< share of the windows that it improves
-constexpr std::size_t kBranches = 2;            ///< first steps that are followed where the best is unsure
-constexpr std::size_t kFittedBranches =
-    2;                                  ///< added to these: first steps that explain most of what was fitted
-constexpr double kMuchOfTheFit = 0.7;   ///< "most": they leave less than this of the fitted mean square
-constexpr double kClearlyBetter = 0.1;  ///< S by which a look-alike takes the place of a finding
-constexpr double kStandIn = 0.15;       ///< S that an earlier effect must still be worth
-constexpr double kLaterGain = 0.5;     ///< S of a later step that stays far from the floor for an earlier law
-constexpr double kLaterWindows = 0.8;  ///< share of the windows that such a step improves
-constexpr double kLaterMargin = 0.5;   ///< S by which such a step beats all others
-constexpr double kRefinedGain = 0.3;   ///< S of a law that contains an earlier one's, also over all others
-constexpr double kFitCollapses =
-    0.1;  ///< of the fitted mean square that a step leaves: fewer windows then suffice
-constexpr double kLaterAskedFor = 0.85;  ///< of the fitted mean square that a step leaves at most
-constexpr double kMuchOfTheWay =
-    0.4;  ///< share of the log distance to the floor that two steps close, where the first was unsure
-constexpr double kMostOfTheSize =
-    0.8;  ///< of the free runs' error that two steps take, where the first was unsure
-constexpr double kHardlyAnything = 0.99;  ///< of the free runs' error explained: no other branch is followed
-constexpr double kSureMargin =
-    0.9;  ///< S by which the second step beats all others, where the first was unsure
+constexpr std::size_t kBranches = 2;        ///< first steps that are followed where the best is unsure
+constexpr std::size_t kFittedBranches = 2;  ///< added to these: those that explain most of what was fitted
 
 /// The model so far as the one to add to. An effect that others contain comes last: they take its place.
 ScoredModel base_of(const ScoredModel& model) {
@@ -49,8 +29,8 @@ ScoredModel base_of(const ScoredModel& model) {
 }
 
 bool worth_following(const ScoredModel& before, const ScoredModel& after) {
-  return before.score - after.score >= kWorthFollowing &&
-         share_of_windows_better(before, after) >= kWorthFollowingWindows;
+  return before.score - after.score >= kRule.tells_apart &&
+         share_of_windows_better(before, after) >= kRule.least_windows;
 }
 
 FurtherStep next_step(const Study& study, const ScoredModel& model) {
@@ -58,12 +38,10 @@ FurtherStep next_step(const Study& study, const ScoredModel& model) {
   std::vector<const EffectEntry*> catalogue = study.catalogue;
   std::erase_if(catalogue, [&](const EffectEntry* e) { return has_effect(model.fitted.model, e); });
   step.candidates = candidates_of(study, step.before, catalogue, false);
-  step.decision = decide(step.candidates, step.before, study.repeats_badly(), {});
-  if (study.repeats_badly() || step.candidates.empty()) return step;
-  Decision& d = step.decision;
-  d.probability = later_probability(d.rel, d.margin, d.gain);
-  d.accepted = d.accepted || clearly_better(step.before, step.candidates.front(), d) ||
-               refines(step.before, step.candidates.front(), d);
+  // An earlier effect's law may be another than the drive's and keep every later step off the floor.
+  Decision& d = step.decision = decide(step.candidates, step.before, Reach::kAnyGain, {});
+  if (!study.repeats_badly() && !step.candidates.empty())
+    d.probability = later_probability(d.rel, d.margin, d.gain);
   return step;
 }
 
@@ -83,7 +61,7 @@ void drop_stand_ins(const Study& study, Additions& a) {
   const auto superfluous = [&](const Addition& effect) {
     if (effect.entry == last || !has_effect(a.after.fitted.model, effect.entry)) return false;
     const ScoredModel less = refitted(study, without(a.after.fitted.model, effect.entry));
-    if (!(less.score < log_score(a.after.windows) + kStandIn)) return false;
+    if (!(less.score < log_score(a.after.windows) + kRule.indistinct)) return false;
     a.after = less;
     a.steps.back().dropped.push_back(effect.entry);
     return true;
@@ -102,7 +80,7 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
     const ScoredModel less = refitted(study, without(a.after.fitted.model, effect.entry));
     std::vector<ScoredModel> ranked = candidates_of(study, base_of(less), alike, false);
     if (ranked.empty() || ranked.front().entry == effect.entry) continue;
-    if (!(ranked.front().score < log_score(a.after.windows) - kClearlyBetter)) continue;
+    if (!(ranked.front().score < log_score(a.after.windows) - kRule.indistinct)) continue;
     a.steps.back().dropped.push_back(effect.entry);
     effect = {ranked.front().entry, {ranked.front().entry}};
     a.after = std::move(ranked.front());
@@ -123,7 +101,7 @@ bool explained_without(const Study& study, const ScoredModel& model) {
 bool asks_elsewhere(const Study& study, const ScoredModel& model) {
   const double fitted = model.fitted.mean_cost;
   return may_fit_half_of_the_held_out(study) &&
-         (fitted < kNearFloor || leaves_far_more_held_out(model, fitted));
+         (fitted < kRule.near_floor || leaves_far_more_held_out(model, fitted));
 }
 
 /// The same model by what is held out now.
@@ -139,11 +117,6 @@ void keep_wider(const Study& study, const Findings& found, std::size_t steps_bef
   }
   a.wider = {study.train, study.held_out, found.before};
   judge_again(study, a.wider->nominal);
-}
-
-/// Where one branch has led so far, others are not followed.
-bool leaves_little(const ScoredModel& nominal, const ScoredModel& after) {
-  return at_floor(after) || shrink_of(nominal.median_free, after.median_free) >= kHardlyAnything;
 }
 
 /// Forward from a candidate of the first step.
@@ -192,26 +165,10 @@ bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
                      [&](const ModelEffect& e) { return e.entry == entry; });
 }
 
-bool clearly_better(const ScoredModel& before, const ScoredModel& best, const Decision& d) {
-  const double left = best.fitted.mean_cost / before.fitted.mean_cost;
-  const double windows = left < kFitCollapses ? kWorthFollowingWindows : kLaterWindows;
-  return d.gain >= kLaterGain && d.windows_better >= windows && d.margin >= kLaterMargin &&
-         left < kLaterAskedFor;
-}
-
-bool refines(const ScoredModel& before, const ScoredModel& best, const Decision& d) {
-  const EffectEntry* contained = contained_effect(*best.entry);
-  return contained != nullptr && has_effect(before.fitted.model, contained) && d.gain >= kRefinedGain &&
-         d.margin >= kRefinedGain && d.windows_better >= kWorthFollowingWindows &&
-         best.fitted.mean_cost < kLaterAskedFor * before.fitted.mean_cost;
-}
-
 bool borne_out(const ScoredModel& nominal, const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
   if (a.explained || at_floor(a.after)) return true;
-  return a.steps.front().decision.margin >= kSureMargin &&
-         (relative_gain(nominal, a.after) >= kMuchOfTheWay ||
-          shrink_of(nominal.median_free, a.after.median_free) >= kMostOfTheSize);
+  return a.steps.front().decision.margin >= kRule.clear && relative_gain(nominal, a.after) >= kRule.least_way;
 }
 
 std::vector<const ScoredModel*> branches(const Findings& found) {
@@ -220,7 +177,7 @@ std::vector<const ScoredModel*> branches(const Findings& found) {
     if (chosen.size() < kBranches && worth_following(found.before, c)) chosen.push_back(&c);
   std::vector<const ScoredModel*> fitted;
   for (const ScoredModel& c : found.candidates)
-    if (c.fitted.mean_cost < kMuchOfTheFit * found.before.fitted.mean_cost) fitted.push_back(&c);
+    if (c.fitted.mean_cost < kRule.asked_for * found.before.fitted.mean_cost) fitted.push_back(&c);
   std::stable_sort(fitted.begin(), fitted.end(), [](const ScoredModel* a, const ScoredModel* b) {
     return a->fitted.mean_cost < b->fitted.mean_cost;
   });
@@ -246,7 +203,7 @@ Additions add_further(const Study& study, const Findings& found) {
     const bool better = a.accepted && (!best.accepted || a.after.score < best.after.score);
     if (better || (is_best && !best.accepted)) best = std::move(a);
     if (study.is_exhausted()) break;
-    if (best.accepted && (best.explained || leaves_little(nominal_of(found, best), best.after))) break;
+    if (best.accepted && (best.explained || at_floor(best.after))) break;
   }
   return best;
 }

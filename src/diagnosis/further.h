@@ -67,17 +67,8 @@ EffectSearch search_effects(Study& study);
 /// half are often so wrong that no held-out recording shows its worth.
 std::vector<const ScoredModel*> branches(const Findings& found);
 
-/// Whether a later step counts that does not come far towards the floor, since an earlier effect's law is
-/// another than the real one's and keeps it away.
-bool clearly_better(const ScoredModel& before, const ScoredModel& best, const Decision& decision);
-
-/// Whether an effect of the model should have the more general law that contains it, as Stribeck friction
-/// contains Coulomb's: no new cause, so how far it leads to the floor does not matter.
-bool refines(const ScoredModel& before, const ScoredModel& best, const Decision& decision);
-
 /// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
-/// themselves and come far towards it, or leave little of the free runs' size. A first step that is there
-/// alone has been decided upon.
+/// themselves and come far towards it. A first step that is there alone has been decided upon.
 bool borne_out(const ScoredModel& nominal, const Additions& additions);
 
 /// Whether the effect is in the model.

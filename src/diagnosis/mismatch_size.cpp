@@ -10,7 +10,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kLeastRatio = 1.3;   ///< a gap smaller than this many floors has no shrink
 constexpr double kTemperature = 0.3;  ///< of the softmax over S
 constexpr double kSmaller = 3.0, kMore = 3.0, kLess = 4.0, kSpread = 0.5, kBelow = 1.5;  ///< see below
 constexpr double kMayBeNone = 6.0;  ///< floors within which what is left may be none on another recording
@@ -59,7 +58,7 @@ double pooled_floor(const HeldOut& held_out) {
 }
 
 double shrink_of(double before, double after) {
-  return before >= kLeastRatio ? (before - after) / (before - 1.0) : kNaN;
+  return before >= kRule.floor_ratio ? (before - after) / (before - 1.0) : kNaN;
 }
 
 std::vector<double> Windows::*judged_windows(const Study& study) {

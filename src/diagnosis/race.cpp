@@ -15,6 +15,11 @@ constexpr int kWeakenings = 2;
 constexpr double kWeaker = 0.15;  ///< of the start
 constexpr double kClose = 30.0;   ///< a start from elsewhere is followed while it is within this ratio
 
+/// The race's own residuals stand for the cost, without priors and widths.
+reference::RefinedFit unrefined(const reference::AdjustedFit& from, double simulations) {
+  return {from, from.residual_mean_square, false, simulations};
+}
+
 ReferenceModel with_values(ReferenceModel model, const std::vector<double>& effect) {
   for (std::size_t i = 0; i < effect.size(); ++i) model.effects.back().parameters[i].value = effect[i];
   return model;
@@ -97,18 +102,29 @@ void Race::weaken(const EffectStart& start, std::size_t i) {
 /// A refinement that goes on only while it promises to beat the model without the effect.
 reference::RefinedFit Race::follow(const reference::AdjustedFit& from) const {
   reference::RefinedFit light = fit_.refine(from, kLight);
-  // Where no refinement succeeds the race's own residuals stand for the cost, without priors and widths.
-  if (!light.usable()) return {from, from.residual_mean_square, false, light.simulations};
+  if (!light.usable()) return unrefined(from, light.simulations);
   if (!(light.mean_cost < kPromising * nominal_.mean_cost)) return light;
   reference::RefinedFit found = fit_.refine(light, kThorough);
   found.simulations = light.simulations += found.simulations;
   return found.mean_cost < light.mean_cost ? found : light;
 }
 
-reference::RefinedFit Race::best() {
+void Race::finish() {
   std::stable_sort(field_.begin(), field_.end(), [](const Entrant& a, const Entrant& b) {
     return a.at.residual_mean_square < b.at.residual_mean_square;
   });
+}
+
+double Race::least() const {
+  return field_.empty() || !field_.front().at.usable() ? kInfinity : field_.front().at.residual_mean_square;
+}
+
+reference::RefinedFit Race::leader() const {
+  if (!std::isfinite(least())) return {};
+  return unrefined(field_.front().at, 0.0);
+}
+
+reference::RefinedFit Race::best() const {
   if (field_.empty() || !field_.front().at.usable()) return {};
   const Entrant& first = field_.front();
   reference::RefinedFit best = follow(first.at);

@@ -29,8 +29,13 @@ class Race {
   /// @param i the parameter that is made weaker
   void weaken(const EffectStart& start, std::size_t i);
 
+  /// No more enters: the best come first.
+  void finish();
+  /// What the best leaves after the race alone [floor²]; infinite without anything that has entered.
+  double least() const;
+  reference::RefinedFit leader() const;
   /// Follows the best, then the best from elsewhere. Infinite without anything that has entered.
-  reference::RefinedFit best();
+  reference::RefinedFit best() const;
 
  private:
   struct Entrant {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/rule.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -25,12 +26,10 @@ ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& h
 /// Whether the table of the catalogue names one as a look-alike of the other.
 bool look_alike(const EffectEntry& a, const EffectEntry& b);
 
-inline constexpr double kFloorRatio = 1.3;  ///< medians within it: at the floor
-/// Mean square [floor²] up to which a fit may have ended in a minimum beside the best one.
-inline constexpr double kNearFloor = 4.0;
-inline constexpr double kExplained = kFloorRatio * kFloorRatio;  ///< mean square of a fit [floor²]
+/// Mean square of a fit at the floor [floor²].
+inline constexpr double kExplained = kRule.floor_ratio * kRule.floor_ratio;
 
-/// Both medians within 1.3 floors.
+/// Both medians within kRule.floor_ratio.
 bool at_floor(const ScoredModel& judged);
 
 /// Whether a model leaves far more of what is held out than the mean square that was left of what was fitted.
@@ -48,27 +47,31 @@ struct Decision {
   double probability = kNaN;  ///< that the group holds what is missing, at even odds of the catalogue
 };
 
-/// Best first: by score; a nested parent goes before its child unless the child gains much more.
-/// @param repeats_badly the floor is the drive's repeatability: no child is right to the floor, so a parent
-///   that takes most of the error goes first and the rest is left to a further step
-void rank(std::vector<ScoredModel>& candidates, const ScoredModel& before, bool repeats_badly);
+/// Best first: by score; an effect that the first one contains goes before it where the data does not tell
+/// them apart.
+void rank(std::vector<ScoredModel>& candidates, const DecisionRule& rule = kRule);
 
-/// Whether the first candidate is what is missing. A step is taken that closes much of the log distance to
-/// the floor and stands clear of all others; or, where no model can reach the floor, one that gains clearly
-/// and nearly everywhere and stands clear.
+/// What a step must reach.
+enum class Reach {
+  kFloor,    ///< it is to be what is missing: it goes much of the way to the floor
+  kAnyGain,  ///< the floor is out of reach for it: it gains clearly, in most windows
+};
+
+/// Whether the first candidate is what is missing: it leads all others that it can be told from, what was
+/// fitted asks for it, and it reaches what it must.
 /// @param excluded_parents simpler effects that are no candidates, fitted all the same: a child that does no
 ///   better than its parent alone is the parent under another name, and is not accepted
-Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& before, bool repeats_badly,
-                std::span<const ScoredModel> excluded_parents);
+Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
+                std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
 
 /// The same of an effect that is to be all that is missing. A law that is fixed but for its size leaves
-/// nothing where it is the cause: where it leaves more than a trace, it is at best a part.
-Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, bool repeats_badly,
-                      std::span<const ScoredModel> excluded_parents);
+/// nothing where it is the cause: where it leaves more than a part, it is at best one of several.
+Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
+                      std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
 
 /// Whether a candidate shrinks the held-out error beyond chance and by what is worth having, whatever its
 /// cause: by at least a tenth of the mean square, of which the 95 % interval over windows is above zero, in
-/// most of them, and asked for by what was fitted.
+/// most of them, and by a tenth of what was fitted.
 bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_badly);
 
 double relative_gain(const ScoredModel& before, const ScoredModel& after);

@@ -17,10 +17,8 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kClearMargin = 0.6;  ///< S to the best other group: the evidence is not weak
 constexpr std::size_t kMostRivals = 2;
-constexpr double kRivalGain = 0.1;   ///< S that a rival gains at least,
-constexpr double kRivalShare = 0.5;  ///< and of what the best gains: else no experiment is worth its time
+constexpr double kRivalShare = 0.5;  ///< of what the best gains: else no experiment is worth its time
 
 std::vector<RankedEffect> ranking_of(const Study& study, const ScoredModel& before,
                                      const std::vector<ScoredModel>& candidates, const Decision& decision) {
@@ -140,11 +138,11 @@ void tell_steps(const Study& study, const Additions& added, Diagnosis& d) {
 /// What contains the best is no rival: parsimony has decided; nor is what explains far less.
 std::vector<Rival> rivals_of(const std::vector<ScoredModel>& candidates, const ScoredModel& before,
                              const Decision& decision) {
-  if (decision.accepted && decision.group.size() < 2 && decision.margin >= kClearMargin) return {};
+  if (decision.accepted && decision.group.size() < 2 && decision.margin >= kRule.clear) return {};
   std::vector<Rival> rivals;
   for (const ScoredModel& c : candidates) {
     if (rivals.size() == kMostRivals || !std::isfinite(c.score)) break;
-    if (before.score - c.score < std::max(kRivalGain, kRivalShare * decision.gain)) break;
+    if (before.score - c.score < std::max(kRule.indistinct, kRivalShare * decision.gain)) break;
     const bool contains_best = contained_effect(*c.entry) == candidates.front().entry;
     if (!reads_counts(*c.entry) && !contains_best) rivals.push_back({c.entry->name, c.fitted.model});
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include "diagnosis/periodic_torque.h"
@@ -19,11 +21,13 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
+constexpr std::size_t kRefined = 8;  ///< that lead the race; the truth was among the first five in 24 of 24
+constexpr std::size_t kRelated = 3;  ///< of the refined, whose look-alikes are refined, too
+constexpr double kExplainsMuch =
+    0.5;  ///< of the fitted mean square that the best leaves: the others are not refined
 constexpr std::size_t kSecondRound = 4;
-constexpr double kWorthComparing = 0.3;  ///< S that a candidate gains
-constexpr double kExplainsMuch = 0.5;    ///< share of the log distance to the floor
-constexpr double kLostClearly = 1.5;     ///< S behind the best, in a later step
-constexpr std::size_t kLines = 3;        ///< of the residual torque that periodic effects begin with
+constexpr double kLostClearly = 1.5;  ///< S behind the best, in a later step
+constexpr std::size_t kLines = 3;     ///< of the residual torque that periodic effects begin with
 
 /// Lines that periodic effects begin with: the strongest of the residual torque, one that stands out from its
 /// neighbours, and those whose period was given.
@@ -74,8 +78,8 @@ FittedModel with_quantum(FittedModel nominal, const EffectEntry& entry, double q
 
 /// Candidates that are not at the floor are fitted once more.
 template <class Fit>
-void once_more(const Study& study, const ScoredModel& before, const std::vector<std::size_t>& places,
-               std::vector<ScoredModel>& ranked, const Fit& fit) {
+void once_more(const Study& study, const std::vector<std::size_t>& places, std::vector<ScoredModel>& ranked,
+               const Fit& fit) {
   parallel_for(places.size(), study.options.threads, [&](std::size_t k) {
     ScoredModel& candidate = ranked[places[k]];
     if (!std::isfinite(candidate.score) || at_floor(candidate)) return;
@@ -83,7 +87,7 @@ void once_more(const Study& study, const ScoredModel& before, const std::vector<
     if (fitted.mean_cost < candidate.fitted.mean_cost)
       candidate = judge(candidate.entry, std::move(fitted), study.held_out, study.observer_hz);
   });
-  rank(ranked, before, study.repeats_badly());
+  rank(ranked);
 }
 
 /// Fits the best few once more, also from the best candidate's values; the effect that the best contains and
@@ -105,14 +109,16 @@ void further_rounds(const Study& study, const ScoredModel& before, std::vector<S
     tried.insert(entry);
   }
   const FitOptions& options = study.options.fit;
-  once_more(study, before, few, ranked, [&](const FittedModel& candidate) {
+  study.options.progress("fitting the best once more");
+  once_more(study, few, ranked, [&](const FittedModel& candidate) {
     return retry(study.train, candidate, first, study.sheet, options, study.observer_hz);
   });
-  if (!all || relative_gain(before, ranked.front()) > kExplainsMuch || study.repeats_badly()) return;
+  if (!all || relative_gain(before, ranked.front()) > kRule.least_way || study.repeats_badly()) return;
   if (study.is_exhausted()) return;
   for (std::size_t i = 0; i < ranked.size(); ++i)
     if (!tried.contains(ranked[i].entry)) rest.push_back(i);
-  once_more(study, before, rest, ranked, [&](const FittedModel& candidate) {
+  study.options.progress("none explains much: fitting the others once more");
+  once_more(study, rest, ranked, [&](const FittedModel& candidate) {
     return led_by_faster_observer(study.train, candidate, options, study.observer_hz);
   });
 }
@@ -125,18 +131,139 @@ void fit_look_alikes(const Study& study, const ScoredModel& before, const Scored
   const FitOptions& options = study.options.fit;
   const std::vector<reference::FitLinearisation> bases =
       bases_of(study.train, before.fitted, best.fitted.model, options, study.observer_hz);
-  if (bases.empty() || !(before.score - best.score > kWorthComparing)) return;
+  if (bases.empty() || !(before.score - best.score > kRule.tells_apart)) return;
   parallel_for(ranked.size(), study.options.threads, [&](std::size_t k) {
     ScoredModel& c = ranked[k];
     if (!look_alike(*c.entry, *best.entry) || at_floor(c) || reads_counts(*c.entry)) return;
     const auto place = std::find(entries.begin(), entries.end(), c.entry) - entries.begin();
     FittedModel fitted =
-        fit_candidate(study.train, before.fitted, {&bases.back(), 1}, *c.entry,
-                      starts[static_cast<std::size_t>(place)], nullptr, options, study.observer_hz);
+        RacedCandidate(study.train, before.fitted, {&bases.back(), 1}, *c.entry,
+                       starts[static_cast<std::size_t>(place)], nullptr, options, study.observer_hz)
+            .refined();
     if (fitted.mean_cost < c.fitted.mean_cost)
       c = judge(c.entry, std::move(fitted), study.held_out, study.observer_hz);
   });
 }
+
+bool related(const EffectEntry& a, const EffectEntry& b) {
+  return look_alike(a, b) || contained_effect(a) == &b || contained_effect(b) == &a;
+}
+
+/// All candidates of a step. Every one races; those that lead there, and what is related to the best of them,
+/// are refined. All are where none of these explains much of what was fitted.
+class Field {
+ public:
+  Field(const Study& study, const ScoredModel& before, std::span<const EffectEntry* const> entries,
+        std::span<const reference::FitLinearisation> bases,
+        const std::vector<std::vector<EffectStart>>& starts)
+      : study_(study),
+        before_(before),
+        entries_(entries),
+        bases_(bases),
+        starts_(starts),
+        raced_(entries.size()),
+        fitted_(entries.size()) {}
+
+  std::vector<ScoredModel> judged() {
+    race_all(false);
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+      if (is_parent(i)) refine({i});
+    race_all(true);
+    refine(leading());
+    refine(related_to_the_best());
+    if (!(least_left() < kExplainsMuch * before_.fitted.mean_cost)) refine(all());
+    std::vector<ScoredModel> judged(entries_.size());
+    parallel_for(entries_.size(), study_.options.threads, [&](std::size_t i) {
+      FittedModel fitted = fitted_[i] ? std::move(*fitted_[i]) : raced_[i]->as_raced();
+      judged[i] = judge(entries_[i], std::move(fitted), study_.held_out, study_.observer_hz);
+    });
+    return judged;
+  }
+
+ private:
+  bool is_parent(std::size_t i) const {
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [&](const EffectEntry* e) { return contained_effect(*e) == entries_[i]; });
+  }
+
+  void race(std::size_t i) {
+    {
+      const std::lock_guard lock(saying_);
+      study_.options.progress(
+          fmt::format("fitting {}, {} of {}", entries_[i]->name, ++begun_, entries_.size()));
+    }
+    if (reads_counts(*entries_[i])) {
+      fitted_[i] = with_quantum(before_.fitted, *entries_[i], study_.seen_quantum);
+      return;
+    }
+    const auto parent = std::find(entries_.begin(), entries_.end(), contained_effect(*entries_[i]));
+    const std::optional<FittedModel>* simpler =
+        parent == entries_.end() ? nullptr : &fitted_[static_cast<std::size_t>(parent - entries_.begin())];
+    const bool has = simpler != nullptr && *simpler && (*simpler)->mean_cost < kInfinity;
+    raced_[i].emplace(study_.train, before_.fitted, bases_, *entries_[i], starts_[i],
+                      has ? &**simpler : nullptr, study_.options.fit, study_.observer_hz);
+  }
+
+  /// @param children those that contain another effect: they begin on its fit, too
+  void race_all(bool children) {
+    std::vector<std::size_t> now;
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+      if ((contained_effect(*entries_[i]) != nullptr) == children) now.push_back(i);
+    parallel_for(now.size(), study_.options.threads, [&](std::size_t k) { race(now[k]); });
+  }
+
+  void refine(const std::vector<std::size_t>& places) {
+    parallel_for(places.size(), study_.options.threads, [&](std::size_t k) {
+      const std::size_t i = places[k];
+      if (!fitted_[i]) fitted_[i] = raced_[i]->refined();
+    });
+  }
+
+  std::vector<std::size_t> all() const {
+    std::vector<std::size_t> places(entries_.size());
+    std::iota(places.begin(), places.end(), 0u);
+    return places;
+  }
+
+  std::vector<std::size_t> leading() const {
+    std::vector<std::size_t> places = all();
+    const auto left = [&](std::size_t i) { return raced_[i] ? raced_[i]->raced() : 0.0; };
+    std::stable_sort(places.begin(), places.end(),
+                     [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
+    places.resize(std::min(places.size(), kRefined));
+    return places;
+  }
+
+  std::vector<std::size_t> related_to_the_best() const {
+    std::vector<std::size_t> best = all(), places;
+    const auto left = [&](std::size_t i) { return fitted_[i] ? fitted_[i]->mean_cost : kInfinity; };
+    std::stable_sort(best.begin(), best.end(),
+                     [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
+    best.resize(std::min(best.size(), kRelated));
+    for (const std::size_t i : all())
+      if (std::any_of(best.begin(), best.end(),
+                      [&](std::size_t b) { return related(*entries_[b], *entries_[i]); }))
+        places.push_back(i);
+    return places;
+  }
+
+  double least_left() const {
+    double least = kInfinity;
+    for (const std::optional<FittedModel>& f : fitted_)
+      if (f) least = std::min(least, f->mean_cost);
+    return least;
+  }
+
+  const Study& study_;
+  const ScoredModel& before_;
+  std::span<const EffectEntry* const> entries_;
+  std::span<const reference::FitLinearisation> bases_;
+  const std::vector<std::vector<EffectStart>>& starts_;
+  std::vector<std::optional<RacedCandidate>> raced_;
+  std::vector<std::optional<FittedModel>> fitted_;
+  std::mutex saying_;
+  std::size_t begun_ = 0;
+};
 
 }  // namespace
 
@@ -157,39 +284,13 @@ std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& be
   const auto starts = all_starts(study, before, entries);
   const std::vector<reference::FitLinearisation> bases =
       bases_of(study.train, before.fitted, study.sheet, study.options.fit, study.observer_hz);
-  std::vector<ScoredModel> judged(entries.size());
-  std::mutex saying;
-  const auto run = [&](std::size_t i, const FittedModel* parent) {
-    {
-      const std::lock_guard lock(saying);
-      study.options.progress(fmt::format("fitting {}", entries[i]->name));
-    }
-    FittedModel fitted = reads_counts(*entries[i])
-                             ? with_quantum(before.fitted, *entries[i], study.seen_quantum)
-                             : fit_candidate(study.train, before.fitted, bases, *entries[i], starts[i],
-                                             parent, study.options.fit, study.observer_hz);
-    judged[i] = judge(entries[i], std::move(fitted), study.held_out, study.observer_hz);
-  };
-  const auto place_of = [&](const EffectEntry* entry) {
-    return static_cast<std::size_t>(std::find(entries.begin(), entries.end(), entry) - entries.begin());
-  };
-  const auto wave = [&](bool children) {
-    std::vector<std::size_t> now;
-    for (std::size_t i = 0; i < entries.size(); ++i)
-      if ((contained_effect(*entries[i]) != nullptr) == children) now.push_back(i);
-    parallel_for(now.size(), study.options.threads, [&](std::size_t k) {
-      const std::size_t parent = place_of(contained_effect(*entries[now[k]]));
-      const bool has = parent < entries.size() && judged[parent].fitted.mean_cost < kInfinity;
-      run(now[k], has ? &judged[parent].fitted : nullptr);
-    });
-  };
-  wave(false);
-  wave(true);
-  rank(judged, before, study.repeats_badly());
+  std::vector<ScoredModel> judged = Field(study, before, entries, bases, starts).judged();
+  rank(judged);
   const std::vector<ScoredModel> best(judged.begin(),
                                       judged.begin() + std::min<std::size_t>(2, judged.size()));
+  study.options.progress("fitting look-alikes of the best");
   for (const ScoredModel& b : best) fit_look_alikes(study, before, b, entries, starts, judged);
-  rank(judged, before, study.repeats_badly());
+  rank(judged);
   further_rounds(study, before, judged, first_step);
   return judged;
 }

@@ -23,6 +23,8 @@ struct Study {
   bool is_exhausted() const;
 
   bool repeats_badly() const { return held_out.innovation_repeats > 0.0; }
+  /// What a step must reach: a drive that repeats itself badly has no floor that a model could come to.
+  Reach reach() const { return repeats_badly() ? Reach::kAnyGain : Reach::kFloor; }
 };
 
 /// @throws std::logic_error, see diagnose().

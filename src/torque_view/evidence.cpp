@@ -17,11 +17,17 @@ Blocks::Blocks(const Rows& rows, const TorqueViewOptions& options) {
       of_row_.push_back(count_ - 1);
     }
   }
+  draw(options);
+}
+
+Blocks::Blocks(std::size_t count, const TorqueViewOptions& options) : count_(count) { draw(options); }
+
+void Blocks::draw(const TorqueViewOptions& options) {
   std::mt19937_64 generator = random_stream(options.seed, "torque view blocks");
   draws_.resize(static_cast<std::size_t>(options.draws));
-  for (auto& draw : draws_)
+  for (std::vector<std::size_t>& blocks : draws_)
     for (std::size_t i = 0; i < count_; ++i)
-      draw.push_back(static_cast<std::size_t>(uniform(generator, 0.0, static_cast<double>(count_))));
+      blocks.push_back(static_cast<std::size_t>(uniform(generator, 0.0, static_cast<double>(count_))));
 }
 
 Eigen::VectorXd Blocks::squares(const Eigen::VectorXd& residual) const {

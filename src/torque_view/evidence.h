@@ -20,6 +20,8 @@ class Blocks {
  public:
   Blocks() = default;
   Blocks(const Rows& rows, const TorqueViewOptions& options);
+  /// Blocks whose squared residuals are known.
+  Blocks(std::size_t count, const TorqueViewOptions& options);
 
   std::size_t count() const { return count_; }
   /// Squared residual of each block.
@@ -29,6 +31,8 @@ class Blocks {
   double leading(const Eigen::VectorXd& squares, const Eigen::VectorXd& other) const;
 
  private:
+  void draw(const TorqueViewOptions& options);
+
   std::size_t count_ = 0;
   std::vector<std::size_t> of_row_;
   std::vector<std::vector<std::size_t>> draws_;

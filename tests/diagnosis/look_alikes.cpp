@@ -50,7 +50,7 @@ LookAlikes look_alikes(const std::string& truth, const std::string& other, std::
   for (const std::string& name : {truth, other}) {
     const EffectEntry& entry = *find_effect(name);
     const FittedModel fitted =
-        fit_candidate(train, nominal, bases, entry, effect_starts(entry), nullptr, {}, kHz);
+        RacedCandidate(train, nominal, bases, entry, effect_starts(entry), nullptr, {}, kHz).refined();
     pair.rivals.push_back({name, fitted.model});
   }
   return pair;

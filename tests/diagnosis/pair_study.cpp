@@ -88,8 +88,9 @@ std::string judgements(const FurtherStep& step, const Names& truth) {
     });
   });
   if (missing.empty() || others.empty()) return text;
-  rank(others, step.before, false);
-  return text + fmt::format("{{later wrong: {}}} ", numbers(decide(others, step.before, false, {})));
+  rank(others);
+  return text +
+         fmt::format("{{later wrong: {}}} ", numbers(decide(others, step.before, Reach::kAnyGain, {})));
 }
 
 }  // namespace
@@ -117,6 +118,7 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
   const Names truth = split_effects(pair.effect);
   DiagnosisOptions options;
   options.threads = 1;
+  options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
   const double begin = thread_seconds();
   double first = kNaN;
@@ -124,7 +126,9 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
     if (std::isnan(first) && what.starts_with("looking for a further")) first = thread_seconds() - begin;
   };
   Study study = make_study(train, held, pair.sheet, options);
-  const auto [f, a] = search_effects(study);
+  const EffectSearch search = search_effects(study);
+  const Findings& f = search.found;
+  const Additions& a = search.added;
   StudyRow row;
   row.seconds = thread_seconds() - begin;
   row.probability = std::isnan(first) ? 1.0 : row.seconds / first;

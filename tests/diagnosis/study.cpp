@@ -68,11 +68,11 @@ Removed without(const std::string& effect, std::vector<ScoredModel> candidates, 
       for (const char* alike : truth->look_alikes) out = out || c.entry->name == std::string(alike);
     return out;
   });
-  rank(candidates, before, false);
+  rank(candidates);
   std::erase_if(parents, [&](const ScoredModel& p) {
     return place_of_truth(candidates, p.entry->name) < candidates.size();
   });
-  Removed removed{decide_alone(candidates, before, false, parents), ""};
+  Removed removed{decide_alone(candidates, before, Reach::kFloor, parents), ""};
   if (!candidates.empty())
     removed.details =
         fmt::format("; removed: {} rel {:.2f} margin {:.2f} gain {:.2f} shrink {:.2f}",
@@ -152,6 +152,7 @@ double thread_seconds() {
 StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   DiagnosisOptions options;
   options.threads = 1;
+  options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
   const double begin = thread_seconds();
   Study study = make_study(train, held, pair.sheet, options);

@@ -142,18 +142,16 @@ TEST(Diagnosis, PrefersTheSimplerOfTwoNestedEffectsAtTheFloor) {
   EXPECT_EQ(decide_again(e).ranking.front(), "friction_asymmetry");
 }
 
-TEST(Diagnosis, TellsLookAlikesApartTheLessTheMoreTheyLeave) {
+TEST(Diagnosis, TellsLookAlikesApartByMoreThanOthers) {
   StepEvidence e = evidence_of("input_delay", 1.0);
   e.candidates.push_back({"actuator_lag", 0.0, 1.0, 1.0, 1.0, 1.0});
-  const std::vector<std::string> one{"input_delay"}, both{"input_delay", "actuator_lag"};
-  e.candidates[0].score = 0.3, e.candidates[2].score = 0.8;
-  EXPECT_EQ(decide_again(e).group, one);
-  e.candidates[0].score = 3.0, e.candidates[2].score = 3.5;
-  EXPECT_EQ(decide_again(e).group, both);
-  e.candidates[2].score = 4.5;
-  EXPECT_EQ(decide_again(e).group, one);
-  e.candidates[2].score = 3.5, e.repeats_badly = true;
-  EXPECT_EQ(decide_again(e).group, one) << "no floor to leave anything above";
+  e.candidates.push_back({"cogging_torque", 0.0, 1.0, 1.0, 1.0, 1.0});
+  e.candidates[0].score = 0.3, e.candidates[2].score = 0.5, e.candidates[3].score = 0.5;
+  EXPECT_EQ(decide_again(e).group, (std::vector<std::string>{"input_delay", "actuator_lag"}));
+  e.candidates[2].score = 0.7;
+  EXPECT_EQ(decide_again(e).group, std::vector<std::string>{"input_delay"});
+  e.candidates[3].score = 0.35;
+  EXPECT_EQ(decide_again(e).group, (std::vector<std::string>{"input_delay", "cogging_torque"}));
 }
 
 TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereTheOtherRecordingAsksForTooLittle) {
@@ -179,9 +177,11 @@ TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
   const internal::diagnosis::FittedModel nominal =
       internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectStart far{0.02, 0.0};
-  const internal::diagnosis::FittedModel found = internal::diagnosis::fit_candidate(
-      train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0),
-      *find_effect("encoder_eccentricity"), {&far, 1}, nullptr, {}, 3.0);
+  const internal::diagnosis::FittedModel found =
+      internal::diagnosis::RacedCandidate(train, nominal,
+                                          internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0),
+                                          *find_effect("encoder_eccentricity"), {&far, 1}, nullptr, {}, 3.0)
+          .refined();
   const auto& values = found.model.effects.back().parameters;
   EXPECT_NEAR(values[0].value / truth.drive.effects.sensor.eccentricity_rad, 1.0, 0.02);
   EXPECT_NEAR(std::remainder(values[1].value - truth.drive.effects.sensor.eccentricity_phase_rad, 2.0 * kPi),
@@ -215,12 +215,15 @@ TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
   const internal::diagnosis::FittedModel nominal =
       internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectEntry* cogging = find_effect("cogging_torque");
-  const internal::diagnosis::FittedModel without_a_line = internal::diagnosis::fit_candidate(
-      train, nominal, internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0), *cogging, {},
-      nullptr, {}, 3.0);
+  const internal::diagnosis::FittedModel without_a_line =
+      internal::diagnosis::RacedCandidate(train, nominal,
+                                          internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0),
+                                          *cogging, {}, nullptr, {}, 3.0)
+          .refined();
   EXPECT_EQ(without_a_line.mean_cost, kInfinity);
   const EffectStart start{0.05, 2.0, 0.0};
-  EXPECT_EQ(internal::diagnosis::fit_candidate(train, nominal, {}, *cogging, {&start, 1}, &nominal, {}, 3.0)
+  EXPECT_EQ(internal::diagnosis::RacedCandidate(train, nominal, {}, *cogging, {&start, 1}, &nominal, {}, 3.0)
+                .refined()
                 .mean_cost,
             kInfinity);
 }

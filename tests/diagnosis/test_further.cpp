@@ -14,12 +14,6 @@ ScoredModel model(double score, double median, double mean_cost) {
   return j;
 }
 
-Decision step(double gain, double margin, double windows_better) {
-  Decision d;
-  d.gain = gain, d.margin = margin, d.windows_better = windows_better;
-  return d;
-}
-
 /// Two effects, the second one accepted or not, that leave `after`.
 Additions two(bool second_accepted, const ScoredModel& after, double margin = 2.0) {
   Additions a;
@@ -39,14 +33,6 @@ TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloorOrFarTowards
   EXPECT_FALSE(borne_out(before, two(true, model(1.7, 2.5, 4.0), 0.4))) << "a second step that is not clear";
   EXPECT_FALSE(borne_out(before, two(true, model(5.0, 80.0, 6000.0)))) << "a third of the way only";
   EXPECT_FALSE(borne_out(before, two(false, model(0.3, 1.1, 1.0)))) << "no second step was taken";
-}
-
-TEST(FurtherSteps, BearOutAnUnsureFirstOneWhereTheyLeaveLittleOfTheSize) {
-  const ScoredModel before = model(15.2, 3300.0, 1e4);
-  EXPECT_TRUE(borne_out(before, two(true, model(10.2, 280.0, 4.0))));
-  EXPECT_FALSE(borne_out(before, two(true, model(10.2, 900.0, 4.0))));
-  EXPECT_FALSE(borne_out(before, two(true, model(10.2, 280.0, 4.0), 0.4)))
-      << "a second step that is not clear";
 }
 
 TEST(FurtherSteps, BeginWhereTheHeldOutErrorShrinksOrWhereMuchOfTheFitIsExplained) {
@@ -74,32 +60,19 @@ TEST(FurtherSteps, BearOutTheFirstOneWhereOneSetOfNumbersExplainsAllRecordings) 
   EXPECT_TRUE(borne_out(model(7.0, 180.0, 1e4), a));
 }
 
-TEST(FurtherSteps, TakeTheMoreGeneralLawOfAnEffectWithoutAskingHowFarItLeads) {
-  ScoredModel before = model(3.0, 11.0, 100.0), best = model(2.6, 9.0, 70.0);
-  before.fitted.model.effects.emplace_back().entry = find_effect("motor_coulomb_friction");
-  best.entry = find_effect("stribeck_friction");
-  EXPECT_TRUE(refines(before, best, step(0.4, 0.4, 0.8)));
-  EXPECT_FALSE(refines(before, best, step(0.2, 0.4, 0.8))) << "gain";
-  EXPECT_FALSE(refines(before, best, step(0.4, 0.2, 0.8))) << "margin";
-  EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.5))) << "windows";
-  best.fitted.mean_cost = 95.0;
-  EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.8))) << "what was fitted does not ask for it";
-  best.fitted.mean_cost = 70.0, best.entry = find_effect("quadratic_drag");
-  EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.8))) << "another effect";
-  best.entry = find_effect("stribeck_friction");
-  before.fitted.model.effects.front().entry = find_effect("cogging_torque");
-  EXPECT_FALSE(refines(before, best, step(0.4, 0.4, 0.8))) << "what it contains is not in the model";
-}
-
-TEST(FurtherSteps, CountFarFromTheFloorOnlyWhereTheyAreClearInEveryRespect) {
-  const ScoredModel before = model(7.0, 110.0, 5000.0), best = model(6.1, 60.0, 1300.0);
-  EXPECT_TRUE(clearly_better(before, best, step(0.9, 0.87, 0.9)));
-  EXPECT_FALSE(clearly_better(before, best, step(0.25, 0.87, 0.9))) << "gain";
-  EXPECT_FALSE(clearly_better(before, best, step(0.9, 0.2, 0.9))) << "margin";
-  EXPECT_FALSE(clearly_better(before, best, step(0.9, 0.87, 0.6))) << "windows";
-  EXPECT_TRUE(clearly_better(before, model(6.1, 60.0, 300.0), step(0.9, 0.87, 0.7)));
-  EXPECT_FALSE(clearly_better(before, model(6.1, 60.0, 4900.0), step(0.9, 0.87, 0.9)))
-      << "what was fitted does not ask for it";
+TEST(FurtherSteps, CountFarFromTheFloorWhereTheyAreClearInEveryRespect) {
+  const auto accepted = [](double gain, double lead, double windows, double fitted) {
+    const ScoredModel before = model(7.0, 110.0, 5000.0);
+    ScoredModel best = model(7.0 - gain, 60.0, fitted), other = model(7.0 - gain + lead, 80.0, fitted);
+    best.entry = find_effect("quadratic_drag"), other.entry = find_effect("cogging_torque");
+    best.windows_better = windows;
+    return decide({best, other}, before, Reach::kAnyGain, {}).accepted;
+  };
+  EXPECT_TRUE(accepted(0.5, 0.4, 0.7, 1300.0));
+  EXPECT_FALSE(accepted(0.25, 0.4, 0.7, 1300.0)) << "gain";
+  EXPECT_FALSE(accepted(0.5, 0.2, 0.7, 1300.0)) << "lead";
+  EXPECT_FALSE(accepted(0.5, 0.4, 0.5, 1300.0)) << "windows";
+  EXPECT_FALSE(accepted(0.5, 0.4, 0.7, 4980.0)) << "what was fitted does not ask for it";
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ TEST(Documents, NameOnlyFilesThatAreThere) {
   }
 }
 
-/// Every constant of the sources with each value that it is given somewhere.
+/// Every constant and every field of the sources with each value that it is given somewhere.
 std::multimap<std::string, double> constants() {
-  const std::regex defined(R"rx(\b(k[A-Z]\w+)\s*=\s*([\d.]+)\s*[;,])rx");
+  const std::regex defined(R"rx(\b(k[A-Z]\w+|[a-z]+(?:_[a-z]+)*)\s*=\s*([\d.]+)\s*[;,])rx");
   std::multimap<std::string, double> found;
   for (const char* top : {"include", "src"})
     for (const auto& entry : fs::recursive_directory_iterator(kProject / top)) {
@@ -61,7 +61,7 @@ std::multimap<std::string, double> constants() {
 
 TEST(Documents, GiveConstantsTheValuesThatTheyHaveInTheSources) {
   const auto known = constants();
-  const std::regex given(R"rx(`(k[A-Z]\w+)` = (\d+(?:\.\d+)?))rx");
+  const std::regex given(R"rx(`(k[A-Z]\w+|[a-z]+_[a-z_]+)`\s=\s(\d+(?:\.\d+)?))rx");
   for (const fs::path& document : documents()) {
     const std::string text = text_of(document);
     for (const std::smatch& m : matches(text, given)) {
