@@ -129,6 +129,18 @@ void write_motor(YamlWriter& out, const RecordingFacts& f, Coordinates coordinat
   write_estimated(out, "motor_damping", one_body ? f.damping : kNaN, coordinates.unit("N m s/rad"));
 }
 
+/// Coulomb friction, where it was read: a diagnosis then begins with what is missing beside it.
+void write_friction(YamlWriter& out, double friction, Coordinates coordinates) {
+  const char* const others = "`gapscope effects` lists what else a drive may have";
+  if (!(friction > 0.0)) return out.entry("effects", "[]", others);
+  out.open("effects");
+  out.comment(others);
+  out.entry("- motor_coulomb_friction",
+            fmt::format("{{level_nm: {{value: {:.3g}, estimate: true}}}}", friction),
+            coordinates.torque_unit() + std::string("; read, as one body"));
+  out.close();
+}
+
 void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f, Coordinates coordinates) {
   const bool load = choice.structure != StarterModel::kOneBody, free = choice.structure == StarterModel::kGap;
   const std::string length = coordinates.position_unit();
@@ -151,7 +163,7 @@ void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f,
   if (load) write_estimated(out, "contact_stiffness", kNaN, coordinates.unit("N m/rad"));
   if (load) write_estimated(out, "contact_damping", kNaN, coordinates.unit("N m s/rad"));
   out.close();
-  out.entry("effects", "[]", "what is known to be there beside it; `gapscope effects` lists them");
+  write_friction(out, load ? kNaN : f.friction, coordinates);
   out.close();
 }
 
