@@ -193,6 +193,12 @@ TorqueSearch climb(const Study& study, const Findings& found) {
   return take_ladder(study, found.before, *found.budget);
 }
 
+/// Whether the torque balance says most of the input and knows nothing that helps, while what the observers
+/// favour stays off the floor: then they have only found numbers that hide what is missing.
+bool contradicted(const Findings& found, const Additions& added) {
+  return found.budget && found.budget->says_most && !at_floor(added.after) && !added.explained;
+}
+
 /// Where hardly anything but noise moves x1, nothing seems to be missing.
 void require_driven(const Study& study, const ScoredModel& model) {
   if (const std::string left = motion_left(study.held_out, model); !left.empty())
@@ -226,6 +232,7 @@ EffectSearch search_effects(Study& study) {
   if (TorqueSearch ladder = climb(study, found); !ladder.added.empty())
     return {std::move(found), {}, std::move(ladder)};
   Additions added = add_further(study, found);
+  added.accepted = added.accepted && !contradicted(found, added);
   if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
   if (added.accepted || study.is_exhausted() || !asked_far_too_little(study, found))
     return {std::move(found), std::move(added), {}};

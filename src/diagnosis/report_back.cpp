@@ -184,6 +184,7 @@ void tell_added(const Study& study, const ScoredModel& nominal, const Additions&
 
 /// The size of the mismatch in torque as the observer's residual shows it.
 void tell_torque(const Study& study, double torque_constant, Diagnosis& d) {
+  if (d.measures.empty()) return;  // the motion of a model diverges
   const MismatchMeasure& torque = d.measures.back();
   d.mismatch.before_torque = torque.before, d.mismatch.after_torque = torque.after;
   double square = 0.0, samples = 0.0;

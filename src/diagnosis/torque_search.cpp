@@ -14,11 +14,17 @@ constexpr double kNearFirst =
     0.3;  ///< share by which one may stay behind the first and be refitted; the same
 constexpr double kFreeAsGood = 0.7;  ///< of the share: a free law of another variable that takes as much
 
-/// One body, or a locked output without play: no contact opens and closes.
-bool has_one_balance(const ReferenceModel& model) {
+bool has_play(const ReferenceModel& model) {
   const ParameterSetting& gap = model.parameters[place::kGap];
-  const bool play = gap.estimate || !(gap.value == 0.0);
-  return !model.structure.has_load || (model.structure.load == LoadKind::kLocked && !play);
+  return gap.estimate || !(gap.value == 0.0);
+}
+
+/// One body, or a locked output: no contact opens and closes unseen. Where such an output has play, each
+/// recording would have its own place in it.
+bool has_one_balance(const Study& study, const ReferenceModel& model) {
+  if (!model.structure.has_load) return true;
+  const bool rest_of_the_same = study.held_out.scored_from.front() > 0;
+  return model.structure.load == LoadKind::kLocked && (!has_play(model) || rest_of_the_same);
 }
 
 /// u in torque and the time since the recording began, as the simulator counts it, from a sample on.
@@ -43,9 +49,22 @@ void add_once(view::Model& model, const view::Law& law, double shape) {
     model.push_back({&law, shape, Eigen::VectorXd::Zero(law.columns)});
 }
 
+/// The contact of a locked output.
+view::Term contact_of(const ReferenceModel& model, const view::SplitRecordings& data) {
+  const view::Law& spring = view::law("spring_to_ground");
+  if (!has_play(model)) return {&spring, kNaN, Eigen::VectorXd::Zero(spring.columns)};
+  double low = kInfinity, high = -kInfinity;
+  for (const auto* traces : {&data.fit, &data.judge})
+    for (const view::StampedTrace& t : *traces)
+      for (const double x : t.x) low = std::min(low, x), high = std::max(high, x);
+  return view::contact_term(low, high);
+}
+
 /// What the model has beside inertia and viscous damping, at its shapes.
-view::Model known_terms(const ReferenceModel& model, const view::Scales& scales) {
+view::Model known_terms(const ReferenceModel& model, const view::SplitRecordings& data,
+                        const view::Scales& scales) {
   view::Model known;
+  if (model.structure.has_load) known.push_back(contact_of(model, data));
   for (const ModelEffect& e : model.effects) {
     const view::Law* law = law_of(*e.entry);
     if (law == nullptr) continue;
@@ -106,9 +125,15 @@ void establish_contained(std::vector<TorqueAddition>& added) {
         });
 }
 
+/// At one speed the torque hardly varies, and a line is one of position, of command and of sensor alike.
+bool is_same_line(const view::Candidate& choice, const view::Law& law, double travel) {
+  if (!choice.law->line || !law.line) return false;
+  return law.shapes == view::line_grid || std::abs(choice.model.back().shape - 1.0) * travel < 0.5 * kPi;
+}
+
 /// All that the choice of a rung cannot be told from: its group, and rivals that it does not lead clearly.
-std::vector<const EffectEntry*> group_of(const view::Rung& rung, const EffectEntry& chosen,
-                                         const view::TorqueViewOptions& options) {
+std::vector<const EffectEntry*> group_of(const view::Budget& budget, const view::Rung& rung,
+                                         const EffectEntry& chosen, const view::TorqueViewOptions& options) {
   std::vector<const EffectEntry*> group{&chosen};
   const double near = (1.0 - options.least_margin) * rung.choice().evidence.share;
   for (const view::Candidate& c : rung.ranking) {
@@ -117,6 +142,13 @@ std::vector<const EffectEntry*> group_of(const view::Rung& rung, const EffectEnt
     const bool nested =
         entry != nullptr && (contained_effect(*entry) == &chosen || contained_effect(chosen) == entry);
     if (entry != nullptr && alike && !nested && std::find(group.begin(), group.end(), entry) == group.end())
+      group.push_back(entry);
+  }
+  if (!budget.band.free_constant) return group;
+  for (const view::Law& l : view::laws()) {
+    const EffectEntry* entry = find_effect(l.effect);
+    if (entry != nullptr && is_same_line(rung.choice(), l, budget.travel) &&
+        std::find(group.begin(), group.end(), entry) == group.end())
       group.push_back(entry);
   }
   return group;
@@ -170,13 +202,16 @@ ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
 
 /// The numbers of the torque balance, or, where the simulator comes near the floor from there, those of its
 /// refit. Where torque is missing that nothing explains, the innovations of an observer favour a heavy drive,
-/// which hides it.
+/// which hides it; the contact of a locked output, which the balance has in no parameter of the model, is
+/// refitted if that leaves less.
 ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
   const FitOptions& options = study.options.fit;
   ScoredModel refitted = judge(nullptr, fit_near(study.train, balanced, options, study.observer_hz),
                                study.held_out, study.observer_hz);
   if (std::max(refitted.median_free, refitted.median_innovation) < options.rejected_ratio) return refitted;
-  return judge(nullptr, {balanced, {}, 0.0, {}}, study.held_out, study.observer_hz);
+  ScoredModel as_is = judge(nullptr, {balanced, {}, 0.0, {}}, study.held_out, study.observer_hz);
+  const bool less = balanced.structure.has_load && refitted.score < as_is.score;
+  return less || !std::isfinite(as_is.score) ? refitted : as_is;
 }
 
 /// Whether the simulator's refit has taken the effect away again.
@@ -197,7 +232,7 @@ void drop_what_vanished(TorqueSearch& search) {
 }  // namespace
 
 std::optional<view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal) {
-  if (!has_one_balance(nominal)) return {};
+  if (!has_one_balance(study, nominal)) return {};
   const double km = nominal.parameters[place::kTorqueConstant].value;
   view::SplitRecordings data;
   for (const MotorTrace& t : study.train) data.fit.push_back(in_torque(t, 0, km));
@@ -212,7 +247,7 @@ std::optional<view::Budget> torque_budget(const Study& study, const ReferenceMod
   for (const view::StampedTrace& t : data.fit)
     for (const double torque : t.u) square += torque * torque, samples += 1.0;
   scales.torque_rms = std::sqrt(square / samples);
-  data.known = known_terms(nominal, scales);
+  data.known = known_terms(nominal, data, scales);
   data.closed = study.options.excluded;
   for (const EffectEntry* entry : study.catalogue)
     if (is_candidate(*entry, nominal)) data.addable.emplace_back(entry->name);
@@ -249,13 +284,15 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
     const bool needed = share == budget.shares.end() || share->last.share >= options.least_share;
     search.added.push_back(
         {*at, rung.named && needed && shows_simpler(budget, rung, law) && !free_law_as_good(rung, entry),
-         group_of(rung, entry, options)});
+         group_of(budget, rung, entry, options)});
   }
   std::stable_sort(search.added.begin(), search.added.end(),
                    [](const TorqueAddition& a, const TorqueAddition& b) { return a.rung < b.rung; });
   establish_contained(search.added);
   if (search.added.empty()) return search;
   search.after = refitted_from(study, with_terms(nominal.fitted.model, budget));
+  if (!std::isfinite(search.after.score))
+    return {};  // its motion diverges: not a model that anyone could run
   drop_what_vanished(search);
   return search;
 }

@@ -34,6 +34,7 @@ class Adjustment {
       stop_point();
       Vector next = best;
       const Vector dq = normal_.ldlt().solve(-gradient_);
+      if (!dq.allFinite()) break;  // the derivatives leave a number open
       for (Eigen::Index k = 0; k < moving_; ++k) next[k] = std::clamp(next[k] + dq[k], low_[k], high_[k]);
       const double square = evaluate(next);
       if (!(square < kWorthwhile * least)) break;

@@ -109,6 +109,7 @@ Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& option
               data.new_phase,
               data.closed};
   bench.scales = scales_of(bench.fit, data.rotates, data.held_output);
+  budget.travel = bench.scales.travel;
   bench.blocks = Blocks(bench.judge, options);
   Model nominal = nominal_model();
   nominal.insert(nominal.end(), data.known.begin(), data.known.end());

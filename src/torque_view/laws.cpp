@@ -14,7 +14,8 @@ using Columns = Eigen::Ref<Eigen::MatrixXd>;
 constexpr double kFewestCycles = 2.0;  ///< of a line over the travel: fewer are a slope or an offset; here
 constexpr double kDamping = 0.1;       ///< of the linear resonance [-]; study 11
 constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< study 8
-constexpr int kHarmonics = 3;                                                      ///< study 8
+constexpr int kContactKnots = 16;  ///< of the torque over the travel of a locked output
+constexpr int kHarmonics = 3;      ///< study 8
 
 double direction(double w) { return w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0; }
 
@@ -41,10 +42,17 @@ std::vector<double> low_speeds(const Scales& s) {
   return geometric(0.02 * s.speed_std, 0.4 * s.speed_std, 8);
 }
 std::vector<double> lengths(const Scales& s) { return geometric(1e-3 * s.travel, 1e-2 * s.travel, 5); }
+/// Of a locked output the torque goes with the position: a law of one is a law of the other. At one speed the
+/// torque stays at one level, where no law of it shows.
+bool shows_levels(const Scales& s) { return !s.held_output && !s.one_speed; }
 std::vector<double> dead_zones(const Scales& s) {
+  if (!shows_levels(s)) return {};
   return geometric(0.01 * s.torque_rms, 0.3 * s.torque_rms, 5);
 }
-std::vector<double> powers(const Scales&) { return {2.0, 4.0, 8.0}; }
+std::vector<double> powers(const Scales& s) {
+  if (!shows_levels(s)) return {};
+  return {2.0, 4.0, 8.0};
+}
 std::vector<double> times(const Scales& s) {
   std::vector<double> at;
   for (int i = 1; i <= 5; ++i) at.push_back(s.start + s.duration * i / 6.0);
@@ -55,6 +63,7 @@ std::vector<double> resonances(const Scales& s) {
   return geometric(2.0, std::max(4.0, std::min(80.0, 2.0 * s.hz)), 12);
 }
 std::vector<double> found_line(const Scales& s) { return only_if(std::isfinite(s.line), s.line); }
+std::vector<double> only_known(const Scales&) { return {}; }
 std::vector<double> top_speed(const Scales& s) { return {s.top_speed}; }
 
 void inertia(const Samples& s, double, Columns g) {
@@ -159,6 +168,19 @@ void spring(const Samples& s, double, Columns g) {
   g.col(1).setOnes();
 }
 
+/// Of a locked output with play: any torque over the position, by hats at multiples of the spacing. They come
+/// again after as many as there are columns.
+void contact_curve(const Samples& s, double spacing, Columns g) {
+  g.setZero();
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    const double at = s.x[i] / spacing, below = std::floor(at), count = kContactKnots;
+    const double first = below - count * std::floor(below / count);
+    const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(first);
+    g(row, column) = 1.0 - (at - below);
+    g(row, (column + 1) % kContactKnots) = at - below;
+  }
+}
+
 void torque_rate(const Samples& s, double, Columns g) {
   each(s, g, 0, [&](auto i) {
     const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, s.t.size() - 1);
@@ -232,6 +254,8 @@ constexpr Law kLaws[] = {
      resonances, resonance, nullptr, -1},
     {"spring_to_ground", "shaft_compliance", nullptr, 2, Kind::kMotion, false, false, Sign::kPositive,
      only_held, spring, nullptr, -1},
+    {"contact_curve", "", nullptr, kContactKnots, Kind::kMotion, false, false, Sign::kAny, only_known,
+     contact_curve, nullptr, -1},
     {"input_delay", "input_delay", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive, no_shape,
      torque_rate, delay_values, -1},
     {"input_dead_zone", "input_dead_zone", nullptr, 1, Kind::kOnTorque, true, false, Sign::kPositive,

@@ -26,7 +26,8 @@ struct Scales {
   double hz = 1.0;      ///< top of the band
   bool rotates = true;  ///< positions are angles
   bool held_output = false;
-  double line = kNaN;  ///< cycles per 2π of the strongest line in the model; NaN: none
+  bool one_speed = false;  ///< a recording has one
+  double line = kNaN;      ///< cycles per 2π of the strongest line in the model; NaN: none
 };
 
 /// The shapes that a law is tried at, in rising order; one NaN where it has none.

@@ -47,6 +47,11 @@ Model nominal_model() {
   return {{&law("inertia"), kNaN, none}, {&law("viscous"), kNaN, none}};
 }
 
+Term contact_term(double low, double high) {
+  const Law& curve = law("contact_curve");
+  return {&curve, (high - low) / (curve.columns - 2), Eigen::VectorXd::Zero(curve.columns)};
+}
+
 const Term* find_term(const Model& model, std::string_view name) {
   const auto at =
       std::find_if(model.begin(), model.end(), [&](const Term& t) { return name == t.law->name; });
@@ -102,7 +107,7 @@ Rows stacked(std::span<const StampedTrace> traces, double hz, bool free_constant
 
 Scales scales_of(const Rows& rows, bool rotates, bool held_output) {
   Scales s;
-  s.rotates = rotates, s.held_output = held_output;
+  s.rotates = rotates, s.held_output = held_output, s.one_speed = rows.free_constant;
   s.hz = rows.records.front().hz;
   s.start = kInfinity;
   double low = kInfinity, high = -kInfinity, end = -kInfinity;

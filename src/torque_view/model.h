@@ -19,6 +19,8 @@ struct Term {
 using Model = std::vector<Term>;
 
 Model nominal_model();
+/// The contact of a locked output with play, of any form between these positions [rad].
+Term contact_term(double low, double high);
 const Term* find_term(const Model& model, std::string_view law);     ///< nullptr if there is none
 double first_coefficient(const Model& model, std::string_view law);  ///< its first; 0 if it has none
 

@@ -29,10 +29,12 @@ struct TorqueViewOptions {
   double block = 0.5;  ///< of held-out time [s]; study 5
   int draws = 400;     ///< of the bootstrap; study 10.4
   std::uint64_t seed = 1;
-  double least_share = 0.2;     ///< of what was left, to be accepted [-]; study 5
-  double least_low = 0.1;       ///< the same of its 95 % lower bound [-]; study 5
-  double least_better = 0.6;    ///< share of the blocks that improve [-]; study 1.4
-  double least_margin = 0.3;    ///< over rivals outside the group, of its own share [-]; study 5
+  double least_share = 0.2;   ///< of what was left, to be accepted [-]; study 5
+  double least_low = 0.1;     ///< the same of its 95 % lower bound [-]; study 5
+  double least_better = 0.6;  ///< share of the blocks that improve [-]; study 1.4
+  /// Over rivals outside the group, of its own share or, where that is less, of what the rival leaves [-];
+  /// study 5, here
+  double least_margin = 0.3;
   double least_leading = 0.95;  ///< share of the draws in which it leads them [-]; study 1.4
   double most_left = 0.5;       ///< of the input's rms by a model whose torque a law may read; here
   double most_absorbed =

@@ -168,7 +168,8 @@ void decide(Bench& bench, Rung& rung, const Model& model, const std::vector<std:
         std::find(group.begin(), group.end(), j) != group.end() || says_more(bench, c, rival, model, options))
       continue;
     rung.rival = rival.law->name;
-    rung.margin = (c.evidence.share - rival.evidence.share) / c.evidence.share;
+    rung.margin =
+        (c.evidence.share - rival.evidence.share) / std::min(c.evidence.share, 1.0 - rival.evidence.share);
     rung.leading = bench.blocks.leading(c.squares, rival.squares);
     break;
   }

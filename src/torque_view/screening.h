@@ -34,7 +34,7 @@ struct Rung {
   std::size_t chosen = 0;              ///< in the ranking
   std::vector<std::string> group;      ///< with it: what this recording cannot tell apart
   std::string rival;                   ///< the best one outside the group
-  double margin = 0.0, leading = 0.0;  ///< over it: of its own share; in how many draws
+  double margin = 0.0, leading = 0.0;  ///< over it: see least_margin; in how many draws
   bool named = false;                  ///< the whole rule holds
   bool helps = false;                  ///< it takes a share worth having, whatever its cause
 

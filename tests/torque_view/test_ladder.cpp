@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,6 +147,26 @@ TEST(LadderOnRealDrives, AServoLacksItsPendulumFirstByFar) {
         ++first;
     }
   EXPECT_GE(first, 6);  // up_and_down is so slow that its inertia is not seen
+}
+
+// Its author: gap and friction without preload, friction and compliance with it.
+TEST(LadderOnRealDrives, AGearboxWithALockedOutputLacksFrictionFirst) {
+  GAPSCOPE_NEEDS_DATA();
+  for (const char* preload : {"00_preload.csv", "10_preload.csv"}) {
+    StampedTrace whole = real("preload_ladder", preload);
+    const auto [low, high] = std::minmax_element(whole.x.begin(), whole.x.end());
+    SplitRecordings data{{test::between(whole, 0.0, 0.667)}, {test::between(whole, 0.667, 1.0)}};
+    data.held_output = true;
+    data.known = {contact_term(*low, *high)};
+    const Budget b = error_budget(data);
+    ASSERT_FALSE(b.rungs.empty()) << preload;
+    const Rung& rung = b.rungs.front();
+    EXPECT_THAT(rung.choice().law->name, ::testing::AnyOf(::testing::StrEq("motor_coulomb_friction"),
+                                                          ::testing::StrEq("presliding_friction")))
+        << preload;
+    EXPECT_GT(rung.choice().evidence.share, 0.75) << preload;
+    EXPECT_EQ(find_term(b.model, "input_dead_zone"), nullptr) << preload;
+  }
 }
 
 }  // namespace
