@@ -77,7 +77,7 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
     panel.y.remarks.push_back(size_text(r, left));
     panel.tiles.push_back(bar(row++, from, to, colour));
   };
-  add("inertia and viscous damping", 0.0, b.nominal, b.nominal, kInk);
+  add("the model as it is", 0.0, b.nominal, b.nominal, kInk);
   for (const BudgetRung& rung : b.rungs)
     add("− " + law_of(r, rung), rung.before, rung.after, rung.after, rung.added ? kBlue : kGrey);
   add("what remains", 0.0, b.remains, b.remains, kInk);
@@ -110,7 +110,7 @@ std::string budget_table(const DiagnosisResult& r) {
       "what the nominal model leaves; *last*: of what all the others leave, which is what no other can "
       "say.\n\n"
       "| added | left | of the input | share | 95 % | alone | last |\n|---|---|---|---|---|---|---|\n"
-      "| inertia and viscous damping | {} | {} % | | | | |\n",
+      "| the model as it is | {} | {} % | | | | |\n",
       torque_of(r), rounded(b.band_hz, 2), quantity(b.input, budget_unit(r)),
       quantity(b.nominal, budget_unit(r)), rounded(100.0 * b.nominal / b.input, 2));
   for (const BudgetRung& rung : b.rungs)
