@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/study.h"
+
 namespace gapscope::internal::diagnosis {
 namespace {
-
-constexpr reference::RefineEffort kRetry{8, 40, 1e-4};  ///< of the few that came nearest
-constexpr double kFurther = 0.995;                      ///< of the mean square: a retry that got further
 
 /// Whether the model's last effect is the simpler one that this one contains, and so takes the place of.
 bool replaces_last(const ReferenceModel& model, const EffectEntry& entry) {
@@ -23,32 +22,29 @@ ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry) {
   return model;
 }
 
-/// A fitted model once more with more work, from where it stands.
-FittedModel refined(std::span<const MotorTrace> train, const FittedModel& from, const FitOptions& options,
-                    double hz) {
-  const reference::ModelFit fit(train, from.model, options, hz);
-  return fitted_at(fit, fit.refine(fit.point_of(from.model, from.starts), kRetry));
+/// A fitted model once more, from where it stands.
+FittedModel refined(const Study& study, const FittedModel& from, double hz) {
+  const reference::ModelFit fit(study.train, from.model, study.options.fit, hz);
+  return fitted_at(fit, fit.refine(fit.point_of(from.model, from.starts), {}));
 }
 
 }  // namespace
 
-std::vector<reference::FitLinearisation> bases_of(std::span<const MotorTrace> train,
-                                                  const FittedModel& nominal, const ReferenceModel& sheet,
-                                                  const FitOptions& options, double hz) {
-  const reference::ModelFit fit(train, nominal.model, options, hz);
+std::vector<reference::FitLinearisation> bases_of(const Study& study, const FittedModel& nominal) {
+  const reference::ModelFit fit(study.train, nominal.model, study.options.fit, study.observer_hz);
   std::vector<reference::FitLinearisation> bases;
-  for (const ReferenceModel& values : {nominal.model, with_drive(nominal.model, sheet)})
+  for (const ReferenceModel& values : {nominal.model, with_drive(nominal.model, study.sheet)})
     if (std::optional<reference::FitLinearisation> base = fit.linearise(fit.point_of(values, nominal.starts)))
       bases.push_back(std::move(*base));
   return bases;
 }
 
-RacedCandidate::RacedCandidate(std::span<const MotorTrace> train, const FittedModel& nominal,
+RacedCandidate::RacedCandidate(const Study& study, const FittedModel& nominal,
                                std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
-                               std::span<const EffectStart> starts, const FittedModel* parent,
-                               const FitOptions& options, double hz)
-    : fit_(std::make_unique<reference::ModelFit>(train, with_effect(nominal.model, entry), options, hz)),
-      race_(*fit_, nominal, bases) {
+                               std::span<const EffectStart> starts, const FittedModel* parent)
+    : fit_(std::make_unique<reference::ModelFit>(study.train, with_effect(nominal.model, entry),
+                                                 study.options.fit, study.observer_hz)),
+      race_(*fit_, nominal, bases, study.effort) {
   const std::size_t shrinking = replaces_last(nominal.model, entry) ? 1 : 0;  // the base has the first one
   if (entry.start_search == StartSearch::kSine && !starts.empty()) race_.enter_sines(starts.front());
   for (const EffectStart& start : starts) {
@@ -58,33 +54,35 @@ RacedCandidate::RacedCandidate(std::span<const MotorTrace> train, const FittedMo
     else
       race_.weaken(start, shrinking);
   }
-  race_.finish();
 }
 
-FittedModel led_by_faster_observer(std::span<const MotorTrace> train, const FittedModel& candidate,
-                                   const FitOptions& options, double hz) {
-  const FittedModel led = refined(train, candidate, options, kFastHz);
-  return led.mean_cost < kInfinity ? refined(train, led, options, hz) : led;
+FittedModel led_by_faster_observer(const Study& study, const FittedModel& candidate) {
+  const FittedModel led = refined(study, candidate, kMeasure.fast_hz);
+  return led.mean_cost < kInfinity ? refined(study, led, study.observer_hz) : led;
 }
 
-FittedModel retry(std::span<const MotorTrace> train, const FittedModel& candidate,
-                  const ReferenceModel& other, const ReferenceModel& sheet, const FitOptions& options,
-                  double hz) {
+FittedModel on_drive_of(const Study& study, const FittedModel& candidate, const ReferenceModel& better) {
   const EffectEntry* mine = candidate.model.effects.back().entry;
-  const EffectEntry* others = other.effects.back().entry;
-  ReferenceModel moved = with_drive(candidate.model, other);
+  const EffectEntry* others = better.effects.back().entry;
+  ReferenceModel moved = with_drive(candidate.model, better);
   if (contained_effect(*others) == mine || contained_effect(*mine) == others)
-    moved.effects.back().parameters[0].value = other.effects.back().parameters[0].value;
+    moved.effects.back().parameters[0].value = better.effects.back().parameters[0].value;
   // By the numbers of the model without the effect the load may have seemed to start elsewhere.
-  const std::vector<reference::RecordingStart> settled = settled_starts(train, candidate.model, hz);
+  const auto settled = settled_starts(study.train, candidate.model, study.observer_hz);
+  return refined(study, {moved, settled, kInfinity, {}}, study.observer_hz);
+}
+
+FittedModel retry(const Study& study, const FittedModel& candidate, const ReferenceModel& better) {
+  const double hz = study.observer_hz;
+  const auto settled = settled_starts(study.train, candidate.model, hz);
   FittedModel best = candidate;
   const auto take = [&](FittedModel found) {
-    if (found.mean_cost < kFurther * best.mean_cost) best = std::move(found);
+    if (found.mean_cost < best.mean_cost) best = std::move(found);
   };
-  for (const ReferenceModel& values : {candidate.model, moved, with_drive(candidate.model, sheet)})
-    take(refined(train, {values, settled, kInfinity, {}}, options, hz));
-  if (!(best.mean_cost < kFloorSquare) && hz < kFastHz)
-    take(led_by_faster_observer(train, candidate, options, hz));
+  take(on_drive_of(study, candidate, better));
+  for (const ReferenceModel& values : {candidate.model, with_drive(candidate.model, study.sheet)})
+    take(refined(study, {values, settled, kInfinity, {}}, hz));
+  if (!(best.mean_cost < kExplained) && hz < kMeasure.fast_hz) take(led_by_faster_observer(study, candidate));
   return best;
 }
 

@@ -9,12 +9,12 @@
 
 namespace gapscope::internal::diagnosis {
 
+struct Study;
+
 /// Points of the fitted model's parameters with its residuals and their derivatives there: what every
 /// candidate's race borrows, since a small effect hardly changes how the drive's own numbers act. They lie at
 /// the fitted values and at those of the sheet; the latter is left out where the motion diverges.
-std::vector<reference::FitLinearisation> bases_of(std::span<const MotorTrace> train,
-                                                  const FittedModel& nominal, const ReferenceModel& sheet,
-                                                  const FitOptions& options, double observer_hz);
+std::vector<reference::FitLinearisation> bases_of(const Study& study, const FittedModel& nominal);
 
 /// One effect added to a fitted model: its starts have raced from every base (see Race).
 class RacedCandidate {
@@ -22,17 +22,16 @@ class RacedCandidate {
   /// @param starts of the effect, in units of its scales; without any, or without a base, nothing is fitted
   ///   and the mean square stays infinite
   /// @param parent a fitted model with the simpler effect that this one contains as its last; may be nullptr
-  RacedCandidate(std::span<const MotorTrace> train, const FittedModel& nominal,
+  RacedCandidate(const Study& study, const FittedModel& nominal,
                  std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
-                 std::span<const EffectStart> starts, const FittedModel* parent, const FitOptions& options,
-                 double observer_hz);
+                 std::span<const EffectStart> starts, const FittedModel* parent);
 
   /// Mean square of the best start after the race, without priors [floor²].
   double raced() const { return race_.least(); }
   /// The best start as it stands.
   FittedModel as_raced() const { return fitted_at(*fit_, race_.leader()); }
-  /// The best starts refined.
-  FittedModel refined() const { return fitted_at(*fit_, race_.best()); }
+  /// @param thorough see Race::refined()
+  FittedModel refined(bool thorough = true) const { return fitted_at(*fit_, race_.refined(thorough)); }
 
  private:
   std::unique_ptr<reference::ModelFit> fit_;
@@ -41,16 +40,15 @@ class RacedCandidate {
 
 /// A fitted candidate once more, from where a faster observer's fit leads: that forgets sooner what came
 /// before, and there are fewer minima to end in.
-FittedModel led_by_faster_observer(std::span<const MotorTrace> train, const FittedModel& candidate,
-                                   const FitOptions& options, double observer_hz);
+FittedModel led_by_faster_observer(const Study& study, const FittedModel& candidate);
 
-/// A fitted candidate once more with more work, from where it stands and with its effect on the numbers of
-/// another one's drive and of the sheet's, from which numbers that the recordings hardly determine have
-/// drifted; where one of the two effects contains the other's, also from its size. Where none of that comes
-/// to the floor, also led by a faster observer.
-FittedModel retry(std::span<const MotorTrace> train, const FittedModel& candidate,
-                  const ReferenceModel& other, const ReferenceModel& sheet, const FitOptions& options,
-                  double observer_hz);
+/// A fitted candidate once more with its effect on the numbers of the drive of a better one, where one of the
+/// two effects contains the other's also from its size.
+FittedModel on_drive_of(const Study& study, const FittedModel& candidate, const ReferenceModel& better);
+
+/// The same, from where it stands, and on the drive of the sheet, from which numbers that the recordings
+/// hardly determine have drifted. Where none of that comes to the floor, also led by a faster observer.
+FittedModel retry(const Study& study, const FittedModel& candidate, const ReferenceModel& better);
 
 /// Whether the effect can be added to this model at all: contact effects need a contact, backlash a drive
 /// without, and what the fit estimates anyway cannot be missing.

@@ -23,8 +23,6 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-constexpr double kFarBetter = 0.5;  ///< of the mean square: another minimum, not another model
-
 ScoredModel scored_nominal(const Study& study) {
   return judge(nullptr, fit_nominal(study.train, study.sheet, study.options.fit, study.observer_hz),
                study.held_out, study.observer_hz);
@@ -70,10 +68,10 @@ bool take_repeatability(Study& study, const ScoredModel& nominal) {
   HeldOut& held = study.held_out;
   const Repeatability seen = repeatability(study, nominal.fitted.model);
   const double floor = *std::max_element(held.floors.begin(), held.floors.end());
-  if (!(seen.innovation > kRule.bad_repetition * floor) || !seen.stationary) return false;
-  study.observer_hz = kFastHz;
+  if (!(seen.innovation > kRule.far * floor) || !seen.stationary) return false;
+  study.observer_hz = kMeasure.fast_hz;
   const Repeatability fast =
-      repeatability(study, fit_nominal(study.train, study.sheet, study.options.fit, kFastHz).model);
+      repeatability(study, fit_nominal(study.train, study.sheet, study.options.fit, kMeasure.fast_hz).model);
   held.innovation_repeats = fast.innovation, held.free_repeats = fast.free;
   held.repeats_in = fast.read_from;
   return true;
@@ -86,7 +84,7 @@ std::optional<ScoredModel> nominal_near(const Study& study, const Findings& foun
   ReferenceModel model = found.before.fitted.model;
   model.parameters = found.candidates.front().fitted.model.parameters;
   FittedModel fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
-  if (!(fitted.mean_cost < kFarBetter * found.before.fitted.mean_cost)) return {};
+  if (!(fitted.mean_cost < study.effort.far_better * found.before.fitted.mean_cost)) return {};
   return judge(nullptr, std::move(fitted), study.held_out, study.observer_hz);
 }
 
@@ -115,7 +113,7 @@ Findings first_look(Study& study) {
     ScoredModel repeated = scored_nominal(study);
     if (at_floor(repeated)) {  // what does not repeat is all there is, and that is no model's
       study.held_out = by_encoder;
-      study.observer_hz = kSlowHz;
+      study.observer_hz = kMeasure.slow_hz;
     } else {
       found.before = std::move(repeated);
     }
@@ -177,7 +175,7 @@ std::optional<Findings> look_wider(Study& study, const Findings& found) {
   fit_half_of_the_held_out(study);
   Findings wider = first_look(study);
   if (wider.candidates.empty() || study.repeats_badly()) {
-    study.train = train, study.held_out = held_out, study.observer_hz = kSlowHz;
+    study.train = train, study.held_out = held_out, study.observer_hz = kMeasure.slow_hz;
     return {};
   }
   wider.alone = std::max(found.before.median_free, found.before.median_innovation);
@@ -279,7 +277,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
     diagnosis.warnings.push_back(
         fmt::format("the search has taken the work of {:.0f} fits of the nominal model, after which it "
                     "begins no further step.",
-                    Study::kMostNominalFits));
+                    study.effort.most_nominal_fits));
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "

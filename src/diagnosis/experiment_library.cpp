@@ -8,12 +8,6 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-constexpr double kSmall = 0.4;    ///< of the largest input
-constexpr double kOneWay = 0.6;   ///< share of the input that is a constant push
-constexpr double kDwell = 0.4;    ///< of the period
-constexpr int kLevels = 9;        ///< of the steps
-constexpr double kPerHold = 4.0;  ///< levels that the steps hold in a period of the middle frequency
-
 Excitation periodic(ExcitationKind kind, double amplitude, double frequency) {
   Excitation e;
   e.kind = kind;
@@ -36,23 +30,22 @@ Excitation band(ExcitationKind kind, double amplitude, const ExperimentLimits& l
 
 std::vector<Excitation> experiment_library(const ExperimentLimits& limits, double peak) {
   const double low = limits.lowest_frequency, high = limits.highest_frequency, middle = std::sqrt(low * high);
-  Excitation one_way = periodic(ExcitationKind::kSine, (1.0 - kOneWay) * peak, middle);
-  one_way.offset = kOneWay * peak;
+  Excitation one_way = periodic(ExcitationKind::kSine, 0.5 * peak, middle);
+  one_way.offset = 0.5 * peak;
   Excitation resting = periodic(ExcitationKind::kTrapezoid, peak, low);
-  resting.dwell = kDwell;
+  resting.dwell = 0.5;
   Excitation steps;
   steps.kind = ExcitationKind::kSteps;
   steps.amplitude = peak;
-  steps.levels = kLevels;
-  steps.hold = 1.0 / (kPerHold * middle);
+  steps.hold = 0.5 / middle;
   return {periodic(ExcitationKind::kSine, peak, low),
           periodic(ExcitationKind::kSine, peak, middle),
           periodic(ExcitationKind::kSine, peak, high),
-          periodic(ExcitationKind::kSine, kSmall * peak, low),
-          periodic(ExcitationKind::kSine, kSmall * peak, middle),
+          periodic(ExcitationKind::kSine, 0.5 * peak, low),
+          periodic(ExcitationKind::kSine, 0.5 * peak, middle),
           periodic(ExcitationKind::kTriangle, peak, low),
           band(ExcitationKind::kSweptSine, peak, limits),
-          band(ExcitationKind::kSweptSine, kSmall * peak, limits),
+          band(ExcitationKind::kSweptSine, 0.5 * peak, limits),
           band(ExcitationKind::kMultisine, peak, limits),
           resting,
           steps,

@@ -6,8 +6,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr reference::RefineEffort kNominal{8, 40, 1e-5};
-
 /// Keys of the last effect's parameters that have ended at a bound.
 std::vector<std::string> at_bounds(const reference::ModelFit& fit, const reference::FitPoint& at) {
   std::vector<std::string> keys;
@@ -31,10 +29,10 @@ FittedModel fit_nominal(std::span<const MotorTrace> train, const ReferenceModel&
                         const FitOptions& options, double hz) {
   const reference::ModelFit fit(train, model, options, hz);
   reference::RefinedFit best;
-  if (fit.values_are_given()) best = fit.refine_with_loads_placed(fit.given_point(), kNominal);
-  if (best.mean_cost <= kFloorSquare) return fitted_at(fit, best);
+  if (fit.values_are_given()) best = fit.refine_with_loads_placed(fit.given_point(), {});
+  if (best.mean_cost <= kExplained) return fitted_at(fit, best);
   if (const std::optional<reference::FitPoint> found = fit.search())
-    if (const reference::RefinedFit other = fit.refine_with_loads_placed(*found, kNominal);
+    if (const reference::RefinedFit other = fit.refine_with_loads_placed(*found, {});
         other.mean_cost < best.mean_cost)
       best = other;
   return fitted_at(fit, best);

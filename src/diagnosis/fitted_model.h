@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/held_out.h"
+#include "diagnosis/rule.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -19,8 +20,8 @@ struct FittedModel {
 /// The model where a refinement has led; infinite if that failed.
 FittedModel fitted_at(const reference::ModelFit& fit, const reference::RefinedFit& best);
 
-/// Mean square [floor²] at which no other start can be better.
-inline constexpr double kFloorSquare = 1.25;
+/// Mean square of a fit at the floor [floor²]: no other start can be better.
+inline constexpr double kExplained = kRule.floor_ratio * kRule.floor_ratio;
 
 /// The nominal model, from the given values and, where needed, others.
 FittedModel fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model,
@@ -29,7 +30,7 @@ FittedModel fit_nominal(std::span<const MotorTrace> train, const ReferenceModel&
 /// The nominal model from the values of a fit to other recordings, and nowhere else.
 FittedModel fit_near(std::span<const MotorTrace> recordings, const ReferenceModel& from,
                      const FitOptions& options, double observer_hz,
-                     const reference::RefineEffort& effort = {8, 40, 1e-5});
+                     const reference::RefineEffort& effort = {});
 
 /// A model with the values of another drive: its own effects stay.
 ReferenceModel with_drive(ReferenceModel model, const ReferenceModel& drive);

@@ -10,10 +10,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr std::size_t kMostEffects = 4;
-constexpr std::size_t kBranches = 2;        ///< first steps that are followed where the best is unsure
-constexpr std::size_t kFittedBranches = 2;  ///< added to these: those that explain most of what was fitted
-
 /// The model so far as the one to add to. An effect that others contain comes last: they take its place.
 ScoredModel base_of(const ScoredModel& model) {
   ScoredModel base = model;
@@ -127,7 +123,7 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
   a.effects = {{first.entry, std::move(group)}};
   std::optional<ScoredModel> narrow;  // the model so far, before half of what is held out was fitted
   std::size_t steps_before = 0;
-  while (a.steps.size() + 1 < kMostEffects && !at_floor(a.after) && !study.is_exhausted()) {
+  while (a.steps.size() + 1 < study.effort.most_effects && !at_floor(a.after) && !study.is_exhausted()) {
     a.explained = explained_without(study, a.after);
     if (a.explained) break;
     study.options.progress("looking for a further effect");
@@ -165,23 +161,22 @@ bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
                      [&](const ModelEffect& e) { return e.entry == entry; });
 }
 
-bool borne_out(const ScoredModel& nominal, const Additions& a) {
+bool borne_out(const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
-  if (a.explained || at_floor(a.after)) return true;
-  return a.steps.front().decision.margin >= kRule.clear && relative_gain(nominal, a.after) >= kRule.least_way;
+  return a.explained || at_floor(a.after);
 }
 
-std::vector<const ScoredModel*> branches(const Findings& found) {
+std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most) {
   std::vector<const ScoredModel*> chosen;
   for (const ScoredModel& c : found.candidates)
-    if (chosen.size() < kBranches && worth_following(found.before, c)) chosen.push_back(&c);
+    if (chosen.size() < most && worth_following(found.before, c)) chosen.push_back(&c);
   std::vector<const ScoredModel*> fitted;
   for (const ScoredModel& c : found.candidates)
     if (c.fitted.mean_cost < kRule.asked_for * found.before.fitted.mean_cost) fitted.push_back(&c);
   std::stable_sort(fitted.begin(), fitted.end(), [](const ScoredModel* a, const ScoredModel* b) {
     return a->fitted.mean_cost < b->fitted.mean_cost;
   });
-  for (std::size_t i = 0; i < std::min(fitted.size(), kFittedBranches); ++i)
+  for (std::size_t i = 0; i < std::min(fitted.size(), most); ++i)
     if (std::find(chosen.begin(), chosen.end(), fitted[i]) == chosen.end()) chosen.push_back(fitted[i]);
   return chosen;
 }
@@ -196,10 +191,10 @@ Additions add_further(const Study& study, const Findings& found) {
     return a;
   }
   Additions best;
-  for (const ScoredModel* first : branches(found)) {
+  for (const ScoredModel* first : branches(found, study.effort.branches)) {
     const bool is_best = first == &ranked.front();
     Additions a = follow(study, found, *first, is_best ? sure.group : std::vector{first->entry});
-    a.accepted = borne_out(nominal_of(found, a), a) || (is_best && sure.in_part && a.effects.size() > 1);
+    a.accepted = borne_out(a) || (is_best && sure.in_part && a.effects.size() > 1);
     const bool better = a.accepted && (!best.accepted || a.after.score < best.after.score);
     if (better || (is_best && !best.accepted)) best = std::move(a);
     if (study.is_exhausted()) break;

@@ -65,11 +65,11 @@ EffectSearch search_effects(Study& study);
 /// First steps to follow where the best is unsure in itself: those that gain on what is held out, then those
 /// that explain most of what was fitted. Where half of the cause is still missing, the numbers of the other
 /// half are often so wrong that no held-out recording shows its worth.
-std::vector<const ScoredModel*> branches(const Findings& found);
+std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most = SearchEffort{}.branches);
 
-/// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
-/// themselves and come far towards it. A first step that is there alone has been decided upon.
-bool borne_out(const ScoredModel& nominal, const Additions& additions);
+/// Whether further steps have shown that an unsure first one was right: they end at the floor. A first step
+/// that is there alone has been decided upon.
+bool borne_out(const Additions& additions);
 
 /// Whether the effect is in the model.
 bool has_effect(const ReferenceModel& model, const EffectEntry* entry);

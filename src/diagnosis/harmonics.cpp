@@ -6,10 +6,7 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr std::size_t kBins = 2048;
-constexpr double kFirstCycles = 0.75, kLastCycles = 400.0;  ///< over the travel
-constexpr double kStep = 0.2;                               ///< of cycles over the travel
-constexpr double kApart = 0.7;                              ///< cycles between two lines
+constexpr std::size_t kBins = kLineSearch.bins;
 
 /// Sums over bins of the motor angle; a line is regressed on these.
 struct AngleSums {
@@ -79,8 +76,8 @@ std::vector<Harmonic> angle_spectrum(std::span<const std::vector<double>> torque
   const AngleSums sums = angle_sums(torque, traces, torque_constant);
   std::vector<Harmonic> lines;
   const double per_cycle = 2.0 * kPi / sums.travel();
-  for (double cycles = kFirstCycles; cycles < kLastCycles; cycles += kStep)
-    lines.push_back(regress(sums, cycles * per_cycle));
+  for (std::size_t i = 0; i < kBins; ++i)
+    lines.push_back(regress(sums, (1.0 + kLineSearch.step * static_cast<double>(i)) * per_cycle));
   return lines;
 }
 
@@ -104,7 +101,7 @@ std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,
   std::vector<Harmonic> best;
   for (const Harmonic& line : lines) {
     const bool beside = std::any_of(best.begin(), best.end(), [&](const Harmonic& b) {
-      return std::abs(b.periods - line.periods) < kApart * per_cycle;
+      return std::abs(b.periods - line.periods) < per_cycle;
     });
     if (!beside) best.push_back(line);
     if (best.size() == count) break;

@@ -29,8 +29,8 @@ struct LineSums {
   Harmonic line(double periods) const;
 };
 
-/// The residual torque over the motor angle, line by line: regression on a grid of N from three quarters of a
-/// cycle to hundreds over the travel, in rising order.
+/// The residual torque over the motor angle, line by line: regression on a grid of N from one cycle over the
+/// travel to hundreds, in rising order.
 /// @param torque one series per recording [N m]
 /// @param torque_constant multiplies u where the line follows the drive's torque; 0: it does not
 std::vector<Harmonic> angle_spectrum(std::span<const std::vector<double>> torque,

@@ -10,10 +10,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kWorthNaming = 0.25;  ///< strength of a pattern
-constexpr double kOneSided = 0.65;     ///< share of one direction
-constexpr double kDense = 1.5;         ///< times what an error without a place would have there
-
 const MapShare& largest(const std::vector<MapShare>& map) {
   return *std::max_element(map.begin(), map.end(),
                            [](const MapShare& a, const MapShare& b) { return a.share < b.share; });
@@ -30,10 +26,8 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
-  if (most.share > kOneSided)
-    return fmt::format("following the direction of motion, mostly in {} motion ({:.0f} %)", most.bin,
-                       100.0 * most.share);
-  return "following the direction of motion, alike forward and backward";
+  return fmt::format("following the direction of motion, {:.0f} % of it in {} motion", 100.0 * most.share,
+                     most.bin);
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
@@ -73,7 +67,7 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coord
 std::optional<ContactPhase> densest_phase(const std::vector<MapShare>& mode) {
   const MapShare* chosen = &largest(mode);
   for (const MapShare& m : mode)
-    if (m.expected > 0.0 && m.share > 0.2 && m.share / m.expected > kDense &&
+    if (m.expected > 0.0 && m.share > kTelling.strength && m.share / m.expected > kTelling.dense &&
         m.share / m.expected > chosen->share / std::max(chosen->expected, 1e-9))
       chosen = &m;
   if (chosen->expected >= 1.0) return {};
@@ -94,7 +88,7 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
   const auto strongest = std::max_element(
       patterns.begin(), patterns.end(),
       [](const PatternStrength& a, const PatternStrength& b) { return a.strength < b.strength; });
-  if (strongest != patterns.end() && strongest->strength > kWorthNaming &&
+  if (strongest != patterns.end() && strongest->strength > kTelling.strength &&
       std::find(followed.begin(), followed.end(), strongest->pattern) == followed.end())
     followed.push_back(strongest->pattern);
   return followed;

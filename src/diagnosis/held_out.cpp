@@ -8,10 +8,7 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kRestart = 0.5;       ///< [s]
-constexpr double kFewestRestarts = 8;  ///< short recordings are divided into so many
-constexpr reference::RefineEffort kStateEffort{3, 8, 1e-3};
-constexpr double kMostSquare = 1e12;  ///< of a window, in floors squared: as wrong as can be
+constexpr double kAsWrongAsCanBe = 1e12;  // a mean square of a window, in floors²
 
 /// What an error is beyond the half count that a coarser encoder explains.
 double beyond_count(double error, double quantum) {
@@ -47,7 +44,7 @@ bool play_scored(const PlantModel<double>& model, const DriveState<double>& star
 bool play_slow(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
   const double quantum = model_quantum(model);
-  return reference::roll_out(model, start, trace, reference::ObserverGains(kSlowHz, trace),
+  return reference::roll_out(model, start, trace, reference::ObserverGains(kMeasure.slow_hz, trace),
                              [&](std::size_t i, const DriveStepper<double>& observer) {
                                out.slow.push_back(beyond_count(trace.x1[i] - observer.measured(), quantum));
                              });
@@ -74,7 +71,7 @@ class ResidualTorque {
 
 bool play_fast(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                Playback& out) {
-  const reference::ObserverGains gains(kFastHz, trace);
+  const reference::ObserverGains gains(kMeasure.fast_hz, trace);
   const double quantum = model_quantum(model);
   const ResidualTorque torque(model, gains);
   return reference::roll_out(
@@ -89,7 +86,7 @@ bool play_fast(const PlantModel<double>& model, const DriveState<double>& start,
 
 bool play_ripple(const PlantModel<double>& model, const DriveState<double>& start, const MotorTrace& trace,
                  Playback& out) {
-  const reference::ObserverGains gains(ripple_hz(trace.dt), trace);
+  const reference::ObserverGains gains(kMeasure.ripple_hz, trace);
   const ResidualTorque torque(model, gains);
   return reference::roll_out(model, start, trace, gains,
                              [&](std::size_t i, const DriveStepper<double>& observer) {
@@ -112,7 +109,7 @@ void append_windows(const std::vector<double>& errors, std::size_t from, std::si
     double sum = 0.0;
     for (std::size_t k = i; k < i + length; ++k) sum += errors[k] * errors[k];
     const double square = sum / static_cast<double>(length) / (floor * floor);
-    squares.push_back(std::isfinite(square) ? std::min(square, kMostSquare) : kMostSquare);
+    squares.push_back(std::isfinite(square) ? std::min(square, kAsWrongAsCanBe) : kAsWrongAsCanBe);
   }
 }
 
@@ -126,7 +123,7 @@ std::size_t first_window(const HeldOut& held_out, std::size_t r) {
 
 std::size_t HeldOut::restart(std::size_t r) const {
   const double scored = traces[r].dt * static_cast<double>(traces[r].size() - scored_from[r]);
-  double length = std::min(kRestart, scored / kFewestRestarts);
+  double length = std::min(kMeasure.restart, scored / kMeasure.fewest_restarts);
   // A whole number of restarts in a period: periods can then be compared.
   if (const double period = traces[r].dt * static_cast<double>(periods[r]); period > length)
     length = period / std::round(period / length);
@@ -138,7 +135,7 @@ std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace
   const reference::ModelFit fit(recordings, all_fixed(model), {}, observer_hz);
   const reference::FitPoint given = fit.given_point();
   const reference::FitPoint placed = fit.with_loads_placed(given).value_or(given);
-  const reference::RefinedFit better = fit.refine(placed, kStateEffort);
+  const reference::RefinedFit better = fit.refine(placed, SearchEffort{}.quick);
   return better.usable() ? better.starts : placed.starts;
 }
 
@@ -194,7 +191,7 @@ std::vector<double> still_windows(const HeldOut& held_out) {
 
 double mean_log(const std::vector<double>& squares) {
   double sum = 0.0;
-  for (const double w : squares) sum += std::log(w + kScoreOffset);
+  for (const double w : squares) sum += std::log(w + kMeasure.score_offset);
   return sum / static_cast<double>(std::max<std::size_t>(1, squares.size()));
 }
 

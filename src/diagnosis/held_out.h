@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "diagnosis/numbers.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "reference/model_fit.h"
 
 namespace gapscope::internal::diagnosis {
-
-/// Poles of the two observers [Hz]: slow drifts show at the lower gain, ripple at the higher one.
-constexpr double kSlowHz = 3.0, kFastHz = 30.0;
-
-/// Poles of an observer that follows a torque over the motor angle at most speeds [Hz].
-constexpr double kRippleHz = 150.0;
-inline double ripple_hz(double dt) { return std::min(kRippleHz, 0.15 / dt); }
 
 /// What is held out: whole recordings, or the last part of each (the model is run from its beginning then).
 struct HeldOut {
@@ -35,10 +29,10 @@ struct HeldOut {
 struct Playback {
   std::vector<double> innovation;  ///< at the gain that the model was fitted with [rad]
   std::vector<double> free;        ///< error of free runs restarted from that observer's state [rad]
-  std::vector<double> slow, fast;  ///< innovations at kSlowHz and kFastHz [rad]
+  std::vector<double> slow, fast;  ///< innovations at the slow and the fast observer [rad]
   std::vector<double> torque;      ///< residual torque from the fast ones [N m]
-  std::vector<double> ripple;      ///< the same from an observer at ripple_hz()
-  std::vector<double> w1;          ///< of the observer at kFastHz [rad/s]
+  std::vector<double> ripple;      ///< the same from the ripple observer
+  std::vector<double> w1;          ///< of the fast observer [rad/s]
   std::vector<Mode> mode;
 };
 
@@ -68,13 +62,11 @@ Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_o
 /// The windows of the free runs for a drive that stands still: x1 about its mean [free_floor²].
 std::vector<double> still_windows(const HeldOut& held_out);
 
-/// Mean of log(W + 0.3).
+/// Mean of log(W + the offset of the score).
 double mean_log(const std::vector<double>& mean_squares);
 
-/// ½ mean log(W_inn + 0.3) + ½ mean log(W_free + 0.3); infinite where the motion diverged.
+/// ½ of it over the innovations + ½ over the free runs; infinite where the motion diverged.
 double log_score(const Windows& windows);
-constexpr double kScoreOffset = 0.3;
-constexpr double kScorePerParameter = 0.04;
 
 /// √ of the median of mean squares.
 double median_size(const std::vector<double>& mean_squares);

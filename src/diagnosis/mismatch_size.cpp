@@ -10,10 +10,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kTemperature = 0.3;  ///< of the softmax over S
-constexpr double kSmaller = 3.0, kMore = 3.0, kLess = 4.0, kSpread = 0.5, kBelow = 1.5;  ///< see below
-constexpr double kMayBeNone = 6.0;  ///< floors within which what is left may be none on another recording
-
 /// √ of the variance that white noise of variance 1 leaves in the innovations of an observer on a free mass:
 /// (1 − z⁻¹)²/(1 − p z⁻¹)².
 double noise_gain(double hz, double dt) {
@@ -28,17 +24,15 @@ double noise_gain(double hz, double dt) {
   return std::sqrt(sum);
 }
 
-/// Where the shrink of the next recording of the same drive lies, by sizes in floors. Another excitation
-/// makes the mismatch up to kSmaller times smaller, the share that remains up to kMore times larger, and what
-/// is left near the floor differs by kSpread floors: measured on drives of the independent plant.
-Interval shrink_interval(double before, double after, double shrink) {
+/// Where the shrink of the next recording of the same drive lies, by its size in floors. Another excitation
+/// shows more or less of what is missing and of what remains, and near the floor recordings differ anyway.
+Interval shrink_interval(double before, double shrink) {
   if (!std::isfinite(shrink)) return {};
-  const double room = std::max(before / kSmaller, std::min(before, 2.0)) - 1.0;
-  const double remaining = std::max(0.0, 1.0 - shrink);
-  const double low = 1.0 - std::max(kMore * remaining, kSpread / room);
-  const double high = after > kMayBeNone ? 1.0 - remaining / kLess : 1.0 + kSpread / room;
-  const double below_floor = 1.0 + kBelow * std::max(0.0, shrink - 1.0);
-  return {std::min(low, shrink), std::max({high, shrink, below_floor})};
+  const double room = std::max(before / kTelling.other_recording, std::min(before, 2.0)) - 1.0;
+  const double remaining = std::max(0.0, 1.0 - shrink), spread = kTelling.floor_spread / room;
+  const double low = 1.0 - kTelling.other_recording * remaining - spread;
+  const double high = 1.0 - remaining / kTelling.other_recording + spread;
+  return {std::min(low, shrink), std::max(high, shrink)};
 }
 
 /// What a floor was read from.
@@ -92,7 +86,7 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
                               : FloorSource::kEncoder;
   size.floor_of = floor_words(held, size.floor_from);
   size.shrink = shrink_of(b, a);
-  if (&after != &before) size.shrink_ci95 = shrink_interval(b, a, size.shrink);
+  if (&after != &before) size.shrink_ci95 = shrink_interval(b, size.shrink);
   size.remains = a;
   return size;
 }
@@ -109,19 +103,19 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
     return MismatchMeasure{name, study.options.coordinates.position_unit(), unit * median_size(b.*squares),
                            unit * median_size(a.*squares), floor};
   };
-  const double slow_floor = study.repeats_badly() ? kNaN : encoder * noise_gain(kSlowHz, dt);
-  const double fast_floor = std::max(encoder * noise_gain(kFastHz, dt), held.innovation_repeats);
+  const double slow_floor = study.repeats_badly() ? kNaN : encoder * noise_gain(kMeasure.slow_hz, dt);
+  const double fast_floor = std::max(encoder * noise_gain(kMeasure.fast_hz, dt), held.innovation_repeats);
   return {row(fmt::format("free run restarted every {:.3g} s", dt * static_cast<double>(held.restart(0))),
               free, free, &Windows::free),
-          row(fmt::format("prediction at {:g} Hz", kSlowHz), encoder, slow_floor, &Windows::slow),
-          row(fmt::format("prediction at {:g} Hz", kFastHz), encoder, fast_floor, &Windows::fast),
+          row(fmt::format("prediction at {:g} Hz", kMeasure.slow_hz), encoder, slow_floor, &Windows::slow),
+          row(fmt::format("prediction at {:g} Hz", kMeasure.fast_hz), encoder, fast_floor, &Windows::fast),
           {std::string("residual ") + study.options.coordinates.torque_word(),
            study.options.coordinates.torque_unit(), median_size(b.torque), median_size(a.torque), kNaN}};
 }
 
 double weight_of(const ScoredModel& candidate, const ScoredModel& best) {
   return std::isfinite(candidate.score)
-             ? std::exp(-std::max(0.0, candidate.score - best.score) / kTemperature)
+             ? std::exp(-std::max(0.0, candidate.score - best.score) / kRule.tells_apart)
              : 0.0;
 }
 

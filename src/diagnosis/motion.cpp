@@ -12,16 +12,14 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kNoise = 8.0;      ///< way that is surely none of noise [standard deviations]
-constexpr double kCounts = 2.0;     ///< the same of counting [quanta]
-constexpr double kMoves = 4.0;      ///< mean square about the mean where x1 moves [floor²]
-constexpr double kMostLeft = 0.25;  ///< of the motion [-]: 0.02 on drives, 0.5 and more where u moves nothing
+/// Whether x1 moves in a window, by its mean square about its mean.
+bool moves(double square) { return square > kRule.near_floor; }
 
 }  // namespace
 
 void require_motion(const MotorTrace& t) {
   const auto [low, high] = std::minmax_element(t.x1.begin(), t.x1.end());
-  if (*high - *low > kNoise * signals::encoder_floor(t) + kCounts * t.quantum) return;
+  if (*high - *low > kRule.far * signals::encoder_floor(t)) return;
   throw ConfigError(
       t.file,
       fmt::format("x1 does not move ({:.3g} in all), expected the recording of a motion", *high - *low));
@@ -29,7 +27,7 @@ void require_motion(const MotorTrace& t) {
 
 void require_motion(const HeldOut& held_out) {
   const std::vector<double> still = still_windows(held_out);
-  if (std::any_of(still.begin(), still.end(), [](double square) { return square > kMoves; })) return;
+  if (std::any_of(still.begin(), still.end(), moves)) return;
   throw ConfigError(held_out.traces.front().file,
                     "x1 does not move where the model is judged, expected the recording of a motion");
 }
@@ -39,13 +37,13 @@ double unexplained_motion(const HeldOut& held_out, const ScoredModel& model) {
   const std::vector<double>& left = model.windows.free;
   std::vector<double> shares;
   for (std::size_t i = 0; i < std::min(still.size(), left.size()); ++i)
-    if (still[i] > kMoves) shares.push_back(std::sqrt(left[i] / still[i]));
+    if (moves(still[i])) shares.push_back(std::sqrt(left[i] / still[i]));
   return median(std::move(shares));
 }
 
 std::string motion_left(const HeldOut& held_out, const ScoredModel& model) {
   const double left = unexplained_motion(held_out, model);
-  if (!(left > kMostLeft)) return "";
+  if (!(left > kTelling.most_left)) return "";
   return fmt::format("the best model leaves {:.0f} % of the motion unexplained", 100.0 * left);
 }
 

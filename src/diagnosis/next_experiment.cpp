@@ -19,11 +19,10 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-constexpr reference::RefineEffort kScreening{4, 16, 1e-3};
-constexpr std::uint64_t kSeed = 1;     ///< of phases, levels and noise
-constexpr int kHalvings = 5;           ///< of an input that travels too far
-constexpr double kSeparated = 1.0;     ///< σ
-constexpr std::size_t kConfirmed = 3;  ///< inputs whose separation is checked from a second start
+constexpr std::uint64_t kSeed = 1;  // of phases, levels and noise
+const std::size_t kConfirmed =
+    SearchEffort{}.leaders;   // inputs whose separation is checked from a second start
+constexpr int kHalvings = 5;  // of an input that travels too far
 
 /// Whether the law of one effect contains that of the other.
 bool contains_law(const std::string& large, const std::string& small) {
@@ -36,7 +35,7 @@ struct Bench {
   std::span<const Rival> rivals;
   MotorTrace like;
   double noise = 0.0;  ///< of the encoder before it counts, rms [rad]
-  double hz = 3.0;
+  double hz = kMeasure.slow_hz;
   std::size_t samples = 0;
 
   /// What the encoder would record of a rival; empty where its motion diverges.
@@ -61,7 +60,7 @@ struct Bench {
     if (drive != nullptr)
       for (std::size_t i = 0; i < from.parameters.size(); ++i)
         from.parameters[i].value = drive->parameters[i].value;
-    return fit_near({&seen, 1}, from, {}, hz, kScreening).mean_cost;
+    return fit_near({&seen, 1}, from, {}, hz, SearchEffort{}.quick).mean_cost;
   }
 
   Separation separate(const Rival& truth, const Rival& rival, const Recording& recorded, bool confirm) const {
@@ -135,7 +134,7 @@ std::string sentence_of(const TriedInput& best, double duration) {
                               separate.empty() ? "" : ", ", s.excess, s.truth, s.rival);
   }
   text += ": it leaves " + separate + apart + ".";
-  if (!(best.worst >= kSeparated)) text += " No input within the limits separates them by one σ.";
+  if (!(best.worst >= kTelling.separated)) text += " No input within the limits separates them by one σ.";
   return readable(text);
 }
 
@@ -143,7 +142,7 @@ std::string sentence_of(const TriedInput& best, double duration) {
 }  // namespace internal::diagnosis
 
 bool NextExperiment::separates() const {
-  return proposes() && tried.front().worst >= internal::diagnosis::kSeparated;
+  return proposes() && tried.front().worst >= internal::diagnosis::kTelling.separated;
 }
 
 NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& like,

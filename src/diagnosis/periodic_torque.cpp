@@ -11,23 +11,11 @@ namespace {
 
 using Values = std::vector<double>;
 
-constexpr double kSpike = 3.0;          ///< robust standard deviations at which a torque is cut
-constexpr double kStandsOut = 20.0;     ///< times the median of the neighbours' shares
-constexpr double kWorthTelling = 0.01;  ///< share of the squared residual torque
-constexpr std::size_t kMostLines = 3;
-constexpr double kNeighbours = 1.5;    ///< ratio of periods within which lines are neighbours
-constexpr double kFewestCycles = 6.0;  ///< and at least so many cycles over the travel apart
-constexpr double kListedCycles = 1.0;  ///< over the travel: less is a slow change, no repetition
-constexpr double kOwn = 1.5;           ///< cycles over the travel that a line itself is wide
-constexpr double kFine = 0.02;         ///< step of the refined period, in cycles over the travel
-constexpr int kFineSteps = 20;
-constexpr double kSure = 2.33;  ///< normal quantile of 99 %
-
 /// What the observer makes of a torque: the double pole that its residual torque answers with, of uneven
 /// sampling at the mean step.
 class Passed {
  public:
-  explicit Passed(double dt) : p_(std::exp(-2.0 * kPi * ripple_hz(dt) * dt)) {}
+  explicit Passed(double dt) : p_(std::exp(-2.0 * kPi * kMeasure.ripple_hz * dt)) {}
   /// @param torque mean of the step that begins at this sample
   double operator()(double torque) {
     second_ = p_ * second_ + (1.0 - p_) * first_;
@@ -83,24 +71,28 @@ void take_out(const Harmonic& line, std::span<const MotorTrace> traces, std::vec
 Values standing_of(const std::vector<Harmonic>& spectrum, double per_cycle) {
   Values over;
   for (const Harmonic& line : spectrum) {
-    const double apart = std::max(line.periods * (kNeighbours - 1.0), kFewestCycles * per_cycle);
+    const double apart = kLineSearch.neighbours * per_cycle;
     Values around;
     for (const Harmonic& other : spectrum)
       if (const double distance = std::abs(other.periods - line.periods);
-          distance > kOwn * per_cycle && distance < apart)
+          distance > per_cycle && distance < apart)
         around.push_back(other.explained);
     over.push_back(around.empty() ? 0.0 : line.explained / std::max(median(std::move(around)), 1e-12));
   }
   return over;
 }
 
+/// The period at the top of the parabola through what a line explains and what those beside it do.
 Harmonic refined(std::span<const Values> torque, std::span<const MotorTrace> traces, double periods) {
-  Harmonic best{periods};
-  for (int i = -kFineSteps; i <= kFineSteps; ++i) {
-    const Harmonic line = fitted_line(torque, traces, periods + i * kFine * one_cycle(traces)).line;
-    if (line.explained > best.explained) best = line;
-  }
-  return best;
+  const double step = kLineSearch.step * one_cycle(traces);
+  Harmonic best = fitted_line(torque, traces, periods).line;
+  const double below = fitted_line(torque, traces, periods - step).line.explained;
+  const double above = fitted_line(torque, traces, periods + step).line.explained;
+  const double bend = below - 2.0 * best.explained + above;
+  if (!(bend < 0.0)) return best;
+  const double top = std::clamp(0.5 * (below - above) / bend, -1.0, 1.0);
+  const Harmonic line = fitted_line(torque, traces, periods + top * step).line;
+  return line.explained > best.explained ? line : best;
 }
 
 }  // namespace
@@ -108,7 +100,7 @@ Harmonic refined(std::span<const Values> torque, std::span<const MotorTrace> tra
 std::vector<Values> ripples_of(const std::vector<Playback>& playbacks) {
   std::vector<Values> torque;
   for (const Playback& p : playbacks) {
-    const double most = kSpike * robust_std(p.ripple);
+    const double most = kLineSearch.spike * robust_std(p.ripple);
     torque.push_back(p.ripple);
     for (double& t : torque.back()) t = std::clamp(t, -most, most);
   }
@@ -125,23 +117,20 @@ TorqueLine fitted_line(std::span<const Values> torque, std::span<const MotorTrac
 std::vector<TorqueLine> standing_lines(std::vector<Values> torque, std::span<const MotorTrace> traces) {
   std::vector<TorqueLine> lines;
   if (torque.size() != traces.size()) return lines;
-  while (lines.size() < kMostLines) {
+  while (lines.size() < SearchEffort{}.lines) {
     const std::vector<Harmonic> spectrum = angle_spectrum(torque, traces, 0.0);
     const Values over = standing_of(spectrum, one_cycle(traces));
     const auto best = std::max_element(over.begin(), over.end());
-    if (best == over.end() || !(*best > kStandsOut)) break;
+    if (best == over.end() || !(*best > kLineSearch.stands_out)) break;
     const Harmonic& found = spectrum[static_cast<std::size_t>(best - over.begin())];
     const Harmonic line = refined(torque, traces, found.periods);
-    if (!(line.explained > kWorthTelling)) break;
     lines.push_back({line, *best});
     take_out(line, traces, torque);
   }
   return lines;
 }
 
-bool LineCheck::holds() const {
-  return windows > 0 && better - 0.5 * windows > kSure * 0.5 * std::sqrt(static_cast<double>(windows));
-}
+bool LineCheck::holds() const { return windows > 0 && wilson(better, windows).low > 0.5; }
 
 LineCheck check_line(double periods, std::span<const Values> torque, const HeldOut& held_out) {
   LineCheck check;
@@ -176,7 +165,7 @@ std::vector<PeriodicTorque> periodic_torques(const Study& study, const Reference
   std::vector<PeriodicTorque> found;
   const auto tell = [&](const TorqueLine& line, bool given) {
     const LineCheck check = check_line(line.line.periods, held, study.held_out);
-    if (!given && (!check.holds() || line.line.periods < kListedCycles * one_cycle(study.train))) return;
+    if (!given && !check.holds()) return;
     found.push_back({line.line.periods, 2.0 * kPi / line.line.periods,
                      std::hypot(line.line.sine, line.line.cosine),
                      std::atan2(-line.line.cosine, -line.line.sine), line.over, check.windows, check.better,

@@ -17,7 +17,7 @@ std::vector<PeriodicTorque> periodic_torques(const Study& study, const Reference
 /// N of every period that was given.
 std::vector<double> given_periods(const DiagnosisKnowledge& known);
 
-/// Torque series of playbacks at ripple_hz(), spikes cut.
+/// Torque series of playbacks from the ripple observer, spikes cut.
 std::vector<std::vector<double>> ripples_of(const std::vector<Playback>& playbacks);
 
 /// A line of the residual torque that stands out.
@@ -42,7 +42,7 @@ TorqueLine fitted_line(std::span<const std::vector<double>> torque, std::span<co
 /// window: an encoder that counts from where it was switched on does not keep the phase.
 struct LineCheck {
   int windows = 0, better = 0;
-  bool holds() const;  ///< more windows improve than chance would let, at 1 %
+  bool holds() const;  ///< more windows improve than chance would let
 };
 LineCheck check_line(double periods, std::span<const std::vector<double>> torque, const HeldOut& held_out);
 

@@ -6,20 +6,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr int kRaceSteps = 2;                              ///< to tell which start is worth more
-constexpr reference::RefineEffort kLight{2, 8, 1e-3};      ///< to tell whether a candidate helps at all
-constexpr reference::RefineEffort kThorough{5, 25, 3e-4};  ///< of those that do
-constexpr double kPromising = 0.9;                         ///< of the mean square without the effect
-constexpr double kSmallSine = 0.1;                         ///< of the start: there it acts in proportion
-constexpr int kWeakenings = 2;
-constexpr double kWeaker = 0.15;  ///< of the start
-constexpr double kClose = 30.0;   ///< a start from elsewhere is followed while it is within this ratio
-
-/// The race's own residuals stand for the cost, without priors and widths.
-reference::RefinedFit unrefined(const reference::AdjustedFit& from, double simulations) {
-  return {from, from.residual_mean_square, false, simulations};
-}
-
 ReferenceModel with_values(ReferenceModel model, const std::vector<double>& effect) {
   for (std::size_t i = 0; i < effect.size(); ++i) model.effects.back().parameters[i].value = effect[i];
   return model;
@@ -28,8 +14,8 @@ ReferenceModel with_values(ReferenceModel model, const std::vector<double>& effe
 }  // namespace
 
 Race::Race(const reference::ModelFit& fit, const FittedModel& nominal,
-           std::span<const reference::FitLinearisation> bases)
-    : fit_(fit), nominal_(nominal), bases_(bases) {}
+           std::span<const reference::FitLinearisation> bases, const SearchEffort& effort)
+    : fit_(fit), nominal_(nominal), bases_(bases), effort_(effort) {}
 
 Interval Race::bounds(std::size_t i) const {
   return fit_.bounds({static_cast<int>(fit_.model().effects.size()) - 1, static_cast<int>(i)});
@@ -50,21 +36,25 @@ double Race::weaker(std::size_t i, double value) const {
   const EffectParameterSpec& spec = entry().parameters[i];
   const double high = bounds(i).high;
   const double absent = spec.absent * high / spec.high;
-  return std::isfinite(absent) ? absent + kWeaker * (value - absent) : std::min(value / kWeaker, high);
+  return std::isfinite(absent) ? absent + effort_.weaker * (value - absent)
+                               : std::min(value / effort_.weaker, high);
+}
+
+void Race::take(reference::AdjustedFit entrant) {
+  last_ = std::move(entrant);
+  if (last_.usable() && last_.residual_mean_square < best_.residual_mean_square) best_ = last_;
 }
 
 void Race::run_from(const std::vector<double>& effect, const reference::FitLinearisation& base) {
   const reference::FitPoint point = fit_.point_of(with_values(fit_.model(), effect), nominal_.starts);
-  field_.push_back({fit_.adjust(point.beginning_with(base.q()), base, kRaceSteps),
-                    static_cast<std::size_t>(&base - bases_.data())});
+  take(fit_.adjust(point.beginning_with(base.q()), base, effort_.race_steps));
 }
 
 /// The parent's fit carried over: its drive, and its first parameter for ours.
 void Race::run_on(const FittedModel& parent, std::vector<double> effect) {
   effect[0] = parent.model.effects.back().parameters[0].value;
   const ReferenceModel values = with_values(with_drive(fit_.model(), parent.model), effect);
-  field_.push_back(
-      {fit_.adjust(fit_.point_of(values, nominal_.starts), bases_.front(), kRaceSteps), bases_.size()});
+  take(fit_.adjust(fit_.point_of(values, nominal_.starts), bases_.front(), effort_.race_steps));
 }
 
 void Race::enter(const EffectStart& start) {
@@ -73,7 +63,7 @@ void Race::enter(const EffectStart& start) {
 }
 
 void Race::enter_sines(const EffectStart& typical) {
-  const double small = kSmallSine * physical(typical)[0];
+  const double small = effort_.weaker * physical(typical)[0];
   const reference::FitPoint point = fit_.point_of(fit_.model(), nominal_.starts);
   for (const reference::FitLinearisation& base : bases_)
     if (const auto sine = fit_.sine_start(point.beginning_with(base.q()), base, small))
@@ -89,55 +79,26 @@ void Race::enter_on(const FittedModel& parent, const EffectStart& start) {
 }
 
 void Race::weaken(const EffectStart& start, std::size_t i) {
-  if (bases_.empty()) return;
+  // The race's residuals alone against all that the fit without the effect minimised.
+  if (bases_.empty() || last_.residual_mean_square < nominal_.mean_cost) return;
   std::vector<double> effect = physical(start);
-  for (int k = 0; k < kWeakenings; ++k) {
-    // The race's residuals alone against all that the fit without the effect minimised.
-    if (field_.back().at.residual_mean_square < nominal_.mean_cost) return;
-    effect[i] = weaker(i, effect[i]);
-    run_from(effect, bases_.front());
-  }
+  effect[i] = weaker(i, effect[i]);
+  run_from(effect, bases_.front());
 }
 
-/// A refinement that goes on only while it promises to beat the model without the effect.
-reference::RefinedFit Race::follow(const reference::AdjustedFit& from) const {
-  reference::RefinedFit light = fit_.refine(from, kLight);
-  if (!light.usable()) return unrefined(from, light.simulations);
-  if (!(light.mean_cost < kPromising * nominal_.mean_cost)) return light;
-  reference::RefinedFit found = fit_.refine(light, kThorough);
-  found.simulations = light.simulations += found.simulations;
-  return found.mean_cost < light.mean_cost ? found : light;
-}
-
-void Race::finish() {
-  std::stable_sort(field_.begin(), field_.end(), [](const Entrant& a, const Entrant& b) {
-    return a.at.residual_mean_square < b.at.residual_mean_square;
-  });
-}
-
-double Race::least() const {
-  return field_.empty() || !field_.front().at.usable() ? kInfinity : field_.front().at.residual_mean_square;
-}
-
+/// The race's own residuals stand for the cost, without priors and widths.
 reference::RefinedFit Race::leader() const {
-  if (!std::isfinite(least())) return {};
-  return unrefined(field_.front().at, 0.0);
+  if (!best_.usable()) return {};
+  return {best_, best_.residual_mean_square, false, 0.0};
 }
 
-reference::RefinedFit Race::best() const {
-  if (field_.empty() || !field_.front().at.usable()) return {};
-  const Entrant& first = field_.front();
-  reference::RefinedFit best = follow(first.at);
-  for (const Entrant& other : field_) {
-    if (best.mean_cost < kFloorSquare) break;
-    if (other.origin == first.origin ||
-        other.at.residual_mean_square > kClose * first.at.residual_mean_square)
-      continue;
-    const reference::RefinedFit found = follow(other.at);
-    if (found.mean_cost < best.mean_cost) best = found;
-    break;
-  }
-  return best;
+reference::RefinedFit Race::refined(bool thorough) const {
+  if (!best_.usable()) return {};
+  const reference::RefinedFit quick = fit_.refine(best_, effort_.quick);
+  if (!quick.usable()) return leader();
+  if (!thorough || !(quick.mean_cost < (1.0 - kRule.part) * nominal_.mean_cost)) return quick;
+  const reference::RefinedFit found = fit_.refine(quick, {});
+  return found.mean_cost < quick.mean_cost ? found : quick;
 }
 
 }  // namespace gapscope::internal::diagnosis

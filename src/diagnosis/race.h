@@ -5,6 +5,7 @@
 
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/fitted_model.h"
+#include "diagnosis/numbers.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -15,7 +16,7 @@ class Race {
   /// @param fit of the fitted model with the effect as its last
   /// @param nominal the fitted model without it
   Race(const reference::ModelFit& fit, const FittedModel& nominal,
-       std::span<const reference::FitLinearisation> bases);
+       std::span<const reference::FitLinearisation> bases, const SearchEffort& effort);
 
   /// A start from every base.
   void enter(const EffectStart& start);
@@ -24,37 +25,33 @@ class Race {
   /// A start on the drive of a fitted model whose last effect this one contains, and a weaker one, which is
   /// nearly that model itself.
   void enter_on(const FittedModel& parent, const EffectStart& start);
-  /// Weaker and weaker starts from the first base while the last one entered leaves more than the model
-  /// without the effect: one far smaller than the start only hurts there.
+  /// A weaker start from the first base where the last one entered leaves more than the model without the
+  /// effect: one far smaller than the start only hurts there.
   /// @param i the parameter that is made weaker
   void weaken(const EffectStart& start, std::size_t i);
 
-  /// No more enters: the best come first.
-  void finish();
   /// What the best leaves after the race alone [floor²]; infinite without anything that has entered.
-  double least() const;
+  double least() const { return best_.residual_mean_square; }
+  /// The best as it stands; infinite without anything that has entered.
   reference::RefinedFit leader() const;
-  /// Follows the best, then the best from elsewhere. Infinite without anything that has entered.
-  reference::RefinedFit best() const;
+  /// The best refined, the more the more it promises. Infinite without anything that has entered.
+  /// @param thorough false: only as far as tells whether it is worth a whole refinement
+  reference::RefinedFit refined(bool thorough) const;
 
  private:
-  struct Entrant {
-    reference::AdjustedFit at;
-    std::size_t origin = 0;  ///< the base that it set out from; their number: none
-  };
-
   const EffectEntry& entry() const { return *fit_.model().effects.back().entry; }
   Interval bounds(std::size_t i) const;
   std::vector<double> physical(const EffectStart& start) const;
   double weaker(std::size_t i, double value) const;
+  void take(reference::AdjustedFit entrant);
   void run_from(const std::vector<double>& effect, const reference::FitLinearisation& base);
   void run_on(const FittedModel& parent, std::vector<double> effect);
-  reference::RefinedFit follow(const reference::AdjustedFit& from) const;
 
   const reference::ModelFit& fit_;
   const FittedModel& nominal_;
   std::span<const reference::FitLinearisation> bases_;
-  std::vector<Entrant> field_;
+  const SearchEffort& effort_;
+  reference::AdjustedFit best_, last_;
 };
 
 }  // namespace gapscope::internal::diagnosis

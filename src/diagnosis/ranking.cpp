@@ -11,9 +11,7 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr std::size_t kFewestWindows = 4;  ///< of which an interval can be told
-constexpr double kLeastDistance = 0.3;     ///< S to the floor of which a share can be told
-const double kFloorScore = std::log(1.0 + kScoreOffset);
+const double kFloorScore = std::log(1.0 + kMeasure.score_offset);
 
 bool names(std::span<const char* const> list, std::string_view name) {
   return std::any_of(list.begin(), list.end(), [&](const char* other) { return name == other; });
@@ -49,7 +47,7 @@ ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& h
     if (const auto playbacks = play(fitted.model, held_out, hz, false); !playbacks.empty()) {
       j.windows = windows_of(playbacks, held_out);
       const double parameters = entry != nullptr ? static_cast<double>(entry->parameters.size()) : 0.0;
-      j.score = log_score(j.windows) + kScorePerParameter * parameters;
+      j.score = log_score(j.windows) + kMeasure.score_per_parameter * parameters;
       j.median_free = median_size(j.windows.free);
       j.median_innovation = median_size(j.windows.innovation);
     }
@@ -63,24 +61,24 @@ bool at_floor(const ScoredModel& j) {
 }
 
 bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_cost) {
-  return model.median_free > kRule.far_more * std::sqrt(fitted_mean_cost);
+  return model.median_free > kRule.far * std::sqrt(fitted_mean_cost);
 }
 
 bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_badly) {
   const auto windows = repeats_badly ? &Windows::innovation : &Windows::free;
   const std::vector<double>&b = before.windows.*windows, &a = after.windows.*windows;
-  if (b.size() < kFewestWindows || a.size() != b.size()) return false;
-  if (!(after.fitted.mean_cost < (1.0 - kRule.least_help) * before.fitted.mean_cost)) return false;
+  if (b.empty() || a.size() != b.size()) return false;
+  if (!(after.fitted.mean_cost < (1.0 - kRule.part) * before.fitted.mean_cost)) return false;
   const auto squares = [](const std::vector<double>& w) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(w.data(), std::ssize(w)));
   };
   const torque_view::Evidence evidence = torque_view::Blocks(b.size(), {}).compare(squares(b), squares(a));
-  return evidence.share >= kRule.least_help && evidence.interval.low > 0.0 &&
+  return evidence.share >= kRule.part && evidence.interval.low > 0.0 &&
          share_of_windows_better(before, after) >= kRule.least_windows;
 }
 
 double relative_gain(const ScoredModel& before, const ScoredModel& after) {
-  return (before.score - after.score) / std::max(before.score - kFloorScore, kLeastDistance);
+  return (before.score - after.score) / std::max(before.score - kFloorScore, kRule.tells_apart);
 }
 
 double share_of_windows_better(const ScoredModel& before, const ScoredModel& after) {

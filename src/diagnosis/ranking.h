@@ -26,9 +26,6 @@ ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& h
 /// Whether the table of the catalogue names one as a look-alike of the other.
 bool look_alike(const EffectEntry& a, const EffectEntry& b);
 
-/// Mean square of a fit at the floor [floor²].
-inline constexpr double kExplained = kRule.floor_ratio * kRule.floor_ratio;
-
 /// Both medians within kRule.floor_ratio.
 bool at_floor(const ScoredModel& judged);
 
@@ -70,8 +67,8 @@ Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel&
                       std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
 
 /// Whether a candidate shrinks the held-out error beyond chance and by what is worth having, whatever its
-/// cause: by at least a tenth of the mean square, of which the 95 % interval over windows is above zero, in
-/// most of them, and by a tenth of what was fitted.
+/// cause: by at least a part of the mean square, of which the 95 % interval over windows is above zero, in
+/// most of them, and by the same part of what was fitted.
 bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_badly);
 
 double relative_gain(const ScoredModel& before, const ScoredModel& after);

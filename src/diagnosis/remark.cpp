@@ -8,13 +8,11 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kFlatters = 0.15;  ///< change of a log mean that counts
-constexpr double kNothing = 0.005;  ///< change of both log means that is none
-
 std::string words_on(double innovation, double free) {
-  if (innovation < -kFlatters && free > kFlatters) return "flatters the predictions, spoils the free runs";
-  if (free < -kFlatters && innovation > kFlatters) return "flatters the free runs, spoils the predictions";
-  if (std::abs(free) < kNothing && std::abs(innovation) < kNothing) return "as without it";
+  const double counts = kRule.indistinct;
+  if (innovation < -counts && free > counts) return "flatters the predictions, spoils the free runs";
+  if (free < -counts && innovation > counts) return "flatters the free runs, spoils the predictions";
+  if (std::abs(free) < counts && std::abs(innovation) < counts) return "as without it";
   return "";
 }
 

@@ -11,8 +11,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kDrift = 1.6;  ///< growth of the difference from one period to two that is a drift
-
 struct PooledSize {
   double sum = 0.0, count = 0.0;
   void add(double size, double samples) { sum += size * size * samples, count += samples; }
@@ -39,7 +37,7 @@ Repeatability repeatability_of(const std::vector<Playback>& playbacks, const Hel
     twice.add(signals::repetition_error(playbacks[r].innovation, from, 2 * period), samples);
   }
   Repeatability found{innovation.value(), free.value(), true, std::move(read_from)};
-  if (twice.count > 0.0) found.stationary = twice.value() < kDrift * once.value();
+  if (twice.count > 0.0) found.stationary = twice.value() < kTelling.drift * once.value();
   return found;
 }
 

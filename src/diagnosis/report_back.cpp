@@ -17,9 +17,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr std::size_t kMostRivals = 2;
-constexpr double kRivalShare = 0.5;  ///< of what the best gains: else no experiment is worth its time
-
 std::vector<RankedEffect> ranking_of(const Study& study, const ScoredModel& before,
                                      const std::vector<ScoredModel>& candidates, const Decision& decision) {
   std::vector<RankedEffect> ranking;
@@ -141,12 +138,12 @@ std::vector<Rival> rivals_of(const std::vector<ScoredModel>& candidates, const S
   if (decision.accepted && decision.group.size() < 2 && decision.margin >= kRule.clear) return {};
   std::vector<Rival> rivals;
   for (const ScoredModel& c : candidates) {
-    if (rivals.size() == kMostRivals || !std::isfinite(c.score)) break;
-    if (before.score - c.score < std::max(kRule.indistinct, kRivalShare * decision.gain)) break;
+    if (rivals.size() == 2 || !std::isfinite(c.score)) break;
+    if (before.score - c.score < std::max(kRule.indistinct, kTelling.rival_share * decision.gain)) break;
     const bool contains_best = contained_effect(*c.entry) == candidates.front().entry;
     if (!reads_counts(*c.entry) && !contains_best) rivals.push_back({c.entry->name, c.fitted.model});
   }
-  if (rivals.size() < kMostRivals) rivals.clear();
+  if (rivals.size() < 2) rivals.clear();
   return rivals;
 }
 

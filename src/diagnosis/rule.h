@@ -12,15 +12,16 @@ struct DecisionRule {
   double indistinct = 0.08;  ///< S below which no two models differ
   double least_way = 0.3;    ///< share of the way in S to the floor that a step must go
   double asked_for = 0.99;   ///< of the fitted mean square that a step leaves at most: luck is no finding
-  double part = 0.1;  ///< of the free runs' error that a law without freedom may leave and be all of it
+  /// Of an error: less is not worth having, and a law without freedom that leaves less is all of the cause
+  double part = 0.1;
   double least_windows =
       0.6;                   ///< of the held-out windows that a step improves where the floor is out of reach
   double clear = 0.6;        ///< S by which evidence leads all others that needs no further experiment
   double floor_ratio = 1.3;  ///< medians of windows within it are at the floor [floor]
   double near_floor = 4.0;   ///< mean square up to which a fit may sit in a minimum beside the best [floor²]
-  double far_more = 20.0;    ///< times the size left of what was fitted: what is held out asks for more
-  double bad_repetition = 10.0;  ///< floors of the encoder from which the drive's own repetition is the floor
-  double least_help = 0.1;       ///< share of the mean square, held out and fitted, that is worth having
+  /// Ratio of sizes beyond doubt: a motion over the encoder's floor; the drive's own repetition over it,
+  /// which then is the floor; what is held out over what was left of the fitted
+  double far = 10.0;
 };
 
 inline constexpr DecisionRule kRule;

@@ -21,19 +21,11 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-constexpr std::size_t kRefined = 8;  ///< that lead the race; the truth was among the first five in 24 of 24
-constexpr std::size_t kRelated = 3;  ///< of the refined, whose look-alikes are refined, too
-constexpr double kExplainsMuch =
-    0.5;  ///< of the fitted mean square that the best leaves: the others are not refined
-constexpr std::size_t kSecondRound = 4;
-constexpr double kLostClearly = 1.5;  ///< S behind the best, in a later step
-constexpr std::size_t kLines = 3;     ///< of the residual torque that periodic effects begin with
-
 /// Lines that periodic effects begin with: the strongest of the residual torque, one that stands out from its
 /// neighbours, and those whose period was given.
 std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback>& playbacks,
                                   std::span<const TorqueLine> standing, double torque_constant) {
-  std::vector<Harmonic> lines = strongest_lines(playbacks, study.train, torque_constant, kLines);
+  std::vector<Harmonic> lines = strongest_lines(playbacks, study.train, torque_constant, study.effort.lines);
   const auto add = [&](double periods) {
     const double apart = one_cycle(study.train);
     for (const Harmonic& l : lines)
@@ -76,6 +68,12 @@ FittedModel with_quantum(FittedModel nominal, const EffectEntry& entry, double q
   return nominal;
 }
 
+bool contains_law_of(const EffectEntry& a, const EffectEntry& b) { return contained_effect(a) == &b; }
+
+bool related(const EffectEntry& a, const EffectEntry& b) {
+  return look_alike(a, b) || contains_law_of(a, b) || contains_law_of(b, a);
+}
+
 /// Candidates that are not at the floor are fitted once more.
 template <class Fit>
 void once_more(const Study& study, const std::vector<std::size_t>& places, std::vector<ScoredModel>& ranked,
@@ -90,67 +88,38 @@ void once_more(const Study& study, const std::vector<std::size_t>& places, std::
   rank(ranked);
 }
 
-/// Fits the best few once more, also from the best candidate's values; the effect that the best contains and
-/// those that contain it are among them at any rank. Where none of these explains much, all others follow.
-/// @param all false, in a later step: only those that are near the best or easily mistaken for it
+/// Fits the best few and what is related to the best once more, also from the best candidate's values: where
+/// two are hard to tell apart, a poor minimum must not decide. Where one explains all, its drive is the place
+/// to begin; where none explains much, all others follow.
+/// @param others false, in a later step: these do not
 void further_rounds(const Study& study, const ScoredModel& before, std::vector<ScoredModel>& ranked,
-                    bool all) {
+                    bool others) {
   if (ranked.empty() || !std::isfinite(ranked.front().score)) return;
   const ReferenceModel first = ranked.front().fitted.model;
   const EffectEntry* best = ranked.front().entry;
-  const double near = ranked.front().score + (at_floor(ranked.front()) ? 0.0 : kLostClearly);
   std::vector<std::size_t> few, rest;
   std::set<const EffectEntry*> tried;
-  for (std::size_t i = 0; i < ranked.size(); ++i) {
-    const EffectEntry* entry = ranked[i].entry;
-    if (i >= kSecondRound && entry != contained_effect(*best) && contained_effect(*entry) != best) continue;
-    if (!all && ranked[i].score > near && !look_alike(*entry, *best)) continue;
-    few.push_back(i);
-    tried.insert(entry);
-  }
-  const FitOptions& options = study.options.fit;
+  for (std::size_t i = 0; i < ranked.size(); ++i)
+    if (i < study.effort.leaders || related(*ranked[i].entry, *best)) {
+      few.push_back(i);
+      tried.insert(ranked[i].entry);
+    }
   study.options.progress("fitting the best once more");
+  const bool explained = at_floor(ranked.front());
   once_more(study, few, ranked, [&](const FittedModel& candidate) {
-    return retry(study.train, candidate, first, study.sheet, options, study.observer_hz);
+    return explained ? on_drive_of(study, candidate, first) : retry(study, candidate, first);
   });
-  if (!all || relative_gain(before, ranked.front()) > kRule.least_way || study.repeats_badly()) return;
+  if (!others || relative_gain(before, ranked.front()) > kRule.least_way || study.repeats_badly()) return;
   if (study.is_exhausted()) return;
   for (std::size_t i = 0; i < ranked.size(); ++i)
     if (!tried.contains(ranked[i].entry)) rest.push_back(i);
   study.options.progress("none explains much: fitting the others once more");
-  once_more(study, rest, ranked, [&](const FittedModel& candidate) {
-    return led_by_faster_observer(study.train, candidate, options, study.observer_hz);
-  });
-}
-
-/// Look-alikes of a candidate begin once more, from the numbers of its drive: where the two are hard to tell
-/// apart, a poor minimum must not decide.
-void fit_look_alikes(const Study& study, const ScoredModel& before, const ScoredModel& best,
-                     std::span<const EffectEntry* const> entries,
-                     const std::vector<std::vector<EffectStart>>& starts, std::vector<ScoredModel>& ranked) {
-  const FitOptions& options = study.options.fit;
-  const std::vector<reference::FitLinearisation> bases =
-      bases_of(study.train, before.fitted, best.fitted.model, options, study.observer_hz);
-  if (bases.empty() || !(before.score - best.score > kRule.tells_apart)) return;
-  parallel_for(ranked.size(), study.options.threads, [&](std::size_t k) {
-    ScoredModel& c = ranked[k];
-    if (!look_alike(*c.entry, *best.entry) || at_floor(c) || reads_counts(*c.entry)) return;
-    const auto place = std::find(entries.begin(), entries.end(), c.entry) - entries.begin();
-    FittedModel fitted =
-        RacedCandidate(study.train, before.fitted, {&bases.back(), 1}, *c.entry,
-                       starts[static_cast<std::size_t>(place)], nullptr, options, study.observer_hz)
-            .refined();
-    if (fitted.mean_cost < c.fitted.mean_cost)
-      c = judge(c.entry, std::move(fitted), study.held_out, study.observer_hz);
-  });
-}
-
-bool related(const EffectEntry& a, const EffectEntry& b) {
-  return look_alike(a, b) || contained_effect(a) == &b || contained_effect(b) == &a;
+  once_more(study, rest, ranked,
+            [&](const FittedModel& candidate) { return led_by_faster_observer(study, candidate); });
 }
 
 /// All candidates of a step. Every one races; those that lead there, and what is related to the best of them,
-/// are refined. All are where none of these explains much of what was fitted.
+/// are refined.
 class Field {
  public:
   Field(const Study& study, const ScoredModel& before, std::span<const EffectEntry* const> entries,
@@ -169,9 +138,10 @@ class Field {
     for (std::size_t i = 0; i < entries_.size(); ++i)
       if (is_parent(i)) refine({i});
     race_all(true);
-    refine(leading());
+    const std::vector<std::size_t> leaders = leading();
+    refine({leaders.begin(), leaders.begin() + std::min<std::ptrdiff_t>(1, std::ssize(leaders))});
+    refine(leaders);
     refine(related_to_the_best());
-    if (!(least_left() < kExplainsMuch * before_.fitted.mean_cost)) refine(all());
     std::vector<ScoredModel> judged(entries_.size());
     parallel_for(entries_.size(), study_.options.threads, [&](std::size_t i) {
       FittedModel fitted = fitted_[i] ? std::move(*fitted_[i]) : raced_[i]->as_raced();
@@ -200,8 +170,7 @@ class Field {
     const std::optional<FittedModel>* simpler =
         parent == entries_.end() ? nullptr : &fitted_[static_cast<std::size_t>(parent - entries_.begin())];
     const bool has = simpler != nullptr && *simpler && (*simpler)->mean_cost < kInfinity;
-    raced_[i].emplace(study_.train, before_.fitted, bases_, *entries_[i], starts_[i],
-                      has ? &**simpler : nullptr, study_.options.fit, study_.observer_hz);
+    raced_[i].emplace(study_, before_.fitted, bases_, *entries_[i], starts_[i], has ? &**simpler : nullptr);
   }
 
   /// @param children those that contain another effect: they begin on its fit, too
@@ -212,10 +181,14 @@ class Field {
     parallel_for(now.size(), study_.options.threads, [&](std::size_t k) { race(now[k]); });
   }
 
+  /// Once one explains all of what was fitted, the others need not come to their end: they begin once more on
+  /// its drive, see further_rounds().
   void refine(const std::vector<std::size_t>& places) {
+    const bool explained = std::any_of(fitted_.begin(), fitted_.end(),
+                                       [](const auto& f) { return f && f->mean_cost < kExplained; });
     parallel_for(places.size(), study_.options.threads, [&](std::size_t k) {
       const std::size_t i = places[k];
-      if (!fitted_[i]) fitted_[i] = raced_[i]->refined();
+      if (!fitted_[i]) fitted_[i] = raced_[i]->refined(!explained);
     });
   }
 
@@ -230,28 +203,18 @@ class Field {
     const auto left = [&](std::size_t i) { return raced_[i] ? raced_[i]->raced() : 0.0; };
     std::stable_sort(places.begin(), places.end(),
                      [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
-    places.resize(std::min(places.size(), kRefined));
+    places.resize(std::min(places.size(), study_.effort.leaders));
     return places;
   }
 
   std::vector<std::size_t> related_to_the_best() const {
-    std::vector<std::size_t> best = all(), places;
     const auto left = [&](std::size_t i) { return fitted_[i] ? fitted_[i]->mean_cost : kInfinity; };
-    std::stable_sort(best.begin(), best.end(),
-                     [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
-    best.resize(std::min(best.size(), kRelated));
-    for (const std::size_t i : all())
-      if (std::any_of(best.begin(), best.end(),
-                      [&](std::size_t b) { return related(*entries_[b], *entries_[i]); }))
-        places.push_back(i);
+    std::vector<std::size_t> places = all();
+    if (places.empty()) return {};
+    const std::size_t best = *std::min_element(
+        places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
+    std::erase_if(places, [&](std::size_t i) { return !related(*entries_[best], *entries_[i]); });
     return places;
-  }
-
-  double least_left() const {
-    double least = kInfinity;
-    for (const std::optional<FittedModel>& f : fitted_)
-      if (f) least = std::min(least, f->mean_cost);
-    return least;
   }
 
   const Study& study_;
@@ -282,14 +245,8 @@ std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& be
     if (reads_counts(*entry) ? study.seen_quantum > 0.0 : is_candidate(*entry, before.fitted.model))
       entries.push_back(entry);
   const auto starts = all_starts(study, before, entries);
-  const std::vector<reference::FitLinearisation> bases =
-      bases_of(study.train, before.fitted, study.sheet, study.options.fit, study.observer_hz);
+  const std::vector<reference::FitLinearisation> bases = bases_of(study, before.fitted);
   std::vector<ScoredModel> judged = Field(study, before, entries, bases, starts).judged();
-  rank(judged);
-  const std::vector<ScoredModel> best(judged.begin(),
-                                      judged.begin() + std::min<std::size_t>(2, judged.size()));
-  study.options.progress("fitting look-alikes of the best");
-  for (const ScoredModel& b : best) fit_look_alikes(study, before, b, entries, starts, judged);
   rank(judged);
   further_rounds(study, before, judged, first_step);
   return judged;

@@ -7,7 +7,7 @@
 namespace gapscope::internal::diagnosis {
 
 /// Every effect of a list that the model could have, refitted and judged, best first.
-/// @param first_step false: candidates that have lost clearly are not tried again
+/// @param first_step false: where none explains much, those that trail are not tried again
 std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& before,
                                        const std::vector<const EffectEntry*>& catalogue,
                                        bool first_step = true);

@@ -10,14 +10,9 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kTrainShare = 2.0 / 3.0;  ///< of each file, where nothing else is held out
-constexpr double kCoarser = 1.5;           ///< times the sheet's quantum: another encoder than it says
-constexpr double kOnGrid = 0.1;            ///< [quanta] from a whole number of them
-constexpr double kShareOnGrid = 0.9;
-
 void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
   for (const MotorTrace& file : files) {
-    const auto cut = static_cast<std::size_t>(kTrainShare * static_cast<double>(file.size()));
+    const auto cut = static_cast<std::size_t>(kMeasure.train_share * static_cast<double>(file.size()));
     study.train.push_back(part(file, 0, cut));
     study.held_out.traces.push_back(file);
     study.held_out.scored_from.push_back(cut);
@@ -26,12 +21,12 @@ void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
 
 /// Whether nearly all positions are whole numbers of quanta apart: a steady speed repeats its step, too.
 bool counts_in(std::span<const double> x1, double quantum) {
-  const auto whole = [&](double x) {
+  double beside = 0.0;
+  for (const double x : x1) {
     const double counts = (x - x1.front()) / quantum;
-    return std::abs(counts - std::round(counts)) < kOnGrid;
-  };
-  return static_cast<double>(std::count_if(x1.begin(), x1.end(), whole)) >
-         kShareOnGrid * static_cast<double>(x1.size());
+    beside += std::abs(counts - std::round(counts));
+  }
+  return beside < kTelling.on_grid * static_cast<double>(x1.size());
 }
 
 /// Least quantum that the samples of all recordings show; 0 unless each of them is coarser than its sheet.
@@ -39,7 +34,7 @@ double coarser_quantum(const std::vector<MotorTrace>& traces) {
   double least = kInfinity;
   for (const MotorTrace& t : traces) {
     const double seen = t.quantum > 0.0 ? seen_quantum(t.x1) : 0.0;
-    if (seen < kCoarser * t.quantum || seen == 0.0 || !counts_in(t.x1, seen)) return 0.0;
+    if (seen < kTelling.coarser * t.quantum || seen == 0.0 || !counts_in(t.x1, seen)) return 0.0;
     least = std::min(least, seen);
   }
   return least;
@@ -55,7 +50,7 @@ double floor_of(const MotorTrace& t, bool coarser) {
 
 Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                  const ReferenceModel& model, const DiagnosisOptions& options) {
-  Study study{{}, {}, model, {}, kSlowHz, 0.0, options};
+  Study study{{}, {}, model, {}, kMeasure.slow_hz, 0.0, {}, options};
   if (held_out.empty()) {
     hold_out_the_last_third(train, study);
   } else {
@@ -76,7 +71,8 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
 }
 
 bool Study::is_exhausted() const {
-  return static_cast<double>(*options.fit.work) > kMostNominalFits * static_cast<double>(nominal_work);
+  return static_cast<double>(*options.fit.work) >
+         effort.most_nominal_fits * static_cast<double>(nominal_work);
 }
 
 bool may_fit_half_of_the_held_out(const Study& study) {

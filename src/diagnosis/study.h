@@ -12,14 +12,13 @@ struct Study {
   HeldOut held_out;
   ReferenceModel sheet;  ///< as given
   std::vector<const EffectEntry*> catalogue;
-  double observer_hz = kSlowHz;  ///< kFastHz where unmodelled torque, not the encoder, is the floor
-  double seen_quantum = 0.0;     ///< of the samples, where it is coarser than the sheet's; else 0 [rad]
+  double observer_hz =
+      kMeasure.slow_hz;       ///< the fast one where unmodelled torque, not the encoder, is the floor
+  double seen_quantum = 0.0;  ///< of the samples, where it is coarser than the sheet's; else 0 [rad]
+  SearchEffort effort;
   const DiagnosisOptions& options;
   std::int64_t nominal_work = 0;  ///< samples that the first nominal fit has simulated
 
-  /// Work after which no further step is begun, in nominal fits: a sheet near the truth makes these cheap,
-  /// and an effect that nothing explains would be looked for in every branch.
-  static constexpr double kMostNominalFits = 60.0;
   bool is_exhausted() const;
 
   bool repeats_badly() const { return held_out.innovation_repeats > 0.0; }

@@ -11,9 +11,6 @@ namespace {
 
 namespace view = torque_view;
 
-/// Blocks of one recording agree too well for the next one; the study of real drives, section 5.
-constexpr double kInflation = 2.0;
-
 /// Shrink of an rms that a share of the mean square stands for, above a floor.
 double shrink_by(double share, double before, double floor) {
   const double after = before * std::sqrt(std::max(0.0, 1.0 - share));
@@ -21,7 +18,8 @@ double shrink_by(double share, double before, double floor) {
 }
 
 Interval inflated(const Interval& interval, double about) {
-  return {about - kInflation * (about - interval.low), about + kInflation * (interval.high - about)};
+  return {about - kTelling.inflation * (about - interval.low),
+          about + kTelling.inflation * (interval.high - about)};
 }
 
 /// What the choice of a rung leaves of what there was before it.

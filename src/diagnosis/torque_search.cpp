@@ -9,11 +9,6 @@ namespace {
 
 namespace view = torque_view;
 
-constexpr std::size_t kRefitted = 5;  ///< effects that lead in torque; the study of real drives, 1.9
-constexpr double kNearFirst =
-    0.3;  ///< share by which one may stay behind the first and be refitted; the same
-constexpr double kFreeAsGood = 0.7;  ///< of the share: a free law of another variable that takes as much
-
 bool has_play(const ReferenceModel& model) {
   const ParameterSetting& gap = model.parameters[place::kGap];
   return gap.estimate || !(gap.value == 0.0);
@@ -90,7 +85,7 @@ bool follows_speed(const EffectEntry& entry) {
 /// Whether a torque that follows another variable freely takes nearly as much.
 bool free_law_as_good(const view::Rung& rung, const EffectEntry& entry) {
   const bool speed = follows_speed(entry), angle = entry.follows == ResidualPattern::kAngle;
-  const double enough = kFreeAsGood * rung.choice().evidence.share;
+  const double enough = (1.0 - view::TorqueViewOptions{}.least_margin) * rung.choice().evidence.share;
   return std::any_of(rung.ranking.begin(), rung.ranking.end(), [&](const view::Candidate& c) {
     const std::string_view name = c.law->name;
     const bool other = (name == "free_speed_curve" && !speed) || (name == "free_position_curve" && !angle);
@@ -165,14 +160,13 @@ ModelEffect effect_of(const EffectEntry& entry, const std::vector<double>& value
 /// Puts an effect in the place of the simpler one that it contains. Where another one has already taken that
 /// place, both share its level, which is then a number of the first alone.
 void put_into(ReferenceModel& model, ModelEffect effect) {
-  constexpr double kPart = 0.25;
   const EffectEntry* simpler = contained_effect(*effect.entry);
   ParameterSetting &level = effect.parameters[0], &ratio = effect.parameters[1];
   for (ModelEffect& other : model.effects) {
     if (simpler == nullptr || contained_effect(*other.entry) != simpler) continue;
     if (effect.entry->parameters[1].scale != Scale::kOne) continue;
-    other.parameters[0].value -= kPart * level.value;
-    level.value *= kPart, level.estimate = false, ratio.value /= kPart;
+    other.parameters[0].value -= 0.5 * level.value;
+    level.value *= 0.5, level.estimate = false, ratio.value /= 0.5;
   }
   std::erase_if(model.effects, [&](const ModelEffect& e) { return e.entry == simpler; });
   model.effects.push_back(effect);
@@ -249,6 +243,7 @@ std::optional<view::Budget> torque_budget(const Study& study, const ReferenceMod
   scales.torque_rms = std::sqrt(square / samples);
   data.known = known_terms(nominal, data, scales);
   data.closed = study.options.excluded;
+  data.threads = study.options.threads;
   for (const EffectEntry* entry : study.catalogue)
     if (is_candidate(*entry, nominal)) data.addable.emplace_back(entry->name);
   view::Budget budget = view::error_budget(data);
@@ -262,7 +257,8 @@ std::vector<const EffectEntry*> worth_refitting(const Study& study, const view::
   std::vector<std::string> leading;
   for (const view::Candidate& c : ranking)
     if (*c.law->effect != '\0' &&
-        (leading.size() < kRefitted || c.evidence.share >= ranking.front().evidence.share - kNearFirst))
+        (leading.size() < study.effort.leaders ||
+         c.evidence.share >= ranking.front().evidence.share - view::TorqueViewOptions{}.least_margin))
       leading.emplace_back(c.law->effect);
   std::vector<const EffectEntry*> entries = study.catalogue;
   std::erase_if(entries,

@@ -14,8 +14,6 @@ namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr int kMapBins = 8;
-constexpr double kLine =
-    0.25;  ///< share of the residual torque that makes a cycle over the angle worth a word
 
 /// One scored sample.
 struct Sample {
@@ -184,7 +182,7 @@ MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& he
     normalise(*map);
   const auto lines = strongest_lines(playbacks, held_out.traces, 0.0, 1);
   const double line_explained = lines.empty() ? 0.0 : lines.front().explained;
-  if (line_explained > kLine) place.periods_per_turn = lines.front().periods;
+  if (line_explained > kTelling.strength) place.periods_per_turn = lines.front().periods;
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.phase = densest_phase(place.mode);
   place.follows = followed_patterns(patterns_of(samples, place, line_explained), effect);

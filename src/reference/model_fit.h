@@ -51,8 +51,8 @@ struct FitPoint {
 
 /// How far refine() goes.
 struct RefineEffort {
-  int jacobians = 6;        ///< exact derivatives at most so many times
-  int trials = 30;          ///< plain runs
+  int jacobians = 8;        ///< exact derivatives at most so many times
+  int trials = 40;          ///< plain runs
   double tolerance = 1e-4;  ///< relative decrease of the cost at which it stops
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/parallel.h"
+
 namespace gapscope::internal::torque_view {
 namespace {
 
@@ -77,13 +79,13 @@ void read_octaves(FrequencyBand& band, std::vector<Rows>& rows, const std::vecto
 }  // namespace
 
 FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
-                          const TorqueViewOptions& options) {
+                          const TorqueViewOptions& options, int threads) {
   FrequencyBand band;
   const std::vector<double> hz =
       options.given_hz > 0.0 ? std::vector<double>{options.given_hz} : tops(traces, options);
   if (hz.empty()) return band;
-  std::vector<Rows> rows;
-  for (const double f : hz) rows.push_back(stacked(traces, f, false, options));
+  std::vector<Rows> rows(hz.size());
+  parallel_for(hz.size(), threads, [&](std::size_t i) { rows[i] = stacked(traces, hz[i], false, options); });
   for (const BandRecord& r : rows.front().records) band.free_constant |= is_constant_speed(r, options);
 
   const Model probe = probe_model(rotates);

@@ -28,6 +28,6 @@ struct FrequencyBand {
   std::vector<Octave> octaves;
 };
 FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
-                          const TorqueViewOptions& options);
+                          const TorqueViewOptions& options, int threads = 1);
 
 }  // namespace gapscope::internal::torque_view

@@ -13,6 +13,7 @@ struct SplitRecordings {
   Model known = {};          ///< what the nominal model has beside inertia and viscous damping
   std::vector<std::string> closed = {};   ///< effects of the catalogue that are no candidates
   std::vector<std::string> addable = {};  ///< effects that the caller's model can have
+  int threads = 1;
 };
 
 /// What no model can get below, as rms of a torque [unit of u]; NaN where the recordings do not show it.

@@ -100,14 +100,15 @@ void keep_addable(const SplitRecordings& data, Bench& bench, Budget& budget) {
 
 Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options) {
   Budget budget;
-  budget.band = choose_band(data.fit, data.rotates, options);
+  budget.band = choose_band(data.fit, data.rotates, options, data.threads);
   if (std::isnan(budget.band.hz)) return budget;
   Bench bench{stacked(data.fit, budget.band.hz, budget.band.free_constant, options),
               stacked(data.judge, budget.band.hz, budget.band.free_constant, options),
               {},
               {},
               data.new_phase,
-              data.closed};
+              data.closed,
+              data.threads};
   bench.scales = scales_of(bench.fit, data.rotates, data.held_output);
   budget.travel = bench.scales.travel;
   bench.blocks = Blocks(bench.judge, options);

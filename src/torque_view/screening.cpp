@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "gapscope/base/parallel.h"
+
 namespace gapscope::internal::torque_view {
 namespace {
 
@@ -51,29 +53,51 @@ Candidate judged(Bench& bench, const Law& l, Model model, const Eigen::VectorXd&
   return c;
 }
 
+/// A law at its best shape beside the model; nothing where it has none.
+/// @param below the model with what the law adds to
+std::optional<Candidate> tried(Bench& bench, const Law& l, const Model& model, const Model& below,
+                               Projection beside, const Eigen::VectorXd& before,
+                               const TorqueViewOptions& options) {
+  set_torque(bench.fit, model);
+  const BestShape best = best_shape(bench.fit, beside, l, bench.scales);
+  if (std::isnan(best.gain)) return {};
+  Candidate c = judged(bench, l, with(below, l, best.shape), before, options);
+  if (!std::isfinite(c.evidence.share)) return {};
+  return c;
+}
+
 std::vector<Candidate> screened(Bench& bench, const Model& model, const TorqueViewOptions& options) {
   const Eigen::VectorXd before = bench.squares(model);
   const bool torque_is_there = says_most(bench, model, options);
   set_torque(bench.fit, model);
-  Projection plain(bench.fit, model);
-  std::optional<Projection> with_simpler;  // the only simpler law of the table is Coulomb friction
-  std::vector<Candidate> ranking;
-  for (const Law& l : laws()) {
-    if (!is_open(bench, model, l) || (l.kind == Kind::kOnTorque && !torque_is_there)) continue;
-    Model below = model;
-    if (lacks_simpler(model, l)) {
-      below = with(below, law(l.simpler), kNaN);
-      if (!with_simpler) with_simpler.emplace(bench.fit, below);
-    }
-    set_torque(bench.fit, model);
-    const BestShape best =
-        best_shape(bench.fit, below.size() > model.size() ? *with_simpler : plain, l, bench.scales);
-    if (std::isnan(best.gain)) continue;
-    Candidate c = judged(bench, l, with(below, l, best.shape), before, options);
-    if (std::isfinite(c.evidence.share)) ranking.push_back(std::move(c));
+  const Projection plain(bench.fit, model);
+  std::vector<const Law*> open;
+  for (const Law& l : laws())
+    if (is_open(bench, model, l) && (l.kind != Kind::kOnTorque || torque_is_there)) open.push_back(&l);
+  std::stable_partition(open.begin(), open.end(),
+                        [](const Law* l) { return l->shapes == line_grid; });  // long
+  // The only simpler law of the table is Coulomb friction.
+  const auto bringing =
+      std::find_if(open.begin(), open.end(), [&](const Law* l) { return lacks_simpler(model, *l); });
+  Model with_simpler = model;
+  std::optional<Projection> beside_simpler;
+  if (bringing != open.end()) {
+    with_simpler = with(model, law((*bringing)->simpler), kNaN);
+    beside_simpler.emplace(bench.fit, with_simpler);
   }
-  std::sort(ranking.begin(), ranking.end(),
-            [](const Candidate& a, const Candidate& b) { return a.evidence.share > b.evidence.share; });
+  std::vector<std::optional<Candidate>> found(open.size());
+  parallel_for(open.size(), bench.threads, [&](std::size_t i) {
+    Bench own = bench;  // laws are filled into its rows
+    const bool brings = lacks_simpler(model, *open[i]);
+    found[i] = tried(own, *open[i], model, brings ? with_simpler : model, brings ? *beside_simpler : plain,
+                     before, options);
+  });
+  std::vector<Candidate> ranking;
+  for (std::optional<Candidate>& c : found)
+    if (c) ranking.push_back(std::move(*c));
+  std::stable_sort(ranking.begin(), ranking.end(), [](const Candidate& a, const Candidate& b) {
+    return a.evidence.share > b.evidence.share;
+  });
   return ranking;
 }
 

@@ -15,6 +15,7 @@ struct Bench {
   Blocks blocks;
   bool new_phase = false;
   std::vector<std::string> closed;  ///< effects that are no candidates
+  int threads = 1;                  ///< on which laws are tried side by side
 
   Eigen::VectorXd left(const Model& model) { return residual(judge, model, new_phase); }
   Eigen::VectorXd squares(const Model& model) { return blocks.squares(left(model)); }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/study.h"
 #include "independent_plant/severity.h"
 
 namespace gapscope::test {
@@ -45,12 +46,14 @@ LookAlikes look_alikes(const std::string& truth, const std::string& other, std::
   give_effect(pair.drive, truth, kSeverity, seed);
   pair.recording = simulate_blind(pair.drive).recording;
   const MotorTrace train[] = {pair.recording.motor_trace()};
+  const DiagnosisOptions options;
+  const Study study = make_study(train, train, sheet, options);
   const FittedModel nominal = fit_nominal(train, sheet, {}, kHz);
-  const std::vector<internal::reference::FitLinearisation> bases = bases_of(train, nominal, sheet, {}, kHz);
+  const std::vector<internal::reference::FitLinearisation> bases = bases_of(study, nominal);
   for (const std::string& name : {truth, other}) {
     const EffectEntry& entry = *find_effect(name);
     const FittedModel fitted =
-        RacedCandidate(train, nominal, bases, entry, effect_starts(entry), nullptr, {}, kHz).refined();
+        RacedCandidate(study, nominal, bases, entry, effect_starts(entry), nullptr).refined();
     pair.rivals.push_back({name, fitted.model});
   }
   return pair;

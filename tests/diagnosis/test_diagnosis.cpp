@@ -174,13 +174,15 @@ TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
   give_effect(truth, "encoder_eccentricity", 0.5, 400012);
   const blind::BlindPair pair = blind::blind_pair("paper", "encoder_eccentricity", 0.5, 400012);
   const MotorTrace train[] = {pair.train.motor_trace()};
+  const DiagnosisOptions options;
+  const internal::diagnosis::Study study =
+      internal::diagnosis::make_study(train, train, pair.sheet, options);
   const internal::diagnosis::FittedModel nominal =
       internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectStart far{0.02, 0.0};
   const internal::diagnosis::FittedModel found =
-      internal::diagnosis::RacedCandidate(train, nominal,
-                                          internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0),
-                                          *find_effect("encoder_eccentricity"), {&far, 1}, nullptr, {}, 3.0)
+      internal::diagnosis::RacedCandidate(study, nominal, internal::diagnosis::bases_of(study, nominal),
+                                          *find_effect("encoder_eccentricity"), {&far, 1}, nullptr)
           .refined();
   const auto& values = found.model.effects.back().parameters;
   EXPECT_NEAR(values[0].value / truth.drive.effects.sensor.eccentricity_rad, 1.0, 0.02);
@@ -212,17 +214,19 @@ TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
 TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
   const blind::BlindPair pair = blind::blind_pair("geared", "none", 0.0, 500001);
   const MotorTrace train[] = {pair.train.motor_trace()};
+  const DiagnosisOptions options;
+  const internal::diagnosis::Study study =
+      internal::diagnosis::make_study(train, train, pair.sheet, options);
   const internal::diagnosis::FittedModel nominal =
       internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectEntry* cogging = find_effect("cogging_torque");
   const internal::diagnosis::FittedModel without_a_line =
-      internal::diagnosis::RacedCandidate(train, nominal,
-                                          internal::diagnosis::bases_of(train, nominal, pair.sheet, {}, 3.0),
-                                          *cogging, {}, nullptr, {}, 3.0)
+      internal::diagnosis::RacedCandidate(study, nominal, internal::diagnosis::bases_of(study, nominal),
+                                          *cogging, {}, nullptr)
           .refined();
   EXPECT_EQ(without_a_line.mean_cost, kInfinity);
   const EffectStart start{0.05, 2.0, 0.0};
-  EXPECT_EQ(internal::diagnosis::RacedCandidate(train, nominal, {}, *cogging, {&start, 1}, &nominal, {}, 3.0)
+  EXPECT_EQ(internal::diagnosis::RacedCandidate(study, nominal, {}, *cogging, {&start, 1}, &nominal)
                 .refined()
                 .mean_cost,
             kInfinity);

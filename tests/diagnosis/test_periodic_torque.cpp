@@ -23,8 +23,8 @@ std::vector<PeriodicTorque> left_by_nominal(double cogging, const DiagnosisKnowl
   DiagnosisOptions options;
   options.known = known;
   const Study study = make_study(train, held_out, pair.sheet, options);
-  const FittedModel nominal = fit_nominal(train, pair.sheet, {}, kSlowHz);
-  return periodic_torques(study, nominal.model, play(nominal.model, study.held_out, kSlowHz, true));
+  const FittedModel nominal = fit_nominal(train, pair.sheet, {}, kMeasure.slow_hz);
+  return periodic_torques(study, nominal.model, play(nominal.model, study.held_out, kMeasure.slow_hz, true));
 }
 
 TEST(PeriodicTorque, IsFoundAtAPeriodThatNobodyHasGiven) {

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+
+#include "reference/model_fit.h"
+
+/// Every number of the diagnosis that was chosen, with those by which it decides (rule.h) and those of its
+/// probabilities, which are learned (probability.cpp). docs/science.md tells what half and double of them do.
+namespace gapscope::internal::diagnosis {
+
+/// How a model is laid beside a recording.
+struct Measure {
+  double slow_hz = 3.0;            ///< poles of the observer at which slow drifts show [Hz]
+  double fast_hz = 30.0;           ///< of the one at which ripple shows [Hz]
+  double ripple_hz = 150.0;        ///< of one that follows a torque over the motor angle at most speeds [Hz]
+  double restart = 0.5;            ///< of the free runs [s]
+  double fewest_restarts = 8.0;    ///< short recordings are divided into so many
+  double train_share = 2.0 / 3.0;  ///< of each file, where nothing else is held out
+  double score_offset = 0.3;       ///< of a mean square in its logarithm [floor²]: below it nothing counts
+  double score_per_parameter = 0.04;  ///< of an effect, in S
+};
+inline constexpr Measure kMeasure;
+
+/// How far the search with the simulator goes. Set on the seeds 860001 to 860045 (known) and 870001 to 870015
+/// (outside) of study_diagnosis.
+struct SearchEffort {
+  int race_steps = 2;    ///< by which a start is adjusted before it is compared with others
+  double weaker = 0.15;  ///< of a start: a weaker one; there a sine acts in proportion, too
+  reference::RefineEffort quick = {3, 8, 1e-3};  ///< to tell whether a start is worth a whole refinement
+  std::size_t leaders = 5;   ///< of the race that are refined, and of these that are refined once more
+  double far_better = 0.5;   ///< of the mean square: another minimum, not another model
+  std::size_t lines = 3;     ///< of the residual torque that periodic effects begin with and that are told
+  std::size_t branches = 2;  ///< first steps that are followed where the best is unsure
+  std::size_t most_effects = 4;
+  /// Work after which no further step is begun [nominal fits]: a sheet near the truth makes these cheap, and
+  /// an effect that nothing explains would be looked for in every branch.
+  double most_nominal_fits = 60.0;
+};
+
+/// Lines of the residual torque over the motor angle. One cycle over the travel is as wide as a line.
+struct LineSearch {
+  std::size_t bins = 2048;   ///< of the motor angle
+  double step = 0.2;         ///< between lines that are tried [cycles over the travel]; as many as bins
+  double neighbours = 6.0;   ///< as far as a line is compared with others [cycles over the travel]
+  double stands_out = 20.0;  ///< share of a line over the median of its neighbours': of noise it is 11
+  double spike = 3.0;        ///< at which a torque is cut [robust standard deviations]
+};
+inline constexpr LineSearch kLineSearch;
+
+/// When a thing is worth a word, beside the rule by which effects are named.
+struct Telling {
+  double strength = 0.25;    ///< share of the residual torque that a pattern explains to be named
+  double dense = 1.5;        ///< times what an error without a place would have in a phase of the contact
+  double most_left = 0.25;   ///< of the motion: 0.02 on drives, 0.5 and more where u moves nothing
+  double drift = 1.6;        ///< growth of the difference from one period to two that is a drift
+  double rival_share = 0.5;  ///< of what the best gains: else no experiment is worth its time
+  double separated = 1.0;    ///< σ by which an experiment tells two models apart
+  double coarser = 1.5;      ///< times the sheet's quantum: another encoder than it says
+  double on_grid = 0.1;      ///< mean distance from whole quanta of samples that are counted in it [quanta]
+  double other_recording = 4.0;  ///< times that another recording shows more or less of what is missing
+  double floor_spread = 0.5;     ///< by which recordings of a drive differ near the floor [floor]
+  double inflation = 2.0;  ///< of a torque's interval: blocks of one recording agree too well for the next
+};
+inline constexpr Telling kTelling;
+
+}  // namespace gapscope::internal::diagnosis
