@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <mutex>
 #include <string_view>
 
@@ -17,6 +16,7 @@
 #include "gapscope/base/parallel.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording_file.h"
+#include "support/thread_time.h"
 
 namespace {
 
@@ -93,21 +93,14 @@ std::string told(const Diagnosis& d) {
   return text;
 }
 
-/// Processor time of the calling thread.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 Answer examine(const test::LoopCase& c) {
   DiagnosisOptions options;
   options.threads = 1;
   const MotorTrace train[] = {c.train.motor_trace()}, held_out[] = {c.held_out.motor_trace()};
-  const double begin = thread_seconds();
+  const double begin = test::thread_seconds();
   const Diagnosis d = diagnose(train, held_out, c.sheet, options);
   Answer a;
-  a.seconds = thread_seconds() - begin;
+  a.seconds = test::thread_seconds() - begin;
   a.seed = c.seed, a.truth = c.effect, a.verdict = d.verdict;
   a.first = a.is_effect() && is_first(d, c.effect);
   a.in_group = a.is_effect() && (is_true(d.effects.front(), c.effect) || holds(d.group, c.effect));

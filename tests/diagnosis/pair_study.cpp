@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <sstream>
 #include <string_view>
 
+#include "diagnosis/drawn_case.h"
 #include "diagnosis/further.h"
 #include "diagnosis/look_alikes.h"
 #include "diagnosis/mismatch_size.h"
 #include "gapscope/base/random.h"
+#include "support/thread_time.h"
 
 namespace gapscope::test {
 namespace {
@@ -32,13 +33,6 @@ const std::vector<Names>& families() {
       {"gap_eccentricity", "gap_growth"},
       {"encoder_eccentricity"}};
   return list;
-}
-
-/// Processor time of the calling thread.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 bool among(const std::vector<const EffectEntry*>& list, const std::string& name) {

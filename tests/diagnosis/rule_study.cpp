@@ -1,22 +1,26 @@
 // What the decision makes of drives of the independent plant, without fitting them again for every rule.
 //   study_rule collect known|outside|none FIRST_SEED COUNT FILE [THREADS [RIG]]
 //   study_rule judge FILE...
+//   study_rule effort FIRST_SEED COUNT [THREADS]
 // "collect" appends what the first step has fitted to FILE; seeds that it holds already are not run again.
-// "judge" prints what the rule makes of them, and what half and double of its numbers do.
+// "judge" prints what the rule makes of them, and what half and double of its numbers do. "effort" fits anew
+// with half and double of how far the search goes, and prints what that costs.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <mutex>
 #include <set>
+#include <type_traits>
 
-#include "blind/blind_pair.h"
 #include "diagnosis/decision_cases.h"
 #include "diagnosis/diagnose.h"
+#include "diagnosis/drawn_case.h"
 #include "gapscope/base/parallel.h"
-#include "gapscope/base/random.h"
+#include "support/thread_time.h"
 
 namespace {
 
@@ -24,30 +28,18 @@ using namespace gapscope;
 using namespace gapscope::internal::diagnosis;
 using test::DecisionCase;
 
-std::vector<std::string> effects_of(const std::string& kind) {
-  if (kind == "none") return {"none"};
-  std::vector<std::string> names;
-  for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
-    if (e.in_catalogue == (kind == "known") && e.name != "backlash") names.emplace_back(e.name);
-  return names;
-}
-
-/// Processor time of the calling thread.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-DecisionCase examine(const std::string& kind, const blind::BlindPair& pair, std::uint64_t seed) {
+DecisionCase examine(const std::string& kind, const test::DrawnCase& drawn, const SearchEffort& effort) {
+  const blind::BlindPair pair = drawn.pair();
   DiagnosisOptions options;
   options.threads = 1;
   options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
-  const double begin = thread_seconds();
+  const double begin = test::thread_seconds();
   Study study = make_study(train, held, pair.sheet, options);
+  study.effort = effort;
   Findings f = investigate(study);
-  DecisionCase c{seed, kind, pair.rig, pair.effect, pair.severity, thread_seconds() - begin, f.before, {}};
+  DecisionCase c{drawn.seed, kind, pair.rig, pair.effect, pair.severity, test::thread_seconds() - begin,
+                 f.before,   {}};
   c.candidates = std::move(f.candidates);
   return c;
 }
@@ -56,22 +48,14 @@ int collect(int argc, char** argv) {
   const std::string kind = argv[2], file = argv[5];
   const std::uint64_t first = std::strtoull(argv[3], nullptr, 10),
                       count = std::strtoull(argv[4], nullptr, 10);
-  const std::vector<std::string> effects = effects_of(kind);
+  const std::vector<std::string> effects = test::effects_of_kind(kind);
   std::set<std::uint64_t> done;
   for (const DecisionCase& c : test::read_decision_cases(file)) done.insert(c.seed);
-  std::vector<std::uint64_t> seeds;
-  for (std::uint64_t seed = first; seed < first + count; ++seed)
-    if (!done.contains(seed)) seeds.push_back(seed);
+  const std::vector<std::uint64_t> seeds = test::open_seeds(first, count, done);
   std::ofstream out(file, std::ios::app);
   std::mutex writing;
   parallel_for(seeds.size(), argc > 6 ? std::atoi(argv[6]) : 0, [&](std::size_t i) {
-    const std::uint64_t seed = seeds[i];
-    auto g = random_stream(seed, "diagnosis study");
-    const std::string rig =
-        argc > 7 ? argv[7] : blind::kRigs[(seed / effects.size()) % std::size(blind::kRigs)];
-    const double severity = uniform(g, 0.0, 1.0);
-    const DecisionCase c =
-        examine(kind, blind::blind_pair(rig, effects[seed % effects.size()], severity, seed), seed);
+    const DecisionCase c = examine(kind, test::drawn_case(seeds[i], effects, argc > 7 ? argv[7] : ""), {});
     const std::lock_guard lock(writing);
     out << text_of(c) << std::flush;
   });
@@ -158,11 +142,62 @@ int judge_rule(int argc, char** argv) {
   return 0;
 }
 
+/// The counts and the mean processor time with another effort, on drives that lack a known effect.
+void print_effort(const std::string& name, const SearchEffort& effort, std::uint64_t first,
+                  std::uint64_t count, int threads) {
+  const std::vector<std::string> effects = test::effects_of_kind("known");
+  std::vector<DecisionCase> cases(count);
+  parallel_for(cases.size(), threads, [&](std::size_t i) {
+    cases[i] = examine("known", test::drawn_case(first + i, effects, ""), effort);
+  });
+  double seconds = 0.0;
+  for (const DecisionCase& c : cases) seconds += c.seconds / static_cast<double>(count);
+  const Counts n = counts_of(cases, {});
+  fmt::print("| {} | {} of {} | {} | {} | {} | {:.1f} |\n", name, n.in_group, n.relevant, n.named, n.wrong,
+             n.removed_wrong, seconds);
+  std::fflush(stdout);
+}
+
+int vary_effort(int argc, char** argv) {
+  const std::uint64_t first = std::strtoull(argv[2], nullptr, 10),
+                      count = std::strtoull(argv[3], nullptr, 10);
+  const int threads = argc > 4 ? std::atoi(argv[4]) : 0;
+  fmt::print(
+      "| effort | first or in the group | named | wrong name | wrong with the truth taken out | processor "
+      "time "
+      "[s] |\n|---|---|---|---|---|---|\n");
+  const auto run = [&](const std::string& name, const SearchEffort& effort) {
+    print_effort(name, effort, first, count, threads);
+  };
+  run("as it is", {});
+  const auto vary = [&](const std::string& name, auto SearchEffort::*field) {
+    for (const double factor : {0.5, 2.0}) {
+      SearchEffort effort;
+      using Value = std::remove_cvref_t<decltype(effort.*field)>;
+      effort.*field = static_cast<Value>(factor * static_cast<double>(effort.*field));
+      run(fmt::format("`{}` {}", name, effort.*field), effort);
+    }
+  };
+  vary("race_steps", &SearchEffort::race_steps);
+  vary("weaker", &SearchEffort::weaker);
+  vary("leaders", &SearchEffort::leaders);
+  vary("far_better", &SearchEffort::far_better);
+  vary("lines", &SearchEffort::lines);
+  for (const double factor : {0.5, 2.0}) {
+    SearchEffort effort;
+    effort.quick.jacobians = static_cast<int>(std::lround(factor * effort.quick.jacobians));
+    effort.quick.trials = static_cast<int>(std::lround(factor * effort.quick.trials));
+    run(fmt::format("`quick` {} Jacobians, {} trials", effort.quick.jacobians, effort.quick.trials), effort);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
   if (std::string(argv[1]) == "collect" && argc > 5) return collect(argc, argv);
+  if (std::string(argv[1]) == "effort" && argc > 3) return vary_effort(argc, argv);
   if (std::string(argv[1]) == "judge") return judge_rule(argc, argv);
   return 2;
 }

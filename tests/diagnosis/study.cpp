@@ -8,21 +8,20 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <mutex>
 #include <set>
 
-#include "blind/blind_pair.h"
 #include "blind/expected_place.h"
 #include "diagnosis/diagnose.h"
+#include "diagnosis/drawn_case.h"
 #include "diagnosis/look_alikes.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/pair_study.h"
 #include "diagnosis/study_row.h"
 #include "diagnosis/where.h"
 #include "gapscope/base/parallel.h"
-#include "gapscope/base/random.h"
+#include "support/thread_time.h"
 
 namespace {
 
@@ -31,18 +30,13 @@ using namespace gapscope::internal::diagnosis;
 using test::StudyRow;
 
 std::vector<std::string> effects_of(const std::string& kind) {
-  if (kind == "none") return {"none"};
   if (kind == "pair") return test::effect_pairs();
   if (kind == "ask") {
     std::vector<std::string> pairs;
     for (const auto& [truth, other] : test::look_alike_pairs()) pairs.push_back(truth + "/" + other);
     return pairs;
   }
-  std::vector<std::string> names;
-  for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
-    if (e.in_catalogue == (kind == "known" || kind == "one") && e.name != "backlash")
-      names.emplace_back(e.name);
-  return names;
+  return test::effects_of_kind(kind);
 }
 
 std::size_t place_of_truth(const std::vector<ScoredModel>& ranked, const std::string& effect) {
@@ -142,23 +136,16 @@ void note_answer(StudyRow& row, const Study& study, const Findings& f, const bli
   row.blind_place = places(study, f, pair, false);
 }
 
-/// Processor time of the calling thread.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   DiagnosisOptions options;
   options.threads = 1;
   options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
-  const double begin = thread_seconds();
+  const double begin = test::thread_seconds();
   Study study = make_study(train, held, pair.sheet, options);
   const Findings f = investigate(study);
   StudyRow row;
-  row.seconds = thread_seconds() - begin;
+  row.seconds = test::thread_seconds() - begin;
   row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;
   row.severity = pair.severity;
   row.before = std::isfinite(f.alone) ? f.alone : std::max(f.before.median_free, f.before.median_innovation);
@@ -168,12 +155,12 @@ StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   return row;
 }
 
-StudyRow row_of(const std::string& kind, const std::string& rig, const std::string& effect, double severity,
-                std::uint64_t seed) {
-  if (kind == "ask") return test::examine_question(effect, seed);
+StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
+  if (kind == "ask") return test::examine_question(c.effect, c.seed);
   if (kind == "pair" || kind == "one" || kind == "beyond")
-    return test::examine_steps(blind::blind_pair(rig, test::split_effects(effect), severity, seed), seed);
-  return examine(blind::blind_pair(rig, effect, severity, seed), seed);
+    return test::examine_steps(blind::blind_pair(c.rig, test::split_effects(c.effect), c.severity, c.seed),
+                               c.seed);
+  return examine(c.pair(), c.seed);
 }
 
 void print_counts(const std::string& kind, const std::vector<StudyRow>& rows) {
@@ -194,19 +181,11 @@ int main(int argc, char** argv) {
   const std::vector<std::string> effects = effects_of(kind);
   std::set<std::uint64_t> done;
   for (const StudyRow& row : test::read_rows(file)) done.insert(row.seed);
-  std::vector<std::uint64_t> seeds;
-  for (std::uint64_t seed = first; seed < first + cases; ++seed)
-    if (!done.contains(seed)) seeds.push_back(seed);
+  const std::vector<std::uint64_t> seeds = test::open_seeds(first, cases, done);
   std::ofstream out(file, std::ios::app);
   std::mutex writing;
   parallel_for(seeds.size(), argc > 5 ? std::atoi(argv[5]) : 0, [&](std::size_t i) {
-    const std::uint64_t seed = seeds[i];
-    auto g = random_stream(seed, "diagnosis study");
-    const std::string rig =
-        argc > 6 ? argv[6] : blind::kRigs[(seed / effects.size()) % std::size(blind::kRigs)];
-    const std::string& effect = effects[seed % effects.size()];
-    const double severity = uniform(g, 0.0, 1.0);
-    const StudyRow row = row_of(kind, rig, effect, severity, seed);
+    const StudyRow row = row_of(kind, test::drawn_case(seeds[i], effects, argc > 6 ? argv[6] : ""));
     const std::lock_guard lock(writing);
     out << line_of(row) << std::endl;
   });

@@ -175,8 +175,7 @@ TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
   const blind::BlindPair pair = blind::blind_pair("paper", "encoder_eccentricity", 0.5, 400012);
   const MotorTrace train[] = {pair.train.motor_trace()};
   const DiagnosisOptions options;
-  const internal::diagnosis::Study study =
-      internal::diagnosis::make_study(train, train, pair.sheet, options);
+  const internal::diagnosis::Study study = internal::diagnosis::make_study(train, train, pair.sheet, options);
   const internal::diagnosis::FittedModel nominal =
       internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectStart far{0.02, 0.0};
@@ -215,8 +214,7 @@ TEST(Diagnosis, FitsNothingWhereThereIsNothingToStartFrom) {
   const blind::BlindPair pair = blind::blind_pair("geared", "none", 0.0, 500001);
   const MotorTrace train[] = {pair.train.motor_trace()};
   const DiagnosisOptions options;
-  const internal::diagnosis::Study study =
-      internal::diagnosis::make_study(train, train, pair.sheet, options);
+  const internal::diagnosis::Study study = internal::diagnosis::make_study(train, train, pair.sheet, options);
   const internal::diagnosis::FittedModel nominal =
       internal::diagnosis::fit_nominal(train, pair.sheet, {}, 3.0);
   const EffectEntry* cogging = find_effect("cogging_torque");

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,23 @@ TEST(Documents, GiveConstantsTheValuesThatTheyHaveInTheSources) {
       EXPECT_TRUE(std::any_of(first, last, [&](const auto& c) { return c.second == std::stod(m[2]); }))
           << document << " gives " << m[1] << " as " << m[2] << ", the sources do not";
     }
+  }
+}
+
+/// Every chosen number of the diagnosis is a field, in one of two files, and told with its meaning.
+TEST(Documents, KeepTheNumbersOfTheDiagnosisFewAndTogether) {
+  const fs::path folder = kProject / "src/diagnosis";
+  const std::regex field(R"rx(\n  (?:double|int|std::size_t|reference::RefineEffort) \w+\s*=)rx");
+  std::size_t fields = 0;
+  for (const char* file : {"rule.h", "numbers.h"}) fields += matches(text_of(folder / file), field).size();
+  EXPECT_GE(fields, 10u);
+  EXPECT_LE(fields, 45u);
+  const std::regex chosen(R"rx(constexpr (?:double|int|std::size_t) (k\w+)\s*=\s*[\d.]+[;,])rx");
+  const std::set<std::string> resolution = {"kHalvings", "kMapBins"};  // of a search and of a table
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() == "probability.cpp") continue;  // its weights are learned
+    for (const std::smatch& m : matches(text_of(entry.path()), chosen))
+      EXPECT_TRUE(resolution.contains(m[1])) << entry.path() << " chooses " << m[1];
   }
 }
 

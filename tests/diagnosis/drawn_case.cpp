@@ -1,0 +1,30 @@
+#include "diagnosis/drawn_case.h"
+
+#include "gapscope/base/random.h"
+
+namespace gapscope::test {
+
+std::vector<std::string> effects_of_kind(const std::string& kind) {
+  if (kind == "none") return {"none"};
+  std::vector<std::string> names;
+  for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
+    if (e.in_catalogue == (kind == "known" || kind == "one") && e.name != "backlash")
+      names.emplace_back(e.name);
+  return names;
+}
+
+DrawnCase drawn_case(std::uint64_t seed, const std::vector<std::string>& effects, const std::string& rig) {
+  auto g = random_stream(seed, "diagnosis study");
+  return {seed, rig.empty() ? blind::kRigs[(seed / effects.size()) % std::size(blind::kRigs)] : rig,
+          effects[seed % effects.size()], uniform(g, 0.0, 1.0)};
+}
+
+std::vector<std::uint64_t> open_seeds(std::uint64_t first, std::uint64_t count,
+                                      const std::set<std::uint64_t>& done) {
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = first; seed < first + count; ++seed)
+    if (!done.contains(seed)) seeds.push_back(seed);
+  return seeds;
+}
+
+}  // namespace gapscope::test
