@@ -161,9 +161,11 @@ bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
                      [&](const ModelEffect& e) { return e.entry == entry; });
 }
 
-bool borne_out(const Additions& a) {
+bool borne_out(const ScoredModel& nominal, const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
-  return a.explained || at_floor(a.after);
+  if (a.explained || at_floor(a.after)) return true;
+  return a.steps.front().decision.margin >= kRule.clear &&
+         shrink_of(nominal.median_free, a.after.median_free) > 1.0 - kRule.part;
 }
 
 std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most) {
@@ -194,7 +196,7 @@ Additions add_further(const Study& study, const Findings& found) {
   for (const ScoredModel* first : branches(found, study.effort.branches)) {
     const bool is_best = first == &ranked.front();
     Additions a = follow(study, found, *first, is_best ? sure.group : std::vector{first->entry});
-    a.accepted = borne_out(a) || (is_best && sure.in_part && a.effects.size() > 1);
+    a.accepted = borne_out(nominal_of(found, a), a) || (is_best && sure.in_part && a.effects.size() > 1);
     const bool better = a.accepted && (!best.accepted || a.after.score < best.after.score);
     if (better || (is_best && !best.accepted)) best = std::move(a);
     if (study.is_exhausted()) break;

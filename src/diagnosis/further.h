@@ -67,9 +67,9 @@ EffectSearch search_effects(Study& study);
 /// half are often so wrong that no held-out recording shows its worth.
 std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most = SearchEffort{}.branches);
 
-/// Whether further steps have shown that an unsure first one was right: they end at the floor. A first step
-/// that is there alone has been decided upon.
-bool borne_out(const Additions& additions);
+/// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
+/// themselves and leave hardly a part. A first step that is there alone has been decided upon.
+bool borne_out(const ScoredModel& nominal, const Additions& additions);
 
 /// Whether the effect is in the model.
 bool has_effect(const ReferenceModel& model, const EffectEntry* entry);

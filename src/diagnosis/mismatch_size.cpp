@@ -113,6 +113,17 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
            study.options.coordinates.torque_unit(), median_size(b.torque), median_size(a.torque), kNaN}};
 }
 
+double undetermined_by(const Study& study, const FittedModel& fitted) {
+  const double hz = study.observer_hz;
+  const std::vector<MotorTrace>& held = study.held_out.traces;
+  const reference::ModelFit fit(study.train, fitted.model, study.options.fit, hz),
+      other(held, fitted.model, study.options.fit, hz);
+  const auto starts = fitted.starts.empty() ? settled_starts(study.train, fitted.model, hz) : fitted.starts;
+  return pooled_floor(study.held_out) *
+         fit.prediction_std(fit.point_of(fitted.model, starts), other,
+                            other.point_of(fitted.model, settled_starts(held, fitted.model, hz)));
+}
+
 double weight_of(const ScoredModel& candidate, const ScoredModel& best) {
   return std::isfinite(candidate.score)
              ? std::exp(-std::max(0.0, candidate.score - best.score) / kRule.tells_apart)

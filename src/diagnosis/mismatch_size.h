@@ -20,6 +20,10 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
 std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<Playback>& before,
                                          const std::vector<Playback>& after);
 
+/// What the fitted recordings leave open of the held-out motion: the standard deviation of its prediction
+/// [rad]; NaN where a motion diverges.
+double undetermined_by(const Study& study, const FittedModel& fitted);
+
 /// Weight of a candidate against the best one: exp(−ΔS/T).
 double weight_of(const ScoredModel& candidate, const ScoredModel& best);
 

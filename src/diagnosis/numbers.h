@@ -28,7 +28,7 @@ struct SearchEffort {
   double weaker = 0.15;  ///< of a start: a weaker one; there a sine acts in proportion, too
   reference::RefineEffort quick = {3, 8, 1e-3};  ///< to tell whether a start is worth a whole refinement
   std::size_t leaders = 5;   ///< of the race that are refined, and of these that are refined once more
-  double far_better = 0.5;   ///< of the mean square: another minimum, not another model
+  double far_better = 0.5;   ///< of the mean square: another minimum, or an effect that explains much
   std::size_t lines = 3;     ///< of the residual torque that periodic effects begin with and that are told
   std::size_t branches = 2;  ///< first steps that are followed where the best is unsure
   std::size_t most_effects = 4;

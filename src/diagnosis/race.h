@@ -31,10 +31,11 @@ class Race {
   void weaken(const EffectStart& start, std::size_t i);
 
   /// What the best leaves after the race alone [floor²]; infinite without anything that has entered.
-  double least() const { return best_.residual_mean_square; }
+  double least() const { return best().residual_mean_square; }
   /// The best as it stands; infinite without anything that has entered.
   reference::RefinedFit leader() const;
-  /// The best refined, the more the more it promises. Infinite without anything that has entered.
+  /// The best refined, the more the more it promises, and the best from another base where that does not
+  /// explain all. Infinite without anything that has entered.
   /// @param thorough false: only as far as tells whether it is worth a whole refinement
   reference::RefinedFit refined(bool thorough) const;
 
@@ -43,7 +44,10 @@ class Race {
   Interval bounds(std::size_t i) const;
   std::vector<double> physical(const EffectStart& start) const;
   double weaker(std::size_t i, double value) const;
-  void take(reference::AdjustedFit entrant);
+  /// @param origin the base that it set out from; their number: none
+  void take(reference::AdjustedFit entrant, std::size_t origin);
+  const reference::AdjustedFit& best() const;
+  reference::RefinedFit follow(const reference::AdjustedFit& from, bool thorough) const;
   void run_from(const std::vector<double>& effect, const reference::FitLinearisation& base);
   void run_on(const FittedModel& parent, std::vector<double> effect);
 
@@ -51,7 +55,8 @@ class Race {
   const FittedModel& nominal_;
   std::span<const reference::FitLinearisation> bases_;
   const SearchEffort& effort_;
-  reference::AdjustedFit best_, last_;
+  std::vector<reference::AdjustedFit> best_;  ///< from each base, and from elsewhere
+  reference::AdjustedFit last_;
 };
 
 }  // namespace gapscope::internal::diagnosis

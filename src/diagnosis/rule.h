@@ -15,8 +15,8 @@ struct DecisionRule {
   /// Of an error: less is not worth having, and a law without freedom that leaves less is all of the cause
   double part = 0.1;
   double least_windows =
-      0.6;                   ///< of the held-out windows that a step improves where the floor is out of reach
-  double clear = 0.6;        ///< S by which evidence leads all others that needs no further experiment
+      0.6;             ///< of the held-out windows that a step improves where the floor is out of reach
+  double clear = 0.6;  ///< S by which evidence leads all others that bears out others or needs no experiment
   double floor_ratio = 1.3;  ///< medians of windows within it are at the floor [floor]
   double near_floor = 4.0;   ///< mean square up to which a fit may sit in a minimum beside the best [floor²]
   /// Ratio of sizes beyond doubt: a motion over the encoder's floor; the drive's own repetition over it,

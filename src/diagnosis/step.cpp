@@ -119,7 +119,7 @@ void further_rounds(const Study& study, const ScoredModel& before, std::vector<S
 }
 
 /// All candidates of a step. Every one races; those that lead there, and what is related to the best of them,
-/// are refined.
+/// are refined. All are where none of these explains much of what was fitted.
 class Field {
  public:
   Field(const Study& study, const ScoredModel& before, std::span<const EffectEntry* const> entries,
@@ -142,6 +142,7 @@ class Field {
     refine({leaders.begin(), leaders.begin() + std::min<std::ptrdiff_t>(1, std::ssize(leaders))});
     refine(leaders);
     refine(related_to_the_best());
+    if (!(least_fitted() < study_.effort.far_better * before_.fitted.mean_cost)) refine(all());
     std::vector<ScoredModel> judged(entries_.size());
     parallel_for(entries_.size(), study_.options.threads, [&](std::size_t i) {
       FittedModel fitted = fitted_[i] ? std::move(*fitted_[i]) : raced_[i]->as_raced();
@@ -215,6 +216,13 @@ class Field {
         places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
     std::erase_if(places, [&](std::size_t i) { return !related(*entries_[best], *entries_[i]); });
     return places;
+  }
+
+  double least_fitted() const {
+    double least = kInfinity;
+    for (const std::optional<FittedModel>& f : fitted_)
+      if (f) least = std::min(least, f->mean_cost);
+    return least;
   }
 
   const Study& study_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "reference/prediction.h"
 #include "reference/search.h"
 #include "reference/starts.h"
 
@@ -105,6 +106,11 @@ std::optional<FitLinearisation> ModelFit::linearise(const FitPoint& at) const {
 std::optional<SineStart> ModelFit::sine_start(const FitPoint& at, const FitLinearisation& borrowed,
                                               double small) const {
   return reference::sine_start(*problem_, at, *borrowed.recordings_, small, observer_hz_);
+}
+
+double ModelFit::prediction_std(const FitPoint& at, const ModelFit& other, const FitPoint& there) const {
+  return reference::prediction_std(*problem_, at, reference::linearise(*other.problem_, there, observer_hz_),
+                                   observer_hz_);
 }
 
 ReferenceModel ModelFit::model_at(const FitPoint& at) const {

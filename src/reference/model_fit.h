@@ -133,6 +133,9 @@ class ModelFit {
   std::optional<SineStart> sine_start(const FitPoint& at, const FitLinearisation& borrowed,
                                       double small) const;
 
+  /// What this fit leaves open of the motion that another one runs, see prediction.h [floor].
+  double prediction_std(const FitPoint& at, const ModelFit& other, const FitPoint& there) const;
+
   /// The model with the values of a point.
   ReferenceModel model_at(const FitPoint& at) const;
   ModelRun run_at(const FitPoint& at) const;

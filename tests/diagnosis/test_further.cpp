@@ -25,11 +25,14 @@ Additions two(bool second_accepted, const ScoredModel& after, double margin = 2.
   return a;
 }
 
-TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloor) {
-  EXPECT_TRUE(borne_out(two(true, model(0.3, 1.1, 1.0))));
-  EXPECT_TRUE(borne_out(two(true, model(0.3, 1.1, 1.0), 0.4)));
-  EXPECT_FALSE(borne_out(two(true, model(1.7, 2.5, 4.0)))) << "far towards it is not there";
-  EXPECT_FALSE(borne_out(two(false, model(0.3, 1.1, 1.0)))) << "no second step was taken";
+TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloorOrNearIt) {
+  const ScoredModel before = model(7.0, 180.0, 1e4);
+  EXPECT_TRUE(borne_out(before, two(true, model(1.7, 2.5, 4.0))));
+  EXPECT_TRUE(borne_out(before, two(true, model(0.3, 1.1, 1.0))));
+  EXPECT_TRUE(borne_out(before, two(true, model(0.3, 1.1, 1.0), 0.4)));
+  EXPECT_FALSE(borne_out(before, two(true, model(1.7, 2.5, 4.0), 0.4))) << "a second step that is not clear";
+  EXPECT_FALSE(borne_out(before, two(true, model(3.0, 40.0, 600.0)))) << "a fifth is left";
+  EXPECT_FALSE(borne_out(before, two(false, model(0.3, 1.1, 1.0)))) << "no second step was taken";
 }
 
 TEST(FurtherSteps, BeginWhereTheHeldOutErrorShrinksOrWhereMuchOfTheFitIsExplained) {
@@ -48,13 +51,13 @@ TEST(FurtherSteps, BeginWhereTheHeldOutErrorShrinksOrWhereMuchOfTheFitIsExplaine
 TEST(FurtherSteps, DoNotBearOutAFirstOneThatStandsAlone) {
   Additions a = two(true, model(0.3, 1.1, 1.0));
   a.steps.clear();
-  EXPECT_FALSE(borne_out(a));
+  EXPECT_FALSE(borne_out(model(7.0, 180.0, 1e4), a));
 }
 
 TEST(FurtherSteps, BearOutTheFirstOneWhereOneSetOfNumbersExplainsAllRecordings) {
   Additions a = two(true, model(4.0, 30.0, 1.2));
   a.explained = true;
-  EXPECT_TRUE(borne_out(a));
+  EXPECT_TRUE(borne_out(model(7.0, 180.0, 1e4), a));
 }
 
 TEST(FurtherSteps, CountFarFromTheFloorWhereTheyAreClearInEveryRespect) {

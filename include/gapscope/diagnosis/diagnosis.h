@@ -160,8 +160,8 @@ struct Diagnosis {
   std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
   std::vector<AddedEffect> added;    ///< the same effects, each with what it takes
   MismatchSize mismatch;
-  double undetermined =
-      kNaN;  ///< what the fit leaves open of the held-out motion, as a standard deviation [rad]
+  /// What the fitted recordings leave open of the held-out motion: standard deviation of the prediction [rad]
+  double undetermined = kNaN;
   ErrorBudget budget;
   std::vector<MismatchMeasure> measures;
   std::vector<RankedEffect> ranking;     ///< first step, best first
