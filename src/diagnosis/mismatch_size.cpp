@@ -113,15 +113,14 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
            study.options.coordinates.torque_unit(), median_size(b.torque), median_size(a.torque), kNaN}};
 }
 
-double undetermined_by(const Study& study, const FittedModel& fitted) {
+double undetermined_by(const Study& study, const ReferenceModel& model) {
   const double hz = study.observer_hz;
   const std::vector<MotorTrace>& held = study.held_out.traces;
-  const reference::ModelFit fit(study.train, fitted.model, study.options.fit, hz),
-      other(held, fitted.model, study.options.fit, hz);
-  const auto starts = fitted.starts.empty() ? settled_starts(study.train, fitted.model, hz) : fitted.starts;
+  const reference::ModelFit fit(study.train, model, study.options.fit, hz),
+      other(held, model, study.options.fit, hz);
   return pooled_floor(study.held_out) *
-         fit.prediction_std(fit.point_of(fitted.model, starts), other,
-                            other.point_of(fitted.model, settled_starts(held, fitted.model, hz)));
+         fit.prediction_std(fit.point_of(model, settled_starts(study.train, model, hz)), other,
+                            other.point_of(model, settled_starts(held, model, hz)));
 }
 
 double weight_of(const ScoredModel& candidate, const ScoredModel& best) {

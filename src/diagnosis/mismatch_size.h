@@ -22,7 +22,7 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
 
 /// What the fitted recordings leave open of the held-out motion: the standard deviation of its prediction
 /// [rad]; NaN where a motion diverges.
-double undetermined_by(const Study& study, const FittedModel& fitted);
+double undetermined_by(const Study& study, const ReferenceModel& model);
 
 /// Weight of a candidate against the best one: exp(−ΔS/T).
 double weight_of(const ScoredModel& candidate, const ScoredModel& best);

@@ -207,7 +207,7 @@ void tell_models(const Study& study, const Findings& found, const ScoredModel& n
     d.outside_probability =
         probability_shares(found.candidates, found.decision, study.options.known.outside_catalogue).outside;
   d.mismatch = mismatch_size(study, nominal, after);
-  d.undetermined = undetermined_by(study, after.fitted);
+  d.undetermined = undetermined_by(study, d.fitted);
   d.measures = measures_of(study, before_played, after_played);
   d.where = place_of(before_played, study.held_out, km, study.options.coordinates, first);
   d.remaining = place_of(after_played, study.held_out, km, study.options.coordinates, nullptr);

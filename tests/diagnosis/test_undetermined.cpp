@@ -1,0 +1,51 @@
+// What a fit leaves undetermined, against fits of the same motion under other noise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "blind/blind_pair.h"
+#include "diagnosis/mismatch_size.h"
+#include "gapscope/base/random.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+constexpr int kFits = 8;
+
+/// A recording with another noise on top [rad].
+Recording noisier(Recording r, double noise, std::uint64_t seed) {
+  auto g = random_stream(seed, "other noise");
+  for (double& x : r.x1) x += noise * normal(g);
+  return r;
+}
+
+class Undetermined : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Undetermined, IsTheScatterOfPredictionsOverOtherNoise) {
+  const blind::BlindPair pair = blind::blind_pair("geared", "none", 0.0, GetParam());
+  const double noise = 2e-3;  // far above the recording's own, which all fits share
+  const MotorTrace held[] = {pair.held_out.motor_trace()};
+  DiagnosisOptions options;
+  double foretold = 0.0;
+  std::vector<double> sum(held[0].size()), square(sum.size());
+  for (int k = 0; k < kFits; ++k) {
+    const Recording heard = noisier(pair.train, noise, static_cast<std::uint64_t>(k));
+    const MotorTrace train[] = {heard.motor_trace()};
+    const Study study = make_study(train, held, pair.sheet, options);
+    const FittedModel fitted = fit_nominal(train, pair.sheet, {}, study.observer_hz);
+    foretold += undetermined_by(study, fitted.model) / kFits;
+    const std::vector<double> left =
+        play(fitted.model, study.held_out, study.observer_hz, false)[0].innovation;
+    for (std::size_t i = 0; i < left.size(); ++i) sum[i] += left[i], square[i] += left[i] * left[i];
+  }
+  double scatter = 0.0;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    scatter += (square[i] - sum[i] * sum[i] / kFits) / (kFits - 1) / static_cast<double>(sum.size());
+  EXPECT_GT(foretold, 0.7 * std::sqrt(scatter));
+  EXPECT_LT(foretold, 1.6 * std::sqrt(scatter));
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, Undetermined, ::testing::Values(500001u, 500002u));
+
+}  // namespace
+}  // namespace gapscope::internal::diagnosis
