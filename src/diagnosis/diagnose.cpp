@@ -118,6 +118,7 @@ Findings first_look(Study& study) {
       found.before = std::move(repeated);
     }
   }
+  if (found.budget && rests_on_balance(*found.budget, found.before.fitted.model)) return found;
   const auto catalogue = found.budget ? worth_refitting(study, *found.budget) : study.catalogue;
   found.candidates = candidates_of(study, found.before, catalogue);
   if (std::optional<ScoredModel> better = nominal_near(study, found)) {

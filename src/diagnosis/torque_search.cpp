@@ -77,7 +77,7 @@ bool is_named(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// What a law follows: a free law of the same variable says the same.
+/// A free law of the same variable says the same.
 bool follows_speed(const EffectEntry& entry) {
   return entry.follows == ResidualPattern::kDirection || entry.follows == ResidualPattern::kSpeed;
 }
@@ -200,12 +200,13 @@ ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
 /// refitted if that leaves less.
 ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
   const FitOptions& options = study.options.fit;
-  ScoredModel refitted = judge(nullptr, fit_near(study.train, balanced, options, study.observer_hz),
+  const bool locked = balanced.structure.has_load;
+  const auto effort = locked ? study.effort.quick : reference::RefineEffort{};
+  ScoredModel refitted = judge(nullptr, fit_near(study.train, balanced, options, study.observer_hz, effort),
                                study.held_out, study.observer_hz);
   if (std::max(refitted.median_free, refitted.median_innovation) < options.rejected_ratio) return refitted;
   ScoredModel as_is = judge(nullptr, {balanced, {}, 0.0, {}}, study.held_out, study.observer_hz);
-  const bool less = balanced.structure.has_load && refitted.score < as_is.score;
-  return less || !std::isfinite(as_is.score) ? refitted : as_is;
+  return (locked && refitted.score < as_is.score) || !std::isfinite(as_is.score) ? refitted : as_is;
 }
 
 /// Whether the simulator's refit has taken the effect away again.
@@ -213,7 +214,6 @@ bool has_vanished(const ModelEffect& effect) {
   return effect.entry->parameters[0].absent == 0.0 && effect.parameters[0].value == 0.0;
 }
 
-/// Additions that the refitted model does not confirm are told of no more.
 void drop_what_vanished(TorqueSearch& search) {
   auto& effects = search.after.fitted.model.effects;
   std::erase_if(search.added, [&](const TorqueAddition& a) {
@@ -249,6 +249,11 @@ std::optional<view::Budget> torque_budget(const Study& study, const ReferenceMod
   view::Budget budget = view::error_budget(data);
   if (std::isnan(budget.band.hz)) return {};
   return budget;
+}
+
+bool rests_on_balance(const view::Budget& budget, const ReferenceModel& nominal) {
+  return nominal.structure.has_load && budget.says_most && !budget.rungs.empty() &&
+         budget.rungs.front().helps;
 }
 
 std::vector<const EffectEntry*> worth_refitting(const Study& study, const view::Budget& budget) {
@@ -287,8 +292,7 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
   establish_contained(search.added);
   if (search.added.empty()) return search;
   search.after = refitted_from(study, with_terms(nominal.fitted.model, budget));
-  if (!std::isfinite(search.after.score))
-    return {};  // its motion diverges: not a model that anyone could run
+  if (!std::isfinite(search.after.score)) return {};  // its motion diverges: nobody could run it
   drop_what_vanished(search);
   return search;
 }

@@ -14,6 +14,10 @@ std::optional<torque_view::Budget> torque_budget(const Study& study, const Refer
 /// The effects that the exact simulator refits: those that lead in torque, and those that have no law there.
 std::vector<const EffectEntry*> worth_refitting(const Study& study, const torque_view::Budget& budget);
 
+/// Whether the balance alone is to be climbed: that of a locked output, which has the contact in no parameter
+/// of the model, says most of the input and knows a law that helps.
+bool rests_on_balance(const torque_view::Budget& budget, const ReferenceModel& nominal);
+
 /// A rung of the ladder that stands for an effect of the catalogue, added to the model.
 struct TorqueAddition {
   std::size_t rung = 0;  ///< of the budget
