@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "diagnosis/torque_model.h"
+
 namespace gapscope::internal::diagnosis {
 namespace {
 
@@ -100,8 +102,7 @@ std::optional<std::size_t> rung_of(const view::Budget& budget, const view::Law& 
   return {};
 }
 
-/// Whether the recordings show the simpler law that this one adds to: where a speed and its sign are one,
-/// they show neither Coulomb friction nor a law that contains it.
+/// Whether the recordings show the simpler law that this one adds to: at one speed they show neither.
 bool shows_simpler(const view::Budget& budget, const view::Rung& rung, const view::Law& law) {
   if (law.simpler == nullptr || view::find_term(budget.nominal, law.simpler) != nullptr) return true;
   const auto is_simpler = [&](const view::Candidate& c) {
@@ -147,71 +148,6 @@ std::vector<const EffectEntry*> group_of(const view::Budget& budget, const view:
       group.push_back(entry);
   }
   return group;
-}
-
-ModelEffect effect_of(const EffectEntry& entry, const std::vector<double>& values) {
-  ModelEffect effect;
-  effect.entry = &entry;
-  for (std::size_t i = 0; i < entry.parameters.size(); ++i)
-    effect.parameters[i] = ParameterSetting::sought(values[i]);
-  return effect;
-}
-
-/// Puts an effect in the place of the simpler one that it contains. Where another one has already taken that
-/// place, both share its level, which is then a number of the first alone.
-void put_into(ReferenceModel& model, ModelEffect effect) {
-  const EffectEntry* simpler = contained_effect(*effect.entry);
-  ParameterSetting &level = effect.parameters[0], &ratio = effect.parameters[1];
-  for (ModelEffect& other : model.effects) {
-    if (simpler == nullptr || contained_effect(*other.entry) != simpler) continue;
-    if (effect.entry->parameters[1].scale != Scale::kOne) continue;
-    other.parameters[0].value -= 0.5 * level.value;
-    level.value *= 0.5, level.estimate = false, ratio.value /= 0.5;
-  }
-  std::erase_if(model.effects, [&](const ModelEffect& e) { return e.entry == simpler; });
-  model.effects.push_back(effect);
-}
-
-/// The nominal model with the terms of the ladder that it can have, at their values in the torque balance.
-ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
-  view::Drive drive;
-  drive.inertia = view::first_coefficient(budget.addable, "inertia");
-  drive.viscous = view::first_coefficient(budget.addable, "viscous");
-  drive.coulomb = view::first_coefficient(budget.addable, "motor_coulomb_friction");
-  drive.torque_constant = model.parameters[place::kTorqueConstant].value;
-  drive.torque_rms = budget.torque_rms;
-  const auto take = [&](int index, double value) {
-    ParameterSetting& p = model.parameters[static_cast<std::size_t>(index)];
-    if (p.estimate && value > 0.0) p.value = value;
-  };
-  take(place::kMotorInertia, drive.inertia);
-  take(place::kMotorDamping, drive.viscous);
-  for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
-    const view::Term& term = budget.addable[i];
-    put_into(model,
-             effect_of(*find_effect(term.law->effect), term.law->values(term.theta, term.shape, drive)));
-  }
-  return model;
-}
-
-/// The numbers of the torque balance, or, where the simulator comes near the floor from there, those of its
-/// refit. Where torque is missing that nothing explains, the innovations of an observer favour a heavy drive,
-/// which hides it; the contact of a locked output, which the balance has in no parameter of the model, is
-/// refitted if that leaves less.
-ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
-  const FitOptions& options = study.options.fit;
-  const bool locked = balanced.structure.has_load;
-  const auto effort = locked ? study.effort.quick : reference::RefineEffort{};
-  ScoredModel refitted = judge(nullptr, fit_near(study.train, balanced, options, study.observer_hz, effort),
-                               study.held_out, study.observer_hz);
-  if (std::max(refitted.median_free, refitted.median_innovation) < options.rejected_ratio) return refitted;
-  ScoredModel as_is = judge(nullptr, {balanced, {}, 0.0, {}}, study.held_out, study.observer_hz);
-  return (locked && refitted.score < as_is.score) || !std::isfinite(as_is.score) ? refitted : as_is;
-}
-
-/// Whether the simulator's refit has taken the effect away again.
-bool has_vanished(const ModelEffect& effect) {
-  return effect.entry->parameters[0].absent == 0.0 && effect.parameters[0].value == 0.0;
 }
 
 void drop_what_vanished(TorqueSearch& search) {
@@ -291,7 +227,9 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
                    [](const TorqueAddition& a, const TorqueAddition& b) { return a.rung < b.rung; });
   establish_contained(search.added);
   if (search.added.empty()) return search;
-  search.after = refitted_from(study, with_terms(nominal.fitted.model, budget));
+  const ReferenceModel balanced = with_terms(nominal.fitted.model, budget);
+  for (const ReferenceModel& values : {balanced, with_drive(balanced, nominal.fitted.model)})
+    if (!std::isfinite(search.after.score)) search.after = refitted_from(study, values);
   if (!std::isfinite(search.after.score)) return {};  // its motion diverges: nobody could run it
   drop_what_vanished(search);
   return search;

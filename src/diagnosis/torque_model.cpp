@@ -1,0 +1,74 @@
+#include "diagnosis/torque_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+namespace view = torque_view;
+
+ModelEffect effect_of(const EffectEntry& entry, const std::vector<double>& values) {
+  ModelEffect effect;
+  effect.entry = &entry;
+  for (std::size_t i = 0; i < entry.parameters.size(); ++i)
+    effect.parameters[i] = ParameterSetting::sought(values[i]);
+  return effect;
+}
+
+/// An effect takes the place of the simpler one that it contains, or shares its level with what has taken it.
+void put_into(ReferenceModel& model, ModelEffect effect) {
+  const EffectEntry* simpler = contained_effect(*effect.entry);
+  ParameterSetting &level = effect.parameters[0], &ratio = effect.parameters[1];
+  for (ModelEffect& other : model.effects) {
+    if (simpler == nullptr || contained_effect(*other.entry) != simpler) continue;
+    if (effect.entry->parameters[1].scale != Scale::kOne) continue;
+    other.parameters[0].value -= 0.5 * level.value;
+    level.value *= 0.5, level.estimate = false, ratio.value /= 0.5;
+  }
+  std::erase_if(model.effects, [&](const ModelEffect& e) { return e.entry == simpler; });
+  model.effects.push_back(effect);
+}
+
+}  // namespace
+
+ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
+  view::Drive drive;
+  drive.inertia = view::first_coefficient(budget.addable, "inertia");
+  drive.viscous = view::first_coefficient(budget.addable, "viscous");
+  drive.coulomb = view::first_coefficient(budget.addable, "motor_coulomb_friction");
+  drive.torque_constant = model.parameters[place::kTorqueConstant].value;
+  drive.torque_rms = budget.torque_rms;
+  const auto take = [&](int index, double value) {
+    ParameterSetting& p = model.parameters[static_cast<std::size_t>(index)];
+    if (p.estimate && value > 0.0) p.value = value;
+  };
+  take(place::kMotorInertia, drive.inertia);
+  take(place::kMotorDamping, drive.viscous);
+  for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
+    const view::Term& term = budget.addable[i];
+    put_into(model,
+             effect_of(*find_effect(term.law->effect), term.law->values(term.theta, term.shape, drive)));
+  }
+  return model;
+}
+
+bool has_vanished(const ModelEffect& effect) {
+  return effect.entry->parameters[0].absent == 0.0 && effect.parameters[0].value == 0.0;
+}
+
+ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
+  const FitOptions& options = study.options.fit;
+  const double hz = study.observer_hz;
+  const bool locked = balanced.structure.has_load;
+  const auto effort = locked ? study.effort.quick : reference::RefineEffort{};
+  ScoredModel refitted =
+      judge(nullptr, fit_near(study.train, balanced, options, hz, effort), study.held_out, hz);
+  if (std::max(refitted.median_free, refitted.median_innovation) < options.rejected_ratio) return refitted;
+  ScoredModel as_is = judge(nullptr, {balanced, {}, 0.0, {}}, study.held_out, hz);
+  const auto& effects = refitted.fitted.model.effects;
+  const bool kept = std::none_of(effects.begin(), effects.end(), has_vanished);
+  return (locked && kept && refitted.score < as_is.score) || !std::isfinite(as_is.score) ? refitted : as_is;
+}
+
+}  // namespace gapscope::internal::diagnosis
