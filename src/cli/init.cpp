@@ -57,17 +57,12 @@ void add_init(CommandLine& app) {
       .value("KIND")
       .one_of({"gap", "locked", "one_body"});
   command.footer(
-      "Reads off the recording what it tells: columns, a rate for the detector where time is not uniform, "
-      "the step of the\n"
-      "encoder [rad], and whether the model needs a gap, a locked output or one body (the detector "
-      "decides).\n"
-      "Of one body inertia, damping and Coulomb friction are read, for the fit to begin with: diagnose then "
-      "says "
-      "what is missing\n"
-      "beside them.\n"
-      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit. A "
-      "gap that the detector\n"
-      "does not see (inconclusive) is a GUESS too.\n"
+      "Reads off the recording what it tells: columns, a rate for the detector where time is not uniform,\n"
+      "the step of the encoder [rad], and whether the model needs a gap, a locked output or one body (the\n"
+      "detector decides). Of one body inertia, damping and Coulomb friction are read, for the fit to begin\n"
+      "with: diagnose then says what is missing beside them.\n"
+      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit.\n"
+      "A gap that the detector does not see (inconclusive) is a GUESS too.\n"
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
   command.action([arguments] { write_starter(*arguments); });

@@ -11,11 +11,11 @@ namespace {
 
 using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
-constexpr double kFewestCycles = 2.0;  ///< of a line over the travel: fewer are a slope or an offset; here
-constexpr double kDamping = 0.1;       ///< of the linear resonance [-]; study 11
-constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< study 8
+constexpr double kFewestCycles = 2.0;  ///< of a line over the travel: fewer are a slope or an offset
+constexpr double kDamping = 0.1;       ///< of the linear resonance [-]
+constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< of the top speed [-]
 constexpr int kContactKnots = 16;  ///< of the torque over the travel of a locked output
-constexpr int kHarmonics = 3;      ///< study 8
+constexpr int kHarmonics = 3;      ///< of the free position curve
 
 double direction(double w) { return w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0; }
 
@@ -30,7 +30,7 @@ std::vector<double> geometric(double from, double to, int count) {
   return values;
 }
 
-// Grids: study 10.3.
+// Grids of shapes.
 std::vector<double> no_shape(const Scales&) { return {kNaN}; }
 std::vector<double> only_if(bool true_here, double shape) {
   return true_here ? std::vector<double>{shape} : std::vector<double>{};

@@ -8,7 +8,7 @@
 namespace gapscope::internal::torque_view {
 namespace {
 
-constexpr int kTorqueRounds = 3;     ///< beyond the first fit; study 4.1 does one
+constexpr int kTorqueRounds = 3;     ///< beyond the first fit
 constexpr double kDependent = 1e-9;  ///< of a column that others say as well
 
 bool reads_torque(const Model& model) {

@@ -7,7 +7,7 @@ namespace gapscope::internal::torque_view {
 namespace {
 
 constexpr double kSaidAlready = 1e-6;  ///< of a column's square: what is left of it is rounding
-constexpr int kRefinements = 7;        ///< of a line, within ± half a cell; study 10.3
+constexpr int kRefinements = 7;        ///< of a line, within ± half a cell
 
 constexpr double kRidge = 1e-10;  ///< of columns that say the same
 

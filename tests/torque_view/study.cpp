@@ -1,12 +1,15 @@
 // The error budget of recordings of real drives.
-//   study_torque_view [--translation] [--new-phase] [--held] [--locked] [--band=HZ] [--ranks=N] FIT.csv ...
-//   -- JUDGE.csv ...
+//   study_torque_view [--translation] [--new-phase] [--held] [--locked] [--band=HZ] [--ranks=N] [--vary]
+//   FIT.csv ... -- JUDGE.csv ...
 // Columns t, u, x1, or the raw ones of a Dynamixel servo (stamped_file.h). One file without "--" is split in
-// halves. Prints the octaves, the ladder with the best laws of every rung, the shares and the floors.
+// halves. Prints the octaves, the ladder with the best laws of every rung, the shares and the floors; with
+// "--vary" what half and double of each number make of the ladder.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <utility>
 
 #include "stamped_file.h"
 #include "torque_view/ladder.h"
@@ -19,7 +22,7 @@ struct Order {
   SplitRecordings data;
   TorqueViewOptions options;
   std::size_t ranks = 4;
-  bool held = false;
+  bool held = false, vary = false;
 };
 
 Order read_order(int argc, char** argv) {
@@ -35,6 +38,8 @@ Order read_order(int argc, char** argv) {
       order.data.new_phase = true;
     else if (word == "--held")
       order.held = true;
+    else if (word == "--vary")
+      order.vary = true;
     else if (word == "--locked")
       order.data.held_output = true;
     else if (word.starts_with("--band="))
@@ -109,10 +114,63 @@ void print_shares(const Budget& b) {
       b.floors.each, b.floors.disagreement());
 }
 
+/// The laws that were added, those named with an asterisk, and what is left of the input.
+void print_ladder(const std::string& name, const Order& order, const TorqueViewOptions& options) {
+  const Budget b = error_budget(order.data, options);
+  std::string ladder;
+  for (const Rung& rung : b.rungs)
+    if (rung.helps) ladder += fmt::format("{}{}, ", rung.choice().law->name, rung.named ? "*" : "");
+  fmt::print("| {} | {:.3g} Hz | {}{:.2f} % left |\n", name, b.band.hz, ladder, 100.0 * b.rms / b.input_rms);
+  std::fflush(stdout);
+}
+
+void vary(const Order& order) {
+  using Options = TorqueViewOptions;
+  const std::pair<const char*, double Options::*> fields[] = {{"inner_share", &Options::inner_share},
+                                                              {"kernel_reach", &Options::kernel_reach},
+                                                              {"rows_per_hertz", &Options::rows_per_hertz},
+                                                              {"lost_step", &Options::lost_step},
+                                                              {"jump", &Options::jump},
+                                                              {"stuck_speed", &Options::stuck_speed},
+                                                              {"stuck_quanta", &Options::stuck_quanta},
+                                                              {"most_stuck", &Options::most_stuck},
+                                                              {"lowest_hz", &Options::lowest_hz},
+                                                              {"fewest_samples", &Options::fewest_samples},
+                                                              {"most_noise", &Options::most_noise},
+                                                              {"inertia_drift", &Options::inertia_drift},
+                                                              {"least_inertia", &Options::least_inertia},
+                                                              {"constant_speed", &Options::constant_speed},
+                                                              {"block", &Options::block},
+                                                              {"least_share", &Options::least_share},
+                                                              {"least_low", &Options::least_low},
+                                                              {"least_margin", &Options::least_margin},
+                                                              {"most_left", &Options::most_left},
+                                                              {"most_encoder", &Options::most_encoder},
+                                                              {"last_share", &Options::last_share}};
+  const std::pair<const char*, double Options::*> shares[] = {{"least_better", &Options::least_better},
+                                                              {"least_leading", &Options::least_leading},
+                                                              {"most_absorbed", &Options::most_absorbed},
+                                                              {"same_group", &Options::same_group}};
+  print_ladder("as it is", order, {});
+  const auto run = [&](const char* name, double Options::*field, double value) {
+    Options options;
+    options.*field = value;
+    print_ladder(fmt::format("`{}` {:.4g}", name, value), order, options);
+  };
+  for (const auto& [name, field] : fields)
+    for (const double factor : {0.5, 2.0}) run(name, field, factor * (Options{}.*field));
+  for (const auto& [name, field] : shares)  // of one: what is missing to it
+    for (const double factor : {0.5, 2.0}) run(name, field, 1.0 - factor * (1.0 - (Options{}.*field)));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const Order order = read_order(argc, argv);
+  if (order.vary) {
+    vary(order);
+    return 0;
+  }
   const std::clock_t start = std::clock();
   const Budget budget = error_budget(order.data, order.options);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
