@@ -5,7 +5,8 @@
 #include "reference/model_fit.h"
 
 /// Every number of the diagnosis that was chosen, with those by which it decides (rule.h) and those of its
-/// probabilities, which are learned (probability.cpp). docs/science.md tells what half and double of them do.
+/// probabilities, which are learned (probability.cpp). docs/science.md tells what half and double of the rule
+/// and of the effort do.
 namespace gapscope::internal::diagnosis {
 
 /// How a model is laid beside a recording.
@@ -21,8 +22,9 @@ struct Measure {
 };
 inline constexpr Measure kMeasure;
 
-/// How far the search with the simulator goes. Set on the seeds 860001 to 860045 (known) and 870001 to 870015
-/// (outside) of study_diagnosis.
+/// How far the search with the simulator goes: as far as the seeds 860001 to 860036 of study_diagnosis
+/// (known) and those of 880001 to 880140 that shorter searches had lost ask for. `study_rule effort` shows
+/// half and double.
 struct SearchEffort {
   int race_steps = 2;    ///< by which a start is adjusted before it is compared with others
   double weaker = 0.15;  ///< of a start: a weaker one; there a sine acts in proportion, too
@@ -47,7 +49,8 @@ struct LineSearch {
 };
 inline constexpr LineSearch kLineSearch;
 
-/// When a thing is worth a word, beside the rule by which effects are named.
+/// When a thing is worth a word, beside the rule by which effects are named. The two of other recordings were
+/// set on the seeds 860001 to 860140 of study_diagnosis (known).
 struct Telling {
   double strength = 0.25;    ///< share of the residual torque that a pattern explains to be named
   double dense = 1.5;        ///< times what an error without a place would have in a phase of the contact
