@@ -130,8 +130,10 @@ void note_answer(StudyRow& row, const Study& study, const Findings& f, const bli
   const Removed removed = without(row.effect, f.candidates, f.before);
   row.removed = removed.decision.accepted ? "effect" : "unknown";
   row.details += removed.details;
+  const bool helped = !f.decision.accepted && helps(f.before, f.candidates.front(), study.repeats_badly());
+  if (helped) row.verdict = "helps";
+  if (row.named() || helped) row.covered = covers(study, f, pair, row.details);
   if (!row.named()) return;
-  row.covered = covers(study, f, pair, row.details);
   row.place = places(study, f, pair, true);
   row.blind_place = places(study, f, pair, false);
 }

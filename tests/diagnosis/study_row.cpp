@@ -57,6 +57,13 @@ void print_effects(const Rows& rows) {
   }
 }
 
+/// Of those that are told to help only.
+void print_helps(const Rows& rows) {
+  const Rows told = only(rows, [](const StudyRow& r) { return r.verdict == "helps" && r.covered != "-"; });
+  count("helps: next recording's shrink in the interval", told,
+        [](const StudyRow& r) { return r.covered == "yes"; });
+}
+
 void print_costs(const Rows& rows) {
   std::vector<double> seconds;
   for (const StudyRow& r : rows) seconds.push_back(r.seconds);
@@ -162,8 +169,9 @@ void print_questions(const std::vector<StudyRow>& rows) {
 void print_outside(const std::vector<StudyRow>& all) {
   const Rows rows = only(all, [](const StudyRow& r) { return r.relevant(); });
   fmt::print("{} cases, {} of them above 2 floors\n", all.size(), rows.size());
-  count("unknown (90 %)", rows, [](const StudyRow& r) { return r.verdict == "unknown"; });
-  count("an effect blamed", rows, [](const StudyRow& r) { return r.verdict == "effect"; });
+  count("no effect blamed (90 %)", rows, [](const StudyRow& r) { return r.verdict != "effect"; });
+  count("unknown", rows, [](const StudyRow& r) { return r.verdict == "unknown"; });
+  print_helps(rows);
   print_effects(rows);
   print_costs(all);
 }

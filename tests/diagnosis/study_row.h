@@ -12,7 +12,7 @@ struct StudyRow {
   unsigned long seed = 0;
   std::string rig, effect, excitations;
   double severity = 0.0;
-  std::string verdict;        ///< none, effect or unknown
+  std::string verdict;        ///< none, effect, helps or unknown
   std::string first = "-";    ///< of the ranking
   bool in_group = false;      ///< the truth is the first or in its group
   int group = 0;              ///< its size

@@ -78,14 +78,18 @@ TEST(Documents, KeepTheNumbersOfTheDiagnosisFewAndTogether) {
   const fs::path folder = kProject / "src/diagnosis";
   const std::regex field(R"rx(\n  (?:double|int|std::size_t|reference::RefineEffort) \w+\s*=)rx");
   std::size_t fields = 0;
-  for (const char* file : {"rule.h", "numbers.h"}) fields += matches(text_of(folder / file), field).size();
+  for (const char* file : {"rule.h", "numbers.h"}) {
+    const std::string text = text_of(folder / file);
+    fields += matches(text, field).size();
+  }
   EXPECT_GE(fields, 10u);
   EXPECT_LE(fields, 45u);
   const std::regex chosen(R"rx(constexpr (?:double|int|std::size_t) (k\w+)\s*=\s*[\d.]+[;,])rx");
   const std::set<std::string> resolution = {"kHalvings", "kMapBins"};  // of a search and of a table
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().filename() == "probability.cpp") continue;  // its weights are learned
-    for (const std::smatch& m : matches(text_of(entry.path()), chosen))
+    const std::string text = text_of(entry.path());
+    for (const std::smatch& m : matches(text, chosen))
       EXPECT_TRUE(resolution.contains(m[1])) << entry.path() << " chooses " << m[1];
   }
 }
