@@ -7,7 +7,7 @@
 
 namespace gapscope::internal::diagnosis {
 
-/// The error budget in torque of a drive of one body, or of one whose output is locked without play; nothing
+/// The error budget in torque of a drive of one body, or of one whose output is locked; nothing
 /// for others, whose torque balance depends on the contact, or where the recordings admit no band.
 std::optional<torque_view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal);
 
