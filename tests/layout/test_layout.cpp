@@ -36,6 +36,7 @@ const std::map<std::string, Names>& allowed_modules() {
         {"sliding_mode", {"base", "recording", "signals"}},  // the detector sees no model
         {"reference", {"base", "recording", "signals", "plant", "simulation"}},
         {"independent_plant", {"base", "recording"}},  // shares no code with what it checks
+        {"implant", {"base", "recording"}},            // nor does this
         {"results", {"base", "recording", "sliding_mode", "reference", "diagnosis", "inspection"}},
         {"report", {"base", "recording", "results"}},
     };
@@ -43,6 +44,7 @@ const std::map<std::string, Names>& allowed_modules() {
     for (const std::string& module : order) {
       if (!t.contains(module)) t[module] = above;
       if (module == "run" || module == "blind") t[module].insert("independent_plant");
+      if (module == "blind") t[module].insert("implant");
       above.insert(module);
     }
     return t;
