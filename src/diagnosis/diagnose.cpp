@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/detectable.h"
 #include "diagnosis/evidence.h"
 #include "diagnosis/further.h"
 #include "diagnosis/mismatch_size.h"
@@ -250,6 +251,8 @@ void DiagnosisKnowledge::fields(FieldVisitor& v) {
   v.field({"periods", "rad", "the same as a length, such as a screw's pitch", 1e-9, 1e4}, periods);
   v.field({"outside_catalogue", "", "how likely the catalogue lacks what is missing", 0.01, 0.99},
           outside_catalogue);
+  v.field({"detectable", "", "tell the smallest amount of each effect that would have been named"},
+          detectable);
 }
 
 Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
@@ -269,6 +272,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   if (!left.empty()) diagnosis.warnings.push_back("no effect is named: with it, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);
+  if (options.known.detectable || diagnosis.effects.empty()) tell_detectable(study, found, diagnosis);
   if (!ladder.added.empty() && diagnosis.mismatch.after > diagnosis.mismatch.before)
     diagnosis.warnings.push_back(
         "in x1 the model with what was added errs more than the nominal one, other than in torque: a model "

@@ -32,13 +32,18 @@ void put_into(ReferenceModel& model, ModelEffect effect) {
 
 }  // namespace
 
-ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
+view::Drive drive_of(const view::Model& terms, const view::Budget& budget, const ReferenceModel& model) {
   view::Drive drive;
-  drive.inertia = view::first_coefficient(budget.addable, "inertia");
-  drive.viscous = view::first_coefficient(budget.addable, "viscous");
-  drive.coulomb = view::first_coefficient(budget.addable, "motor_coulomb_friction");
+  drive.inertia = view::first_coefficient(terms, "inertia");
+  drive.viscous = view::first_coefficient(terms, "viscous");
+  drive.coulomb = view::first_coefficient(terms, "motor_coulomb_friction");
   drive.torque_constant = model.parameters[place::kTorqueConstant].value;
   drive.torque_rms = budget.torque_rms;
+  return drive;
+}
+
+ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
+  const view::Drive drive = drive_of(budget.addable, budget, model);
   const auto take = [&](int index, double value) {
     ParameterSetting& p = model.parameters[static_cast<std::size_t>(index)];
     if (p.estimate && value > 0.0) p.value = value;

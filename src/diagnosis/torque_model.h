@@ -5,6 +5,10 @@
 
 namespace gapscope::internal::diagnosis {
 
+/// What the coefficients of the terms of a budget are told relative to.
+torque_view::Drive drive_of(const torque_view::Model& terms, const torque_view::Budget& budget,
+                            const ReferenceModel& model);
+
 /// The nominal model with the terms of the ladder that it can have, at their values in the torque balance.
 ReferenceModel with_terms(ReferenceModel model, const torque_view::Budget& budget);
 

@@ -86,12 +86,9 @@ bool follows_speed(const EffectEntry& entry) {
 
 /// Whether a torque that follows another variable freely takes nearly as much.
 bool free_law_as_good(const view::Rung& rung, const EffectEntry& entry) {
-  const bool speed = follows_speed(entry), angle = entry.follows == ResidualPattern::kAngle;
   const double enough = (1.0 - view::TorqueViewOptions{}.least_margin) * rung.choice().evidence.share;
   return std::any_of(rung.ranking.begin(), rung.ranking.end(), [&](const view::Candidate& c) {
-    const std::string_view name = c.law->name;
-    const bool other = (name == "free_speed_curve" && !speed) || (name == "free_position_curve" && !angle);
-    return other && c.evidence.share >= enough;
+    return follows_another(*c.law, entry) && c.evidence.share >= enough;
   });
 }
 
@@ -161,8 +158,13 @@ void drop_what_vanished(TorqueSearch& search) {
 
 }  // namespace
 
-std::optional<view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal) {
-  if (!has_one_balance(study, nominal)) return {};
+bool follows_another(const view::Law& free_form, const EffectEntry& entry) {
+  const std::string_view name = free_form.name;
+  return (name == "free_speed_curve" && !follows_speed(entry)) ||
+         (name == "free_position_curve" && entry.follows != ResidualPattern::kAngle);
+}
+
+view::SplitRecordings in_torque(const Study& study, const ReferenceModel& nominal) {
   const double km = nominal.parameters[place::kTorqueConstant].value;
   view::SplitRecordings data;
   for (const MotorTrace& t : study.train) data.fit.push_back(in_torque(t, 0, km));
@@ -182,7 +184,12 @@ std::optional<view::Budget> torque_budget(const Study& study, const ReferenceMod
   data.threads = study.options.threads;
   for (const EffectEntry* entry : study.catalogue)
     if (is_candidate(*entry, nominal)) data.addable.emplace_back(entry->name);
-  view::Budget budget = view::error_budget(data);
+  return data;
+}
+
+std::optional<view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal) {
+  if (!has_one_balance(study, nominal)) return {};
+  view::Budget budget = view::error_budget(in_torque(study, nominal));
   if (std::isnan(budget.band.hz)) return {};
   return budget;
 }

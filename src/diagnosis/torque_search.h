@@ -7,6 +7,13 @@
 
 namespace gapscope::internal::diagnosis {
 
+/// What is fitted and what is held out, with u in torque, as the torque view takes it.
+torque_view::SplitRecordings in_torque(const Study& study, const ReferenceModel& nominal);
+
+/// Whether a free-form law follows another variable than an effect: where it takes nearly as much, the cause
+/// stays open.
+bool follows_another(const torque_view::Law& free_form, const EffectEntry& entry);
+
 /// The error budget in torque of a drive of one body, or of one whose output is locked; nothing
 /// for others, whose torque balance depends on the contact, or where the recordings admit no band.
 std::optional<torque_view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal);

@@ -81,6 +81,19 @@ void fields(Archive& archive, AddedEffect& a) {
 }
 
 template <class Archive>
+void fields(Archive& archive, DetectableEffect& d) {
+  archive("effect", d.effect);
+  archive("parameter", d.smallest.key);
+  archive("unit", d.smallest.unit);
+  archive("smallest", d.smallest.value);
+  archive.named_members("at", d.at, &NamedValue::key, &NamedValue::value);
+  units(archive, "at_units", d.at);
+  archive("torque_rms_nm", d.torque);
+  archive("hidden_by", d.hidden_by);
+  archive("why", d.why);
+}
+
+template <class Archive>
 void fields(Archive& archive, BudgetRung& r) {
   archive("law", r.law);
   archive("effect", r.effect);
@@ -231,6 +244,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.list("ranking", g.ranking);
   archive("outside_catalogue_probability", g.outside_probability);
   archive.list("steps", g.steps);
+  archive.added_list("detectable", g.detectable);
   archive.list("periodic_torque", g.periodic);
   archive.single("next_experiment", g.next_experiment);
   archive.single("where", g.where);

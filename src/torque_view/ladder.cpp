@@ -43,11 +43,6 @@ bool is_at_the_floor(const SplitRecordings& data, Bench& bench, const Model& mod
   return floor * floor >= options.most_encoder * left * left;
 }
 
-/// The position curve has the period of the strongest line.
-void take_line(Bench& bench, const Model& model) {
-  if (const Term* line = find_term(model, "cogging_torque")) bench.scales.line = line->shape;
-}
-
 void climb(const SplitRecordings& data, Bench& bench, Budget& budget, const TorqueViewOptions& options) {
   while (static_cast<int>(budget.rungs.size()) < options.most_rungs &&
          !is_at_the_floor(data, bench, budget.model, options)) {
@@ -98,20 +93,29 @@ void keep_addable(const SplitRecordings& data, Bench& bench, Budget& budget) {
   budget.addable_rms = rms_of(bench.left(budget.addable));
 }
 
-Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options) {
-  Budget budget;
-  budget.band = choose_band(data.fit, data.rotates, options, data.threads);
-  if (std::isnan(budget.band.hz)) return budget;
-  Bench bench{stacked(data.fit, budget.band.hz, budget.band.free_constant, options),
-              stacked(data.judge, budget.band.hz, budget.band.free_constant, options),
+Bench bench_of(const SplitRecordings& data, const FrequencyBand& band, const TorqueViewOptions& options) {
+  Bench bench{stacked(data.fit, band.hz, band.free_constant, options),
+              stacked(data.judge, band.hz, band.free_constant, options),
               {},
               {},
               data.new_phase,
               data.closed,
               data.threads};
   bench.scales = scales_of(bench.fit, data.rotates, data.held_output);
-  budget.travel = bench.scales.travel;
   bench.blocks = Blocks(bench.judge, options);
+  return bench;
+}
+
+void take_line(Bench& bench, const Model& model) {
+  if (const Term* line = find_term(model, "cogging_torque")) bench.scales.line = line->shape;
+}
+
+Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options) {
+  Budget budget;
+  budget.band = choose_band(data.fit, data.rotates, options, data.threads);
+  if (std::isnan(budget.band.hz)) return budget;
+  Bench bench = bench_of(data, budget.band, options);
+  budget.travel = bench.scales.travel;
   Model nominal = nominal_model();
   nominal.insert(nominal.end(), data.known.begin(), data.known.end());
   budget.nominal = budget.model = fitted(bench.fit, std::move(nominal));

@@ -34,6 +34,11 @@ struct Budget {
   Floors floors;
 };
 
+/// The recordings in that band, ready for comparisons.
+Bench bench_of(const SplitRecordings& data, const FrequencyBand& band, const TorqueViewOptions& options);
+/// The free position curve has the period of the model's line.
+void take_line(Bench& bench, const Model& model);
+
 Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options = {});
 
 }  // namespace gapscope::internal::torque_view

@@ -14,10 +14,6 @@ Model with(Model model, const Law& law, double shape) {
   return model;
 }
 
-bool lacks_simpler(const Model& model, const Law& law) {
-  return law.simpler != nullptr && find_term(model, law.simpler) == nullptr;
-}
-
 /// A law may come again only as a further line.
 bool is_open(const Bench& bench, const Model& model, const Law& l) {
   if (*l.effect != '\0' &&
@@ -68,12 +64,9 @@ std::optional<Candidate> tried(Bench& bench, const Law& l, const Model& model, c
 
 std::vector<Candidate> screened(Bench& bench, const Model& model, const TorqueViewOptions& options) {
   const Eigen::VectorXd before = bench.squares(model);
-  const bool torque_is_there = says_most(bench, model, options);
+  std::vector<const Law*> open = open_laws(bench, model, options);
   set_torque(bench.fit, model);
   const Projection plain(bench.fit, model);
-  std::vector<const Law*> open;
-  for (const Law& l : laws())
-    if (is_open(bench, model, l) && (l.kind != Kind::kOnTorque || torque_is_there)) open.push_back(&l);
   std::stable_partition(open.begin(), open.end(),
                         [](const Law* l) { return l->shapes == line_grid; });  // long
   // The only simpler law of the table is Coulomb friction.
@@ -134,14 +127,6 @@ int parameters(const Candidate& c, std::size_t below) {
   return count;
 }
 
-bool contains(const Candidate& c, const Candidate& other) {
-  return c.law->simpler != nullptr && c.law->simpler == std::string_view(other.law->name);
-}
-
-bool is_worth_having(const Candidate& c, const TorqueViewOptions& options) {
-  return c.evidence.share >= options.last_share && c.evidence.interval.low > 0.0;
-}
-
 /// Members of the leader's group, itself left out.
 std::vector<std::size_t> group_of(Bench& bench, const Rung& rung, const Model& model,
                                   const TorqueViewOptions& options) {
@@ -162,7 +147,8 @@ std::size_t simplest(const Bench& bench, const Rung& rung, const std::vector<std
                      std::size_t below, const TorqueViewOptions& options) {
   const Candidate& leader = rung.choice();
   for (std::size_t j = 0; j < rung.ranking.size(); ++j)
-    if (contains(leader, rung.ranking[j]) && is_worth_having(rung.ranking[j], options)) return j;
+    if (contains(*leader.law, *rung.ranking[j].law) && is_worth_having(rung.ranking[j].evidence, options))
+      return j;
   std::size_t best = rung.chosen;
   for (const std::size_t j : group)
     if (parameters(rung.ranking[j], below) < parameters(rung.ranking[best], below) &&
@@ -188,24 +174,52 @@ void decide(Bench& bench, Rung& rung, const Model& model, const std::vector<std:
   for (const std::size_t j : group) rung.group.emplace_back(rung.ranking[j].law->name);
   for (std::size_t j = 0; j < rung.ranking.size(); ++j) {
     const Candidate& rival = rung.ranking[j];
-    if (j == rung.chosen || is_free_form(*rival.law) || contains(rival, c) || contains(c, rival) ||
-        std::find(group.begin(), group.end(), j) != group.end() || says_more(bench, c, rival, model, options))
+    if (j == rung.chosen || is_free_form(*rival.law) || contains(*rival.law, *c.law) ||
+        contains(*c.law, *rival.law) || std::find(group.begin(), group.end(), j) != group.end() ||
+        says_more(bench, c, rival, model, options))
       continue;
     rung.rival = rival.law->name;
-    rung.margin =
-        (c.evidence.share - rival.evidence.share) / std::min(c.evidence.share, 1.0 - rival.evidence.share);
+    rung.margin = margin_over(c.evidence, rival.evidence);
     rung.leading = bench.blocks.leading(c.squares, rival.squares);
     break;
   }
-  rung.helps = is_worth_having(c, options);
-  rung.named = rung.helps && c.evidence.share >= options.least_share &&
-               c.evidence.interval.low >= options.least_low && c.evidence.better >= options.least_better &&
-               rung.margin >= options.least_margin && rung.leading >= options.least_leading;
+  rung.helps = is_worth_having(c.evidence, options);
+  rung.named = is_clear(c.evidence, options) && rung.margin >= options.least_margin &&
+               rung.leading >= options.least_leading;
 }
 
 }  // namespace
 
 bool is_free_form(const Law& law) { return std::string_view(law.name).starts_with("free_"); }
+
+bool lacks_simpler(const Model& model, const Law& law) {
+  return law.simpler != nullptr && find_term(model, law.simpler) == nullptr;
+}
+
+bool contains(const Law& law, const Law& other) {
+  return law.simpler != nullptr && law.simpler == std::string_view(other.name);
+}
+
+bool is_worth_having(const Evidence& evidence, const TorqueViewOptions& options) {
+  return evidence.share >= options.last_share && evidence.interval.low > 0.0;
+}
+
+bool is_clear(const Evidence& evidence, const TorqueViewOptions& options) {
+  return is_worth_having(evidence, options) && evidence.share >= options.least_share &&
+         evidence.interval.low >= options.least_low && evidence.better >= options.least_better;
+}
+
+double margin_over(const Evidence& choice, const Evidence& rival) {
+  return (choice.share - rival.share) / std::min(choice.share, 1.0 - rival.share);
+}
+
+std::vector<const Law*> open_laws(Bench& bench, const Model& model, const TorqueViewOptions& options) {
+  const bool torque_is_there = says_most(bench, model, options);
+  std::vector<const Law*> open;
+  for (const Law& l : laws())
+    if (is_open(bench, model, l) && (l.kind != Kind::kOnTorque || torque_is_there)) open.push_back(&l);
+  return open;
+}
 
 Rung next_rung(Bench& bench, const Model& model, const TorqueViewOptions& options) {
   Rung rung;

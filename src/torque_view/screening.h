@@ -53,4 +53,17 @@ Visibility visibility(Bench& bench, const Model& without, const Term& term, cons
 /// Whether a law is drawn from the data and stands for no cause.
 bool is_free_form(const Law& law);
 
+// The parts of the rule that names the choice of a rung.
+/// The laws that a step may add to the model.
+std::vector<const Law*> open_laws(Bench& bench, const Model& model, const TorqueViewOptions& options);
+/// Whether a law brings another one along that the model does not have yet.
+bool lacks_simpler(const Model& model, const Law& law);
+/// Whether a law adds to the other one.
+bool contains(const Law& law, const Law& other);
+bool is_worth_having(const Evidence& evidence, const TorqueViewOptions& options);
+/// Whether the evidence alone suffices to be named, whatever its rivals show.
+bool is_clear(const Evidence& evidence, const TorqueViewOptions& options);
+/// See least_margin.
+double margin_over(const Evidence& choice, const Evidence& rival);
+
 }  // namespace gapscope::internal::torque_view

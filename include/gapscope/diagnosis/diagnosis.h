@@ -10,8 +10,10 @@
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/fields.h"
 #include "gapscope/base/statistics.h"
+#include "gapscope/diagnosis/detectable.h"
 #include "gapscope/diagnosis/error_budget.h"
 #include "gapscope/diagnosis/evidence.h"
+#include "gapscope/diagnosis/named_value.h"
 #include "gapscope/diagnosis/next_experiment.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit.h"
@@ -34,13 +36,6 @@ enum class FloorSource { kEncoder, kNoise, kRepeatability, kRecords };
 inline const char* floor_name(FloorSource from) {
   return from == FloorSource::kRepeatability ? "repeatability floor" : "encoder floor";
 }
-
-/// A number with its name: a parameter of an effect or of the drive.
-struct NamedValue {
-  std::string key;
-  std::string unit;
-  double value = kNaN;
-};
 
 /// One size of the mismatch on held-out data, as the median over windows.
 struct MismatchMeasure {
@@ -177,17 +172,22 @@ struct Diagnosis {
   double observer_hz = kNaN;
   StepEvidence evidence;  ///< of the first step; not stored in diagnosis.json
 
+  /// For each candidate that was not added what would have been named; empty: nobody asked for it.
+  std::vector<DetectableEffect> detectable;
+
   std::vector<Rival> rivals;  ///< models between which these recordings do not decide well; empty: they do
   NextExperiment next_experiment;  ///< that would; left to the caller, as it takes time
 
   std::string brief_report() const;  ///< one line: log, command line
 };
 
-/// `diagnosis:` – what is known of the drive beforehand.
+/// `diagnosis:` – what is known of the drive beforehand, and what is asked beside the verdict.
 struct DiagnosisKnowledge {
   std::vector<double> periods_per_turn;  ///< pole pairs, slots, teeth: cycles of a torque [1/rev]
   std::vector<double> periods;           ///< the same as a length, such as a screw's pitch [rad]
   double outside_catalogue = 0.5;  ///< how likely, before any recording, the catalogue lacks what is missing
+  /// Whether to tell the smallest amounts that would have been named; of "none" and "unknown" they always are
+  bool detectable = false;
 
   void fields(FieldVisitor& visitor);
 };

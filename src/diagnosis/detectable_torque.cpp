@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "diagnosis/detectable.h"
+#include "diagnosis/torque_model.h"
+#include "diagnosis/torque_search.h"
+#include "gapscope/base/text.h"
+#include "torque_view/least_named.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+namespace view = torque_view;
+
+/// The first parameter that grows or falls with the coefficients.
+std::size_t size_of(const view::LeastNamed& least, const view::Drive& drive) {
+  const std::vector<double> once = least.law->values(least.theta, least.shape, drive),
+                            twice = least.law->values(2.0 * least.theta, least.shape, drive);
+  return static_cast<std::size_t>(std::mismatch(once.begin(), once.end(), twice.begin()).first -
+                                  once.begin());
+}
+
+const char* name_of(const view::Law& law) { return *law.effect == '\0' ? law.name : law.effect; }
+
+DetectableEffect told(const EffectEntry& entry, const view::LeastNamed& least, const view::Drive& drive,
+                      const char* torque) {
+  if (least.exists())
+    return detectable_from(entry, least.law->values(least.theta, least.shape, drive), size_of(least, drive),
+                           least.torque);
+  if (least.said_by_model) return not_detectable(entry, "model", "the model takes it up, whatever its size");
+  if (least.hidden_by == nullptr)
+    return not_detectable(
+        entry, "",
+        fmt::format("not even a {} as large as the input's would be clear of what remains", torque));
+  return not_detectable(
+      entry, name_of(*least.hidden_by),
+      fmt::format("a {} says it as well, whatever its size", readable(name_of(*least.hidden_by))));
+}
+
+/// A law of the command that acts alike to first order: x(t − T) obeys the same law as u(t − T).
+constexpr const char* kActsAlike = "input_delay";
+
+bool is_lag(const EffectEntry& entry) {
+  return entry.name == std::string_view("actuator_lag") || entry.name == std::string_view("measurement_lag");
+}
+
+DetectableEffect without_law(const EffectEntry& entry, const std::vector<DetectableEffect>& others) {
+  const auto delay = std::find_if(others.begin(), others.end(), [](const DetectableEffect& d) {
+    return d.effect == kActsAlike && d.can_be_shown();
+  });
+  if (is_lag(entry) && delay != others.end())
+    return not_detectable(entry, kActsAlike, "it acts as an input delay does, and would be named as one");
+  if (is_lag(entry)) return not_detectable(entry, kActsAlike, "it acts as an input delay does");
+  if (reads_counts(entry))
+    return not_detectable(entry, "", "coarser counts explain nothing of what this model leaves");
+  if (contained_effect(entry) != nullptr)
+    return not_detectable(entry, contained_effect(entry)->name,
+                          "the drive shows nothing that it would change");
+  return not_detectable(entry, "", "the torque balance has no law for it");
+}
+
+}  // namespace
+
+std::vector<DetectableEffect> detectable_in_torque(const Study& study, const Findings& found,
+                                                   const std::vector<const EffectEntry*>& asked) {
+  const view::Budget& budget = *found.budget;
+  const ReferenceModel& nominal = found.before.fitted.model;
+  view::Drive drive = drive_of(budget.model, budget, nominal);
+  const auto another = [](const view::Law& free_form, const view::Law& law) {
+    return follows_another(free_form, *find_effect(law.effect));
+  };
+  const std::vector<view::LeastNamed> laws = view::least_named(in_torque(study, nominal), budget, another);
+  std::vector<DetectableEffect> detectable;
+  for (const EffectEntry* entry : asked)
+    for (const view::LeastNamed& least : laws)
+      if (entry->name == std::string_view(least.law->effect))
+        detectable.push_back(told(*entry, least, drive, study.options.coordinates.torque_word()));
+  for (const EffectEntry* entry : asked)
+    if (std::none_of(laws.begin(), laws.end(), [&](const view::LeastNamed& least) {
+          return entry->name == std::string_view(least.law->effect);
+        }))
+      detectable.push_back(without_law(*entry, detectable));
+  std::stable_sort(detectable.begin(), detectable.end(),
+                   [](const DetectableEffect& a, const DetectableEffect& b) { return a.effect < b.effect; });
+  return detectable;
+}
+
+}  // namespace gapscope::internal::diagnosis
