@@ -12,6 +12,7 @@
 #include "gapscope/base/move_file.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/base/text.h"
 #include "gapscope/base/version.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/diagnosis/diagnosis.h"
@@ -51,6 +52,22 @@ std::string of_original(std::string message, const std::string& copy, const std:
   return message;
 }
 
+/// Members of the groups of all additions that are not added themselves.
+std::vector<std::string> groups_of(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const AddedEffect& a : d.added)
+    for (const std::string& name : a.group)
+      if (!contains(d.effects, name) && !contains(names, name)) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> established_of(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const AddedEffect& a : d.added)
+    if (a.established) names.push_back(a.effect);
+  return names;
+}
+
 BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
   const blind::CaseCopy copy(folder, c);
   Diagnosis d;
@@ -65,6 +82,8 @@ BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
           to_string(d.verdict),
           d.effects,
           d.group,
+          groups_of(d),
+          established_of(d),
           d.where.headline,
           blind::told_place(d.where),
           d.mismatch.before,

@@ -12,14 +12,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Whether the recordings and labels are there, whole, and those of the configuration.
-bool is_made(const BlindConfig& config, const std::string& cases, const std::string& labels) {
+bool is_made(const std::string& resolved, const std::string& cases, const std::string& labels) {
   if (!fs::exists(cases + "/manifest.json") || !fs::exists(labels)) return false;
   try {
     const BlindManifest manifest = read_blind_manifest(cases + "/manifest.json");
     const BlindLabels stored = read_blind_labels(labels);
     verify_recordings(manifest, cases);
     verify_labels(manifest, stored, labels);
-    return manifest.version == version() && stored.configuration == resolved_yaml(config);
+    return manifest.version == version() && stored.configuration == resolved;
   } catch (const ConfigError&) {
     return false;
   }
@@ -52,16 +52,39 @@ BlindScore score_blind_check(const std::string& folder, const std::string& label
   return score;
 }
 
-BlindScore run_blind_check(const BlindConfig& config, const std::string& folder, int threads,
-                           const BlindProgress& made, const BlindProgress& answered) {
+namespace {
+
+/// @param make  makes what is not there, from the folder of the cases and the file of the labels
+BlindScore run_check(const std::string& resolved, const std::string& folder, int threads,
+                     const BlindProgress& answered,
+                     const std::function<void(const std::string&, const std::string&)>& make) {
   const std::string cases = folder + "/cases", labels = folder + "/labels.json",
                     answers = folder + "/answers.json";
-  const bool is_there = is_made(config, cases, labels);
+  const bool is_there = is_made(resolved, cases, labels);
   if (!is_there && fs::exists(answers))
     throw ConfigError(answers, "answers another check, expected another folder for this one");
-  if (!is_there) make_blind_check(config, cases, labels, threads, made);
+  if (!is_there) make(cases, labels);
   if (!is_answered(cases, answers)) answer_blind_check(cases, answers, threads, answered);
   return score_blind_check(cases, labels, answers);
+}
+
+}  // namespace
+
+BlindScore run_blind_check(const BlindConfig& config, const std::string& folder, int threads,
+                           const BlindProgress& made, const BlindProgress& answered) {
+  return run_check(resolved_yaml(config), folder, threads, answered,
+                   [&](const std::string& cases, const std::string& labels) {
+                     make_blind_check(config, cases, labels, threads, made);
+                   });
+}
+
+BlindScore run_implanted_check(const Configuration& c, const std::string& folder, int threads,
+                               const BlindProgress& made, const BlindProgress& answered,
+                               const Progress& progress) {
+  return run_check(resolved_yaml(c), folder, threads, answered,
+                   [&](const std::string& cases, const std::string& labels) {
+                     make_implanted_check(c, cases, labels, threads, made, progress);
+                   });
 }
 
 }  // namespace gapscope

@@ -122,6 +122,17 @@ void fill_shrinks(const std::vector<ScoredAnswer>& cases, BlindScore& score) {
   if (!others.empty()) score.shrink_other_law = median(others);
 }
 
+std::optional<ScoredImplant> implant_for_the_reader(const ScoredAnswer& s) {
+  if (!s.label->implant) return {};
+  const ImplantLabel& label = *s.label->implant;
+  ScoredImplant implant{label.size, label.foretold_share, "", "", kNaN, s.told(), s.stranger()};
+  if (!label.values.empty()) {
+    implant.parameter = label.values.front().key, implant.unit = label.values.front().unit;
+    implant.amount = label.values.front().value;
+  }
+  return implant;
+}
+
 ScoredCase for_the_reader(const ScoredAnswer& s, const BlindCalibration& calibration) {
   const std::string truth = s.none() ? "none" : fmt::format("{}", fmt::join(s.label->effects, "+"));
   return {s.label->name,     s.label->part,
@@ -129,7 +140,7 @@ ScoredCase for_the_reader(const ScoredAnswer& s, const BlindCalibration& calibra
           s.answer->verdict, fmt::format("{}", fmt::join(s.answer->effects, "+")),
           s.label->severity, s.answer->evidence.before(),
           s.answer->shrink,  s.first.ranking.empty() ? kNaN : probability_of(s.first, calibration),
-          s.right()};
+          s.right(),         implant_for_the_reader(s)};
 }
 
 }  // namespace
@@ -143,9 +154,13 @@ BlindScore score_blind_answers(const BlindLabels& labels, const BlindAnswers& an
   score.manifest_sha256 = answers.manifest_sha256, score.answers_seal = answers.seal();
   score.configuration = labels.configuration;
   for (const ScoredAnswer& s : cases) ++(s.reported() ? score.report_cases : score.calibration_cases);
-  score.counts = count_answers(cases);
-  fill_shrinks(cases, score);
   score.confusion = confusion_of(cases);
+  const bool of_implants = !cases.empty() && cases.front().label->implant.has_value();
+  score.counts = of_implants ? count_implants(cases) : count_answers(cases);
+  for (const ScoredAnswer& s : cases) score.cases.push_back(for_the_reader(s, score.calibration));
+  if (of_implants) return score;  // a real drive has no floor to count from, and lacks more than one thing
+  score.cases.clear();
+  fill_shrinks(cases, score);
   score.slices = slice_answers(cases);
   const std::vector<Judgement> judged = judgements(cases, "report");
   score.calibration = calibrate(judgements(cases, "calibration"), judged);

@@ -30,6 +30,11 @@ struct ScoredAnswer {
   /// Coulomb's, has given it its place.
   std::size_t standing() const;
   std::size_t place() const;  ///< of the truth in the ranking, 0 is first
+  bool told() const;          ///< an implant was added, or is in the group of one that was
+  /// An effect was called the cause that was neither implanted nor is the drive's own, nor what contains the
+  /// one or is contained in the other.
+  bool stranger() const;
+  bool as_undisturbed() const;  ///< the effects are those of the recordings without an implant
 };
 
 std::vector<ScoredAnswer> scored(const BlindLabels& labels, const BlindAnswers& answers);
@@ -39,6 +44,9 @@ std::vector<std::string> truth_of(const ScoredAnswer& c, bool and_look_alikes);
 
 /// All counts of the report part.
 std::vector<BlindCount> count_answers(const std::vector<ScoredAnswer>& cases);
+
+/// The same of implants.
+std::vector<BlindCount> count_implants(const std::vector<ScoredAnswer>& cases);
 
 /// Per rig, severity and effect.
 std::vector<BlindSlice> slice_answers(const std::vector<ScoredAnswer>& cases);

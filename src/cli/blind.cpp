@@ -9,6 +9,7 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/blind/blind_check.h"
 #include "gapscope/report/blind_report.h"
+#include "gapscope/results/blind_files.h"
 #include "gapscope/results/blind_score.h"
 #include "gapscope/results/report_folder.h"
 
@@ -59,6 +60,47 @@ void add_make(CommandLine& blind) {
       "keep them from everybody from whom the labels are kept.\n\n"
       "Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
   command.action([a] { make(*a); });
+}
+
+void put_in(const BlindArguments& a) {
+  const Configuration config = load_configuration(a.config);
+  const Progress progress = progress_on_terminal(a.quiet);
+  make_implanted_check(config, a.cases, a.labels, a.threads, counted(progress, "made case"), progress);
+  say("cases", fmt::format("{} in {}", read_blind_labels(a.labels).cases.size(), a.cases));
+  say("labels", a.labels + " (not to be handed out before the answers are in)");
+}
+
+void add_implant(CommandLine& blind) {
+  auto a = std::make_shared<BlindArguments>();
+  CommandLine command = blind.add_command("implant", "Puts known effects into one's own recordings");
+  command.add_option("CONFIG", a->config, "of the drive (YAML), as `gapscope diagnose` takes it").required();
+  command.add_option("-o,--output", a->cases, "folder of the recordings, to be handed out")
+      .required()
+      .value("DIR");
+  command.add_option("--labels", a->labels, "file of the labels, to be kept").required().value("FILE");
+  add_work_options(command, a->threads, a->quiet);
+  command.footer(
+      "A recorded drive obeyed m a = Km u + rest. Under u' = u - torque/Km the same motion is that of a "
+      "drive\n"
+      "which has the torque, too, with all its real noise and whatever else it has. Effects of the command "
+      "are\n"
+      "put into u by the inverse of their law, those of the encoder into x1; what acts behind a contact "
+      "cannot\n"
+      "be implanted exactly and is refused. The recordings are diagnosed as they are first: effects that "
+      "the\n"
+      "drive has anyway are not implanted. Begin with the model that a diagnosis has fitted.\n\n"
+      "Keys of implant: (all have defaults)\n"
+      "  first_seed  of the cases (default: 1)\n"
+      "  known       cases with an effect of the catalogue (24)\n"
+      "  outside     cases with another: a stray sine, knocks, noise of the input, lost counts (4)\n"
+      "  none        cases without an implant (1)\n"
+      "  sizes       rms of the effect's torque over that of the input's ([0.05, 0.1, 0.2])\n"
+      "  effects     of `gapscope effects` (default: all that can be implanted)\n\n"
+      "Writes per case its recordings (CSV: t [s], u, x1 [rad]), <case>.yaml and manifest.json. Labels "
+      "follow\n"
+      "from the seeds and the recordings: keep both from everybody from whom the labels are kept.\n\n"
+      "Example: gapscope blind implant axis.yaml -o cases --labels labels.json");
+  command.action([a] { put_in(*a); });
 }
 
 void add_seal(CommandLine& blind) {
@@ -144,10 +186,21 @@ void add_score(CommandLine& blind) {
   });
 }
 
+void run_implants(const BlindArguments& a) {
+  const Configuration config = load_configuration(a.config);
+  const std::string folder = a.folder.empty() ? "reports/" + config.name : a.folder;
+  ReportFolder report(folder, FolderKind::kBlind, {a.config});
+  const Progress progress = progress_on_terminal(a.quiet);
+  write_score(report, folder,
+              run_implanted_check(config, folder, a.threads, counted(progress, "made case"),
+                                  counted(progress, "answered case"), progress));
+}
+
 void add_whole(CommandLine& blind) {
   auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("run", "Makes, answers and scores a check in one folder");
-  command.add_option("CONFIG", a->config, "of the check (YAML), see `gapscope blind make --help`").required();
+  command.add_option("CONFIG", a->config, "of the check (YAML): of `blind make` or `blind implant`")
+      .required();
   command.add_option("-o,--output", a->folder, "folder (default: reports/<name>)").value("DIR");
   add_work_options(command, a->threads, a->quiet);
   command.footer(
@@ -157,6 +210,7 @@ void add_whole(CommandLine& blind) {
       "command goes on.\n\n"
       "Example: gapscope blind run configs/07_blind.yaml -o reports/blind");
   command.action([a] {
+    if (names_recordings(a->config)) return run_implants(*a);
     const BlindConfig config = load_blind_config(a->config);
     const std::string folder = a->folder.empty() ? "reports/" + config.name : a->folder;
     ReportFolder report(folder, FolderKind::kBlind, {a->config});
@@ -175,6 +229,7 @@ void add_blind(CommandLine& app) {
   command.needs_command();
   command.footer("Example: gapscope blind run configs/07_blind.yaml -o reports/blind");
   add_make(command);
+  add_implant(command);
   add_seal(command);
   add_answer(command);
   add_score(command);

@@ -9,6 +9,7 @@
 #include "config/field_reader.h"
 #include "config/yaml_document.h"
 #include "config/yaml_writer.h"
+#include "gapscope/config/implant_config.h"
 
 namespace gapscope {
 
@@ -18,6 +19,14 @@ void BlindPartConfig::fields(FieldVisitor& v) {
   v.field({"outside", "", "cases with one effect that the catalogue does not have", 0, 10000}, outside);
   v.field({"none", "", "cases without an effect", 0, 10000}, none);
   v.field({"pairs", "", "cases with two effects of the catalogue", 0, 10000}, pairs);
+}
+
+void ImplantConfig::fields(FieldVisitor& v) {
+  v.field({"first_seed", "", "seed of the first case"}, first_seed);
+  v.field({"known", "", "cases with an effect of the catalogue", 0, 10000}, known);
+  v.field({"outside", "", "cases with an effect that the catalogue does not have", 0, 10000}, outside);
+  v.field({"none", "", "cases without an implant", 0, 10000}, none);
+  v.field({"sizes", "", "rms of an effect's torque over that of the input", 0, 1}, sizes);
 }
 
 namespace {
@@ -61,6 +70,14 @@ BlindConfig load_blind_config(const std::string& path) {
   c.rigs = rigs ? read_rigs(*rigs) : kRigNames;
   if (const auto duration = root.find("duration")) c.duration = duration->number(kDurations);
   return c;
+}
+
+bool names_recordings(const std::string& path) {
+  const Value document = internal::config::parse_document(internal::config::read_text(path), path);
+  if (!document.is_map()) return false;
+  const auto entries = document.entries();
+  return std::any_of(entries.begin(), entries.end(),
+                     [](const auto& entry) { return entry.first == "recording" || entry.first == "model"; });
 }
 
 std::string resolved_yaml(const BlindConfig& check) {

@@ -85,6 +85,25 @@ void read_diagnosis(const Value& value, Configuration& c) {
       c.excluded.emplace_back(effect_named(effect.text(), effect).name);
 }
 
+ImplantConfig read_implant(const Value& value) {
+  ImplantConfig implant;
+  FieldKeys known;
+  implant.fields(known);
+  known.keys.emplace_back("effects");
+  const Section section(value, known.keys);
+  FieldReader reader(section);
+  implant.fields(reader);
+  implant.line = value.line();
+  if (implant.cases() == 0) value.fail("asks for no case, expected known, outside or none above 0");
+  for (const double size : implant.sizes)
+    if (!(size > 0.0)) section.find("sizes")->fail_expecting("shares of the input's rms above 0");
+  if (implant.sizes.empty()) section.find("sizes")->fail_expecting("at least one share of the input's rms");
+  if (const auto effects = section.find("effects"))
+    for (const Value& effect : effects->items())
+      implant.effects.emplace_back(effect_named(effect.text(), effect).name);
+  return implant;
+}
+
 void read_data(const Section& root, const WrittenModel& model, Configuration& c) {
   const auto recording = root.find("recording"), simulation = root.find("simulation");
   if (recording && simulation)
@@ -123,7 +142,7 @@ std::string read_name(const Section& root, const std::string& file) {
 
 Configuration read_configuration(const Value& document) {
   const Section root(document, {"name", "recording", "simulation", "encoder", "coordinates", "model",
-                                "detector", "fit", "next_experiment", "diagnosis"});
+                                "detector", "fit", "next_experiment", "diagnosis", "implant"});
   Configuration c;
   c.file = document.file();
   c.name = read_name(root, c.file);
@@ -140,6 +159,7 @@ Configuration read_configuration(const Value& document) {
   if (c.simulation) c.fit.seed = c.simulation->seed;
   if (const auto fit = root.find("fit")) read_fields(*fit, c.fit);
   if (const auto diagnosis = root.find("diagnosis")) read_diagnosis(*diagnosis, c);
+  if (const auto implant = root.find("implant")) c.implant = read_implant(*implant);
   if (const auto next = root.find("next_experiment")) {
     read_fields(*next, c.next_experiment);
     c.next_experiment_line = next->line();

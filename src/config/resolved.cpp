@@ -163,6 +163,14 @@ void write_reading(YamlWriter& out, const Configuration& c) {
   out.entry("coordinates", c.coordinates.name());
 }
 
+void write_implant(YamlWriter& out, ImplantConfig implant) {
+  FieldWriter fields(out);
+  out.open("implant");
+  implant.fields(fields);
+  if (!implant.effects.empty()) out.entry("effects", "[" + joined(implant.effects) + "]");
+  out.close();
+}
+
 }  // namespace
 
 std::string resolved_reading(const Configuration& c) {
@@ -197,6 +205,7 @@ std::string yaml_of(const Configuration& c, const std::string& heading) {
   known.fields(fields);
   if (!c.excluded.empty()) out.entry("exclude", "[" + joined(c.excluded) + "]");
   out.close();
+  if (c.implant) write_implant(out, *c.implant);
   return out.text();
 }
 

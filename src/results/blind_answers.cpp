@@ -40,6 +40,8 @@ void answer_fields(Archive& archive, BlindAnswer& a) {
   archive("verdict", a.verdict);
   archive("effects", a.effects);
   archive("group", a.group);
+  archive.seldom("alike", a.alike);
+  archive.seldom("established", a.established);
   archive("headline", a.headline);
   archive.single("where", a.where);
   archive("before_rad", a.before);

@@ -10,6 +10,15 @@ namespace gapscope {
 namespace internal::results {
 
 template <class Archive>
+void fields(Archive& archive, ImplantLabel& i) {
+  archive("size", i.size);
+  archive("foretold_share", i.foretold_share);
+  archive.named_members("values", i.values, &NamedValue::key, &NamedValue::value);
+  archive.named_members("units", i.values, &NamedValue::key, &NamedValue::unit);
+  archive("own", i.own);
+}
+
+template <class Archive>
 void fields(Archive& archive, BlindLabel& l) {
   archive("name", l.name);
   archive("part", l.part);
@@ -19,6 +28,7 @@ void fields(Archive& archive, BlindLabel& l) {
   archive("cycles_per_turn", l.cycles_per_turn);
   archive("seed", l.seed);
   archive("salt", l.salt);
+  archive.seldom("implant", l.implant);
 }
 
 template <class Archive>

@@ -60,6 +60,17 @@ void fields(Archive& archive, AbstentionPoint& p) {
 }
 
 template <class Archive>
+void fields(Archive& archive, ScoredImplant& i) {
+  archive("size", i.size);
+  archive("foretold_share", i.foretold_share);
+  archive("parameter", i.parameter);
+  archive("unit", i.unit);
+  archive("amount", i.amount);
+  archive("told", i.told);
+  archive("stranger", i.stranger);
+}
+
+template <class Archive>
 void fields(Archive& archive, ScoredCase& c) {
   archive("name", c.name);
   archive("part", c.part);
@@ -72,6 +83,7 @@ void fields(Archive& archive, ScoredCase& c) {
   archive("shrink", c.shrink);
   archive("probability", c.probability);
   archive("right", c.right);
+  archive.seldom("implant", c.implant);
 }
 
 template <class Archive>

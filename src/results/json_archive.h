@@ -79,6 +79,16 @@ class JsonWriter {
     list(key, values);
   }
 
+  // What only some documents have: nothing is written where it is not there, and what was sealed without it
+  // keeps its hash.
+  void seldom(const char* key, std::vector<std::string>& values) {
+    if (!values.empty()) (*this)(key, values);
+  }
+  template <class Struct>
+  void seldom(const char* key, std::optional<Struct>& value) {
+    if (value) single(key, *value);
+  }
+
   /// The configuration that a result was made from, as resolved text with its SHA-256; null where there is
   /// none.
   void configuration(std::string& resolved);
@@ -144,6 +154,15 @@ class JsonReader {
   void addition(const char* key,
                 std::string& value);          ///< empty in files that were written before it was stored
   void configuration(std::string& resolved);  ///< empty in files that were written before it was stored
+  void seldom(const char* key, std::vector<std::string>& values) {
+    values.clear();
+    if (json_.contains(key)) (*this)(key, values);
+  }
+  template <class Struct>
+  void seldom(const char* key, std::optional<Struct>& value) {
+    value.reset();
+    if (json_.contains(key)) single(key, value.emplace());
+  }
 
   /// Refuses the document of another schema.
   void schema(const std::string& expected);

@@ -22,6 +22,16 @@ class SchemaWriter {
   void operator()(const char* key, std::vector<double>&) { add(key, list_of(type_of(0.0))); }
   void bound(const char* key, double&);
   void addition(const char* key, std::string& value);
+  void seldom(const char* key, std::vector<std::string>& values) {
+    (*this)(key, values);
+    additions_.insert(key);
+  }
+  template <class Struct>
+  void seldom(const char* key, std::optional<Struct>&) {
+    Struct value{};
+    add(key, schema_of(value));
+    additions_.insert(key);
+  }
   void configuration(std::string&);
 
   template <class Enum>

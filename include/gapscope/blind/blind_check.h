@@ -7,6 +7,7 @@
 #include "gapscope/blind/score.h"
 #include "gapscope/config/blind_config.h"
 #include "gapscope/results/blind_records.h"
+#include "gapscope/run/run_pipeline.h"
 
 /// The blind check of the diagnosis, in steps that can run on different machines: recordings are made and
 /// their labels sealed, the diagnosis answers from recordings and sheets alone, the answers are sealed, the
@@ -24,6 +25,18 @@ using BlindProgress = std::function<void(std::size_t done, std::size_t all)>;
 /// a file cannot be written, Interrupted.
 void make_blind_check(const BlindConfig& config, const std::string& folder, const std::string& labels,
                       int threads, const BlindProgress& progress = {});
+
+/// Diagnoses the recordings of a configuration as they are, then writes, for each case of `implant:`, the
+/// same recordings with an effect implanted, in SI units, with <case>.yaml, the configuration without a word
+/// of it; the labels into the file `labels`, and seals them. A label has the values that were drawn, the
+/// share of the held-out error that is foretold for them, and the effects that were added without any
+/// implant. All follows from the configuration and the recordings.
+/// @param progress  told what begins
+/// @throws ConfigError as make_blind_check(), for a simulation, and for an effect that these recordings
+/// cannot be given, with the reason
+void make_implanted_check(
+    const Configuration& configuration, const std::string& folder, const std::string& labels, int threads,
+    const BlindProgress& made = {}, const Progress& progress = [](const std::string&) {});
 
 /// Writes folder/manifest.json: of each case that is labelled the salted hash of its label and the hashes of
 /// <case>.yaml and of the recordings that it names. This is also how own recordings enter.
@@ -59,5 +72,11 @@ BlindScore score_blind_check(const std::string& folder, const std::string& label
 /// what is whole and belongs to the configuration is not done again.
 BlindScore run_blind_check(const BlindConfig& config, const std::string& folder, int threads,
                            const BlindProgress& made = {}, const BlindProgress& answered = {});
+
+/// The same with effects implanted into one's own recordings.
+BlindScore run_implanted_check(
+    const Configuration& configuration, const std::string& folder, int threads,
+    const BlindProgress& made = {}, const BlindProgress& answered = {},
+    const Progress& progress = [](const std::string&) {});
 
 }  // namespace gapscope

@@ -35,6 +35,10 @@ struct BlindConfig {
 /// @throws ConfigError "file:line: what is wrong, what was expected"
 BlindConfig load_blind_config(const std::string& path);
 
+/// Whether a file is a configuration of recordings, as `blind implant` takes them, and no check to be made.
+/// @throws ConfigError where it is no YAML
+bool names_recordings(const std::string& path);
+
 /// The check as YAML with every default filled in; it reads back as the same check.
 std::string resolved_yaml(const BlindConfig& check);
 

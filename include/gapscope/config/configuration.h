@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gapscope/config/data_config.h"
+#include "gapscope/config/implant_config.h"
 #include "gapscope/config/model_config.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/acceleration_bound.h"
@@ -33,8 +34,9 @@ struct Configuration {
   ExperimentLimits
       next_experiment;  ///< `next_experiment:` – what the diagnosis may propose; optional like it
   int next_experiment_line = 0;
-  DiagnosisKnowledge diagnosis;       ///< `diagnosis:` – what it is told beforehand; optional
-  std::vector<std::string> excluded;  ///< `diagnosis: exclude:` – effects that are no candidates
+  DiagnosisKnowledge diagnosis;               ///< `diagnosis:` – what it is told beforehand; optional
+  std::vector<std::string> excluded;          ///< `diagnosis: exclude:` – effects that are no candidates
+  std::optional<ImplantConfig> implant = {};  ///< `implant:` – only read by `blind implant`
 
   double position_quantum() const;  ///< of the encoder, seen on the axis of x1 [rad]; 0: not given
 };

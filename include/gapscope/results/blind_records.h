@@ -1,14 +1,25 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gapscope/base/file_hash.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/diagnosis/evidence.h"
+#include "gapscope/diagnosis/diagnosis.h"
 
 /// What the three steps of a blind check hand to each other.
 namespace gapscope {
+
+/// What was put into the recordings of a real drive.
+struct ImplantLabel {
+  double size = kNaN;  ///< rms of the torque that it makes or looks like, over that of the input's
+  /// E/(E + R), of the held-out residual torque with it; NaN where the
+  /// drive's torque balance depends on its contact
+  double foretold_share = kNaN;
+  std::vector<NamedValue> values;  ///< of the law; empty without an effect
+  std::vector<std::string> own;    ///< effects that the diagnosis adds without any implant
+};
 
 /// What is withheld of one case.
 struct BlindLabel {
@@ -20,6 +31,7 @@ struct BlindLabel {
   double cycles_per_turn = kNaN;  ///< of one effect that repeats with the motor angle; NaN: none, not known
   std::string seed;               ///< that the case was made from; "": recorded
   std::string salt;               ///< at least 16 characters that nobody guesses
+  std::optional<ImplantLabel> implant = {};  ///< nothing where the effect was not implanted
 };
 
 struct BlindLabels {
@@ -59,7 +71,9 @@ struct BlindAnswer {
   std::vector<FileHash> files;  ///< that it was given
   std::string verdict;          ///< "effect", "none" or "unknown"
   std::vector<std::string> effects, group;
-  std::string headline;  ///< where, in words
+  std::vector<std::string> alike = {};        ///< group of every addition, where it holds more than itself
+  std::vector<std::string> established = {};  ///< effects whose cause is
+  std::string headline;                       ///< where, in words
   ToldPlace where;
   double before = kNaN, after = kNaN, floor = kNaN, shrink = kNaN;
   Interval shrink_ci95;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,17 @@ struct AbstentionPoint {
   int answered = 0, right = 0;
 };
 
+/// What was implanted into a case, and what the answer made of it.
+struct ScoredImplant {
+  double size = kNaN;            ///< rms of what it makes over that of the input
+  double foretold_share = kNaN;  ///< of the held-out residual torque
+  std::string parameter, unit;   ///< of its amount; empty without an effect
+  double amount = kNaN;
+  bool told = false;      ///< the effect was added, or is in the group of one that was
+  bool stranger = false;  ///< the cause of an effect was called established that was neither implanted nor is
+                          ///< the drive's own
+};
+
 /// One case, for the reader.
 struct ScoredCase {
   std::string name, part, rig, truth, verdict, named;  ///< several effects joined by '+'
@@ -67,6 +79,7 @@ struct ScoredCase {
   double shrink = kNaN;
   double probability = kNaN;  ///< calibrated, of the first step
   bool right = false;         ///< all truths and nothing else; unknown where it is outside the catalogue
+  std::optional<ScoredImplant> implant = {};  ///< nothing where the effect was not implanted
 };
 
 struct BlindScore {
@@ -82,6 +95,8 @@ struct BlindScore {
   BlindCalibration calibration;
   std::vector<AbstentionPoint> abstention;
   std::vector<ScoredCase> cases;
+
+  bool of_implants() const { return !cases.empty() && cases.front().implant.has_value(); }
 };
 
 /// Writes blind.json into an existing folder.  @throws std::runtime_error naming what cannot be written.

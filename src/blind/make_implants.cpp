@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <ostream>
+
+#include "blind/handing_out.h"
+#include "blind/implant_plan.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/parallel.h"
+#include "gapscope/base/whole_file.h"
+#include "gapscope/blind/blind_check.h"
+#include "gapscope/diagnosis/foretold_share.h"
+#include "gapscope/recording/recording_file.h"
+#include "gapscope/run/run_diagnosis.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::implant::Implant;
+using internal::implant::Receiver;
+using internal::implant::SmoothedMotion;
+using internal::implant::Subject;
+
+/// The recordings of a drive, fitted ones first, and what the diagnosis says of them as they are.
+struct Undisturbed {
+  std::vector<Recording> recordings;
+  std::size_t fitted = 0;  ///< how many of them
+  Diagnosis diagnosis;
+};
+
+Undisturbed diagnosed(const Configuration& c, int threads, const Progress& progress) {
+  DiagnosisRecordings read = load_for_diagnosis(c, progress);
+  DiagnosisOptions options = diagnosis_options(c);
+  options.threads = threads;
+  options.progress = [&](const std::string& what) { progress("without an implant: " + what); };
+  Undisturbed u;
+  u.diagnosis = diagnose_recordings(c, read, options);
+  u.fitted = read.train.recordings.size();
+  for (auto* recordings : {&read.train.recordings, &read.held_out.recordings})
+    for (Recording& r : *recordings) u.recordings.push_back(std::move(r));
+  return u;
+}
+
+blind::ImplantHost host_of(const Configuration& c, const Undisturbed& u) {
+  const ReferenceModel& model = u.diagnosis.fitted;
+  const auto value = [&](int index) { return model.parameters[static_cast<std::size_t>(index)].value; };
+  blind::ImplantHost host;
+  host.name = c.name;
+  host.receiver =
+      Receiver{value(place::kTorqueConstant), value(place::kMotorInertia), value(place::kMotorDamping),
+               c.coordinates.rotational(), !model.structure.has_load};
+  host.quantum = c.position_quantum();
+  host.added = u.diagnosis.effects;
+  for (const ModelEffect& e : model.effects) host.own.emplace_back(e.entry->name);
+  host.own.insert(host.own.end(), host.added.begin(), host.added.end());
+  host.cases.resize(u.recordings.size(), Subject{nullptr, SmoothedMotion(u.recordings[0].motor_trace())});
+  for (std::size_t i = 0; i < u.recordings.size(); ++i)
+    host.cases[i] = {&u.recordings[i], SmoothedMotion(u.recordings[i].motor_trace())};
+  return host;
+}
+
+std::vector<MotorTrace> traces_of(std::span<const Recording> recordings) {
+  std::vector<MotorTrace> traces;
+  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
+  return traces;
+}
+
+/// The names of a case's recordings: "case_001_train.csv", or "..._train_2.csv" where there are several.
+std::vector<std::string> files_of_case(const std::string& name, const char* purpose, std::size_t count) {
+  std::vector<std::string> files;
+  for (std::size_t i = 1; i <= count; ++i)
+    files.push_back(name + "_" + purpose + (count > 1 ? "_" + std::to_string(i) : "") + ".csv");
+  return files;
+}
+
+/// The configuration of a case: that of the drive, its recordings in SI units.
+std::string sheet_of_case(Configuration c, const std::string& name, std::span<const std::string> train,
+                          std::span<const std::string> held_out) {
+  const double quantum = c.position_quantum();
+  c.name = name;
+  c.implant.reset();
+  c.encoder = {};
+  c.encoder.quantum = quantum;
+  c.recording.emplace();
+  for (const std::string& file : train) c.recording->files.push_back({file, "", 0});
+  for (const std::string& file : held_out) c.recording->held_out.push_back({file, "", 0});
+  return yaml_of(c, "");
+}
+
+/// Everything that the cases share.
+struct Workbench {
+  const Configuration& configuration;
+  const Undisturbed& undisturbed;
+  const blind::ImplantHost& host;
+  const ForetoldShares& foretold;
+  fs::path folder;
+
+  std::vector<Recording> recordings_with(const std::optional<Implant>& implant) const {
+    std::vector<Recording> all;
+    for (std::size_t i = 0; i < host.cases.size(); ++i)
+      all.push_back(implant ? internal::implant::implanted(host.cases[i], i, *implant, host.receiver)
+                            : undisturbed.recordings[i]);
+    return all;
+  }
+
+  /// Notes in the label what is foretold of it.
+  void write(blind::PlannedImplant& planned) const {
+    BlindLabel& label = planned.label;
+    const std::vector<Recording> all = recordings_with(planned.implant);
+    const std::span<const Recording> train(all.data(), undisturbed.fitted),
+        held_out(all.data() + undisturbed.fitted, all.size() - undisturbed.fitted);
+    if (planned.implant)
+      label.implant->foretold_share =
+          foretold.of(traces_of(train), traces_of(held_out), label.effects.front());
+    const auto train_files = files_of_case(label.name, "train", train.size()),
+               held_out_files = files_of_case(label.name, "held_out", held_out.size());
+    for (std::size_t i = 0; i < train.size(); ++i) blind::write_motor_side(folder / train_files[i], train[i]);
+    for (std::size_t i = 0; i < held_out.size(); ++i)
+      blind::write_motor_side(folder / held_out_files[i], held_out[i]);
+    write_whole_file((folder / (label.name + ".yaml")).string(), [&](std::ostream& out) {
+      out << sheet_of_case(configuration, label.name, train_files, held_out_files);
+    });
+  }
+};
+
+}  // namespace
+
+void make_implanted_check(const Configuration& c, const std::string& folder, const std::string& labels,
+                          int threads, const BlindProgress& made, const Progress& progress) {
+  blind::require_labels_apart(folder, labels);
+  const std::string resolved = resolved_yaml(c);
+  blind::require_own_labels(labels, c.name, resolved);
+  if (!c.recording) throw ConfigError(c.file, "simulates, expected recording: {file, held_out}");
+  require_reference_model(c);
+  ReportFolder handed_out(folder, FolderKind::kCases);
+  const Undisturbed undisturbed = diagnosed(c, threads, progress);
+  progress("planning the implants");
+  const blind::ImplantHost host = host_of(c, undisturbed);
+  std::vector<blind::PlannedImplant> cases =
+      blind::plan_implants(c.implant.value_or(ImplantConfig{}), host, c.file);
+  DiagnosisOptions options = diagnosis_options(c);
+  options.threads = threads;
+  const std::vector<MotorTrace> all = traces_of(undisturbed.recordings);
+  const std::span<const MotorTrace> traces(all);
+  const ForetoldShares foretold(traces.first(undisturbed.fitted), traces.subspan(undisturbed.fitted),
+                                undisturbed.diagnosis.fitted, options);
+  const Workbench bench{c, undisturbed, host, foretold, handed_out.path()};
+  std::atomic<std::size_t> done{0};
+  parallel_for(cases.size(), threads, [&](std::size_t i) {
+    stop_point();
+    bench.write(cases[i]);
+    if (const std::size_t count = ++done; made) made(count, cases.size());
+  });
+  BlindLabels stored{c.name, resolved, {}};
+  for (const blind::PlannedImplant& planned : cases) stored.cases.push_back(planned.label);
+  blind::hand_out(handed_out, labels, stored);
+}
+
+}  // namespace gapscope
