@@ -70,8 +70,9 @@ class ImplantPlanner {
       label.implant.emplace();
       label.implant->own = host_.added;
       if (!effects.empty()) {
-        const std::string& effect = effects[i % effects.size()];
-        double size = config_.sizes[(i + i / effects.size()) % config_.sizes.size()];
+        const std::size_t place = i % effects.size(), round = i / effects.size();
+        const std::string& effect = effects[place];
+        double size = config_.sizes[(place + round) % config_.sizes.size()];
         planned.implant = drawn(*implant::find_implant_law(effect), host_, size, seed_);
         if (planned.implant) tell(planned, effect, size);
       }

@@ -6,6 +6,7 @@
 
 #include "gapscope/results/blind_score.h"
 #include "report/blind_figures.h"
+#include "report/implant_report.h"
 #include "report/markdown.h"
 #include "report/report_files.h"
 
@@ -129,6 +130,14 @@ std::string blind_text(const BlindScore& s, const std::vector<FigureData>& figur
 
 void write_blind_report(const std::string& folder) {
   const BlindScore score = read_blind_score(folder);
+  if (score.of_implants()) {
+    const std::vector<internal::report::FigureData> figures = {internal::report::implant_figure(score)};
+    internal::report::write_report_files(
+        folder, figures,
+        internal::report::implant_text(score, figures, internal::report::seal_sentence(score),
+                                       internal::report::count_table(score)));
+    return;
+  }
   const std::vector<internal::report::FigureData> figures = internal::report::blind_figures(score);
   internal::report::write_report_files(folder, figures, internal::report::blind_text(score, figures));
 }
