@@ -12,20 +12,35 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kCoarse = 4.0;  ///< between sizes that are tried first
-constexpr int kCoarseTrials = 4, kFineTrials = 2;
+constexpr double kProbed = 0.1;   ///< size of a probe, which stands for smaller ones in proportion
+constexpr double kFinest = 1e-5;  ///< sizes that are foretold in proportion begin with it ...
+constexpr double kStep = 1.5;     ///< ... and grow by this
+constexpr int kPlays = 4;         ///< at most, by factors of two about what was foretold in proportion
 
 /// A candidate as a direction in which it changes the errors, beyond the model's numbers.
 struct Probe {
   const EffectEntry* entry = nullptr;
+  double absorbed = kNaN;              ///< share of the change that the numbers say
   std::vector<HeldOutErrors> changes;  ///< one, or two quarters of a phase
 };
 
 struct Verdict {
   bool named = false;
-  const EffectEntry* hidden_by = nullptr;
-  bool said_by_model = false;
+  const EffectEntry* hidden_by = nullptr;  ///< what is named in its place, or nearly
 };
+
+/// Over all recordings; NaN without any.
+double rms_of(const std::vector<std::vector<double>>& torque) {
+  double square = 0.0, count = 0.0;
+  for (const std::vector<double>& t : torque)
+    for (const double value : t) square += value * value, count += 1.0;
+  return std::sqrt(square / count);
+}
+
+HeldOutErrors times(double factor, HeldOutErrors errors) {
+  errors.innovation *= factor, errors.free *= factor;
+  return errors;
+}
 
 class Contestants {
  public:
@@ -39,16 +54,19 @@ class Contestants {
                  [&](std::size_t i) { probes_[i] = probe(effects_[i]); });
   }
 
-  const std::vector<ExemplaryEffect>& effects() const { return effects_; }
-  DetectableEffect told(const ExemplaryEffect& effect) const;
+  std::size_t count() const { return effects_.size(); }
+  DetectableEffect told(std::size_t i) const;
 
  private:
   Probe probe(const ExemplaryEffect& effect) const {
-    Probe p{&effect.entry(), {}};
+    Probe p{&effect.entry(), kNaN, {}};
     for (const bool quarter : {false, true}) {
       if (quarter && !effect.has_phase()) break;
       const HeldOutErrors change = beside_.by(effect.in_model(kProbed, quarter));
-      if (change.exist()) p.changes.push_back(beside_.beyond_numbers(change));
+      if (!change.exist()) continue;
+      p.changes.push_back(beside_.beyond_numbers(change));
+      if (!quarter)
+        p.absorbed = 1.0 - p.changes.front().innovation.squaredNorm() / change.innovation.squaredNorm();
     }
     return p;
   }
@@ -68,71 +86,103 @@ class Contestants {
     return left;
   }
 
-  Verdict verdict(const ExemplaryEffect& effect, double size) const;
-  Verdict least(const ExemplaryEffect& effect, double& size) const;
+  Verdict verdict(const EffectEntry& entry, const HeldOutErrors& change) const;
+  Verdict played(const ExemplaryEffect& effect, double size) const;
+  double in_proportion(const Probe& probe, Verdict& last) const;
+  double least(const ExemplaryEffect& effect, double foretold, Verdict& last) const;
+  double found_from(const ExemplaryEffect& effect, double size) const;
 
-  static constexpr double kProbed = 0.1;  ///< size of a probe: small, as it stands for all smaller ones
   const Study& study_;
   HeldOutChange beside_;
   std::vector<ExemplaryEffect> effects_;
   std::vector<Probe> probes_;
 };
 
-/// The recordings as so much of the effect would have changed them: the model errs by as much more, but for
-/// what its own numbers say of that.
-Verdict Contestants::verdict(const ExemplaryEffect& effect, double size) const {
-  const HeldOutErrors change = beside_.by(effect.in_model(size));
-  if (!change.exist()) return {};
-  HeldOutErrors left = beside_.beyond_numbers(change);
-  const double absorbed = 1.0 - left.innovation.squaredNorm() / change.innovation.squaredNorm();
-  left.innovation = -left.innovation, left.free = -left.free;
-  const ScoredModel before = beside_.scored_with(nullptr, left);
-  const bool model_says = absorbed > torque_view::TorqueViewOptions{}.most_absorbed;
-  if (!study_.repeats_badly() && at_floor(before)) return {false, nullptr, model_says};
-  std::vector<ScoredModel> ranked{beside_.scored_with(&effect.entry(), beside_.nothing())};
+/// The recordings as the effect would have changed them: the model errs by as much more.
+/// @param change that the effect makes of the model's errors, beyond what its numbers say
+Verdict Contestants::verdict(const EffectEntry& entry, const HeldOutErrors& change) const {
+  const HeldOutErrors missing = times(-1.0, change);
+  const ScoredModel before = beside_.scored_with(nullptr, missing);
+  if (!study_.repeats_badly() && at_floor(before)) return {};
+  std::vector<ScoredModel> ranked{beside_.scored_with(&entry, beside_.nothing())};
   for (const Probe& rival : probes_)
-    if (rival.entry != &effect.entry() && !rival.changes.empty())
-      ranked.push_back(beside_.scored_with(rival.entry, without(left, rival)));
+    if (rival.entry != &entry && !rival.changes.empty())
+      ranked.push_back(beside_.scored_with(rival.entry, without(missing, rival)));
   rank(ranked);
   const Decision decision = decide_alone(ranked, before, study_.reach(), {});
-  if (ranked.front().entry != &effect.entry()) return {false, ranked.front().entry, model_says};
-  return {decision.accepted, decision.accepted || ranked.size() < 2 ? nullptr : ranked[1].entry, model_says};
+  const bool first = ranked.front().entry == &entry;
+  if (first && decision.accepted) return {true, nullptr};
+  return {false, !first ? ranked.front().entry : ranked.size() > 1 ? ranked[1].entry : nullptr};
 }
 
-/// By factors first, then between the last two.
-Verdict Contestants::least(const ExemplaryEffect& effect, double& size) const {
-  Verdict at = verdict(effect, size = 1.0), next;
-  const bool smaller = at.named;
-  int trials = 1;
-  for (; trials < kCoarseTrials + 1; ++trials) {
-    const double other = smaller ? size / kCoarse : size * kCoarse;
+Verdict Contestants::played(const ExemplaryEffect& effect, double size) const {
+  if (!effect.is_possible(size)) return {};
+  const HeldOutErrors change = beside_.by(effect.in_model(size));
+  return change.exist() ? verdict(effect.entry(), beside_.beyond_numbers(change)) : Verdict{};
+}
+
+/// The least size that would be named if the errors grew in proportion to it; NaN up to the first start.
+double Contestants::in_proportion(const Probe& probe, Verdict& last) const {
+  for (double size = kFinest; size <= kStep; size *= kStep) {
+    last = verdict(*probe.entry, times(size / kProbed, probe.changes.front()));
+    if (last.named) return size;
+  }
+  return kNaN;
+}
+
+/// The same by plays; from the first start on where none was foretold.
+double Contestants::least(const ExemplaryEffect& effect, double foretold, Verdict& last) const {
+  double size = std::isfinite(foretold) ? foretold : 1.0;
+  last = played(effect, size);
+  const bool down = last.named;
+  for (int i = 1; i < kPlays; ++i) {
+    const double other = down ? 0.5 * size : 2.0 * size;
     if (!effect.is_possible(other)) break;
-    next = verdict(effect, other);
-    if (smaller && !next.named) break;
-    size = other, at = next;
-    if (!smaller && next.named) break;
+    const Verdict next = played(effect, other);
+    if (down && !next.named) break;
+    size = other, last = next;
+    if (!down && next.named) break;
   }
-  if (!at.named) return at;
-  double below = size / kCoarse;
-  for (int i = 0; i < kFineTrials; ++i) {
-    const double between = std::sqrt(below * size);
-    (verdict(effect, between).named ? size : below) = between;
-  }
-  return at;
+  return last.named ? size : kNaN;
 }
 
-DetectableEffect Contestants::told(const ExemplaryEffect& effect) const {
+/// The size from which the search finds the period of a line, which it does not know; the size itself for
+/// other effects. NaN if not even the first start shows it.
+double Contestants::found_from(const ExemplaryEffect& effect, double size) const {
+  const bool of_share = effect.entry().start_search == StartSearch::kTorqueShareLines;
+  if (!of_share && effect.entry().start_search != StartSearch::kTorqueLines) return size;
+  const auto change = beside_.torque_by(effect.in_model(kProbed));
+  if (change.empty()) return kNaN;
+  const double km = of_share ? beside_.model().parameters[place::kTorqueConstant].value : 0.0;
+  const double periods = effect.values(size)[1], width = one_cycle(study_.held_out.traces);
+  for (; size <= 1.0; size *= kStep)
+    for (const Harmonic& line : beside_.lines_with(change, size / kProbed, km))
+      if (std::abs(line.periods - periods) < width) return size;
+  return kNaN;
+}
+
+DetectableEffect Contestants::told(std::size_t i) const {
+  const ExemplaryEffect& effect = effects_[i];
   const EffectEntry& entry = effect.entry();
-  double size = kNaN;
-  const Verdict at = least(effect, size);
-  if (at.named)
+  if (effect.lacks_its_level())
+    return not_detectable(
+        entry, contained_effect(entry)->name,
+        fmt::format("the model has no {} that it would change", readable(contained_effect(entry)->name)));
+  if (probes_[i].changes.empty()) return not_detectable(entry, "", "with it the model's motion diverges");
+  if (probes_[i].absorbed > torque_view::TorqueViewOptions{}.most_absorbed)
+    return not_detectable(entry, "model", "the model's own numbers take it up");
+  Verdict last;
+  double size = least(effect, in_proportion(probes_[i], last), last);
+  if (std::isfinite(size)) {
+    size = found_from(effect, size);
+    if (!std::isfinite(size)) return not_detectable(entry, "", "its period would not be found");
     return detectable_from(entry, effect.values(size), effect.size_at(),
-                           beside_.torque_of(effect.in_model(size)));
-  if (at.said_by_model) return not_detectable(entry, "model", "the model's own numbers take it up");
-  if (at.hidden_by != nullptr)
-    return not_detectable(entry, at.hidden_by->name,
-                          fmt::format("{} says it as well", readable(at.hidden_by->name)));
-  return not_detectable(entry, "", "as much as was tried leaves the model as near the floor");
+                           rms_of(beside_.torque_by(effect.in_model(size))));
+  }
+  if (last.hidden_by == nullptr)
+    return not_detectable(entry, "", "as much as was tried leaves the model near the floor");
+  return not_detectable(entry, last.hidden_by->name,
+                        fmt::format("{} says it as well", readable(last.hidden_by->name)));
 }
 
 DetectableEffect coarser_count(const Study& study, const EffectEntry& entry) {
@@ -147,10 +197,9 @@ DetectableEffect coarser_count(const Study& study, const EffectEntry& entry) {
 std::vector<DetectableEffect> detectable_in_motion(const Study& study, const ReferenceModel& model,
                                                    const std::vector<const EffectEntry*>& asked) {
   const Contestants contestants(study, model, asked);
-  const std::vector<ExemplaryEffect>& effects = contestants.effects();
-  std::vector<DetectableEffect> detectable(effects.size());
-  parallel_for(effects.size(), study.options.threads,
-               [&](std::size_t i) { detectable[i] = contestants.told(effects[i]); });
+  std::vector<DetectableEffect> detectable(contestants.count());
+  parallel_for(contestants.count(), study.options.threads,
+               [&](std::size_t i) { detectable[i] = contestants.told(i); });
   for (const EffectEntry* entry : asked)
     if (reads_counts(*entry)) detectable.push_back(coarser_count(study, *entry));
   std::stable_sort(detectable.begin(), detectable.end(),

@@ -58,6 +58,10 @@ bool ExemplaryEffect::has_phase() const {
   return std::any_of(entry_.parameters.begin(), entry_.parameters.end(), is_phase);
 }
 
+bool ExemplaryEffect::lacks_its_level() const {
+  return contained_effect(entry_) != nullptr && !inherits_ && entry_.parameters[1].scale == Scale::kOne;
+}
+
 /// All that vanishes with the effect grows with its size; the rest is its shape.
 std::vector<double> ExemplaryEffect::written(double size) const {
   std::vector<double> values = start_;

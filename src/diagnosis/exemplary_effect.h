@@ -19,6 +19,8 @@ class ExemplaryEffect {
   /// The model with it.  @param quarter of the phase, for one that has such
   ReferenceModel in_model(double size, bool quarter = false) const;
   bool has_phase() const;
+  /// Whether it is a ratio of a simpler effect that the model does not have.
+  bool lacks_its_level() const;
   /// Whether so much is within the bounds of the catalogue.
   bool is_possible(double size) const;
 

@@ -45,12 +45,14 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& columns, const Eigen::Vecto
 HeldOutChange::HeldOutChange(const Study& study, const ReferenceModel& model)
     : study_(study), model_(model), starts_(settled_starts(study.held_out.traces, model, study.observer_hz)) {
   errors_ = errors_of(model);
+  played_ = play_from(starts_, model, study.held_out, study.observer_hz, true);
+  if (played_.empty()) errors_ = {};
   if (usable()) differentiate();
 }
 
 HeldOutErrors HeldOutChange::errors_of(const ReferenceModel& model) const {
   const auto played = play_from(starts_, model, study_.held_out, study_.observer_hz, false);
-  return {joined(played, &Playback::innovation), joined(played, &Playback::free), kNaN};
+  return {joined(played, &Playback::innovation), joined(played, &Playback::free)};
 }
 
 void HeldOutChange::differentiate() {
@@ -96,15 +98,27 @@ HeldOutErrors HeldOutChange::beyond_numbers(const HeldOutErrors& change) const {
   Eigen::MatrixXd columns = innovation_by_;
   for (Eigen::Index c = 0; c < columns.cols(); ++c) columns.col(c) = judged(columns.col(c));
   const Eigen::VectorXd numbers = least_squares(columns, judged(change.innovation));
-  return {change.innovation - innovation_by_ * numbers, change.free - free_by_ * numbers, change.torque};
+  return {change.innovation - innovation_by_ * numbers, change.free - free_by_ * numbers};
 }
 
-double HeldOutChange::torque_of(const ReferenceModel& other) const {
-  const auto one = play_from(starts_, model_, study_.held_out, study_.observer_hz, true),
-             two = play_from(starts_, other, study_.held_out, study_.observer_hz, true);
-  if (one.empty() || two.empty()) return kNaN;
-  const Eigen::VectorXd change = joined(two, &Playback::torque) - joined(one, &Playback::torque);
-  return std::sqrt(change.squaredNorm() / static_cast<double>(change.size()));
+std::vector<std::vector<double>> HeldOutChange::torque_by(const ReferenceModel& other) const {
+  const auto changed = play_from(starts_, other, study_.held_out, study_.observer_hz, true);
+  std::vector<std::vector<double>> torque;
+  for (std::size_t r = 0; r < changed.size(); ++r) {
+    torque.push_back(changed[r].torque);
+    for (std::size_t i = 0; i < torque[r].size(); ++i) torque[r][i] -= played_[r].torque[i];
+  }
+  return torque;
+}
+
+std::vector<Harmonic> HeldOutChange::lines_with(const std::vector<std::vector<double>>& change, double factor,
+                                                double torque_constant) const {
+  std::vector<Playback> left(played_.size());
+  for (std::size_t r = 0; r < left.size(); ++r) {
+    left[r].torque = played_[r].torque;
+    for (std::size_t i = 0; i < change[r].size(); ++i) left[r].torque[i] -= factor * change[r][i];
+  }
+  return strongest_lines(left, study_.held_out.traces, torque_constant, study_.effort.lines);
 }
 
 ScoredModel HeldOutChange::scored_with(const EffectEntry* entry, const HeldOutErrors& change) const {
@@ -123,7 +137,7 @@ ScoredModel HeldOutChange::scored_with(const EffectEntry* entry, const HeldOutEr
 }
 
 HeldOutErrors HeldOutChange::nothing() const {
-  return {Eigen::VectorXd::Zero(errors_.innovation.size()), Eigen::VectorXd::Zero(errors_.free.size()), 0.0};
+  return {Eigen::VectorXd::Zero(errors_.innovation.size()), Eigen::VectorXd::Zero(errors_.free.size())};
 }
 
 }  // namespace gapscope::internal::diagnosis

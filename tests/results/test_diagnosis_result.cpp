@@ -40,6 +40,8 @@ DiagnosisResult sample() {
       {"cogging_torque", true, d.group, 0.9, {{"amplitude_nm", "N m", kThird}}, 0.9, {0.8, 1.1}, kThird}};
   d.budget.band_hz = 30.0, d.budget.nominal = kThird;
   d.budget.rungs = {{"cogging_torque", "cogging_torque", true, 1.0, kThird, 0.8, {0.7, 0.9}, 0.8, kThird}};
+  d.detectable = {{"torque_ripple", {"ratio", "-", kThird}, {{"periods_per_turn", "1/rev", 24.0}}, "", "", 0.1},
+                  {"actuator_lag", {"time_constant_s", "s", kNaN}, {}, "input_delay", "it acts alike", kNaN}};
   d.measures = {{"free run", "rad", 1.0, kThird, kNaN}};
   RankedEffect first;
   first.effect = "cogging_torque";
