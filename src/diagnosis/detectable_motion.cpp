@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/detectable.h"
 #include "diagnosis/exemplary_effect.h"
@@ -12,12 +13,11 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kProbed = 0.1;   ///< size of a probe, which stands for smaller ones in proportion
-constexpr double kFinest = 1e-5;  ///< sizes that are foretold in proportion begin with it ...
-constexpr double kStep = 1.5;     ///< ... and grow by this
-constexpr int kPlays = 4;         ///< at most, by factors of two about what was foretold in proportion
+constexpr double kNothing =
+    std::numeric_limits<double>::epsilon();  ///< of a start: a change that stays is none
 
-/// A candidate as a direction in which it changes the errors, beyond the model's numbers.
+/// What a weak start of a candidate changes of the errors, beyond the model's numbers; less does in
+/// proportion.
 struct Probe {
   const EffectEntry* entry = nullptr;
   double absorbed = kNaN;              ///< share of the change that the numbers say
@@ -62,7 +62,7 @@ class Contestants {
     Probe p{&effect.entry(), kNaN, {}};
     for (const bool quarter : {false, true}) {
       if (quarter && !effect.has_phase()) break;
-      const HeldOutErrors change = beside_.by(effect.in_model(kProbed, quarter));
+      const HeldOutErrors change = beside_.by(effect.in_model(study_.effort.weaker, quarter));
       if (!change.exist()) continue;
       p.changes.push_back(beside_.beyond_numbers(change));
       if (!quarter)
@@ -88,7 +88,7 @@ class Contestants {
 
   Verdict verdict(const EffectEntry& entry, const HeldOutErrors& change) const;
   Verdict played(const ExemplaryEffect& effect, double size) const;
-  double in_proportion(const Probe& probe, Verdict& last) const;
+  double in_proportion(const Probe& probe) const;
   double least(const ExemplaryEffect& effect, double foretold, Verdict& last) const;
   double found_from(const ExemplaryEffect& effect, double size) const;
 
@@ -121,29 +121,28 @@ Verdict Contestants::played(const ExemplaryEffect& effect, double size) const {
   return change.exist() ? verdict(effect.entry(), beside_.beyond_numbers(change)) : Verdict{};
 }
 
-/// The least size that would be named if the errors grew in proportion to it; NaN up to the first start.
-double Contestants::in_proportion(const Probe& probe, Verdict& last) const {
-  for (double size = kFinest; size <= kStep; size *= kStep) {
-    last = verdict(*probe.entry, times(size / kProbed, probe.changes.front()));
-    if (last.named) return size;
-  }
-  return kNaN;
+/// The least size, by halves, that would be named if the errors grew in proportion to it; the first start
+/// where that would not be.
+double Contestants::in_proportion(const Probe& probe) const {
+  const auto named = [&](double size) {
+    return verdict(*probe.entry, times(size / study_.effort.weaker, probe.changes.front())).named;
+  };
+  double size = 1.0;
+  if (!named(size)) return size;
+  while (size > kNothing && named(0.5 * size)) size *= 0.5;
+  return size;
 }
 
-/// The same by plays; from the first start on where none was foretold.
+/// The same by plays: from there by factors of two, and once between the last two.
 double Contestants::least(const ExemplaryEffect& effect, double foretold, Verdict& last) const {
-  double size = std::isfinite(foretold) ? foretold : 1.0;
+  double size = foretold;
   last = played(effect, size);
-  const bool down = last.named;
-  for (int i = 1; i < kPlays; ++i) {
-    const double other = down ? 0.5 * size : 2.0 * size;
-    if (!effect.is_possible(other)) break;
-    const Verdict next = played(effect, other);
-    if (down && !next.named) break;
-    size = other, last = next;
-    if (!down && next.named) break;
-  }
-  return last.named ? size : kNaN;
+  if (last.named)
+    while (size > kNothing && played(effect, 0.5 * size).named) size *= 0.5;
+  while (!last.named && effect.is_possible(2.0 * size)) last = played(effect, size *= 2.0);
+  if (!last.named) return kNaN;
+  const double between = std::sqrt(0.5) * size;
+  return played(effect, between).named ? between : size;
 }
 
 /// The size from which the search finds the period of a line, which it does not know; the size itself for
@@ -151,12 +150,12 @@ double Contestants::least(const ExemplaryEffect& effect, double foretold, Verdic
 double Contestants::found_from(const ExemplaryEffect& effect, double size) const {
   const bool of_share = effect.entry().start_search == StartSearch::kTorqueShareLines;
   if (!of_share && effect.entry().start_search != StartSearch::kTorqueLines) return size;
-  const auto change = beside_.torque_by(effect.in_model(kProbed));
+  const auto change = beside_.torque_by(effect.in_model(study_.effort.weaker));
   if (change.empty()) return kNaN;
   const double km = of_share ? beside_.model().parameters[place::kTorqueConstant].value : 0.0;
   const double periods = effect.values(size)[1], width = one_cycle(study_.held_out.traces);
-  for (; size <= 1.0; size *= kStep)
-    for (const Harmonic& line : beside_.lines_with(change, size / kProbed, km))
+  for (; size <= 1.0; size *= std::sqrt(2.0))
+    for (const Harmonic& line : beside_.lines_with(change, size / study_.effort.weaker, km))
       if (std::abs(line.periods - periods) < width) return size;
   return kNaN;
 }
@@ -172,7 +171,7 @@ DetectableEffect Contestants::told(std::size_t i) const {
   if (probes_[i].absorbed > torque_view::TorqueViewOptions{}.most_absorbed)
     return not_detectable(entry, "model", "the model's own numbers take it up");
   Verdict last;
-  double size = least(effect, in_proportion(probes_[i], last), last);
+  double size = least(effect, in_proportion(probes_[i]), last);
   if (std::isfinite(size)) {
     size = found_from(effect, size);
     if (!std::isfinite(size)) return not_detectable(entry, "", "its period would not be found");

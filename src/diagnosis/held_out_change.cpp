@@ -131,7 +131,7 @@ ScoredModel HeldOutChange::scored_with(const EffectEntry* entry, const HeldOutEr
     played[r].innovation = piece(innovation, first, count), played[r].free = piece(free, first, count);
     first += static_cast<Eigen::Index>(count);
   }
-  ScoredModel model = scored(entry, windows_of(played, study_.held_out));
+  ScoredModel model = scored_by_windows(entry, windows_of(played, study_.held_out));
   model.fitted.mean_cost = mean(model.windows.innovation);  // what was fitted would leave as much
   return model;
 }

@@ -40,7 +40,7 @@ bool look_alike(const EffectEntry& a, const EffectEntry& b) {
   return names(a.look_alikes, b.name) || names(b.look_alikes, a.name);
 }
 
-ScoredModel scored(const EffectEntry* entry, Windows windows) {
+ScoredModel scored_by_windows(const EffectEntry* entry, Windows windows) {
   ScoredModel j;
   j.entry = entry;
   j.windows = std::move(windows);
@@ -56,7 +56,7 @@ ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& h
   j.entry = entry;
   if (fitted.mean_cost < kInfinity)
     if (const auto playbacks = play(fitted.model, held_out, hz, false); !playbacks.empty())
-      j = scored(entry, windows_of(playbacks, held_out));
+      j = scored_by_windows(entry, windows_of(playbacks, held_out));
   j.fitted = std::move(fitted);
   return j;
 }

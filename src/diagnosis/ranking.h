@@ -22,7 +22,7 @@ struct ScoredModel {
 };
 
 /// What the windows of a model with this as its last effect come to.
-ScoredModel scored(const EffectEntry* entry, Windows windows);
+ScoredModel scored_by_windows(const EffectEntry* entry, Windows windows);
 ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& held_out, double observer_hz);
 
 /// Whether the table of the catalogue names one as a look-alike of the other.

@@ -28,8 +28,10 @@ std::string number_text(const DiagnosisResult& r, const NamedValue& v) {
   return rounded(v.value) + " " + r.coordinates.shown_unit(v.unit);
 }
 
-/// A knee is the lower the more of the effect there is.
-bool falls(const DetectableEffect& e) { return e.smallest.key == "knee"; }
+/// A knee, or a contact that is softer than the nominal one: the lower, the more of the effect there is.
+bool falls(const DetectableEffect& e) {
+  return e.smallest.key == "knee" || e.effect == "shaft_compliance" || e.effect == "impact_damping";
+}
 
 /// "24 per turn", "every 2.50 mm", "length 0.8 mm"
 std::string shape_text(const DiagnosisResult& r, const NamedValue& v) {
@@ -99,7 +101,7 @@ Interval decades(const DiagnosisResult& r, const std::vector<const DetectableEff
 FigureData diagnosis_detectable(const DiagnosisResult& r) {
   FigureData figure;
   figure.file = "diagnosis_detectable.png";
-  figure.title = "What would have been named";
+  figure.title = "Smallest amounts that would have been named";
   const std::vector<const DetectableEffect*> effects = drawn(r);
   if (effects.empty()) {
     figure = missing_figure(figure.file, figure.title, "nobody asked for it, or no amount could be told");
@@ -108,8 +110,7 @@ FigureData diagnosis_detectable(const DiagnosisResult& r) {
   }
   const std::string torque = r.coordinates.torque_word();
   Panel panel;
-  panel.title = "Smallest amount of each effect that would have been named";
-  panel.x = {"rms of its " + torque + ", of the input's", "%", decades(r, effects), {}, {}};
+  panel.x = {"rms " + torque + " of that amount, of the input's", "%", decades(r, effects), {}, {}};
   panel.x.places = log_places(panel.x.range, {1.0});
   constexpr double kHalf = 0.3;
   for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -118,9 +119,11 @@ FigureData diagnosis_detectable(const DiagnosisResult& r) {
     panel.y.remarks.push_back((falls(*effects[i]) ? "≤ " : "≥ ") + number_text(r, effects[i]->smallest));
     panel.tiles.push_back({{panel.x.range.low, share}, {row - kHalf, row + kHalf}, kBlue, ""});
   }
-  const double left = place_of(r.diagnosis.mismatch.after_torque / r.diagnosis.mismatch.input_torque);
-  if (left > panel.x.range.low && left < panel.x.range.high)
-    panel.x_marks.push_back({left, guide_style(), "what the model leaves"});
+  const ErrorBudget& budget = r.diagnosis.budget;
+  const double left = place_of(budget.remains / budget.input);
+  const bool in_torque = r.diagnosis.verdict != DiagnosisVerdict::kNone && budget.exists();
+  if (in_torque && left > panel.x.range.low && left < panel.x.range.high)
+    panel.x_marks.push_back({left, guide_style(), "what no law explains"});
   panel.height = 90.0 + 64.0 * static_cast<double>(effects.size());
   figure.width = 2000.0;
   figure.panels.push_back(panel);

@@ -73,8 +73,9 @@ TEST(Detectable, IsTheSameForAnyNumberOfThreadsAndToldOfAnEffectOnRequestOnly) {
   ASSERT_FALSE(one.detectable.empty());
   for (std::size_t i = 0; i < one.detectable.size(); ++i) {
     EXPECT_NE(one.detectable[i].effect, "motor_coulomb_friction");  // it is in the model
-    if (one.detectable[i].can_be_shown())
-      EXPECT_EQ(one.detectable[i].smallest.value, two.detectable[i].smallest.value);
+    EXPECT_EQ(one.detectable[i].why, two.detectable[i].why);
+    if (!one.detectable[i].can_be_shown()) continue;
+    EXPECT_EQ(one.detectable[i].smallest.value, two.detectable[i].smallest.value);
   }
 }
 
