@@ -44,7 +44,7 @@ bool ScoredAnswer::stranger() const {
 }
 
 bool ScoredAnswer::as_undisturbed() const {
-  std::vector<std::string> now = answer->effects, own = label->implant->own;
+  std::vector<std::string> now = answer->effects, own = label->implant->undisturbed;
   std::sort(now.begin(), now.end()), std::sort(own.begin(), own.end());
   return now == own;
 }

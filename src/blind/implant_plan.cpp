@@ -68,7 +68,9 @@ class ImplantPlanner {
       label.seed = fmt::format("{}", seed_);
       label.salt = fmt::format("{:016x}{:016x}", g(), g());
       label.implant.emplace();
-      label.implant->own = host_.added;
+      label.implant->undisturbed = label.implant->own = host_.added;
+      for (const std::string& effect : host_.budget)
+        if (!contains(host_.added, effect)) label.implant->own.push_back(effect);
       if (!effects.empty()) {
         const std::size_t place = i % effects.size(), round = i / effects.size();
         const std::string& effect = effects[place];
@@ -108,7 +110,8 @@ class ImplantPlanner {
 }  // namespace
 
 std::string why_not_implanted(const std::string& effect, const ImplantHost& host) {
-  if (contains(host.own, effect)) return "is in the drive already, where more of it would be a larger one";
+  if (contains(host.in_model, effect) || contains(host.added, effect))
+    return "is in the drive already, where more of it would be a larger one";
   return implant::why_not(effect, host.receiver, host.quantum);
 }
 

@@ -21,8 +21,9 @@ struct ImplantHost {
   std::string name;  ///< of the drive
   implant::Receiver receiver;
   double quantum = 0.0;                 ///< of the encoder's sheet; 0: not known [rad]
-  std::vector<std::string> own;         ///< effects that its model has, or that the diagnosis adds to it
-  std::vector<std::string> added;       ///< those that the diagnosis adds
+  std::vector<std::string> in_model;    ///< effects
+  std::vector<std::string> added;       ///< effects that the diagnosis adds
+  std::vector<std::string> budget;      ///< effects of the error budget, added or too small to be
   std::vector<implant::Subject> cases;  ///< its recordings, fitted ones first
 };
 

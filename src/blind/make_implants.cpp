@@ -53,8 +53,9 @@ blind::ImplantHost host_of(const Configuration& c, const Undisturbed& u) {
                c.coordinates.rotational(), !model.structure.has_load};
   host.quantum = c.position_quantum();
   host.added = u.diagnosis.effects;
-  for (const ModelEffect& e : model.effects) host.own.emplace_back(e.entry->name);
-  host.own.insert(host.own.end(), host.added.begin(), host.added.end());
+  for (const ModelEffect& e : model.effects) host.in_model.emplace_back(e.entry->name);
+  for (const BudgetRung& rung : u.diagnosis.budget.rungs)
+    if (!rung.effect.empty()) host.budget.push_back(rung.effect);
   host.cases.resize(u.recordings.size(), Subject{nullptr, SmoothedMotion(u.recordings[0].motor_trace())});
   for (std::size_t i = 0; i < u.recordings.size(); ++i)
     host.cases[i] = {&u.recordings[i], SmoothedMotion(u.recordings[i].motor_trace())};

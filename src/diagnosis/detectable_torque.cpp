@@ -40,26 +40,32 @@ DetectableEffect told(const EffectEntry& entry, const view::LeastNamed& least, c
       fmt::format("a {} says it as well, whatever its size", readable(name_of(*least.hidden_by))));
 }
 
-/// A law of the command that acts alike to first order: x(t − T) obeys the same law as u(t − T).
+/// See acts_as_delay().
 constexpr const char* kActsAlike = "input_delay";
 
-bool is_lag(const EffectEntry& entry) {
-  return entry.name == std::string_view("actuator_lag") || entry.name == std::string_view("measurement_lag");
-}
-
-DetectableEffect without_law(const EffectEntry& entry, const std::vector<DetectableEffect>& others) {
+DetectableEffect without_law(const EffectEntry& entry, const std::vector<DetectableEffect>& others,
+                             bool in_budget, bool rotates) {
   const auto delay = std::find_if(others.begin(), others.end(), [](const DetectableEffect& d) {
     return d.effect == kActsAlike && d.can_be_shown();
   });
-  if (is_lag(entry) && delay != others.end())
+  if (acts_as_delay(entry) && delay != others.end())
     return not_detectable(entry, kActsAlike, "it acts as an input delay does, and would be named as one");
-  if (is_lag(entry)) return not_detectable(entry, kActsAlike, "it acts as an input delay does");
+  if (acts_as_delay(entry)) return not_detectable(entry, kActsAlike, "it acts as an input delay does");
+  if (in_budget) return not_detectable(entry, "model", "the error budget has a torque of its kind already");
   if (reads_counts(entry))
     return not_detectable(entry, "", "coarser counts explain nothing of what this model leaves");
+  if (!rotates && entry.follows == ResidualPattern::kAngle)
+    return not_detectable(entry, "", "it goes with an angle, and this drive moves along a line");
   if (contained_effect(entry) != nullptr)
     return not_detectable(entry, contained_effect(entry)->name,
                           "the drive shows nothing that it would change");
   return not_detectable(entry, "", "the torque balance has no law for it");
+}
+
+bool is_in(const view::Model& model, const EffectEntry& entry) {
+  return std::any_of(model.begin(), model.end(), [&](const view::Term& term) {
+    return entry.name == std::string_view(term.law->effect);
+  });
 }
 
 }  // namespace
@@ -82,7 +88,8 @@ std::vector<DetectableEffect> detectable_in_torque(const Study& study, const Fin
     if (std::none_of(laws.begin(), laws.end(), [&](const view::LeastNamed& least) {
           return entry->name == std::string_view(least.law->effect);
         }))
-      detectable.push_back(without_law(*entry, detectable));
+      detectable.push_back(without_law(*entry, detectable, is_in(budget.model, *entry),
+                                       study.options.coordinates.rotational()));
   std::stable_sort(detectable.begin(), detectable.end(),
                    [](const DetectableEffect& a, const DetectableEffect& b) { return a.effect < b.effect; });
   return detectable;

@@ -245,16 +245,6 @@ EffectSearch search_effects(Study& study) {
 
 }  // namespace internal::diagnosis
 
-void DiagnosisKnowledge::fields(FieldVisitor& v) {
-  v.field({"periods_per_turn", "1/rev", "of a torque: pole pairs, slots, teeth", 1e-3, 1e7},
-          periods_per_turn);
-  v.field({"periods", "rad", "the same as a length, such as a screw's pitch", 1e-9, 1e4}, periods);
-  v.field({"outside_catalogue", "", "how likely the catalogue lacks what is missing", 0.01, 0.99},
-          outside_catalogue);
-  v.field({"detectable", "", "tell the smallest amount of each effect that would have been named"},
-          detectable);
-}
-
 Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                    const ReferenceModel& model, const DiagnosisOptions& options) {
   using namespace internal::diagnosis;

@@ -145,8 +145,14 @@ PlantModel<double> stepper_of(const ReferenceModel& model, std::span<const Motor
 
 std::vector<Playback> play(const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
                            bool all) {
+  return play_from(settled_starts(held_out.traces, model, observer_hz), model, held_out, observer_hz, all);
+}
+
+std::vector<Playback> play_from(const std::vector<reference::RecordingStart>& from,
+                                const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
+                                bool all) {
   const reference::ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
-  const auto [plant, starts] = fit.run_at({{}, settled_starts(held_out.traces, model, observer_hz)});
+  const auto [plant, starts] = fit.run_at({{}, from});
   std::vector<Playback> playbacks(held_out.traces.size());
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
     const DriveState<double>& state = starts[r];

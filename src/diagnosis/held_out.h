@@ -57,6 +57,11 @@ PlantModel<double> stepper_of(const ReferenceModel& model, std::span<const Motor
 std::vector<Playback> play(const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
                            bool all);
 
+/// The same from given initial states.
+std::vector<Playback> play_from(const std::vector<reference::RecordingStart>& from,
+                                const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
+                                bool all);
+
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
 
 /// The windows of the free runs for a drive that stands still: x1 about its mean [free_floor²].

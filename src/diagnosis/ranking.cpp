@@ -40,18 +40,23 @@ bool look_alike(const EffectEntry& a, const EffectEntry& b) {
   return names(a.look_alikes, b.name) || names(b.look_alikes, a.name);
 }
 
+ScoredModel scored_by_windows(const EffectEntry* entry, Windows windows) {
+  ScoredModel j;
+  j.entry = entry;
+  j.windows = std::move(windows);
+  const double parameters = entry != nullptr ? static_cast<double>(entry->parameters.size()) : 0.0;
+  j.score = log_score(j.windows) + kMeasure.score_per_parameter * parameters;
+  j.median_free = median_size(j.windows.free);
+  j.median_innovation = median_size(j.windows.innovation);
+  return j;
+}
+
 ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& held_out, double hz) {
   ScoredModel j;
   j.entry = entry;
-  if (fitted.mean_cost < kInfinity) {
-    if (const auto playbacks = play(fitted.model, held_out, hz, false); !playbacks.empty()) {
-      j.windows = windows_of(playbacks, held_out);
-      const double parameters = entry != nullptr ? static_cast<double>(entry->parameters.size()) : 0.0;
-      j.score = log_score(j.windows) + kMeasure.score_per_parameter * parameters;
-      j.median_free = median_size(j.windows.free);
-      j.median_innovation = median_size(j.windows.innovation);
-    }
-  }
+  if (fitted.mean_cost < kInfinity)
+    if (const auto playbacks = play(fitted.model, held_out, hz, false); !playbacks.empty())
+      j = scored_by_windows(entry, windows_of(playbacks, held_out));
   j.fitted = std::move(fitted);
   return j;
 }

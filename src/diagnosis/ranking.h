@@ -21,6 +21,8 @@ struct ScoredModel {
   double windows_better = kNaN;  ///< of a model known by its numbers alone, without windows
 };
 
+/// What the windows of a model with this as its last effect come to.
+ScoredModel scored_by_windows(const EffectEntry* entry, Windows windows);
 ScoredModel judge(const EffectEntry* entry, FittedModel fitted, const HeldOut& held_out, double observer_hz);
 
 /// Whether the table of the catalogue names one as a look-alike of the other.

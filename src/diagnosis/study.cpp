@@ -7,7 +7,19 @@
 #include "signals/encoder.h"
 #include "signals/period.h"
 
-namespace gapscope::internal::diagnosis {
+namespace gapscope {
+
+void DiagnosisKnowledge::fields(FieldVisitor& v) {
+  v.field({"periods_per_turn", "1/rev", "of a torque: pole pairs, slots, teeth", 1e-3, 1e7},
+          periods_per_turn);
+  v.field({"periods", "rad", "the same as a length, such as a screw's pitch", 1e-9, 1e4}, periods);
+  v.field({"outside_catalogue", "", "how likely the catalogue lacks what is missing", 0.01, 0.99},
+          outside_catalogue);
+  v.field({"detectable", "", "tell the smallest amount of each effect that would have been named"},
+          detectable);
+}
+
+namespace internal::diagnosis {
 namespace {
 
 void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
@@ -108,4 +120,5 @@ HeldOut fitted_as_held_out(const Study& study) {
   return all;
 }
 
-}  // namespace gapscope::internal::diagnosis
+}  // namespace internal::diagnosis
+}  // namespace gapscope

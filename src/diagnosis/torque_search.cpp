@@ -164,6 +164,10 @@ bool follows_another(const view::Law& free_form, const EffectEntry& entry) {
          (name == "free_position_curve" && entry.follows != ResidualPattern::kAngle);
 }
 
+bool acts_as_delay(const EffectEntry& entry) {
+  return entry.name == std::string_view("actuator_lag") || entry.name == std::string_view("measurement_lag");
+}
+
 view::SplitRecordings in_torque(const Study& study, const ReferenceModel& nominal) {
   const double km = nominal.parameters[place::kTorqueConstant].value;
   view::SplitRecordings data;
@@ -229,6 +233,10 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
     search.added.push_back(
         {*at, rung.named && needed && shows_simpler(budget, rung, law) && !free_law_as_good(rung, entry),
          group_of(budget, rung, entry, options)});
+    if (law.name == std::string_view("input_delay"))
+      std::copy_if(study.catalogue.begin(), study.catalogue.end(),
+                   std::back_inserter(search.added.back().group),
+                   [](const EffectEntry* e) { return acts_as_delay(*e); });
   }
   std::stable_sort(search.added.begin(), search.added.end(),
                    [](const TorqueAddition& a, const TorqueAddition& b) { return a.rung < b.rung; });

@@ -32,6 +32,10 @@ struct TorqueAddition {
   std::vector<const EffectEntry*> group;  ///< with it: what this recording cannot tell apart; itself first
 };
 
+/// Whether the balance takes it for a delay of the input: x(t − T) obeys the same law as u(t − T), and a
+/// first order differs from a delay in T² only.
+bool acts_as_delay(const EffectEntry& entry);
+
 /// What the ladder comes to, refitted by the simulator.
 struct TorqueSearch {
   std::vector<TorqueAddition> added;

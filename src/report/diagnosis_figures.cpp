@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gapscope/base/text.h"
+#include "report/detectable.h"
 #include "report/error_budget.h"
 #include "report/rich_text.h"
 #include "report/ticks.h"
@@ -282,8 +283,8 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
 }  // namespace
 
 std::vector<FigureData> diagnosis_figures(const DiagnosisResult& r) {
-  std::vector<FigureData> figures = {diagnosis_budget(r), diagnosis_traces(r), diagnosis_ranking(r),
-                                     diagnosis_where(r), diagnosis_torque_map(r)};
+  std::vector<FigureData> figures = {diagnosis_budget(r), diagnosis_traces(r),     diagnosis_ranking(r),
+                                     diagnosis_where(r),  diagnosis_torque_map(r), diagnosis_detectable(r)};
   figures.insert(figures.begin(), sheet(r, figures));
   return figures;
 }

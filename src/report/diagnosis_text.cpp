@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "report/detectable.h"
 #include "report/diagnosis_figures.h"
 #include "report/error_budget.h"
 #include "report/markdown.h"
@@ -165,7 +166,7 @@ std::string diagnosis_text(const DiagnosisResult& r, const std::vector<FigureDat
   std::string text = fmt::format("# {}: what the simulation lacks\n\n**{}**\n", r.name, r.diagnosis.sentence);
   text += bullet_section("Warnings", r.diagnosis.warnings);
   text += budget_table(r) + measures_table(r) + ranking_table(r) + steps_table(r) + periodic_table(r) +
-          blame_table(r) + experiment_table(r) + figure_section(figures);
+          blame_table(r) + detectable_table(r) + experiment_table(r) + figure_section(figures);
   text += "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
   return text + fmt::format("\ngapscope {}\n", r.version);
 }

@@ -15,6 +15,7 @@ void fields(Archive& archive, ImplantLabel& i) {
   archive("foretold_share", i.foretold_share);
   archive.named_members("values", i.values, &NamedValue::key, &NamedValue::value);
   archive.named_members("units", i.values, &NamedValue::key, &NamedValue::unit);
+  archive("undisturbed", i.undisturbed);
   archive("own", i.own);
 }
 

@@ -87,7 +87,7 @@ std::vector<ForetoldRung::Standing> ForetoldRung::standings(double theta,
 /// less simple, and does not clearly lead.
 bool ForetoldRung::yields(const Standing& leader, const Evidence& own) const {
   const Signature& s = *leader.rival->signature;
-  if (contains(*s.law, *law_.law)) return is_worth_having(own, contest_.options);
+  if (adds_to(*s.law, *law_.law)) return is_worth_having(own, contest_.options);
   return leader.rival->said >= contest_.options.same_group && law_.law->parameters() < s.law->parameters() &&
          contest_.blocks.leading(leader.squares, after_) < contest_.options.least_leading;
 }
@@ -95,7 +95,7 @@ bool ForetoldRung::yields(const Standing& leader, const Evidence& own) const {
 /// A rival that is simpler and chosen in the law's place although that leads.
 bool ForetoldRung::takes_its_place(const Standing& rival, const Eigen::VectorXd& before) const {
   const Law& other = *rival.rival->signature->law;
-  if (contains(*law_.law, other))
+  if (adds_to(*law_.law, other))
     return is_worth_having(contest_.blocks.compare(before, rival.squares), contest_.options);
   return rival.rival->says >= contest_.options.same_group && other.parameters() < law_.law->parameters() &&
          contest_.blocks.leading(after_, rival.squares) < contest_.options.least_leading;
@@ -104,7 +104,7 @@ bool ForetoldRung::takes_its_place(const Standing& rival, const Eigen::VectorXd&
 /// One of a group with the law, or that says less of the same.
 bool ForetoldRung::is_no_rival(const Standing& rival) const {
   const Law& other = *rival.rival->signature->law;
-  if (contains(*law_.law, other) || contains(other, *law_.law)) return true;
+  if (adds_to(*law_.law, other) || adds_to(other, *law_.law)) return true;
   if (rival.rival->says >= contest_.options.same_group) return true;
   return rival.rival->said >= contest_.options.same_group &&
          contest_.blocks.leading(after_, rival.squares) >= contest_.options.least_leading;

@@ -147,7 +147,7 @@ std::size_t simplest(const Bench& bench, const Rung& rung, const std::vector<std
                      std::size_t below, const TorqueViewOptions& options) {
   const Candidate& leader = rung.choice();
   for (std::size_t j = 0; j < rung.ranking.size(); ++j)
-    if (contains(*leader.law, *rung.ranking[j].law) && is_worth_having(rung.ranking[j].evidence, options))
+    if (adds_to(*leader.law, *rung.ranking[j].law) && is_worth_having(rung.ranking[j].evidence, options))
       return j;
   std::size_t best = rung.chosen;
   for (const std::size_t j : group)
@@ -174,8 +174,8 @@ void decide(Bench& bench, Rung& rung, const Model& model, const std::vector<std:
   for (const std::size_t j : group) rung.group.emplace_back(rung.ranking[j].law->name);
   for (std::size_t j = 0; j < rung.ranking.size(); ++j) {
     const Candidate& rival = rung.ranking[j];
-    if (j == rung.chosen || is_free_form(*rival.law) || contains(*rival.law, *c.law) ||
-        contains(*c.law, *rival.law) || std::find(group.begin(), group.end(), j) != group.end() ||
+    if (j == rung.chosen || is_free_form(*rival.law) || adds_to(*rival.law, *c.law) ||
+        adds_to(*c.law, *rival.law) || std::find(group.begin(), group.end(), j) != group.end() ||
         says_more(bench, c, rival, model, options))
       continue;
     rung.rival = rival.law->name;
@@ -196,7 +196,7 @@ bool lacks_simpler(const Model& model, const Law& law) {
   return law.simpler != nullptr && find_term(model, law.simpler) == nullptr;
 }
 
-bool contains(const Law& law, const Law& other) {
+bool adds_to(const Law& law, const Law& other) {
   return law.simpler != nullptr && law.simpler == std::string_view(other.name);
 }
 

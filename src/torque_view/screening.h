@@ -59,7 +59,7 @@ std::vector<const Law*> open_laws(Bench& bench, const Model& model, const Torque
 /// Whether a law brings another one along that the model does not have yet.
 bool lacks_simpler(const Model& model, const Law& law);
 /// Whether a law adds to the other one.
-bool contains(const Law& law, const Law& other);
+bool adds_to(const Law& law, const Law& other);
 bool is_worth_having(const Evidence& evidence, const TorqueViewOptions& options);
 /// Whether the evidence alone suffices to be named, whatever its rivals show.
 bool is_clear(const Evidence& evidence, const TorqueViewOptions& options);

@@ -174,7 +174,8 @@ TEST(ImplantScore, CountsByForetoldShareAndForgivesWhatTheDriveHasAnyway) {
     BlindLabel l;
     l.name = "case_" + std::to_string(labels.cases.size()), l.part = "report";
     if (*effect != '\0') l.effects = {effect};
-    l.implant = ImplantLabel{0.1, share, {{"x", "", 1.0}}, {"motor_coulomb_friction"}};
+    l.implant =
+        ImplantLabel{0.1, share, {{"x", "", 1.0}}, {"motor_coulomb_friction"}, {"motor_coulomb_friction"}};
     labels.cases.push_back(l);
     BlindAnswer a;
     a.name = l.name, a.verdict = verdict, a.effects = added, a.alike = std::move(alike);

@@ -191,13 +191,14 @@ TEST(Configuration, TheBoundCanBeANumberOrComeFromTheModel) {
 }
 
 TEST(Configuration, TheDiagnosisIsToldWhatIsKnown) {
-  const Configuration c = parse_configuration(
-      std::string(kSimulated) +
-          "diagnosis: {periods_per_turn: [4, 24], periods: [0.0025], outside_catalogue: 0.2}\n",
-      "a.yaml");
+  const Configuration c = parse_configuration(std::string(kSimulated) +
+                                                  "diagnosis: {periods_per_turn: [4, 24], periods: [0.0025], "
+                                                  "outside_catalogue: 0.2, detectable: true}\n",
+                                              "a.yaml");
   EXPECT_EQ(c.diagnosis.periods_per_turn, (std::vector<double>{4.0, 24.0}));
   EXPECT_EQ(c.diagnosis.periods, std::vector<double>{0.0025});
   EXPECT_EQ(c.diagnosis.outside_catalogue, 0.2);
+  EXPECT_TRUE(c.diagnosis.detectable);
 }
 
 TEST(Configuration, TranslationCountsInMetres) {

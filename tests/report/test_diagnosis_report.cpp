@@ -9,6 +9,7 @@
 #include "gapscope/report/report.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "report/clear_texts.h"
+#include "report/detectable.h"
 #include "report/diagnosis_figures.h"
 #include "report/draw_figure.h"
 #include "report/error_budget.h"
@@ -198,6 +199,36 @@ TEST(ErrorBudgetReport, TheFigureShowsTheFallAndHoldsItsTextsApart) {
   const internal::report::Drawing drawing = internal::report::draw_with_notes(figure);
   internal::report::expect_clear_texts(figure, drawing);
   EXPECT_FALSE(internal::report::diagnosis_budget(sample(DiagnosisVerdict::kEffect)).missing.empty());
+}
+
+/// One that can be shown, one that another hides.
+DiagnosisResult with_detectable() {
+  DiagnosisResult r = with_budget();
+  r.diagnosis.mismatch.input_torque = 1.0, r.diagnosis.mismatch.after_torque = 0.02;
+  r.diagnosis.detectable = {
+      {"actuator_lag", {"time_constant_s", "s", kNaN}, {}, "input_delay", "it acts as a delay does", kNaN},
+      {"input_delay", {"delay_s", "s", 3e-4}, {}, "", "", 0.004},
+      {"torque_ripple", {"ratio", "-", 0.02}, {{"periods_per_turn", "1/rev", 24.0}}, "", "", 0.014}};
+  return r;
+}
+
+TEST(DetectableReport, TellsTheAmountsInAPlainSentenceAndATable) {
+  const std::string text = internal::report::detectable_table(with_detectable());
+  EXPECT_THAT(text, HasSubstr("Input delay of more than 300 µs and torque ripple of more than 2 % would have "
+                              "been named on these recordings."));
+  EXPECT_THAT(text, HasSubstr("| `torque_ripple` | 2 % | 24 per turn | 1.4 % |  |"));
+  EXPECT_THAT(text, HasSubstr("| `actuator_lag` | – |  | – | it acts as a delay does |"));
+  EXPECT_EQ(internal::report::detectable_table(with_budget()), "");
+}
+
+TEST(DetectableReport, TheFigureDrawsWhatCanBeShownAndHoldsItsTextsApart) {
+  const internal::report::FigureData figure = internal::report::diagnosis_detectable(with_detectable());
+  ASSERT_EQ(figure.panels.size(), 1u);
+  ASSERT_EQ(figure.panels[0].tiles.size(), 2u);
+  EXPECT_NEAR(figure.panels[0].tiles[0].x.high, std::log10(0.4), 1e-12);
+  const internal::report::Drawing drawing = internal::report::draw_with_notes(figure);
+  internal::report::expect_clear_texts(figure, drawing);
+  EXPECT_FALSE(internal::report::diagnosis_detectable(with_budget()).missing.empty());
 }
 
 }  // namespace

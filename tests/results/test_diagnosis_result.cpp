@@ -40,6 +40,9 @@ DiagnosisResult sample() {
       {"cogging_torque", true, d.group, 0.9, {{"amplitude_nm", "N m", kThird}}, 0.9, {0.8, 1.1}, kThird}};
   d.budget.band_hz = 30.0, d.budget.nominal = kThird;
   d.budget.rungs = {{"cogging_torque", "cogging_torque", true, 1.0, kThird, 0.8, {0.7, 0.9}, 0.8, kThird}};
+  d.detectable = {
+      {"torque_ripple", {"ratio", "-", kThird}, {{"periods_per_turn", "1/rev", 24.0}}, "", "", 0.1},
+      {"actuator_lag", {"time_constant_s", "s", kNaN}, {}, "input_delay", "it acts alike", kNaN}};
   d.measures = {{"free run", "rad", 1.0, kThird, kNaN}};
   RankedEffect first;
   first.effect = "cogging_torque";
@@ -104,6 +107,14 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.steps[0].group, a.steps[0].group);
   EXPECT_EQ(b.steps[0].mismatch.shrink, kThird);
   EXPECT_EQ(b.steps[0].ranking[0].effect, "input_delay");
+  ASSERT_EQ(b.detectable.size(), 2u);
+  EXPECT_EQ(b.detectable[0].smallest.key, "ratio");
+  EXPECT_EQ(b.detectable[0].smallest.value, kThird);
+  EXPECT_EQ(b.detectable[0].at[0].unit, "1/rev");
+  EXPECT_EQ(b.detectable[0].torque, 0.1);
+  EXPECT_TRUE(std::isnan(b.detectable[1].smallest.value));
+  EXPECT_EQ(b.detectable[1].hidden_by, "input_delay");
+  EXPECT_EQ(b.detectable[1].why, "it acts alike");
   EXPECT_EQ(b.outside_probability, 0.05);
   ASSERT_EQ(b.periodic.size(), 1u);
   EXPECT_EQ(b.periodic[0].period, kThird);
@@ -140,10 +151,11 @@ TEST(DiagnosisResult, IsReadWithoutWhatEarlierVersionsDidNotStore) {
   write_diagnosis_result(scratch.path.string(), sample());
   const fs::path file = scratch.path / "diagnosis.json";
   nlohmann::json before = nlohmann::json::parse(std::ifstream(file));
-  before.erase("configuration");
+  before.erase("configuration"), before.erase("detectable");
   ASSERT_EQ(before["gap"].erase("floor_of"), 1u);
   std::ofstream(file) << before;
   EXPECT_EQ(read_diagnosis_result(scratch.path.string()).diagnosis.mismatch.floor_of, "");
+  EXPECT_TRUE(read_diagnosis_result(scratch.path.string()).diagnosis.detectable.empty());
 }
 
 TEST(DiagnosisResult, WritesTheSameTextAgain) {

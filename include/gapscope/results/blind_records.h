@@ -17,8 +17,9 @@ struct ImplantLabel {
   /// E/(E + R), of the held-out residual torque with it; NaN where the
   /// drive's torque balance depends on its contact
   double foretold_share = kNaN;
-  std::vector<NamedValue> values;  ///< of the law; empty without an effect
-  std::vector<std::string> own;    ///< effects that the diagnosis adds without any implant
+  std::vector<NamedValue> values;        ///< of the law; empty without an effect
+  std::vector<std::string> undisturbed;  ///< effects that the diagnosis adds without any implant
+  std::vector<std::string> own;  ///< these, and those of the error budget of the recordings as they are
 };
 
 /// What is withheld of one case.

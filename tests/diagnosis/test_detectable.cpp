@@ -1,0 +1,83 @@
+// What would have been named, on drives of the independent plant.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/one_inertia.h"
+#include "gapscope/base/text.h"
+
+namespace gapscope {
+namespace {
+
+using independent_plant::MotorEffects;
+
+Diagnosis diagnosed(const MotorEffects& effects) {
+  const blind::BlindPair pair = test::one_inertia(effects, 500031);
+  const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
+  return diagnose(train, held_out, pair.sheet, {});
+}
+
+const DetectableEffect& of(const Diagnosis& d, const std::string& effect) {
+  const auto at = std::find_if(d.detectable.begin(), d.detectable.end(),
+                               [&](const DetectableEffect& e) { return e.effect == effect; });
+  EXPECT_NE(at, d.detectable.end()) << effect;
+  return *at;
+}
+
+const Diagnosis& of_none() {
+  static const Diagnosis d = diagnosed({});
+  return d;
+}
+
+bool names(const Diagnosis& d, const std::string& effect) {
+  return d.verdict == DiagnosisVerdict::kEffect && contains(d.effects, effect);
+}
+
+TEST(Detectable, NothingMissingAlwaysTellsWhatWouldHaveBeenNamed) {
+  ASSERT_EQ(of_none().verdict, DiagnosisVerdict::kNone) << of_none().sentence;
+  EXPECT_GT(of_none().detectable.size(), 10u);
+  for (const DetectableEffect& e : of_none().detectable)
+    EXPECT_NE(e.can_be_shown(), !e.why.empty()) << e.effect;
+}
+
+/// The amounts are foretold without a refit, and the diagnosis refits everything.
+TEST(Detectable, ThreeTimesAsMuchIsNamedAndAThirdIsNot) {
+  const DetectableEffect& cogging = of(of_none(), "cogging_torque");
+  const double level = of(of_none(), "motor_coulomb_friction").smallest.value,
+               drag = of(of_none(), "quadratic_drag").smallest.value;
+  for (const double factor : {1.0 / 3.0, 3.0}) {
+    MotorEffects friction, dragging, cogs;
+    friction.friction.level_nm = factor * level;
+    dragging.drag_nms2 = factor * drag;
+    cogs.cogging = {factor * cogging.smallest.value, cogging.at.front().value, 0.4, 0.0};
+    EXPECT_EQ(names(diagnosed(friction), "motor_coulomb_friction"), factor > 1.0) << factor;
+    EXPECT_EQ(names(diagnosed(dragging), "quadratic_drag"), factor > 1.0) << factor;
+    EXPECT_EQ(names(diagnosed(cogs), "cogging_torque"), factor > 1.0) << factor;
+  }
+}
+
+TEST(Detectable, IsTheSameForAnyNumberOfThreadsAndToldOfAnEffectOnRequestOnly) {
+  MotorEffects friction;
+  friction.friction.level_nm = 0.01;
+  const blind::BlindPair pair = test::one_inertia(friction, 500031);
+  const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
+  const auto asked = [&](bool detectable, int threads) {
+    DiagnosisOptions options;
+    options.known.detectable = detectable, options.threads = threads;
+    return diagnose(train, held_out, pair.sheet, options);
+  };
+  EXPECT_TRUE(asked(false, 1).detectable.empty());
+  const Diagnosis one = asked(true, 1), two = asked(true, 2);
+  ASSERT_EQ(one.detectable.size(), two.detectable.size());
+  ASSERT_FALSE(one.detectable.empty());
+  for (std::size_t i = 0; i < one.detectable.size(); ++i) {
+    EXPECT_NE(one.detectable[i].effect, "motor_coulomb_friction");  // it is in the model
+    EXPECT_EQ(one.detectable[i].why, two.detectable[i].why);
+    if (!one.detectable[i].can_be_shown()) continue;
+    EXPECT_EQ(one.detectable[i].smallest.value, two.detectable[i].smallest.value);
+  }
+}
+
+}  // namespace
+}  // namespace gapscope
