@@ -8,7 +8,7 @@
 #include "diagnosis/torque_model.h"
 #include "diagnosis/torque_search.h"
 #include "gapscope/base/text.h"
-#include "torque_view/least_named.h"
+#include "torque_view/implanted_ladder.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -78,7 +78,10 @@ std::vector<DetectableEffect> detectable_in_torque(const Study& study, const Fin
   const auto another = [](const view::Law& free_form, const view::Law& law) {
     return follows_another(free_form, *find_effect(law.effect));
   };
-  const std::vector<view::LeastNamed> laws = view::least_named(in_torque(study, nominal), budget, another);
+  const view::SplitRecordings data = in_torque(study, nominal);
+  std::vector<view::LeastNamed> laws = view::least_named(data, budget, another);
+  study.options.progress("trying what would have been named");
+  view::correct_by_implants(data, budget, laws);
   std::vector<DetectableEffect> detectable;
   for (const EffectEntry* entry : asked)
     for (const view::LeastNamed& least : laws)

@@ -129,12 +129,9 @@ double implant_size(std::span<const Subject> subjects, const Implant& implant, c
   return std::sqrt(changed / input);
 }
 
-std::optional<Implant> drawn_implant(const ImplantLaw& law, std::span<const Subject> subjects,
-                                     const Receiver& drive, double size, std::uint64_t seed) {
-  const CaseScale scale = scale_of(subjects);
-  auto g = random_stream(seed, law.name);
-  Implant implant{&law, {}, seed};
-  law.draw(implant.values, scale, drive, g);
+std::optional<Implant> sized_implant(Implant implant, std::span<const Subject> subjects,
+                                     const Receiver& drive, double size) {
+  const ImplantLaw& law = *implant.law;
   const auto size_at = [&](double first) {
     implant.values[0] = first;
     return implant_size(subjects, implant, drive);
@@ -145,6 +142,7 @@ std::optional<Implant> drawn_implant(const ImplantLaw& law, std::span<const Subj
     if (!(one > 0.0)) return {};
     return implant;
   }
+  const CaseScale scale = scale_of(subjects);
   if (law.by_size != nullptr) {
     implant.values[0] = law.by_size(size, scale);
     return implant;
@@ -157,6 +155,19 @@ std::optional<Implant> drawn_implant(const ImplantLaw& law, std::span<const Subj
   }
   if (std::abs(size_at(std::sqrt(weak * strong)) / size - 1.0) > kWithin) return {};
   return implant;
+}
+
+Implant drawn_shape(const ImplantLaw& law, std::span<const Subject> subjects, const Receiver& drive,
+                    std::uint64_t seed) {
+  auto g = random_stream(seed, law.name);
+  Implant implant{&law, {}, seed};
+  law.draw(implant.values, scale_of(subjects), drive, g);
+  return implant;
+}
+
+std::optional<Implant> drawn_implant(const ImplantLaw& law, std::span<const Subject> subjects,
+                                     const Receiver& drive, double size, std::uint64_t seed) {
+  return sized_implant(drawn_shape(law, subjects, drive, seed), subjects, drive, size);
 }
 
 }  // namespace gapscope::internal::implant

@@ -14,6 +14,14 @@ struct Implant {
   std::uint64_t seed = 0;  ///< of what differs between recordings
 };
 
+/// All values but the first, drawn.
+Implant drawn_shape(const ImplantLaw& law, std::span<const Subject> subjects, const Receiver& drive,
+                    std::uint64_t seed);
+
+/// The same with the first value at which it has that size, see drawn_implant().
+std::optional<Implant> sized_implant(Implant implant, std::span<const Subject> subjects,
+                                     const Receiver& drive, double size);
+
 /// A law of drawn shape whose torque, or the torque that would have the same effect on the readings, has that
 /// rms over all recordings, relative to that of the torque that the input brings; one set of values for all.
 /// Nothing where no value comes to it.

@@ -140,9 +140,8 @@ constexpr ImplantLaw kLaws[] = {
     of("stray_sine", Asks::kNothing,
        {{{"amplitude_nm", "N m"}, {"frequency_hz", "Hz"}, {"phase_rad", "rad"}, kUnused}}, draw_stray, stray,
        false),
-    of("knocks", Asks::kNothing,
-       {{{"peak_nm", "N m"}, {"every_s", "s"}, {"duration_s", "s"}, {"draw", ""}}}, draw_knocks, knocks,
-       false),
+    of("knocks", Asks::kNothing, {{{"peak_nm", "N m"}, {"every_s", "s"}, {"duration_s", "s"}, {"draw", ""}}},
+       draw_knocks, knocks, false),
 };
 
 }  // namespace

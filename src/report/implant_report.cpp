@@ -106,9 +106,12 @@ FigureData implant_figure(const BlindScore& s) {
                           [](const ScoredCase& c) { return !c.implant->told && !c.implant->stranger; }),
               cases_where(s, rows, "another effect called the cause", model_free_style(), Marker::kCross,
                           [](const ScoredCase& c) { return c.implant->stranger; })};
+  std::erase_if(p.series, [](const Series& series) { return series.x.empty(); });
   figure.panels.push_back(std::move(p));
   figure.lines = {
-      "At the right: cases that were named / all. What is outside the catalogue has no name to be given."};
+      "At the right: cases that were named / all. Noise of the input, knocks, lost counts and stray sines "
+      "are "
+      "outside the catalogue: there is no name to be given."};
   figure.reading = s.counts.empty() ? ""
                                     : fmt::format("{}: {} of {}.", s.counts.front().name,
                                                   s.counts.front().count, s.counts.front().of);

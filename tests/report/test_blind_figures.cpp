@@ -9,6 +9,7 @@
 #include "report/blind_figures.h"
 #include "report/clear_texts.h"
 #include "report/draw_figure.h"
+#include "report/implant_report.h"
 #include "support/temporary_file.h"
 
 namespace gapscope::internal::report {
@@ -79,6 +80,54 @@ TEST(BlindReport, SaysWhatWasMissedAndListsEveryWrongAnswer) {
   EXPECT_THAT(text.str(), Not(HasSubstr("- no effect")));
   EXPECT_THAT(text.str(), HasSubstr("| case_001 | paper | 0.40 | input_delay | quadratic_drag |"));
   EXPECT_THAT(text.str(), Not(HasSubstr("case_002")));
+}
+
+BlindScore implanted_score() {
+  BlindScore s;
+  s.name = "axis", s.version = "1", s.report_cases = 4;
+  s.counts = {{"implant with a foretold share of 0.3 or more: named or in the group", 1, 2, 0.85, false}};
+  const auto add = [&](const char* truth, const char* verdict, const char* named, ScoredImplant implant) {
+    ScoredCase c{"case_001", "report", "axis", truth, verdict, named, 0.1, kNaN, kNaN, kNaN, false, implant};
+    s.cases.push_back(c);
+  };
+  add("input_delay", "effect", "input_delay", {0.1, 0.84, "delay_s", "s", 0.0029, true, false});
+  add("quadratic_drag", "effect", "input_delay",
+      {0.1, 0.32, "coefficient_nms2", "N m s^2", 0.4, false, true});
+  add("knocks", "unknown", "", {0.1, 0.93, "peak_nm", "N m", 73.0, false, false});
+  add("none", "none", "", {});
+  return s;
+}
+
+TEST(ImplantFigure, HasNoTextsThatMeetOrAreCut) {
+  const FigureData figure = implant_figure(implanted_score());
+  ASSERT_TRUE(figure.missing.empty());
+  expect_clear_texts(figure, draw_with_notes(figure));
+}
+
+TEST(ImplantFigure, DrawsEachCaseAtItsForetoldShareAndCountsWhatWasNamed) {
+  const FigureData figure = implant_figure(implanted_score());
+  ASSERT_EQ(figure.panels.size(), 1u);
+  const Panel& p = figure.panels.front();
+  EXPECT_THAT(p.y.categories, ::testing::SizeIs(3));
+  EXPECT_THAT(p.y.remarks, ::testing::ElementsAre("1/1", "0/1", "0/1"));
+  ASSERT_EQ(p.series.size(), 3u);
+  EXPECT_THAT(p.series[0].x, ::testing::ElementsAre(84.0));
+  EXPECT_THAT(p.series[2].x, ::testing::ElementsAre(32.0));
+  BlindScore contact = implanted_score();
+  for (ScoredCase& c : contact.cases) c.implant->foretold_share = kNaN;
+  EXPECT_THAT(implant_figure(contact).missing, HasSubstr("foretold"));
+}
+
+TEST(ImplantReport, SaysOfEveryCaseWhatWasPutInAndWhatWasMadeOfIt) {
+  const testing::TemporaryFile place("");
+  write_blind_score(place.folder().string(), implanted_score());
+  write_blind_report(place.folder().string());
+  std::ifstream in(place.folder() / "report.md");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_THAT(text, HasSubstr("| input_delay | 0.0029 s | 10.0 % | 0.84 | effect | input_delay | yes |"));
+  EXPECT_THAT(text, HasSubstr("**another one**"));
+  EXPECT_THAT(text, HasSubstr("1 of 2"));
+  EXPECT_THAT(text, Not(HasSubstr("shares no code")));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "drives.h"
-#include "torque_view/least_named.h"
+#include "torque_view/implanted_ladder.h"
 
 namespace gapscope::internal::torque_view {
 namespace {
@@ -75,6 +75,28 @@ TEST(LeastNamed, ThreeTimesAsMuchIsNamedByTheLadderAndAThirdIsNot) {
     };
     EXPECT_TRUE(is_named(law.law, times(3.0))) << law.law;
     EXPECT_FALSE(is_named(law.law, times(1.0 / 3.0))) << law.law;
+  }
+}
+
+bool is_added(const std::string& law, const Extra& extra) {
+  const Budget b = error_budget(recordings(extra));
+  return std::any_of(b.model.begin() + static_cast<std::ptrdiff_t>(b.nominal.size()), b.model.end(),
+                     [&](const Term& term) { return law == term.law->name; });
+}
+
+TEST(LeastNamed, CorrectedByImplantsTwiceAsMuchIsAddedAndHalfOfItIsNot) {
+  const SplitRecordings data = recordings([](const Motion&) { return 0.0; });
+  const Budget budget = error_budget(data);
+  std::vector<LeastNamed> all = least_named(data, budget, follows_another);
+  correct_by_implants(data, budget, all);
+  for (const SizedLaw& law : kSizedLaws) {
+    const LeastNamed& least = of(all, law.law);
+    ASSERT_TRUE(least.exists()) << law.law;
+    const auto times = [&](double factor) {
+      return [&, factor](const Motion& m) { return law.torque(m, factor * least.theta.norm(), least.shape); };
+    };
+    EXPECT_TRUE(is_added(law.law, times(2.0))) << law.law;
+    EXPECT_FALSE(is_added(law.law, times(0.5))) << law.law;
   }
 }
 
