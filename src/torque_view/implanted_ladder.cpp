@@ -12,8 +12,22 @@ namespace {
 
 constexpr int kMostHalvings = 3;  ///< below half of the foretold amount
 
+/// A delay is put in as one, not as its first order: the held input of that much later.
+void delay(StampedTrace& trace, double later) {
+  const std::vector<double> u = trace.u;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    while (at + 1 < u.size() && trace.t[at + 1] <= trace.t[i] + later) ++at;
+    trace.u[i] = u[at];
+  }
+}
+
 void implant_into(std::vector<StampedTrace>& traces, const Budget& budget, const Law& law, double shape,
                   const Eigen::VectorXd& theta, const TorqueViewOptions& options) {
+  if (law.name == std::string_view("input_delay")) {
+    for (StampedTrace& trace : traces) delay(trace, theta[0]);
+    return;
+  }
   Rows rows = stacked(traces, budget.band.hz, budget.band.free_constant, options);
   set_torque(rows, budget.model);
   for (std::size_t r = 0; r < traces.size(); ++r) {
