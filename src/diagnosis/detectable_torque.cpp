@@ -80,8 +80,10 @@ std::vector<DetectableEffect> detectable_in_torque(const Study& study, const Fin
   };
   const view::SplitRecordings data = in_torque(study, nominal);
   std::vector<view::LeastNamed> laws = view::least_named(data, budget, another);
-  study.options.progress("trying what would have been named");
-  view::correct_by_implants(data, budget, laws);
+  if (study.options.known.detectable) {  // takes longer than the diagnosis
+    study.options.progress("trying what would have been named");
+    view::correct_by_implants(data, budget, laws);
+  }
   std::vector<DetectableEffect> detectable;
   for (const EffectEntry* entry : asked)
     for (const view::LeastNamed& least : laws)

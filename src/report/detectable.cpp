@@ -135,7 +135,9 @@ std::string detectable_table(const DiagnosisResult& r) {
   if (r.diagnosis.detectable.empty()) return "";
   std::string text = fmt::format(
       "\n## What would have been named\n\n{}\n\nForetold to first order on top of the model that the "
-      "diagnosis has come to, one effect at a time, at the numbers of *at*; no refit. *Of the input*: rms of "
+      "diagnosis has come to, one effect at a time, at the numbers of *at*; where the torque balance decides "
+      "and "
+      "`detectable: true` asks for it, corrected by implants into its rows. *Of the input*: rms of "
       "the {} that the smallest amount makes.\n\n| effect | smallest amount | at | of the input | why not "
       "|\n|---|---|---|---|---|\n",
       sentence(r), r.coordinates.torque_word());

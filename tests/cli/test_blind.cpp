@@ -37,6 +37,39 @@ TEST(Blind, ThreeCommandsDoWhatOneDoes) {
   EXPECT_THAT(text_of(place.folder() / "held/blind.json"), HasSubstr("\"announced_seal_sha256\": \"" + seal));
 }
 
+constexpr const char* kOwnDrive =
+    "name: axis\nmodel: {parameters: {torque_constant: 0.172, motor_inertia: {value: 0.0018, estimate: "
+    "true}, "
+    "motor_damping: {value: 0.02, estimate: true}, mass_ratio: 0}}\nencoder: {bits: 16}\n";
+
+TEST(Blind, ImplantsIntoOwnRecordingsInThreeCommandsAndInOne) {
+  Workplace place;
+  place.file("drive.yaml", std::string(kOwnDrive) +
+                               "simulation: {rate: 500, duration: 4, excitation: {sine: {amplitude: 0.4, "
+                               "frequency: 1.3}}}\n");
+  ASSERT_EQ(place.run("simulate drive.yaml -o axis.csv").status, 0);
+  place.file("axis.yaml",
+             std::string(kOwnDrive) +
+                 "recording: {file: axis.csv}\nimplant: {first_seed: 3, known: 1, outside: 0, none: 1, "
+                 "effects: [input_delay]}\n");
+  const auto made = place.run("blind implant axis.yaml -o cases --labels labels.json");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("2 in cases"));
+  ASSERT_EQ(place.run("blind answer cases -o answers.json").status, 0);
+  const auto scored = place.run("blind score cases labels.json answers.json -o apart");
+  ASSERT_EQ(scored.status, 0) << scored.err;
+  EXPECT_THAT(scored.out, HasSubstr("implant with a foretold share of 0.3 or more"));
+  EXPECT_THAT(scored.out, HasSubstr("no implant: the effects of the recordings as they are"));
+  ASSERT_EQ(place.run("blind run axis.yaml").status, 0);
+  for (const char* file : {"blind.json", "report.md", "implants.png"})
+    EXPECT_EQ(text_of(place.folder() / "apart" / file), text_of(place.folder() / "reports/axis" / file))
+        << file;
+  const auto simulated = place.run("blind implant drive.yaml -o others --labels others.json");
+  EXPECT_EQ(simulated.status, 2);
+  EXPECT_THAT(simulated.err, HasSubstr("drive.yaml: simulates, expected recording"));
+  EXPECT_FALSE(place.content().contains("others"));
+}
+
 TEST(Blind, RefusesWhatWasChangedWithTheReasonAndWritesNothing) {
   Workplace place;
   place.file("check.yaml", kBlindCheck);

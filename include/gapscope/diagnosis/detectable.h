@@ -8,7 +8,8 @@
 namespace gapscope {
 
 /// "Would I have seen it?": the smallest amount of an effect that the diagnosis would have named on these
-/// very recordings, on top of the model that it has come to. Foretold to first order, without a refit.
+/// very recordings, on top of the model that it has come to. Foretold to first order, without a refit of the
+/// simulator; where the torque balance decides and it was asked for, corrected by implants into its rows.
 struct DetectableEffect {
   std::string effect;
   NamedValue smallest;         ///< of the parameter that is its size; NaN: it cannot be shown at any amount
