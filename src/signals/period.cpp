@@ -83,6 +83,7 @@ double exact_period(const MotorTrace& trace, double fewest) {
   const double near = refine(u, rough - 1.5 * stride, rough + 1.5 * stride, 1, var);
   const double repeats =
       std::floor((n - 2.0) / near) - 1.0;  // many periods apart: the same error counts less
+  if (repeats < 1.0) return 0.0;  // one repetition ends where the recording does: nothing to compare with
   const double lag = refine(u, repeats * near - 2.0, repeats * near + 2.0, 1, var);
   if (change(u, lag / repeats, 1, var) > kExact) return 0.0;
   return lag / repeats * trace.dt;
