@@ -29,22 +29,30 @@ BlindProgress counted(const Progress& progress, const char* what) {
   };
 }
 
+void add_handing_out_options(CommandLine& command, const std::shared_ptr<BlindArguments>& a) {
+  command.add_option("-o,--output", a->cases, "folder of the recordings, to be handed out")
+      .required()
+      .value("DIR");
+  command.add_option("--labels", a->labels, "file of the labels, to be kept").required().value("FILE");
+  add_work_options(command, a->threads, a->quiet);
+}
+
+void say_handed_out(const BlindArguments& a) {
+  say("cases", fmt::format("{} in {}", read_blind_labels(a.labels).cases.size(), a.cases));
+  say("labels", a.labels + " (not to be handed out before the answers are in)");
+}
+
 void make(const BlindArguments& a) {
   const BlindConfig config = load_blind_config(a.config);
   make_blind_check(config, a.cases, a.labels, a.threads, counted(progress_on_terminal(a.quiet), "made case"));
-  say("cases", fmt::format("{} in {}", config.calibration.cases() + config.report.cases(), a.cases));
-  say("labels", a.labels + " (not to be handed out before the answers are in)");
+  say_handed_out(a);
 }
 
 void add_make(CommandLine& blind) {
   auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("make", "Makes recordings and seals what they hide");
   command.add_option("CONFIG", a->config, "of the check (YAML)").required();
-  command.add_option("-o,--output", a->cases, "folder of the recordings, to be handed out")
-      .required()
-      .value("DIR");
-  command.add_option("--labels", a->labels, "file of the labels, to be kept").required().value("FILE");
-  add_work_options(command, a->threads, a->quiet);
+  add_handing_out_options(command, a);
   command.footer(
       "Keys of a check:\n"
       "  name         of the check (default: of the file)\n"
@@ -66,19 +74,14 @@ void put_in(const BlindArguments& a) {
   const Configuration config = load_configuration(a.config);
   const Progress progress = progress_on_terminal(a.quiet);
   make_implanted_check(config, a.cases, a.labels, a.threads, counted(progress, "made case"), progress);
-  say("cases", fmt::format("{} in {}", read_blind_labels(a.labels).cases.size(), a.cases));
-  say("labels", a.labels + " (not to be handed out before the answers are in)");
+  say_handed_out(a);
 }
 
 void add_implant(CommandLine& blind) {
   auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("implant", "Puts known effects into one's own recordings");
   command.add_option("CONFIG", a->config, "of the drive (YAML), as `gapscope diagnose` takes it").required();
-  command.add_option("-o,--output", a->cases, "folder of the recordings, to be handed out")
-      .required()
-      .value("DIR");
-  command.add_option("--labels", a->labels, "file of the labels, to be kept").required().value("FILE");
-  add_work_options(command, a->threads, a->quiet);
+  add_handing_out_options(command, a);
   command.footer(
       "A recorded drive obeyed m a = Km u + rest. Under u' = u - torque/Km the same motion is that of a "
       "drive\n"
