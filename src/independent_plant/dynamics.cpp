@@ -34,7 +34,7 @@ void require_sound(const BlindDrive& d) {
   GAPSCOPE_REQUIRE(e.command.delay_s >= 0.0 && e.command.jitter_s >= 0.0);
   if (d.contact != ContactKind::kRigid) return;
   GAPSCOPE_REQUIRE(e.contact.eccentricity_rad == 0.0 && e.contact.growth_rad_s == 0.0 &&
-                   e.contact.release_nm == 0.0 && e.load.friction_per_contact_torque == 0.0);
+                   e.contact.release_nm == 0.0 && e.motor.friction.gear_ratio == 0.0);
 }
 
 }  // namespace
@@ -45,10 +45,9 @@ Dynamics::Dynamics(const BlindDrive& drive, std::vector<Knock> knocks)
   const Effects& e = drive_.effects;
   if (!std::isnan(e.contact.stiffness_nm_rad)) drive_.contact_stiffness = e.contact.stiffness_nm_rad;
   if (!std::isnan(e.contact.damping_nms_rad)) drive_.contact_damping = e.contact.damping_nms_rad;
-  motor_signed_ = e.motor.friction.level_nm > 0.0 || e.motor.friction.viscous_ratio != 0.0 ||
+  motor_signed_ = e.motor.friction.level_nm > 0.0 || e.motor.friction.gear_ratio > 0.0 || e.motor.friction.viscous_ratio != 0.0 ||
                   e.motor.bristle.level_nm > 0.0 || e.motor.drag_nms2 != 0.0;  // all have a kink at w1 = 0
-  load_signed_ = drive_.load == BlindLoad::kFree &&
-                 (drive_.load_coulomb > 0.0 || e.load.friction_per_contact_torque > 0.0);
+  load_signed_ = drive_.load == BlindLoad::kFree && drive_.load_coulomb > 0.0;
   hidden_states_ = e.motor.bristle.level_nm > 0.0 || e.command.lag_s > 0.0 || e.sensor.lag_s > 0.0 ||
                    e.load.resonator_inertia > 0.0;
   for (const Knock& knock : knocks_) {
@@ -105,13 +104,14 @@ State Dynamics::rates(double t, const State& s, const Regime& r, double held) co
   } else {
     const double contact = contact_torque(t, s, r);
     if (r.motor != 0) {
-      double torque = motor_drive(t, s, r.motor, held) - contact - r.motor * motor_level(r.motor, s[kW1]);
-      if (drive_.load == BlindLoad::kNone) torque += load_torques(s[kX1], s[kW1], s);
+      const double of_load = drive_.load == BlindLoad::kNone ? load_torques(s[kX1], s[kW1], s) : 0.0;
+      const double torque = motor_drive(t, s, r.motor, held) + of_load - contact -
+                            r.motor * motor_level(r.motor, s[kW1], contact + of_load);
       rate[kX1] = s[kW1];
       rate[kW1] = torque / motor_inertia(t);
     }
     if (r.load != 0) {
-      const double level = load_signed_ ? load_level(contact) : 0.0;
+      const double level = load_signed_ ? load_level() : 0.0;
       rate[kX2] = s[kW2];
       rate[kW2] = (contact + load_drive(s) - r.load * level) / load_inertia(t);
     }
@@ -123,7 +123,7 @@ State Dynamics::rates(double t, const State& s, const Regime& r, double held) co
 /// Rigid contact: one body of both inertias.
 void Dynamics::joined_rates(double t, const State& s, const Regime& r, double held, State& rate) const {
   if (r.motor == 0) return;
-  const double friction = motor_level(r.motor, s[kW1]) + (load_signed_ ? load_level(0.0) : 0.0);
+  const double friction = motor_level(r.motor, s[kW1], 0.0) + (load_signed_ ? load_level() : 0.0);
   const double torque = motor_drive(t, s, r.motor, held) + load_drive(s) - r.motor * friction;
   rate[kX1] = s[kW1];
   rate[kX2] = s[kW2];
@@ -134,11 +134,11 @@ void Dynamics::joined_rates(double t, const State& s, const Regime& r, double he
 double Dynamics::joined_push(double t, const State& s, const Regime& r, double held) const {
   const double motor = motor_drive(t, s, r.motor, held);
   if (r.motor == 0) {
-    const double by_motor = r.flank * motor + motor_level(-r.flank, 0.0);
-    return std::min(by_motor, -r.flank * load_drive(s) + load_level(0.0));
+    const double by_motor = r.flank * motor + motor_level(-r.flank, 0.0, 0.0);
+    return std::min(by_motor, -r.flank * load_drive(s) + load_level());
   }
   const State rate = rates(t, s, r, held);
-  return r.flank * (motor - r.motor * motor_level(r.motor, s[kW1]) - motor_inertia(t) * rate[kW1]);
+  return r.flank * (motor - r.motor * motor_level(r.motor, s[kW1], 0.0) - motor_inertia(t) * rate[kW1]);
 }
 
 Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) const {
@@ -147,9 +147,9 @@ Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) 
   if (is_joined(r)) {
     g[0] = joined_push(t, s, r, held);
     if (drive_.load == BlindLoad::kLocked) return g;
-    const double torque = motor_drive(t, s, r.motor, held) + load_drive(s), load = load_level(0.0);
-    fill_friction_guards(&g[2], r.motor, s[kW1], torque, motor_level(1, 0.0) + load,
-                         motor_level(-1, 0.0) + load);
+    const double torque = motor_drive(t, s, r.motor, held) + load_drive(s), load = load_level();
+    fill_friction_guards(&g[2], r.motor, s[kW1], torque, motor_level(1, 0.0, 0.0) + load,
+                         motor_level(-1, 0.0, 0.0) + load);
     return g;
   }
   if (has_contact_events()) {
@@ -165,29 +165,35 @@ Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) 
   }
   const double contact = contact_torque(t, s, r);
   if (load_signed_) {
-    const double level = load_level(contact);
+    const double level = load_level();
     fill_friction_guards(&g[2], r.load, s[kW2], contact + load_drive(s), level, level);
   }
   if (motor_signed_) {
-    double torque = r.motor == 0 ? motor_drive(t, s, 0, held) - contact : 0.0;
-    if (drive_.load == BlindLoad::kNone && r.motor == 0) torque += load_torques(s[kX1], s[kW1], s);
-    fill_friction_guards(&g[4], r.motor, s[kW1], torque, motor_level(1, 0.0), motor_level(-1, 0.0));
+    const double of_load =
+        drive_.load == BlindLoad::kNone && r.motor == 0 ? load_torques(s[kX1], s[kW1], s) : 0.0;
+    const double torque = r.motor == 0 ? motor_drive(t, s, 0, held) + of_load - contact : 0.0;
+    const double gears = contact + of_load;
+    fill_friction_guards(&g[4], r.motor, s[kW1], torque, motor_level(1, 0.0, gears),
+                         motor_level(-1, 0.0, gears));
   }
   return g;
 }
 
 void Dynamics::settle_friction(double t, const State& s, Regime& r, double held) const {
   if (is_joined(r)) {
-    const double torque = motor_drive(t, s, 0, held) + load_drive(s), load = load_level(0.0);
-    r.motor = r.load = direction_of(s[kW1], torque, motor_level(1, 0.0) + load, motor_level(-1, 0.0) + load);
+    const double torque = motor_drive(t, s, 0, held) + load_drive(s), load = load_level();
+    r.motor = r.load =
+        direction_of(s[kW1], torque, motor_level(1, 0.0, 0.0) + load, motor_level(-1, 0.0, 0.0) + load);
     if (joined_push(t, s, r, held) >= 0.0) return;
     r.contact = Regime::Contact::kOpen;
   }
   const double contact = contact_torque(t, s, r);
-  double torque = motor_drive(t, s, 0, held) - contact;
-  if (drive_.load == BlindLoad::kNone) torque += load_torques(s[kX1], s[kW1], s);
-  r.motor = motor_signed_ ? direction_of(s[kW1], torque, motor_level(1, 0.0), motor_level(-1, 0.0)) : 1;
-  const double level = load_level(contact);
+  const double of_load = drive_.load == BlindLoad::kNone ? load_torques(s[kX1], s[kW1], s) : 0.0;
+  const double torque = motor_drive(t, s, 0, held) + of_load - contact, gears = contact + of_load;
+  r.motor = motor_signed_
+                ? direction_of(s[kW1], torque, motor_level(1, 0.0, gears), motor_level(-1, 0.0, gears))
+                : 1;
+  const double level = load_level();
   if (drive_.load != BlindLoad::kFree)
     r.load = 0;
   else

@@ -80,8 +80,9 @@ class Dynamics {
   double motor_drive(double t, const State& s, int direction, double held) const;
   double load_drive(const State& s) const;
   double load_torques(double x, double w, const State& s) const;
-  double motor_level(int direction, double w) const;
-  double load_level(double contact_torque) const;
+  /// @param gear_torque what the gears carry [N·m]
+  double motor_level(int direction, double w, double gear_torque) const;
+  double load_level() const;
   void joined_rates(double t, const State& s, const Regime& r, double held, State& rate) const;
   double joined_push(double t, const State& s, const Regime& r, double held) const;
   void hidden_rates(const State& s, double held, State& rate) const;

@@ -9,7 +9,8 @@ namespace gapscope::independent_plant {
 
 /// Set-valued dry friction of the motor bearing. In direction s = sign(w1) it resists with
 ///   level·(1 + coulomb_ratio·s)·(1 + stiction_ratio·exp(−|w1/v|^exponent)),   v = stribeck_speed,
-/// and viscous friction becomes d1·(1 + viscous_ratio·s).
+/// and viscous friction becomes d1·(1 + viscous_ratio·s). Gears that carry τ (the contact torque; of one body
+/// the torque of the load side) add gear_ratio·(√(τ² + gear_knee²) − gear_knee) to the level.
 struct MotorFriction {
   double level_nm = 0.0;              ///< [N·m]
   double coulomb_ratio = 0.0;         ///< [-]
@@ -17,6 +18,8 @@ struct MotorFriction {
   double stiction_ratio = 0.0;        ///< [-]
   double stribeck_speed_rad_s = 1.0;  ///< [rad/s]
   double stribeck_exponent = 1.0;     ///< [-], 1: Tustin's form, 2: Gaussian
+  double gear_ratio = 0.0;            ///< [-]
+  double gear_knee_nm = 0.0;          ///< [N·m]
 };
 
 /// LuGre bristle with constant level: ż = w1 − |w1|·z/length, torque −(level/length)·z − damping·ż.
@@ -64,9 +67,8 @@ struct LoadEffects {
   double inertia_time_s = 0.0;
   double inertia_duration_s = 0.0;  ///< 0: a step
   double resonator_inertia = 0.0;  ///< third inertia on the load by a spring (outside the catalogue) [kg·m²]
-  double resonator_stiffness = 0.0;          ///< [N·m/rad]
-  double resonator_damping = 0.0;            ///< [N·m·s/rad]
-  double friction_per_contact_torque = 0.0;  ///< Fc2 + ratio·|τc| (outside the catalogue) [-]
+  double resonator_stiffness = 0.0;  ///< [N·m/rad]
+  double resonator_damping = 0.0;    ///< [N·m·s/rad]
 };
 
 struct ContactEffects {

@@ -52,6 +52,11 @@ void stribeck_friction(BlindCase& c, EffectScale& s) {
   f.stribeck_speed_rad_s = s.speed * s.any(0.05, 0.3);
   f.stribeck_exponent = s.any(0.8, 2.0);
 }
+void load_dependent_friction(BlindCase& c, EffectScale& s) {
+  MotorFriction& f = c.drive.effects.motor.friction;
+  f.gear_ratio = s.between(0.05, 0.4);
+  f.gear_knee_nm = 0.02 * s.torque;
+}
 void presliding_friction(BlindCase& c, EffectScale& s) {
   BristleFriction& b = c.drive.effects.motor.bristle;
   b.level_nm = s.torque * s.between(0.03, 0.25);
@@ -186,9 +191,6 @@ void supply_sag(BlindCase& c, EffectScale& s) {
   c.drive.effects.command.sag_ratio = s.between(0.05, 0.5);
   c.drive.effects.command.sag_period_s = s.record * s.any(0.2, 0.6);
 }
-void load_dependent_friction(BlindCase& c, EffectScale& s) {
-  c.drive.effects.load.friction_per_contact_torque = s.between(0.03, 0.4);
-}
 
 double cogging_cycles(const BlindCase& c) { return c.drive.effects.motor.cogging.periods_per_turn; }
 double ripple_cycles(const BlindCase& c) { return c.drive.effects.command.ripple.periods_per_turn; }
@@ -197,6 +199,7 @@ constexpr DrawnEffect kEntries[] = {
     {"motor_coulomb_friction", true, Needs::kNothing, motor_coulomb_friction, {.of_the_bearing = true}},
     {"friction_asymmetry", true, Needs::kNothing, friction_asymmetry, {.of_the_bearing = true}},
     {"stribeck_friction", true, Needs::kNothing, stribeck_friction, {.of_the_bearing = true}},
+    {"load_dependent_friction", true, Needs::kContact, load_dependent_friction, {.another_law = true}},
     {"presliding_friction", true, Needs::kNothing, presliding_friction, {.another_law = true}},
     {"quadratic_drag", true, Needs::kNothing, quadratic_drag},
     {"cogging_torque", true, Needs::kNothing, cogging_torque, {.cycles_per_turn = cogging_cycles}},
@@ -225,7 +228,6 @@ constexpr DrawnEffect kEntries[] = {
     {"lost_counts", false, Needs::kNothing, lost_counts},
     {"hardening_contact", false, Needs::kContact, hardening_contact},
     {"supply_sag", false, Needs::kNothing, supply_sag},
-    {"load_dependent_friction", false, Needs::kContact, load_dependent_friction},
 };
 
 }  // namespace

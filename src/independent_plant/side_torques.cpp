@@ -82,18 +82,20 @@ double Dynamics::load_drive(const State& s) const {
   return load_torques(s[kX2], s[kW2], s) - drive_.load_damping * s[kW2];
 }
 
-double Dynamics::motor_level(int direction, double w) const {
+double Dynamics::motor_level(int direction, double w, double gear_torque) const {
   const MotorFriction& f = drive_.effects.motor.friction;
-  if (f.level_nm == 0.0) return 0.0;
+  const double of_gears =
+      f.gear_ratio == 0.0 ? 0.0 : f.gear_ratio * (std::hypot(gear_torque, f.gear_knee_nm) - f.gear_knee_nm);
+  if (f.level_nm == 0.0) return of_gears;
   const double level = f.level_nm * (1.0 + f.coulomb_ratio * direction);
-  if (f.stiction_ratio == 0.0) return level;
-  return level * (1.0 + f.stiction_ratio *
+  if (f.stiction_ratio == 0.0) return level + of_gears;
+  return of_gears +
+         level * (1.0 + f.stiction_ratio *
                             std::exp(-std::pow(std::abs(w) / f.stribeck_speed_rad_s, f.stribeck_exponent)));
 }
 
-double Dynamics::load_level(double contact_torque) const {
-  if (drive_.load == BlindLoad::kLocked) return kInfinity;
-  return drive_.load_coulomb + drive_.effects.load.friction_per_contact_torque * std::abs(contact_torque);
+double Dynamics::load_level() const {
+  return drive_.load == BlindLoad::kLocked ? kInfinity : drive_.load_coulomb;
 }
 
 double Dynamics::load_inertia(double t) const {

@@ -17,7 +17,8 @@ constexpr double kReciprocal[kSeriesOrder + 1] = {0.0,      1.0,      1.0 / 2,  
 template <class T>
 struct FlowConstants {
   T m1, m2, d1_plus, d1_minus, d2, k, c;
-  T decay_rate{};  ///< of a dying extra torque on the motor [1/s]
+  T gear_friction{};  ///< of the contact torque, which the motor feels as friction [-]
+  T decay_rate{};     ///< of a dying extra torque on the motor [1/s]
   bool rigid = false;
 };
 
@@ -83,6 +84,13 @@ T torque_term(const FlowConstants<T>& f, const PowerSeries<T>& z, int n, int sid
   return f.k * delta + f.c * (z.w1[n] - z.w2[n]);
 }
 
+/// What of a contact torque the motor feels where its gears rub: 1 + μ where it drives, 1 − μ where it is
+/// driven.
+template <class T>
+T felt_share(const FlowConstants<T>& f, const ContactMode& mode) {
+  return 1.0 + static_cast<double>(mode.motor * mode.contact) * f.gear_friction;
+}
+
 /// Builds the flow of `mode` from `start`: compliant or open contact. The motor and the load each move or
 /// stick.
 template <class T>
@@ -92,6 +100,7 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
   const T inverse_m1 = 1.0 / f.m1;
   const T inverse_m2 = 1.0 / f.m2;
   const int side = mode.contact != 0 ? mode.contact : mode.outside;
+  const T felt = felt_share(f, mode);
   MotorTorque<T> motor(f, on);
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w2;
   for (int n = 0;; ++n) {
@@ -101,7 +110,7 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
     const T contact = mode.contact != 0 ? z.torque[n] : T(0.0);
     z.x1[n + 1] = z.w1[n] * next;
     z.x2[n + 1] = z.w2[n] * next;
-    z.w1[n + 1] = mode.motor == 0 ? T(0.0) : (motor.term(n) - d1 * z.w1[n] - contact) * inverse_m1 * next;
+    z.w1[n + 1] = mode.motor == 0 ? T(0.0) : (motor.term(n) - d1 * z.w1[n] - felt * contact) * inverse_m1 * next;
     z.w2[n + 1] =
         mode.load == 0 ? T(0.0) : (coefficient(on.load, n) - f.d2 * z.w2[n] + contact) * inverse_m2 * next;
   }
@@ -112,14 +121,15 @@ template <class T>
 void rigid_series(const FlowConstants<T>& f, const ContactMode& mode, const DriveState<T>& start,
                   const Forcing<T>& on, PowerSeries<T>& z) {
   const T& d1 = mode.motor < 0 ? f.d1_minus : f.d1_plus;
-  const T inverse_m = 1.0 / (f.m1 + f.m2);
+  const T felt = felt_share(f, mode);
+  const T inverse_m = 1.0 / (f.m1 + felt * f.m2);
   const bool moves = mode.load != 0 && mode.motor != 0;
   MotorTorque<T> motor_torque(f, on);
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w1;
   for (int n = 0;; ++n) {
     const T motor = motor_torque.term(n) - d1 * z.w1[n];
-    const T acceleration = moves ? T((motor + coefficient(on.load, n) - f.d2 * z.w1[n]) * inverse_m) : T(0.0);
-    z.torque[n] = motor - f.m1 * acceleration;
+    const T acceleration = moves ? T((motor + felt * (coefficient(on.load, n) - f.d2 * z.w1[n])) * inverse_m) : T(0.0);
+    z.torque[n] = moves ? T((motor - f.m1 * acceleration) / felt) : motor;
     if (n == z.order) break;
     const double next = kReciprocal[n + 1];
     z.x1[n + 1] = z.w1[n] * next;

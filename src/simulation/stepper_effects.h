@@ -22,6 +22,12 @@ Extra<T> StepperImpl<T>::extra_at(const DriveState<T>& state, const T& time) con
     }
     if (e.hooks->half_gap != nullptr) sum.half_gap += e.hooks->half_gap(point(state, time, i), e.parameters);
   }
+  if (has_load) return sum;
+  sum.motor += sum.load;
+  if (model.gears_rub) {  // the torque of the load side is all that the gears of one inertia are known to carry
+    using std::abs;
+    sum.motor -= static_cast<double>(mode.motor) * f.gear_friction * abs(T(model.load_torque + sum.load));
+  }
   return sum;
 }
 
@@ -107,7 +113,8 @@ void StepperImpl<T>::set_input(double u) {
   T input(u);
   for (const ActiveEffect<T>& e : model.effects)
     if (e.hooks->command != nullptr) input = e.hooks->command(input, e.parameters);
-  torque = model.drive.torque_constant * input + model.motor_torque;
+  torque = model.drive.torque_constant * input;
+  if (!has_load) torque += model.load_torque;
 }
 
 /// The inertia of the middle of a span; the precomputed transitions hold as long as it stays.

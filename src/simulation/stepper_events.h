@@ -75,7 +75,9 @@ void StepperImpl<T>::with_terms(const Guard& guard, const PowerSeries<T>& flow, 
       return use([&](int n) { return side * flow.w1[n]; });
     case GuardEvent::kMotorBreaks:
       return use([&](int n) {
-        return constant(motor_level(guard.side), n) - side * (motor_coefficient(on, n) - contact(n));
+        T held = constant(has_load ? motor_level(guard.side) : breaking_level(guard.side, on), n);
+        if (touching && model.gears_rub) held += static_cast<double>(mode.contact) * f.gear_friction * contact(n);
+        return held - side * (motor_coefficient(on, n) - contact(n));
       });
     case GuardEvent::kNone:
       break;
@@ -235,7 +237,7 @@ void StepperImpl<T>::resolve_motor() {
   mode.motor = 0;
   const double applied = value_of(motor_coefficient(forcing_now(), 0)) - value_of(acting_torque());
   const int direction = applied < 0.0 ? -1 : 1;
-  if (std::abs(applied) > value_of(motor_level(direction))) mode.motor = direction;
+  if (std::abs(applied) > value_of(breaking_level(direction, forcing_now()))) mode.motor = direction;
   motor_zeros = 1;
 }
 
@@ -250,7 +252,7 @@ void StepperImpl<T>::resolve_as_one() {
   const Forcing<T> on = forcing_now();
   const double applied = value_of(motor_coefficient(on, 0)) + value_of(on.load[0]);
   double level = load_friction ? value_of(model.drive.load_coulomb_friction) : 0.0;
-  if (motor_friction) level += value_of(motor_level(applied < 0.0 ? -1 : 1));
+  if (motor_friction) level += value_of(breaking_level(applied < 0.0 ? -1 : 1, on));
   const int direction = std::abs(applied) > level ? direction_of(applied) : 0;
   mode.load = load_friction ? direction : load_before;
   if (motor_friction) mode.motor = direction;

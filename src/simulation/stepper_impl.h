@@ -37,11 +37,11 @@ struct Extra {
 
 struct Acting;
 
-/// Modes that have a flow of their own: contact or none, load and motor that slip or stick, and in which
-/// direction the motor goes.
-constexpr int kFlows = 12;
-inline int flow_index(const ContactMode& mode) {
-  return (mode.contact != 0 ? 6 : 0) + (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
+/// Modes that have a flow of their own: contact or none (where the gears rub, either side of it), load and
+/// motor that slip or stick, and in which direction the motor goes.
+constexpr int kFlows = 18;
+inline int flow_index(const ContactMode& mode, bool gears_rub) {
+  return (mode.contact == 0 ? 0 : mode.contact < 0 && gears_rub ? 12 : 6) + (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
 }
 
 template <class T>
@@ -97,6 +97,8 @@ struct StepperImpl {
   const T& motor_level(int direction) const {
     return direction < 0 ? model.motor_friction_minus : model.motor_friction_plus;
   }
+  /// The level that a motor at rest overcomes, with what the gears add to it.
+  T breaking_level(int direction, const Forcing<T>& on) const;
 
   // --- effects: stepper_effects.h
   EffectPoint<T> point(const DriveState<T>& state, const T& time, std::size_t effect) const;

@@ -47,7 +47,8 @@ Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Acting& o
   q.torque = k * (q.delta - side * on.half_gap) + c * q.delta_rate;
   const double contact = d.mode.contact != 0 ? q.torque : 0.0;
   const double d1 = value_of(d.mode.motor < 0 ? d.f.d1_minus : d.f.d1_plus);
-  q.a1 = d.mode.motor == 0 ? 0.0 : (on.motor - d1 * q.w1 - contact) * d.inverse_m1;
+  const double felt = value_of(felt_share(d.f, d.mode));
+  q.a1 = d.mode.motor == 0 ? 0.0 : (on.motor - d1 * q.w1 - felt * contact) * d.inverse_m1;
   q.a2 = d.mode.load == 0 ? 0.0 : (on.load - value_of(d.f.d2) * q.w2 + contact) * d.inverse_m2;
   q.torque_rate = k * (q.delta_rate - side * on.half_gap_rate) + c * (q.a1 - q.a2);
   return q;
@@ -88,6 +89,7 @@ bool StepperImpl<T>::may_leave(const DriveState<T>& next, const Acting& at_start
   if (motor_friction && mode.motor != 0 &&
       dips(mode.motor * a.w1, mode.motor * a.a1, mode.motor * b.w1, mode.motor * b.a1, h))
     return true;
+  if (motor_friction && mode.motor == 0 && model.gears_rub) return true;  // the exact path decides
   if (motor_friction && mode.motor == 0 &&
       may_break(value_of(motor_level(1)), value_of(motor_level(-1)), at_start.motor - closed_now * a.torque,
                 at_start.motor_rate - closed_now * a.torque_rate, at_end.motor - closed_now * b.torque,

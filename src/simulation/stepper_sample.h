@@ -6,7 +6,7 @@ namespace gapscope::internal::simulation {
 
 template <class T>
 StateTransition<T>& StepperImpl<T>::transition(const T& span, int index, int times_halved) {
-  StateTransition<T>& found = transitions[index][flow_index(mode)][times_halved];
+  StateTransition<T>& found = transitions[index][flow_index(mode, model.gears_rub)][times_halved];
   if (!found.ready) prepare(f, mode, has_load, span, smooth, times_halved, found);
   return found;
 }

@@ -21,13 +21,15 @@ StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step, double shortest
   f.d2 = has_load && !locked ? p.load_damping : T(0.0);
   f.k = p.contact_stiffness;
   f.c = p.contact_damping;
+  f.gear_friction = m.gear_friction;
   f.rigid = m.structure.contact == ContactLaw::kRigid;
   half_gap = 0.5 * p.gap;
+  adds_torque = smooth = m.gears_rub && !has_load;
   inverse_m1 = 1.0 / value_of(f.m1), inverse_m2 = 1.0 / value_of(f.m2);
   for (const ActiveEffect<T>& e : m.effects) {
     adds_torque = adds_torque || e.hooks->torque != nullptr;
     moves_gap = moves_gap || e.hooks->half_gap != nullptr;
-    smooth = adds_torque || moves_gap;
+    smooth = smooth || adds_torque || moves_gap;
     remembers = remembers || e.hooks->advance != nullptr;
     varies_inertia = varies_inertia || e.hooks->load_inertia != nullptr;
     if (e.hooks->decay != nullptr) decaying = static_cast<int>(&e - m.effects.data());
@@ -113,7 +115,20 @@ T StepperImpl<T>::contact_torque(int side) const {
   if (!f.rigid) return f.k * (z.x1 - z.x2 - static_cast<double>(side) * on.half_gap[0]) + f.c * (z.w1 - z.w2);
   if (mode.load == 0 || mode.motor == 0) return motor_coefficient(on, 0);
   const T motor = motor_coefficient(on, 0) - (mode.motor < 0 ? f.d1_minus : f.d1_plus) * z.w1;
-  return motor - f.m1 * ((motor + on.load[0] - f.d2 * z.w1) / (f.m1 + f.m2));
+  const T felt = felt_share(f, mode);
+  return (motor - f.m1 * ((motor + felt * (on.load[0] - f.d2 * z.w1)) / (f.m1 + felt * f.m2))) / felt;
+}
+
+template <class T>
+T StepperImpl<T>::breaking_level(int direction, const Forcing<T>& on) const {
+  using std::abs;
+  T level = motor_level(direction);
+  if (!model.gears_rub) return level;
+  if (!has_load) return level + f.gear_friction * abs(on.load[0]);
+  if (!f.rigid) return level + f.gear_friction * abs(acting_torque());
+  // Bonded to a load that its own friction holds: what that and its torque ask of the gears.
+  const T friction = load_friction ? model.drive.load_coulomb_friction : T(0.0);
+  return level + f.gear_friction * abs(friction - static_cast<double>(direction) * on.load[0]);
 }
 
 }  // namespace gapscope::internal::simulation

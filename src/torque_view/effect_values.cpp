@@ -38,6 +38,11 @@ std::vector<double> presliding_values(const Eigen::VectorXd& theta, double lengt
   return {theta[0] + d.coulomb, length, 0.0};
 }
 
+/// Coulomb friction that was found before it is its level at no torque.
+std::vector<double> load_friction_values(const Eigen::VectorXd& theta, double, const Drive& d) {
+  return {std::max(0.0, d.coulomb), theta[0]};
+}
+
 std::vector<double> drag_values(const Eigen::VectorXd& theta, double, const Drive&) {
   return {theta[0], 2.0};
 }

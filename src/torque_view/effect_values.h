@@ -24,6 +24,7 @@ std::vector<double> constant_values(const Eigen::VectorXd& theta, double shape, 
 std::vector<double> asymmetry_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
 std::vector<double> stribeck_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
 std::vector<double> presliding_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+std::vector<double> load_friction_values(const Eigen::VectorXd&, double, const Drive&);
 std::vector<double> drag_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
 std::vector<double> unbalance_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
 std::vector<double> cogging_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);

@@ -101,6 +101,13 @@ const std::vector<EqualForm>& equal_forms() {
          e.motor.friction.stribeck_speed_rad_s = p[2];
          e.motor.friction.stribeck_exponent = p[3];
        }},
+      {"load_dependent_friction",
+       [](const Rig& r) {
+         return V{0.05 * torque(r), 0.2};
+       },
+       [](const V& p, independent_plant::Effects& e) {
+         e.motor.friction.level_nm = p[0], e.motor.friction.gear_ratio = p[1];
+       }},
       {"presliding_friction",
        [](const Rig& r) {
          return V{0.1 * torque(r), 2e-3, 1e-4};

@@ -22,7 +22,7 @@ struct ConstantLoadTorque {
 
   template <class T>
   static void shape(PlantModel<T>& plant, const T* p) {
-    (plant.structure.has_load ? plant.load_torque : plant.motor_torque) += p[0];
+    plant.load_torque += p[0];
   }
 };
 

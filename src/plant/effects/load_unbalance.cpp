@@ -24,8 +24,7 @@ struct LoadUnbalance {
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
     using std::sin;
-    if (!at.plant.structure.has_load) return {.motor = -p[0] * sin(at.state.x1 + p[1])};
-    return {.load = -p[0] * sin(at.state.x2 + p[1])};
+    return {.load = -p[0] * sin((at.plant.structure.has_load ? at.state.x2 : at.state.x1) + p[1])};
   }
 };
 
