@@ -59,7 +59,7 @@ bool ExemplaryEffect::has_phase() const {
 }
 
 bool ExemplaryEffect::lacks_its_level() const {
-  return contained_effect(entry_) != nullptr && !inherits_ && entry_.parameters[1].scale == Scale::kOne;
+  return contained_effect(entry_) != nullptr && !inherits_ && entry_.parameters[1].scale == Scale::kLevel;
 }
 
 /// All that vanishes with the effect grows with its size; the rest is its shape.

@@ -22,7 +22,9 @@ void put_into(ReferenceModel& model, ModelEffect effect) {
   ParameterSetting &level = effect.parameters[0], &ratio = effect.parameters[1];
   for (ModelEffect& other : model.effects) {
     if (simpler == nullptr || contained_effect(*other.entry) != simpler) continue;
-    if (effect.entry->parameters[1].scale != Scale::kOne) continue;
+    const Scale of_ratio = effect.entry->parameters[1].scale;
+    if (of_ratio == Scale::kOne) level.value = 0.0, level.estimate = false;
+    if (of_ratio != Scale::kLevel) continue;
     other.parameters[0].value -= 0.5 * level.value;
     level.value *= 0.5, level.estimate = false, ratio.value /= 0.5;
   }
@@ -59,7 +61,10 @@ ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
 }
 
 bool has_vanished(const ModelEffect& effect) {
-  return effect.entry->parameters[0].absent == 0.0 && effect.parameters[0].value == 0.0;
+  if (effect.entry->parameters[0].absent != 0.0 || effect.parameters[0].value != 0.0) return false;
+  const bool has_another_size =  // beside the level of what it contains
+      contained_effect(*effect.entry) != nullptr && effect.entry->parameters[1].scale == Scale::kOne;
+  return !has_another_size || effect.parameters[1].value == 0.0;
 }
 
 ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {

@@ -68,6 +68,9 @@ view::Model known_terms(const ReferenceModel& model, const view::SplitRecordings
     const std::vector<double> shapes = law->shapes(scales);
     if (law->shape_at < 0 && shapes.empty()) continue;
     if (law->simpler != nullptr) add_once(known, view::law(law->simpler), kNaN);
+    const EffectEntry* contained = contained_effect(*e.entry);
+    if (contained != nullptr && law->kind == view::Kind::kOnTorque)  // of which the law says nothing
+      add_once(known, view::law(contained->name), kNaN);
     const double shape =
         law->shape_at < 0 ? shapes.front() : e.parameters[static_cast<std::size_t>(law->shape_at)].value;
     known.push_back({law, shape, Eigen::VectorXd::Zero(law->columns)});

@@ -66,6 +66,7 @@ double scale_value(Scale scale, const ScaleContext& c) {
   const double k = c.nominal.contact_stiffness;
   switch (scale) {
     case Scale::kOne:
+    case Scale::kLevel:
       return 1.0;
     case Scale::kPeakTorque:
       return torque;

@@ -16,6 +16,7 @@ const char* to_string(EffectSide side);  ///< "motor", "load", "command", "conta
 /// What the bounds of a parameter are measured in: never absolute, always of the drive and the recording.
 enum class Scale {
   kOne,              ///< plain numbers and angles
+  kLevel,            ///< plain numbers, shares of the effect's first parameter
   kPeakTorque,       ///< Km max|u| [N m]
   kPeakInput,        ///< max|u|
   kPeakSpeed,        ///< largest motor speed of the recording [rad/s]

@@ -12,7 +12,7 @@ struct LoadUnbalance {
   static constexpr const char* law = "load torque -G sin(x2 + phase)";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
-      {"amplitude_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
+      {"amplitude_nm", "N m", 0.0, 0.0, 4.0, Scale::kPeakTorque},
       {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne}};
   static constexpr std::array<const char*, 2> look_alikes = {"constant_load_torque", "friction_asymmetry"};
   static constexpr ResidualPattern follows = ResidualPattern::kAngle;
