@@ -26,6 +26,9 @@ void fill_friction_guards(double* guards, int direction, double w, double torque
   }
 }
 
+constexpr double kMostOfTorque = 10.0;  ///< that gears with a ratio of at most 0.9 carry of what drives them
+constexpr int kHalvings = 60;
+
 void require_sound(const BlindDrive& d) {
   GAPSCOPE_REQUIRE(d.motor_inertia > 0.0 && d.load_inertia > 0.0 && d.gap >= 0.0 && d.load_coulomb >= 0.0);
   GAPSCOPE_REQUIRE(d.restitution >= 0.0 && d.restitution <= 1.0);
@@ -45,8 +48,9 @@ Dynamics::Dynamics(const BlindDrive& drive, std::vector<Knock> knocks)
   const Effects& e = drive_.effects;
   if (!std::isnan(e.contact.stiffness_nm_rad)) drive_.contact_stiffness = e.contact.stiffness_nm_rad;
   if (!std::isnan(e.contact.damping_nms_rad)) drive_.contact_damping = e.contact.damping_nms_rad;
-  motor_signed_ = e.motor.friction.level_nm > 0.0 || e.motor.friction.gear_ratio > 0.0 || e.motor.friction.viscous_ratio != 0.0 ||
-                  e.motor.bristle.level_nm > 0.0 || e.motor.drag_nms2 != 0.0;  // all have a kink at w1 = 0
+  motor_signed_ = e.motor.friction.level_nm > 0.0 || e.motor.friction.gear_ratio > 0.0 ||
+                  e.motor.friction.viscous_ratio != 0.0 || e.motor.bristle.level_nm > 0.0 ||
+                  e.motor.drag_nms2 != 0.0;  // all have a kink at w1 = 0
   load_signed_ = drive_.load == BlindLoad::kFree && drive_.load_coulomb > 0.0;
   hidden_states_ = e.motor.bristle.level_nm > 0.0 || e.command.lag_s > 0.0 || e.sensor.lag_s > 0.0 ||
                    e.load.resonator_inertia > 0.0;
@@ -105,8 +109,10 @@ State Dynamics::rates(double t, const State& s, const Regime& r, double held) co
     const double contact = contact_torque(t, s, r);
     if (r.motor != 0) {
       const double of_load = drive_.load == BlindLoad::kNone ? load_torques(s[kX1], s[kW1], s) : 0.0;
-      const double torque = motor_drive(t, s, r.motor, held) + of_load - contact -
-                            r.motor * motor_level(r.motor, s[kW1], contact + of_load);
+      const double drive = motor_drive(t, s, r.motor, held);
+      const double gears =
+          drive_.load == BlindLoad::kNone ? gears_of_one_body(drive, s[kW1], r.motor) : contact;
+      const double torque = drive + of_load - contact - r.motor * motor_level(r.motor, s[kW1], gears);
       rate[kX1] = s[kW1];
       rate[kW1] = torque / motor_inertia(t);
     }
@@ -118,6 +124,18 @@ State Dynamics::rates(double t, const State& s, const Regime& r, double held) co
   }
   if (hidden_states_) hidden_rates(s, held, rate);
   return rate;
+}
+
+/// What is left of the motor's torque after friction that grows with just this: by halving, as the friction
+/// grows more slowly than the torque.
+double Dynamics::gears_of_one_body(double drive, double w, int direction) const {
+  if (drive_.effects.motor.friction.gear_ratio == 0.0) return 0.0;
+  double low = -kMostOfTorque * (std::abs(drive) + motor_level(direction, w, 0.0)), high = -low;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (middle + direction * motor_level(direction, w, middle) < drive ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 /// Rigid contact: one body of both inertias.

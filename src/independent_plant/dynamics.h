@@ -83,6 +83,7 @@ class Dynamics {
   /// @param gear_torque what the gears carry [N·m]
   double motor_level(int direction, double w, double gear_torque) const;
   double load_level() const;
+  double gears_of_one_body(double drive, double w, int direction) const;
   void joined_rates(double t, const State& s, const Regime& r, double held, State& rate) const;
   double joined_push(double t, const State& s, const Regime& r, double held) const;
   void hidden_rates(const State& s, double held, State& rate) const;

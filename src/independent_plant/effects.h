@@ -10,7 +10,8 @@ namespace gapscope::independent_plant {
 /// Set-valued dry friction of the motor bearing. In direction s = sign(w1) it resists with
 ///   level·(1 + coulomb_ratio·s)·(1 + stiction_ratio·exp(−|w1/v|^exponent)),   v = stribeck_speed,
 /// and viscous friction becomes d1·(1 + viscous_ratio·s). Gears that carry τ (the contact torque; of one body
-/// the torque of the load side) add gear_ratio·(√(τ² + gear_knee²) − gear_knee) to the level.
+/// what moves it against the torques of the load) add gear_ratio·(√(τ² + gear_knee²) − gear_knee) to the
+/// level.
 struct MotorFriction {
   double level_nm = 0.0;              ///< [N·m]
   double coulomb_ratio = 0.0;         ///< [-]

@@ -89,9 +89,8 @@ double Dynamics::motor_level(int direction, double w, double gear_torque) const 
   if (f.level_nm == 0.0) return of_gears;
   const double level = f.level_nm * (1.0 + f.coulomb_ratio * direction);
   if (f.stiction_ratio == 0.0) return level + of_gears;
-  return of_gears +
-         level * (1.0 + f.stiction_ratio *
-                            std::exp(-std::pow(std::abs(w) / f.stribeck_speed_rad_s, f.stribeck_exponent)));
+  return of_gears + level * (1.0 + f.stiction_ratio * std::exp(-std::pow(std::abs(w) / f.stribeck_speed_rad_s,
+                                                                         f.stribeck_exponent)));
 }
 
 double Dynamics::load_level() const {

@@ -110,7 +110,8 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
     const T contact = mode.contact != 0 ? z.torque[n] : T(0.0);
     z.x1[n + 1] = z.w1[n] * next;
     z.x2[n + 1] = z.w2[n] * next;
-    z.w1[n + 1] = mode.motor == 0 ? T(0.0) : (motor.term(n) - d1 * z.w1[n] - felt * contact) * inverse_m1 * next;
+    z.w1[n + 1] =
+        mode.motor == 0 ? T(0.0) : (motor.term(n) - d1 * z.w1[n] - felt * contact) * inverse_m1 * next;
     z.w2[n + 1] =
         mode.load == 0 ? T(0.0) : (coefficient(on.load, n) - f.d2 * z.w2[n] + contact) * inverse_m2 * next;
   }
@@ -128,7 +129,8 @@ void rigid_series(const FlowConstants<T>& f, const ContactMode& mode, const Driv
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w1;
   for (int n = 0;; ++n) {
     const T motor = motor_torque.term(n) - d1 * z.w1[n];
-    const T acceleration = moves ? T((motor + felt * (coefficient(on.load, n) - f.d2 * z.w1[n])) * inverse_m) : T(0.0);
+    const T acceleration =
+        moves ? T((motor + felt * (coefficient(on.load, n) - f.d2 * z.w1[n])) * inverse_m) : T(0.0);
     z.torque[n] = moves ? T((motor - f.m1 * acceleration) / felt) : motor;
     if (n == z.order) break;
     const double next = kReciprocal[n + 1];

@@ -10,6 +10,24 @@ EffectPoint<T> StepperImpl<T>::point(const DriveState<T>& state, const T& time, 
   return {state, time, torque, direction, model, memory.data() + effect * kMostEffectMemory};
 }
 
+/// Of one inertia, which counts as the load's: its gears carry what the motor's torque X, after the motor's
+/// dampers and constant friction, leaves of itself, τ = X − s μ |τ| = X/(1 + s sign(X) μ).
+template <class T>
+T StepperImpl<T>::rubbed_off(const DriveState<T>& state, const T& time, const T& extra) const {
+  const double s = mode.motor;
+  T applied = torque + extra - (s < 0.0 ? f.d1_minus : f.d1_plus) * state.w1 - s * motor_level(mode.motor);
+  applied -= model.load_torque;  // which stands in the torque of one inertia
+  if (decaying >= 0) {
+    using std::exp;
+    const auto effect = static_cast<std::size_t>(decaying);
+    const auto& e = model.effects[effect];
+    applied += decay_share * e.hooks->decay(point(z, now, effect), e.parameters).amplitude *
+               exp(-f.decay_rate * (time - now));
+  }
+  const T share = s * direction_of(value_of(applied)) * f.gear_friction;
+  return applied * share / (1.0 + share);
+}
+
 template <class T>
 Extra<T> StepperImpl<T>::extra_at(const DriveState<T>& state, const T& time) const {
   Extra<T> sum;
@@ -24,10 +42,7 @@ Extra<T> StepperImpl<T>::extra_at(const DriveState<T>& state, const T& time) con
   }
   if (has_load) return sum;
   sum.motor += sum.load;
-  if (model.gears_rub) {  // the torque of the load side is all that the gears of one inertia are known to carry
-    using std::abs;
-    sum.motor -= static_cast<double>(mode.motor) * f.gear_friction * abs(T(model.load_torque + sum.load));
-  }
+  if (model.gears_rub && mode.motor != 0) sum.motor -= rubbed_off(state, time, sum.motor - sum.load);
   return sum;
 }
 

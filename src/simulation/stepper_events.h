@@ -76,7 +76,8 @@ void StepperImpl<T>::with_terms(const Guard& guard, const PowerSeries<T>& flow, 
     case GuardEvent::kMotorBreaks:
       return use([&](int n) {
         T held = constant(has_load ? motor_level(guard.side) : breaking_level(guard.side, on), n);
-        if (touching && model.gears_rub) held += static_cast<double>(mode.contact) * f.gear_friction * contact(n);
+        if (touching && model.gears_rub)
+          held += static_cast<double>(mode.contact) * f.gear_friction * contact(n);
         return held - side * (motor_coefficient(on, n) - contact(n));
       });
     case GuardEvent::kNone:

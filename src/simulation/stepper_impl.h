@@ -41,7 +41,10 @@ struct Acting;
 /// motor that slip or stick, and in which direction the motor goes.
 constexpr int kFlows = 18;
 inline int flow_index(const ContactMode& mode, bool gears_rub) {
-  return (mode.contact == 0 ? 0 : mode.contact < 0 && gears_rub ? 12 : 6) + (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
+  return (mode.contact == 0               ? 0
+          : mode.contact < 0 && gears_rub ? 12
+                                          : 6) +
+         (mode.load != 0 ? 3 : 0) + (mode.motor + 1);
 }
 
 template <class T>
@@ -102,6 +105,7 @@ struct StepperImpl {
 
   // --- effects: stepper_effects.h
   EffectPoint<T> point(const DriveState<T>& state, const T& time, std::size_t effect) const;
+  T rubbed_off(const DriveState<T>& state, const T& time, const T& extra) const;
   Extra<T> extra_at(const DriveState<T>& state, const T& time) const;
   Forcing<T> forcing_without_effects() const;
   Forcing<T> forcing_now() const;  ///< constant terms only, effects included

@@ -14,7 +14,7 @@ namespace gapscope::internal::torque_view {
 struct Samples {
   std::span<const double> t, x, w, a;
   std::span<const double> tau;       ///< torque of the model so far: the right side of u = τ
-  std::span<const double> tau_load;  ///< of the load side: without its friction and the inertia
+  std::span<const double> tau_load;  ///< the same without its friction
   double inertia = 0.0, viscous = 0.0;
 };
 

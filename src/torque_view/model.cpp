@@ -177,8 +177,7 @@ void set_torque(Rows& rows, const Model& model) {
       auto g = rows.at_samples.topLeftCorner(count, term.law->columns);
       term.law->fill(rows.samples(r), term.shape, g);
       tau.noalias() += g * term.theta;
-      const bool of_load = term.law->kind == Kind::kMotion && term.law->name != std::string_view("inertia");
-      if (of_load) load.noalias() += g * term.theta;
+      if (term.law->kind == Kind::kMotion) load.noalias() += g * term.theta;
     }
     if (rows.free_constant) tau.array() += rows.level[r] - tau.mean();
   }

@@ -30,7 +30,7 @@ struct PlantModel {
   T motor_damping_excess{};   ///< d1 is larger by this for w1 > 0, smaller for w1 < 0 [N m s/rad]
   T adhesion{};               ///< tensile torque at which a closed contact parts [N m]
   T load_torque{};            ///< constant torque on the load [N m]
-  T gear_friction{};          ///< the motor's friction level grows by it per torque of the gears [-]
+  T gear_friction{};          ///< the motor's friction level grows by it per torque of the gears, < 1 [-]
   bool motor_sticks = false;  ///< the motor's direction matters: reversals are events
   bool gears_rub = false;     ///< gear_friction is in force, be it zero
   bool load_sticks = true;    ///< false: no set-valued friction on the load

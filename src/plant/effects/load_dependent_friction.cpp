@@ -11,7 +11,7 @@ struct LoadDependentFriction {
   static constexpr EffectSide side = EffectSide::kMotor;
   static constexpr const char* law =
       "motor torque -(Fc1 + mu |tau_g|) sign(w1), set-valued at rest; tau_g the contact torque, without a "
-      "contact the torque of the load side";
+      "contact that which moves the one inertia against the torques of the load";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
