@@ -149,6 +149,24 @@ TEST(LadderOnRealDrives, AServoLacksItsPendulumFirstByFar) {
   EXPECT_GE(first, 6);  // up_and_down is so slow that its inertia is not seen
 }
 
+TEST(LadderOnRealDrives, FrictionOfAServosGearsGrowsWithItsLoadAndLeavesNoneToCoulomb) {
+  GAPSCOPE_NEEDS_DATA();
+  SplitRecordings data;
+  data.new_phase = true;
+  for (const std::string motion : {"sin_sin", "lift_and_drop", "sin_time_square", "up_and_down"}) {
+    data.fit.push_back(real("xl330", motion + "_kp100.csv"));
+    data.judge.push_back(real("xl330", motion + "_kp400.csv"));
+  }
+  const Budget b = error_budget(data);
+  ASSERT_EQ(b.shares.size(), 2u);
+  EXPECT_STREQ(b.shares[0].law->name, "load_unbalance");
+  EXPECT_STREQ(b.shares[1].law->name, "load_dependent_friction");
+  EXPECT_TRUE(b.rungs[1].named);
+  EXPECT_GT(b.shares[1].last.share, 1.0 - 0.85 * 0.85);  // 15 % of the rms
+  EXPECT_GT(b.shares[1].last.interval.low, 0.0);
+  EXPECT_NEAR(b.shares[1].theta[0], 0.4, 0.05);
+}
+
 // Its author: gap and friction without preload, friction and compliance with it.
 TEST(LadderOnRealDrives, AGearboxWithALockedOutputLacksFrictionFirst) {
   GAPSCOPE_NEEDS_DATA();
