@@ -16,7 +16,8 @@ ModelEffect effect_of(const EffectEntry& entry, const std::vector<double>& value
   return effect;
 }
 
-/// An effect takes the place of the simpler one that it contains, or shares its level with what has taken it.
+/// An effect takes the place of the simpler one that it contains. Where another has taken it, one whose ratio
+/// is of the level shares that level; one with a size of its own leaves it there.
 void put_into(ReferenceModel& model, ModelEffect effect) {
   const EffectEntry* simpler = contained_effect(*effect.entry);
   ParameterSetting &level = effect.parameters[0], &ratio = effect.parameters[1];

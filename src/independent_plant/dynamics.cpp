@@ -108,7 +108,7 @@ State Dynamics::rates(double t, const State& s, const Regime& r, double held) co
   } else {
     const double contact = contact_torque(t, s, r);
     if (r.motor != 0) {
-      const double of_load = drive_.load == BlindLoad::kNone ? load_torques(s[kX1], s[kW1], s) : 0.0;
+      const double of_load = load_on_one_body(s);
       const double drive = motor_drive(t, s, r.motor, held);
       const double gears =
           drive_.load == BlindLoad::kNone ? gears_of_one_body(drive, s[kW1], r.motor) : contact;
@@ -187,8 +187,7 @@ Guards Dynamics::guards(double t, const State& s, const Regime& r, double held) 
     fill_friction_guards(&g[2], r.load, s[kW2], contact + load_drive(s), level, level);
   }
   if (motor_signed_) {
-    const double of_load =
-        drive_.load == BlindLoad::kNone && r.motor == 0 ? load_torques(s[kX1], s[kW1], s) : 0.0;
+    const double of_load = load_on_one_body(s);
     const double torque = r.motor == 0 ? motor_drive(t, s, 0, held) + of_load - contact : 0.0;
     const double gears = contact + of_load;
     fill_friction_guards(&g[4], r.motor, s[kW1], torque, motor_level(1, 0.0, gears),
@@ -206,7 +205,7 @@ void Dynamics::settle_friction(double t, const State& s, Regime& r, double held)
     r.contact = Regime::Contact::kOpen;
   }
   const double contact = contact_torque(t, s, r);
-  const double of_load = drive_.load == BlindLoad::kNone ? load_torques(s[kX1], s[kW1], s) : 0.0;
+  const double of_load = load_on_one_body(s);
   const double torque = motor_drive(t, s, 0, held) + of_load - contact, gears = contact + of_load;
   r.motor = motor_signed_
                 ? direction_of(s[kW1], torque, motor_level(1, 0.0, gears), motor_level(-1, 0.0, gears))

@@ -78,6 +78,7 @@ class Dynamics {
  private:
   bool is_joined(const Regime& r) const { return is_rigid() && r.contact == Regime::Contact::kClosed; }
   double motor_drive(double t, const State& s, int direction, double held) const;
+  double load_on_one_body(const State& s) const;  ///< 0 where there are two
   double load_drive(const State& s) const;
   double load_torques(double x, double w, const State& s) const;
   /// @param gear_torque what the gears carry [N·m]

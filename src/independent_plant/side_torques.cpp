@@ -78,6 +78,10 @@ double Dynamics::load_torques(double x, double w, const State& s) const {
   return torque;
 }
 
+double Dynamics::load_on_one_body(const State& s) const {
+  return drive_.load == BlindLoad::kNone ? load_torques(s[kX1], s[kW1], s) : 0.0;
+}
+
 double Dynamics::load_drive(const State& s) const {
   return load_torques(s[kX2], s[kW2], s) - drive_.load_damping * s[kW2];
 }

@@ -10,6 +10,14 @@ EffectPoint<T> StepperImpl<T>::point(const DriveState<T>& state, const T& time, 
   return {state, time, torque, direction, model, memory.data() + effect * kMostEffectMemory};
 }
 
+/// The amplitude now of the torque that dies away.
+template <class T>
+T StepperImpl<T>::dying_torque() const {
+  const auto effect = static_cast<std::size_t>(decaying);
+  const auto& e = model.effects[effect];
+  return decay_share * e.hooks->decay(point(z, now, effect), e.parameters).amplitude;
+}
+
 /// Of one inertia, which counts as the load's: its gears carry what the motor's torque X, after the motor's
 /// dampers and constant friction, leaves of itself, τ = X − s μ |τ| = X/(1 + s sign(X) μ).
 template <class T>
@@ -17,13 +25,8 @@ T StepperImpl<T>::rubbed_off(const DriveState<T>& state, const T& time, const T&
   const double s = mode.motor;
   T applied = torque + extra - (s < 0.0 ? f.d1_minus : f.d1_plus) * state.w1 - s * motor_level(mode.motor);
   applied -= model.load_torque;  // which stands in the torque of one inertia
-  if (decaying >= 0) {
-    using std::exp;
-    const auto effect = static_cast<std::size_t>(decaying);
-    const auto& e = model.effects[effect];
-    applied += decay_share * e.hooks->decay(point(z, now, effect), e.parameters).amplitude *
-               exp(-f.decay_rate * (time - now));
-  }
+  using std::exp;
+  if (decaying >= 0) applied += dying_torque() * exp(-f.decay_rate * (time - now));
   const T share = s * direction_of(value_of(applied)) * f.gear_friction;
   return applied * share / (1.0 + share);
 }
@@ -55,11 +58,7 @@ Forcing<T> StepperImpl<T>::forcing_without_effects() const {
   on.load[0] = model.load_torque;
   if (load_friction) on.load[0] -= static_cast<double>(mode.load) * model.drive.load_coulomb_friction;
   on.half_gap[0] = half_gap;
-  if (decaying >= 0) {
-    const auto effect = static_cast<std::size_t>(decaying);
-    const auto& e = model.effects[effect];
-    on.decaying = decay_share * e.hooks->decay(point(z, now, effect), e.parameters).amplitude;
-  }
+  if (decaying >= 0) on.decaying = dying_torque();
   return on;
 }
 
