@@ -50,7 +50,7 @@ Dynamics::Dynamics(const BlindDrive& drive, std::vector<Knock> knocks)
   if (!std::isnan(e.contact.damping_nms_rad)) drive_.contact_damping = e.contact.damping_nms_rad;
   motor_signed_ = e.motor.friction.level_nm > 0.0 || e.motor.friction.gear_ratio > 0.0 ||
                   e.motor.friction.viscous_ratio != 0.0 || e.motor.bristle.level_nm > 0.0 ||
-                  e.motor.drag_nms2 != 0.0;  // all have a kink at w1 = 0
+                  e.motor.drag_nms2 != 0.0 || e.command.sag_per_w != 0.0;  // all have a kink at w1 = 0
   load_signed_ = drive_.load == BlindLoad::kFree && drive_.load_coulomb > 0.0;
   hidden_states_ = e.motor.bristle.level_nm > 0.0 || e.command.lag_s > 0.0 || e.sensor.lag_s > 0.0 ||
                    e.load.resonator_inertia > 0.0;

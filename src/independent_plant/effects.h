@@ -66,10 +66,11 @@ struct LoadEffects {
   double inertia_ratio =
       0.0;  ///< m2·(1 + ratio·r(t)), r a ramp from 0 to 1: mass arrives with the speed of the load
   double inertia_time_s = 0.0;
-  double inertia_duration_s = 0.0;  ///< 0: a step
-  double resonator_inertia = 0.0;  ///< third inertia on the load by a spring (outside the catalogue) [kg·m²]
+  double inertia_duration_s = 0.0;   ///< 0: a step
+  double resonator_inertia = 0.0;    ///< third inertia on the load by a spring [kg·m²]
   double resonator_stiffness = 0.0;  ///< [N·m/rad]
-  double resonator_damping = 0.0;    ///< [N·m·s/rad]
+  double resonator_damping = 0.0;    ///< against the load [N·m·s/rad]
+  double resonator_drag = 0.0;       ///< against the ground [N·m·s/rad]
 };
 
 struct ContactEffects {
@@ -91,8 +92,10 @@ struct CommandEffects {
   double lag_s = 0.0;      ///< time constant of a first-order torque loop
   double jitter_s = 0.0;   ///< every update late by a uniform share of it, < sample (outside the catalogue)
   double noise = 0.0;      ///< rms of what is added to every command, unrecorded (outside the catalogue)
-  double sag_ratio = 0.0;  ///< torque·(1 − ratio·(1 − cos(2π·t/period))/2) (outside the catalogue)
-  double sag_period_s = 2.0;
+  double sag_per_w = 0.0;  ///< torque·(1 + sag·P/n)^−n under the power P > 0 that the motor gives [1/W]
+  double sag_exponent = 1.0;  ///< n
+  double wander_ratio = 0.0;  ///< torque·(1 − ratio·(1 − cos(2π·t/period))/2) (outside the catalogue)
+  double wander_period_s = 2.0;
 };
 
 struct SensorEffects {

@@ -83,6 +83,10 @@ void torque_ripple(BlindCase& c, EffectScale& s) {
 void torque_saturation(BlindCase& c, EffectScale& s) {
   c.drive.effects.command.saturation_knee = s.input * s.between(2.5, 0.7);
 }
+void supply_sag(BlindCase& c, EffectScale& s) {
+  c.drive.effects.command.sag_per_w = s.between(0.3, 2.0) / (s.torque * s.speed);
+  c.drive.effects.command.sag_exponent = 4.0;
+}
 void input_dead_zone(BlindCase& c, EffectScale& s) {
   c.drive.effects.command.dead_zone = s.input * s.between(0.02, 0.2);
 }
@@ -106,6 +110,14 @@ void load_inertia_variation(BlindCase& c, EffectScale& s) {
   e.inertia_ratio = s.between(0.1, 1.0);
   e.inertia_time_s = s.record * s.any(0.3, 0.5);
   e.inertia_duration_s = s.record * s.any(0.0, 0.3);
+}
+void load_resonance(BlindCase& c, EffectScale& s) {
+  LoadEffects& e = c.drive.effects.load;
+  const double inertia = c.drive.load == BlindLoad::kNone ? c.drive.motor_inertia : c.drive.load_inertia;
+  const double omega = 2.0 * kPi * s.any(4.0, 15.0) / s.period;
+  e.resonator_inertia = inertia * s.between(0.05, 0.5);
+  e.resonator_stiffness = e.resonator_inertia * omega * omega;
+  e.resonator_drag = 2.0 * 0.03 * e.resonator_inertia * omega;
 }
 
 // Contact
@@ -169,14 +181,6 @@ void input_jitter(BlindCase& c, EffectScale& s) {
 void input_noise(BlindCase& c, EffectScale& s) {
   c.drive.effects.command.noise = s.input * s.between(0.02, 0.3);
 }
-void load_resonance(BlindCase& c, EffectScale& s) {
-  LoadEffects& e = c.drive.effects.load;
-  const double inertia = c.drive.load == BlindLoad::kNone ? c.drive.motor_inertia : c.drive.load_inertia;
-  const double omega = 2.0 * kPi * s.any(4.0, 15.0) / s.period;
-  e.resonator_inertia = inertia * s.between(0.05, 0.5);
-  e.resonator_stiffness = e.resonator_inertia * omega * omega;
-  e.resonator_damping = 2.0 * 0.03 * e.resonator_inertia * omega;
-}
 void lost_counts(BlindCase& c, EffectScale& s) {
   const double quantum = s.quantum > 0.0 ? s.quantum : 1e-6;
   c.drive.effects.sensor.lost_count_times = static_cast<int>(s.any(2.0, 6.0));
@@ -187,9 +191,9 @@ void hardening_contact(BlindCase& c, EffectScale& s) {
   const double overlap = s.torque / c.drive.contact_stiffness;
   c.drive.effects.contact.hardening_per_rad2 = s.between(0.3, 10.0) / (overlap * overlap);
 }
-void supply_sag(BlindCase& c, EffectScale& s) {
-  c.drive.effects.command.sag_ratio = s.between(0.05, 0.5);
-  c.drive.effects.command.sag_period_s = s.record * s.any(0.2, 0.6);
+void supply_wander(BlindCase& c, EffectScale& s) {
+  c.drive.effects.command.wander_ratio = s.between(0.05, 0.5);
+  c.drive.effects.command.wander_period_s = s.record * s.any(0.2, 0.6);
 }
 
 double cogging_cycles(const BlindCase& c) { return c.drive.effects.motor.cogging.periods_per_turn; }
@@ -205,7 +209,9 @@ constexpr DrawnEffect kEntries[] = {
     {"cogging_torque", true, Needs::kNothing, cogging_torque, {.cycles_per_turn = cogging_cycles}},
     {"torque_ripple", true, Needs::kNothing, torque_ripple, {.cycles_per_turn = ripple_cycles}},
     {"load_unbalance", true, Needs::kNothing, load_unbalance},
+    {"load_resonance", true, Needs::kNothing, load_resonance, {.another_law = true}},
     {"constant_load_torque", true, Needs::kNothing, constant_load_torque},
+    {"supply_sag", true, Needs::kNothing, supply_sag, {.another_law = true}},
     {"torque_saturation", true, Needs::kNothing, torque_saturation},
     {"input_dead_zone", true, Needs::kNothing, input_dead_zone},
     {"input_delay", true, Needs::kNothing, input_delay},
@@ -224,10 +230,9 @@ constexpr DrawnEffect kEntries[] = {
     {"external_knocks", false, Needs::kNothing, external_knocks},
     {"input_jitter", false, Needs::kNothing, input_jitter},
     {"input_noise", false, Needs::kNothing, input_noise},
-    {"load_resonance", false, Needs::kNothing, load_resonance},
     {"lost_counts", false, Needs::kNothing, lost_counts},
     {"hardening_contact", false, Needs::kContact, hardening_contact},
-    {"supply_sag", false, Needs::kNothing, supply_sag},
+    {"supply_wander", false, Needs::kNothing, supply_wander},
 };
 
 }  // namespace

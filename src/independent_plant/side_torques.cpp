@@ -21,12 +21,14 @@ double knock_torque(const std::vector<Knock>& knocks, double duration, double t)
   return torque;
 }
 
-double drive_torque(const BlindDrive& d, double t, double x1, double command) {
+double drive_torque(const BlindDrive& d, double t, double x1, double w1, double command) {
   const CommandEffects& e = d.effects.command;
   double torque = d.torque_constant * command;
   if (e.ripple.amplitude != 0.0) torque *= 1.0 + harmonic(e.ripple, x1);
-  if (e.sag_ratio != 0.0)
-    torque *= 1.0 - 0.5 * e.sag_ratio * (1.0 - std::cos(2.0 * kPi * t / e.sag_period_s));
+  if (e.wander_ratio != 0.0)
+    torque *= 1.0 - 0.5 * e.wander_ratio * (1.0 - std::cos(2.0 * kPi * t / e.wander_period_s));
+  if (e.sag_per_w != 0.0 && torque * w1 > 0.0)
+    torque *= std::pow(1.0 + e.sag_per_w * torque * w1 / e.sag_exponent, -e.sag_exponent);
   return torque;
 }
 
@@ -57,7 +59,7 @@ double Dynamics::motor_drive(double t, const State& s, int direction, double hel
   if (e.viscous_drift_ratio != 0.0)
     damping *= 1.0 - e.viscous_drift_ratio * std::expm1(-t / e.viscous_drift_time_s);
   const double command = drive_.effects.command.lag_s > 0.0 ? s[kTorqueLoop] : held;
-  double torque = drive_torque(drive_, t, s[kX1], command) - damping * w;
+  double torque = drive_torque(drive_, t, s[kX1], w, command) - damping * w;
   if (e.drag_nms2 != 0.0) torque -= std::copysign(e.drag_nms2 * std::pow(std::abs(w), e.drag_exponent), w);
   if (e.cogging.amplitude != 0.0) torque -= harmonic(e.cogging, s[kX1]);
   if (e.second_cogging.amplitude != 0.0) torque -= harmonic(e.second_cogging, s[kX1]);
@@ -126,7 +128,8 @@ void Dynamics::hidden_rates(const State& s, double held, State& rate) const {
     const bool one = drive_.load == BlindLoad::kNone;
     const double x = s[one ? kX1 : kX2], w = s[one ? kW1 : kW2];
     rate[kX3] = s[kW3];
-    rate[kW3] = (e.load.resonator_stiffness * (x - s[kX3]) + e.load.resonator_damping * (w - s[kW3])) /
+    rate[kW3] = (e.load.resonator_stiffness * (x - s[kX3]) + e.load.resonator_damping * (w - s[kW3]) -
+                 e.load.resonator_drag * s[kW3]) /
                 e.load.resonator_inertia;
   }
 }

@@ -78,6 +78,8 @@ double scale_value(Scale scale, const ScaleContext& c) {
       return torque / c.peak_speed;
     case Scale::kTorquePerSpeed2:
       return torque / (c.peak_speed * c.peak_speed);
+    case Scale::kPeakPower:
+      return torque * c.peak_speed;
     case Scale::kTravel:
       return c.travel;
     case Scale::kQuantum:
@@ -94,6 +96,8 @@ double scale_value(Scale scale, const ScaleContext& c) {
       return c.dt;
     case Scale::kRecord:
       return c.duration;
+    case Scale::kPerRecord:
+      return 1.0 / c.duration;
     case Scale::kPerTravel:
       return 2.0 * kPi / c.travel;
   }

@@ -7,7 +7,7 @@ namespace gapscope::internal::simulation {
 template <class T>
 EffectPoint<T> StepperImpl<T>::point(const DriveState<T>& state, const T& time, std::size_t effect) const {
   const int direction = motor_friction ? mode.motor : direction_of(value_of(state.w1));
-  return {state, time, torque, direction, model, memory.data() + effect * kMostEffectMemory};
+  return {state, z, now, time, torque, direction, model, memory.data() + effect * kMostEffectMemory};
 }
 
 /// The amplitude now of the torque that dies away.

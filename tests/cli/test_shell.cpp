@@ -115,7 +115,8 @@ TEST(Shell, AValueIsCompletedByWhatItIs) {
   EXPECT_THAT(completion.of("campaign ''"), UnorderedElementsAre("drive.yaml", "reports", "export", "merge"));
   EXPECT_THAT(completion.of("campaign drive.yaml -j ''"), IsEmpty());
   EXPECT_THAT(completion.of("diagnose drive.yaml --exclude load_"),
-              UnorderedElementsAre("load_dependent_friction", "load_inertia_variation", "load_unbalance"));
+              UnorderedElementsAre("load_dependent_friction", "load_inertia_variation", "load_resonance",
+                                   "load_unbalance"));
   EXPECT_THAT(completion.of("blind drives --kind ''"), UnorderedElementsAre("gap", "gap_free"));
   EXPECT_THAT(completion.of("completion ''"), UnorderedElementsAre("bash", "zsh"));
 }

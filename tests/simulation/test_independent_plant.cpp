@@ -136,6 +136,23 @@ const std::vector<EqualForm>& equal_forms() {
        [](const V& p, independent_plant::Effects& e) {
          e.command.ripple = {p[0], p[1], p[2], 0.0};
        }},
+      {"load_resonance",
+       [](const Rig&) {
+         return V{0.3, 12.0, 0.04};
+       },
+       [](const V& p, independent_plant::Effects& e) {
+         const double rate = 2.0 * kPi * p[1];
+         e.load.resonator_inertia = p[0];  // of the load's
+         e.load.resonator_stiffness = p[0] * rate * rate;
+         e.load.resonator_damping = 2.0 * p[2] * p[0] * rate;
+       }},
+      {"supply_sag",
+       [](const Rig& r) {
+         return V{1.0, 0.2 * torque(r) * torque(r) / r.drive.motor_damping};
+       },
+       [](const V& p, independent_plant::Effects& e) {
+         e.command.sag_per_w = 1.0 / p[1], e.command.sag_exponent = 1.0;
+       }},
       {"load_unbalance",
        [](const Rig& r) {
          return V{0.1 * torque(r), 0.7};
@@ -202,6 +219,9 @@ TEST_P(OnThreeRigs, EachEffectOfEqualFormFreeRunsTenSecondsWithinAFifthOfACount)
     add_effect<double>(model, *find_effect(form.name), p);
     independent_plant::BlindDrive truth = independent(rig.drive);
     form.apply(p, truth.effects);
+    independent_plant::LoadEffects& load = truth.effects.load;
+    for (double* of_load : {&load.resonator_inertia, &load.resonator_stiffness, &load.resonator_damping})
+      *of_load *= truth.load_inertia;
     const double difference = largest_difference(rig, model, 50, truth);
     std::cout << rig.name << " " << form.name << ": " << difference / kCount20Bit << " counts of 20 bit\n";
     EXPECT_LT(difference, 0.2 * kCount20Bit) << form.name;

@@ -22,6 +22,7 @@ enum class Scale {
   kPeakSpeed,        ///< largest motor speed of the recording [rad/s]
   kTorquePerSpeed,   ///< peak torque over peak speed
   kTorquePerSpeed2,  ///< peak torque over peak speed squared
+  kPeakPower,        ///< peak torque times peak speed [W]
   kTravel,           ///< range of x1 in the recording [rad]
   kQuantum,          ///< of the encoder [rad]
   kGap,              ///< nominal backlash gap [rad]
@@ -30,6 +31,7 @@ enum class Scale {
   kContactDamping,   ///< nominal contact damping, at least a tenth of √(k m1) [N m s/rad]
   kSample,           ///< sampling interval [s]
   kRecord,           ///< duration [s]
+  kPerRecord,        ///< one cycle over the duration [Hz]
   kPerTravel,        ///< one cycle over the travel [1/rev]
 };
 

@@ -13,9 +13,11 @@ namespace gapscope {
 template <class T>
 struct EffectPoint {
   const DriveState<T>& state;
-  T time{};                 ///< since the start of the recording [s]
-  T drive_torque{};         ///< Km u of the running sample, after the command effects [N m]
-  int motor_direction = 0;  ///< sign(w1), kept through zero by the mode; 0: sticking
+  const DriveState<T>& start;  ///< of the running step
+  T start_time{};              ///< its time [s]
+  T time{};                    ///< since the start of the recording [s]
+  T drive_torque{};            ///< Km u of the running sample, after the command effects [N m]
+  int motor_direction = 0;     ///< sign(w1), kept through zero by the mode; 0: sticking
   const PlantModel<T>& plant;
   const T* memory = nullptr;  ///< of this effect, as of the start of the step
 };

@@ -1,0 +1,93 @@
+// load_resonance – a further inertia on the load, behind a spring.
+#include <array>
+#include <cmath>
+
+#include "gapscope/base/statistics.h"
+#include "plant/effects/define_effect.h"
+
+namespace gapscope::internal::plant {
+namespace {
+
+struct LoadResonance {
+  static constexpr EffectSide side = EffectSide::kLoad;
+  static constexpr const char* law =
+      "load torque m3 (w0^2 (x3 - x2) + 2 D w0 (w3 - w2)), which moves m3 = ratio m2 back; w0 = 2 pi f";
+  static constexpr EffectParameterSpec parameters[] = {
+      // key, unit, absent, bounds and what they are measured in
+      {"inertia_ratio", "-", 0.0, 0.0, 5.0, Scale::kOne},
+      {"frequency_hz", "Hz", 30.0, 1.0, 5000.0, Scale::kPerRecord},
+      {"damping_ratio", "-", 0.05, 0.0, 1.0, Scale::kOne}};
+  static constexpr std::array<const char*, 2> look_alikes = {"shaft_compliance", "input_delay"};
+  static constexpr ResidualPattern follows = ResidualPattern::kInputSteps;
+  static constexpr EffectNeeds needs = EffectNeeds::kFreeLoad;
+  static constexpr EffectStart starts[] = {{0.2, 60.0, 0.05},  {0.2, 10.0, 0.05},  {0.2, 20.0, 0.05},
+                                           {0.2, 35.0, 0.05},  {0.2, 100.0, 0.05}, {0.2, 170.0, 0.05},
+                                           {0.2, 300.0, 0.05}, {0.2, 550.0, 0.05}, {0.2, 1000.0, 0.05}};
+
+  static constexpr int kOrder = 12;  ///< of the series: its rest is below 1e-16 at w0 h = 1/4
+
+  template <class T>
+  struct Body {
+    T x, w;
+  };
+
+  template <class T>
+  static Body<T> carrier(const DriveState<T>& state, const PlantModel<T>& plant) {
+    return plant.structure.has_load ? Body<T>{state.x2, state.w2} : Body<T>{state.x1, state.w1};
+  }
+
+  /// The further inertia under the cubic through both ends of its carrier's motion, as a power series in the
+  /// share of the step that has passed.   Memory: x3, w3.
+  template <class T>
+  static Body<T> further(const EffectPoint<T>& at, const T* memory, const T* p) {
+    const T h = at.time - at.start_time;
+    if (value_of(h) <= 0.0) return {memory[0], memory[1]};
+    const Body<T> from = carrier(at.start, at.plant), to = carrier(at.state, at.plant);
+    const T way = to.x - from.x;
+    const T b[] = {T(0.0), from.w * h, 3.0 * way - (2.0 * from.w + to.w) * h,
+                   (from.w + to.w) * h - 2.0 * way};
+    const auto base = [&b](int n) { return n < 4 ? b[n] : T(0.0); };
+    const T angle = 2.0 * kPi * p[1] * h, pull = angle * angle, drag = 2.0 * p[2] * angle;
+    T y[kOrder + 1] = {memory[0] - from.x, memory[1] * h};
+    T place = y[0] + y[1], speed = y[1];
+    for (int n = 0; n + 2 <= kOrder; ++n) {
+      const T push = pull * (base(n) - y[n]) + (n + 1.0) * drag * (base(n + 1) - y[n + 1]);
+      y[n + 2] = push / ((n + 1.0) * (n + 2.0));
+      place += y[n + 2];
+      speed += (n + 2.0) * y[n + 2];
+    }
+    return {from.x + place, speed / h};
+  }
+
+  template <class T>
+  static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
+    const Body<T> own = further(at, at.memory, p), on = carrier(at.state, at.plant);
+    const DriveParameters<T>& d = at.plant.drive;
+    const T inertia = at.plant.structure.has_load ? T(d.motor_inertia * d.mass_ratio) : d.motor_inertia;
+    const T rate = 2.0 * kPi * p[1];
+    return {.load = p[0] * inertia * rate * (rate * (own.x - on.x) + 2.0 * p[2] * (own.w - on.w))};
+  }
+
+  template <class T>
+  static void remember(const EffectPoint<T>& start, T* memory, const T*) {
+    const Body<T> on = carrier(start.state, start.plant);
+    memory[0] = on.x, memory[1] = on.w;
+  }
+
+  template <class T>
+  static void advance(const EffectPoint<T>&, const EffectPoint<T>& to, T* memory, const T* p) {
+    const Body<T> own = further(to, memory, p);
+    memory[0] = own.x, memory[1] = own.w;
+  }
+
+  /// Both inertias against each other swing faster than the further one on a held load.
+  template <class T>
+  static double rate(const EffectPoint<T>&, const T* p) {
+    return 2.0 * kPi * value_of(p[1]) * (std::sqrt(1.0 + value_of(p[0])) + 2.0 * value_of(p[2]));
+  }
+};
+
+}  // namespace
+}  // namespace gapscope::internal::plant
+
+GAPSCOPE_DEFINE_EFFECT(load_resonance, LoadResonance)
