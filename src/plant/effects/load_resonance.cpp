@@ -20,9 +20,12 @@ struct LoadResonance {
   static constexpr std::array<const char*, 2> look_alikes = {"shaft_compliance", "input_delay"};
   static constexpr ResidualPattern follows = ResidualPattern::kInputSteps;
   static constexpr EffectNeeds needs = EffectNeeds::kFreeLoad;
-  static constexpr EffectStart starts[] = {{0.2, 60.0, 0.05},  {0.2, 10.0, 0.05},  {0.2, 20.0, 0.05},
-                                           {0.2, 35.0, 0.05},  {0.2, 100.0, 0.05}, {0.2, 170.0, 0.05},
-                                           {0.2, 300.0, 0.05}, {0.2, 550.0, 0.05}, {0.2, 1000.0, 0.05}};
+  /// A fit comes to a frequency from about a seventh beside it: steps of 1.3.
+  static constexpr EffectStart starts[] = {
+      {0.2, 60.0, 0.05},  {0.2, 12.0, 0.05},  {0.2, 16.0, 0.05},  {0.2, 20.0, 0.05},  {0.2, 26.0, 0.05},
+      {0.2, 34.0, 0.05},  {0.2, 45.0, 0.05},  {0.2, 58.0, 0.05},  {0.2, 75.0, 0.05},  {0.2, 98.0, 0.05},
+      {0.2, 127.0, 0.05}, {0.2, 165.0, 0.05}, {0.2, 215.0, 0.05}, {0.2, 280.0, 0.05}, {0.2, 363.0, 0.05},
+      {0.2, 472.0, 0.05}, {0.2, 614.0, 0.05}, {0.2, 798.0, 0.05}, {0.2, 1038.0, 0.05}};
 
   static constexpr int kOrder = 12;  ///< of the series: its rest is below 1e-16 at w0 h = 1/4
 
