@@ -40,7 +40,9 @@ struct SupplySag {
     const double torque = value_of(at.drive_torque), m1 = value_of(d.motor_inertia);
     const double driven = torque * torque / (m1 * value_of(p[1]));
     if (!at.plant.structure.has_load || at.plant.structure.contact == ContactLaw::kRigid) return driven;
-    const double swing = std::sqrt(value_of(d.contact_stiffness) * (1.0 + 1.0 / value_of(d.mass_ratio)) / m1);
+    const bool locked = at.plant.structure.load == LoadKind::kLocked;  // has no inertia of its own
+    const double both = locked ? 1.0 : 1.0 + 1.0 / value_of(d.mass_ratio);
+    const double swing = std::sqrt(value_of(d.contact_stiffness) * both / m1);
     return std::max(driven, value_of(p[0]) * swing);
   }
 };
