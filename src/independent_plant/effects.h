@@ -107,12 +107,37 @@ struct SensorEffects {
   int lost_counts = 0;       ///< how many each time; the sign is drawn
 };
 
+/// What no effect of the catalogue is, beside what the sides above have of it. The first three are functions
+/// of speed, position and input; the next three are made of two quantities, the last two are of time.
+struct OutsideEffects {
+  double hump_nm = 0.0;  ///< −hump·y·exp((1 − y²)/2), y = w1/hump_speed: a friction with a maximum
+  double hump_speed_rad_s = 1.0;  ///< where that is
+  double cable_nm = 0.0;          ///< −cable·sinh(3y)/sinh(3), y = (x1 − cable_from)/cable_reach
+  double cable_from_rad = 0.0;
+  double cable_reach_rad = 1.0;
+  double one_sided_gain = 0.0;          ///< u·(1 + gain·tanh(u/gain_input))
+  double gain_input = 1.0;              ///< [unit of u]
+  double weak_speed_rad_s = kInfinity;  ///< torque/(1 + (w1/weak_speed)²)
+  double tight_nm = 0.0;  ///< −tight·tanh(w1/tight_speed)·(1 + sin(x1 + φ))/2: friction over the angle
+  double tight_speed_rad_s = 1.0;
+  double tight_phase_rad = 0.0;
+  AngleHarmonic worn{}; ///< −worn·(t/worn_time)²: detents that come with time
+  double worn_time_s = 1.0;
+  double stray_nm = 0.0;  ///< stray·sin(2π·stray_hz·t + φ) on the motor
+  double stray_hz = 1.0;
+  double stray_phase_rad = 0.0;
+  double snag_nm = 0.0;  ///< snag·(1 + tanh((t − snag_time)/snag_rise))/2 on the motor
+  double snag_time_s = 0.0;
+  double snag_rise_s = 0.1;
+};
+
 struct Effects {
   MotorEffects motor;
   LoadEffects load;
   ContactEffects contact;
   CommandEffects command;
   SensorEffects sensor;
+  OutsideEffects outside;
 };
 
 }  // namespace gapscope::independent_plant

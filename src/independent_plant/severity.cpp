@@ -4,30 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/random.h"
 #include "gapscope/base/require.h"
+#include "independent_plant/outside_effects.h"
 
 namespace gapscope::independent_plant {
-struct EffectScale : MotionScale {
-  double severity;
-  std::mt19937_64 draw;
-
-  double between(double weak, double strong) const { return weak * std::pow(strong / weak, severity); }
-  double any(double low, double high) { return uniform(draw, low, high); }
-  double phase() { return any(0.0, 2.0 * kPi); }
-  double sign() { return any(-1.0, 1.0) < 0.0 ? -1.0 : 1.0; }
-  /// The coarsest usual pole or tooth number of which the motor sees at least 1.5 periods.
-  double periods_per_turn() const {
-    constexpr std::array usual{6.0, 12.0, 24.0, 36.0, 48.0, 60.0};
-    for (const double n : usual)
-      if (n * travel >= 3.0 * kPi) return n;
-    return usual.back();
-  }
-};
-
 namespace {
-
-constexpr double kSkew = 0.2;  ///< of detents and ripple [rad]
 
 MotionScale scale_of(const BlindCase& c) {
   BlindOptions options = c.options;
@@ -170,32 +151,6 @@ void measurement_lag(BlindCase& c, EffectScale& s) {
   c.drive.effects.sensor.lag_s = s.period * s.between(5e-4, 5e-3);
 }
 
-// Outside the catalogue
-void external_knocks(BlindCase& c, EffectScale& s) {
-  c.drive.effects.motor.knocks = {static_cast<int>(s.any(3.0, 10.0)), s.torque * s.between(0.3, 3.0),
-                                  s.any(3e-3, 10e-3)};
-}
-void input_jitter(BlindCase& c, EffectScale& s) {
-  c.drive.effects.command.jitter_s = s.between(0.1, 0.95) / c.options.rate;
-}
-void input_noise(BlindCase& c, EffectScale& s) {
-  c.drive.effects.command.noise = s.input * s.between(0.02, 0.3);
-}
-void lost_counts(BlindCase& c, EffectScale& s) {
-  const double quantum = s.quantum > 0.0 ? s.quantum : 1e-6;
-  c.drive.effects.sensor.lost_count_times = static_cast<int>(s.any(2.0, 6.0));
-  c.drive.effects.sensor.lost_counts =
-      static_cast<int>(std::ceil(s.travel * s.between(0.003, 0.03) / quantum));
-}
-void hardening_contact(BlindCase& c, EffectScale& s) {
-  const double overlap = s.torque / c.drive.contact_stiffness;
-  c.drive.effects.contact.hardening_per_rad2 = s.between(0.3, 10.0) / (overlap * overlap);
-}
-void supply_wander(BlindCase& c, EffectScale& s) {
-  c.drive.effects.command.wander_ratio = s.between(0.05, 0.5);
-  c.drive.effects.command.wander_period_s = s.record * s.any(0.2, 0.6);
-}
-
 double cogging_cycles(const BlindCase& c) { return c.drive.effects.motor.cogging.periods_per_turn; }
 double ripple_cycles(const BlindCase& c) { return c.drive.effects.command.ripple.periods_per_turn; }
 
@@ -233,6 +188,14 @@ constexpr DrawnEffect kEntries[] = {
     {"lost_counts", false, Needs::kNothing, lost_counts},
     {"hardening_contact", false, Needs::kContact, hardening_contact},
     {"supply_wander", false, Needs::kNothing, supply_wander},
+    {"friction_hump", false, Needs::kNothing, friction_hump},
+    {"cable_pull", false, Needs::kNothing, cable_pull},
+    {"one_sided_gain", false, Needs::kNothing, one_sided_gain},
+    {"flux_weakening", false, Needs::kNothing, flux_weakening},
+    {"tight_spots", false, Needs::kNothing, tight_spots},
+    {"worn_detents", false, Needs::kNothing, worn_detents},
+    {"stray_sine", false, Needs::kNothing, stray_sine},
+    {"snag", false, Needs::kNothing, snag},
 };
 
 }  // namespace

@@ -24,11 +24,28 @@ double knock_torque(const std::vector<Knock>& knocks, double duration, double t)
 double drive_torque(const BlindDrive& d, double t, double x1, double w1, double command) {
   const CommandEffects& e = d.effects.command;
   double torque = d.torque_constant * command;
+  if (const double weak = w1 / d.effects.outside.weak_speed_rad_s; weak != 0.0) torque /= 1.0 + weak * weak;
   if (e.ripple.amplitude != 0.0) torque *= 1.0 + harmonic(e.ripple, x1);
   if (e.wander_ratio != 0.0)
     torque *= 1.0 - 0.5 * e.wander_ratio * (1.0 - std::cos(2.0 * kPi * t / e.wander_period_s));
   if (e.sag_per_w != 0.0 && torque * w1 > 0.0)
     torque *= std::pow(1.0 + e.sag_per_w * torque * w1 / e.sag_exponent, -e.sag_exponent);
+  return torque;
+}
+
+/// What is no effect of the catalogue.
+double outside_torque(const OutsideEffects& e, double t, double x1, double w1) {
+  double torque = 0.0;
+  if (const double y = w1 / e.hump_speed_rad_s; e.hump_nm != 0.0)
+    torque -= e.hump_nm * y * std::exp(0.5 * (1.0 - y * y));
+  if (e.cable_nm != 0.0)
+    torque -= e.cable_nm * std::sinh(3.0 * (x1 - e.cable_from_rad) / e.cable_reach_rad) / std::sinh(3.0);
+  if (e.tight_nm != 0.0)
+    torque -=
+        e.tight_nm * std::tanh(w1 / e.tight_speed_rad_s) * 0.5 * (1.0 + std::sin(x1 + e.tight_phase_rad));
+  if (e.worn.amplitude != 0.0) torque -= std::pow(t / e.worn_time_s, 2) * harmonic(e.worn, x1);
+  if (e.stray_nm != 0.0) torque += e.stray_nm * std::sin(2.0 * kPi * e.stray_hz * t + e.stray_phase_rad);
+  if (e.snag_nm != 0.0) torque += 0.5 * e.snag_nm * (1.0 + std::tanh((t - e.snag_time_s) / e.snag_rise_s));
   return torque;
 }
 
@@ -43,7 +60,8 @@ double Dynamics::shape_command(double u) const {
   const double beyond = std::max(0.0, std::abs(u) - e.dead_zone);
   const double limited =
       std::isinf(e.saturation_knee) ? beyond : e.saturation_knee * std::tanh(beyond / e.saturation_knee);
-  return std::copysign(limited, u);
+  const OutsideEffects& o = drive_.effects.outside;
+  return std::copysign(limited, u) * (1.0 + o.one_sided_gain * std::tanh(u / o.gain_input));
 }
 
 double Dynamics::measured_angle(double x1) const {
@@ -66,6 +84,7 @@ double Dynamics::motor_drive(double t, const State& s, int direction, double hel
   if (e.bristle.level_nm != 0.0)
     torque -= e.bristle.level_nm / e.bristle.length_rad * s[kBristle] +
               e.bristle.damping_nms * bristle_rate(e.bristle, s);
+  torque += outside_torque(drive_.effects.outside, t, s[kX1], w);
   if (!knocks_.empty()) torque += knock_torque(knocks_, e.knocks.duration_s, t);
   return torque;
 }
