@@ -24,14 +24,22 @@ std::string json_of(const EffectEntry& e) {
       fmt::join(look_alikes, ", "));
 }
 
+/// The catalogue, then the laws of last resort.
+std::vector<const EffectEntry*> listed() {
+  std::vector<const EffectEntry*> all;
+  for (const auto table : {effect_table(), last_resort_table()})
+    all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
 void print_json() {
   std::vector<std::string> rows;
-  for (const EffectEntry* e : effect_table()) rows.push_back("  " + json_of(*e));
+  for (const EffectEntry* e : listed()) rows.push_back("  " + json_of(*e));
   fmt::print("[\n{}\n]\n", fmt::join(rows, ",\n"));
 }
 
 void print_laws() {
-  for (const EffectEntry* e : effect_table()) {
+  for (const EffectEntry* e : listed()) {
     std::vector<std::string> parameters;
     for (const EffectParameterSpec& p : e->parameters)
       parameters.push_back(fmt::format("{} [{}]", p.key, p.unit));
@@ -55,13 +63,16 @@ void add_effects(CommandLine& app) {
   command.footer(
       "One identifier a line. In a law x1, w1 are angle and speed of the motor, x2, w2 of the load, u is the "
       "input.\n"
+      "The last three are laws of last resort, any function of speed, input or position: what `diagnose` "
+      "lays\n"
+      "over what no effect explains.\n"
       "In a configuration: effects: [{cogging_torque: {amplitude_nm: 0.004,\n"
       "periods_per_turn: 24}}], under model: (known effects) or simulation: model: (the true plant).\n\n"
       "Example: gapscope effects --laws");
   command.action([json, laws] {
     if (*json) return print_json();
     if (*laws) return print_laws();
-    for (const EffectEntry* e : effect_table()) fmt::print("{}\n", e->name);
+    for (const EffectEntry* e : listed()) fmt::print("{}\n", e->name);
   });
 }
 

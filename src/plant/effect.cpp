@@ -12,6 +12,7 @@ namespace gapscope {
 namespace internal::plant {
 #define GAPSCOPE_EFFECT(identifier) extern const EffectEntry effect_##identifier;
 #include "plant/effects/effects.inc"
+#include "plant/effects/last_resort.inc"
 #undef GAPSCOPE_EFFECT
 }  // namespace internal::plant
 
@@ -24,9 +25,19 @@ std::span<const EffectEntry* const> effect_table() {
   return kTable;
 }
 
+std::span<const EffectEntry* const> last_resort_table() {
+  static constexpr const EffectEntry* kTable[] = {
+#define GAPSCOPE_EFFECT(identifier) &internal::plant::effect_##identifier,
+#include "plant/effects/last_resort.inc"
+#undef GAPSCOPE_EFFECT
+  };
+  return kTable;
+}
+
 const EffectEntry* find_effect(std::string_view name) {
-  for (const EffectEntry* entry : effect_table())
-    if (name == entry->name) return entry;
+  for (const auto table : {effect_table(), last_resort_table()})
+    for (const EffectEntry* entry : table)
+      if (name == entry->name) return entry;
   return nullptr;
 }
 

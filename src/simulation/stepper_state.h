@@ -11,6 +11,9 @@ StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step, double shortest
   locked = has_load && m.structure.load == LoadKind::kLocked;
   load_friction = has_load && !locked && m.load_sticks;
   motor_friction = m.motor_sticks;
+  // A free-form law may take more than there is at rest: friction never drives.
+  for (T* level : {&model.motor_friction_plus, &model.motor_friction_minus})
+    if (value_of(*level) < 0.0) *level = T(0.0);
   GAPSCOPE_REQUIRE(step > 0.0);
   GAPSCOPE_REQUIRE(value_of(p.motor_inertia) > 0.0);
   GAPSCOPE_REQUIRE(!has_load || locked || value_of(p.mass_ratio) > 0.0);

@@ -111,7 +111,8 @@ TEST_P(UnevenStepsWith, MovesAsFineEvenStepsDo) {
 
 std::vector<std::string> catalogue() {
   std::vector<std::string> all;
-  for (const EffectEntry* e : effect_table()) all.emplace_back(e->name);
+  for (const auto table : {effect_table(), last_resort_table()})
+    for (const EffectEntry* e : table) all.emplace_back(e->name);
   return all;
 }
 

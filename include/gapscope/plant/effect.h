@@ -8,7 +8,7 @@
 
 namespace gapscope {
 
-constexpr int kMostEffectParameters = 4;
+constexpr int kMostEffectParameters = 14;
 
 enum class EffectSide { kMotor, kLoad, kCommand, kContact, kSensor };
 const char* to_string(EffectSide side);  ///< "motor", "load", "command", "contact", "sensor"
@@ -107,7 +107,11 @@ struct EffectEntry {
 /// The catalogue, sorted by name.
 std::span<const EffectEntry* const> effect_table();
 
-/// nullptr if there is none of that name.
+/// The free-form laws of last resort, sorted by name: functions of speed, position or input that stand for no
+/// cause. Where a drive lacks something, they are laid over what no effect of the catalogue explains.
+std::span<const EffectEntry* const> last_resort_table();
+
+/// Of the catalogue or of the laws of last resort; nullptr if there is none of that name.
 const EffectEntry* find_effect(std::string_view name);
 
 /// The simpler effect that this one contains; nullptr if there is none.
