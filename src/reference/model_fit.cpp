@@ -113,6 +113,22 @@ double ModelFit::prediction_std(const FitPoint& at, const ModelFit& other, const
                                    observer_hz_);
 }
 
+std::vector<double> ModelFit::spreads(const FitPoint& at, std::span<const WeightedSum> sums) const {
+  const Covariances of = covariances_at(*problem_, at, observer_hz_);
+  if (of.white.size() == 0) return {};
+  std::vector<double> spreads;
+  for (const WeightedSum& sum : sums) {
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(of.white.rows());
+    for (std::size_t i = 0; i < problem_->free_count(); ++i) {
+      const Parameter& p = problem_->free_parameter(i);
+      for (const auto& [id, weight] : sum)
+        if (p.id == id) slope(static_cast<Eigen::Index>(i)) += weight * p.coordinate.slope(at.q[i]);
+    }
+    spreads.push_back(std::sqrt(std::max(slope.dot(of.white * slope), slope.dot(of.scatter * slope))));
+  }
+  return spreads;
+}
+
 ReferenceModel ModelFit::model_at(const FitPoint& at) const {
   const ModelNumbers<double> numbers = problem_->numbers(at.q.data());
   ReferenceModel model = model_;

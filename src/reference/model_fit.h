@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "gapscope/plant/plant_model.h"
@@ -90,6 +91,9 @@ struct ModelRun {
   std::vector<DriveState<double>> starts;
 };
 
+/// Σ weight · parameter.
+using WeightedSum = std::vector<std::pair<ParameterId, double>>;
+
 struct FitProblem;
 
 /// A model beside recordings, to be fitted again and again by other modules: from here, with this effort. The
@@ -135,6 +139,10 @@ class ModelFit {
 
   /// What this fit leaves open of the motion that another one runs, see prediction.h [floor].
   double prediction_std(const FitPoint& at, const ModelFit& other, const FitPoint& there) const;
+
+  /// Standard deviations that a fit leaves sums of its parameters with, to first order, see covariances_at();
+  /// what is not estimated counts as known. Empty where the motion diverges.
+  std::vector<double> spreads(const FitPoint& at, std::span<const WeightedSum> sums) const;
 
   /// The model with the values of a point.
   ReferenceModel model_at(const FitPoint& at) const;
