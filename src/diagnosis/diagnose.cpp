@@ -13,8 +13,8 @@
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/repeatability.h"
-#include "diagnosis/report_back.h"
 #include "diagnosis/step.h"
+#include "diagnosis/verdict.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/require.h"
@@ -206,18 +206,6 @@ void require_driven(const Study& study, const ScoredModel& model) {
                       "u does not move x1: " + left + ", expected the recording of a driven motion");
 }
 
-/// @param explains false: what was added leaves the motion unexplained
-Diagnosis report(const Study& study, const Findings& found, const Additions& added,
-                 const TorqueSearch& ladder, bool explains) {
-  if (!ladder.added.empty()) return report_ladder(study, found, ladder);
-  const bool helped = !added.accepted && explains && !found.candidates.empty() &&
-                      shrink_of(found.before.median_free, found.candidates.front().median_free) > 0.0 &&
-                      std::isfinite(found.candidates.front().score) && !found.decision.group.empty() &&
-                      helps(found.before, found.candidates.front(), study.repeats_badly()) &&
-                      motion_left(study.held_out, found.candidates.front()).empty();
-  return helped ? report_help(study, found) : report_back(study, found, added);
-}
-
 }  // namespace
 
 Findings investigate(Study& study) {
@@ -258,7 +246,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   auto [found, added, ladder] = search_effects(study);
   std::string left = added.accepted ? motion_left(study.held_out, added.after) : "";
   if (!left.empty()) added = {};
-  Diagnosis diagnosis = report(study, found, added, ladder, left.empty());
+  Diagnosis diagnosis = verdict_on(study, found, added, ladder, left.empty());
   if (!left.empty()) diagnosis.warnings.push_back("no effect is named: with it, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);

@@ -28,7 +28,9 @@ inline constexpr Measure kMeasure;
 struct SearchEffort {
   int race_steps = 2;    ///< by which a start is adjusted before it is compared with others
   double weaker = 0.15;  ///< of a start: a weaker one; there a sine acts in proportion, too
-  reference::RefineEffort quick = {3, 8, 1e-3};  ///< to tell whether a start is worth a whole refinement
+  reference::RefineEffort quick = {3, 8,
+                                   1e-3};  ///< to tell whether a start, or a law, is worth a whole refinement
+  double past_travel = 2.0;  ///< period of such a torque over the travel [travel]: it need not close
   std::size_t leaders = 5;   ///< of the race that are refined, and of these that are refined once more
   double far_better = 0.5;   ///< of the mean square: another minimum, or an effect that explains much
   std::size_t lines = 3;     ///< of the residual torque that periodic effects begin with and that are told
@@ -62,6 +64,7 @@ struct Telling {
   double on_grid = 0.1;      ///< mean distance from whole quanta of samples that are counted in it [quanta]
   double other_recording = 4.0;  ///< times that another recording shows more or less of what is missing
   double floor_spread = 0.5;     ///< by which recordings of a drive differ near the floor [floor]
+  int fewest_in_bin = 20;        ///< samples of a residual torque whose mean is drawn
   double inflation = 2.0;  ///< of a torque's interval: blocks of one recording agree too well for the next
 };
 inline constexpr Telling kTelling;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/effect_starts.h"
+#include "diagnosis/last_resort.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope {
@@ -91,11 +92,27 @@ std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
   return text + fmt::format(": with {} {}.", with, fall);
 }
 
+/// What the effects leave, where a law of last resort takes much of it.
+std::string law_sentence(const Diagnosis& d) {
+  std::string text;
+  for (const LastResortLaw& law : d.laws) {
+    std::vector<std::string> variables;
+    for (const std::string& other : law.group) variables.push_back(variable_of(*find_effect(other)));
+    text += fmt::format(
+        " What {} is a function of {}, whatever its cause: as a free curve it takes {:.0f} % [{:.0f}, "
+        "{:.0f}] of "
+        "the held-out error above the floor, to {}.",
+        d.effects.empty() ? "is missing" : "remains", fmt::join(variables, " or "), 100.0 * law.shrink,
+        100.0 * law.shrink_ci95.low, 100.0 * law.shrink_ci95.high, ratio(law.after / d.mismatch.floor, d));
+  }
+  return text;
+}
+
 std::string unknown_sentence(const Diagnosis& d) {
   std::string text =
       fmt::format("Something is missing that the catalogue does not explain: the held-out error is {}, {}",
                   ratio(d.mismatch.before / d.mismatch.floor, d), d.where.headline);
-  if (!d.ranking.empty() && d.ranking.front().rel > 0.0)
+  if (d.laws.empty() && !d.ranking.empty() && d.ranking.front().rel > 0.0)
     text += fmt::format(
         "; {} comes nearest and closes {:.0f} % of the distance to it, which is not enough to blame "
         "it",
@@ -103,9 +120,7 @@ std::string unknown_sentence(const Diagnosis& d) {
   return text + ".";
 }
 
-}  // namespace
-
-std::string sentence_of(const Diagnosis& d, Coordinates coordinates) {
+std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
   switch (d.verdict) {
     case DiagnosisVerdict::kEffect:
       return d.added.empty() ? effect_sentence(d) : ladder_sentence(d, coordinates);
@@ -120,6 +135,12 @@ std::string sentence_of(const Diagnosis& d, Coordinates coordinates) {
       break;
   }
   return d.sentence;
+}
+
+}  // namespace
+
+std::string sentence_of(const Diagnosis& d, Coordinates coordinates) {
+  return verdict_sentence(d, coordinates) + law_sentence(d);
 }
 
 }  // namespace internal::diagnosis

@@ -5,7 +5,7 @@
 namespace gapscope::test {
 
 std::vector<std::string> effects_of_kind(const std::string& kind) {
-  if (kind == "none") return {"none"};
+  if (kind == "none" || kind == "lawless") return {"none"};
   std::vector<std::string> names;
   for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
     if (e.in_catalogue == (kind == "known" || kind == "one") && e.name != "backlash")

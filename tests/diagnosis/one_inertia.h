@@ -6,11 +6,13 @@ namespace gapscope::test {
 
 /// A drive of the independent plant without a load behind a gap, so that backlash is a candidate: recorded
 /// under a sine, held out under steps, its sheet 20 % off.
-inline blind::BlindPair one_inertia(const independent_plant::MotorEffects& effects, std::uint64_t seed) {
+inline blind::BlindPair one_inertia(const independent_plant::MotorEffects& effects, std::uint64_t seed,
+                                    const independent_plant::OutsideEffects& outside = {}) {
   independent_plant::BlindCase c;
   c.drive.load = independent_plant::BlindLoad::kNone;
   c.drive.motor_inertia *= 2.0;
   c.drive.effects.motor = effects;
+  c.drive.effects.outside = outside;
   c.options = {1000.0, 5.0, seed, independent_plant::kFastTolerance};
   c.sensor = independent_plant::BlindSensor::with_bits(16, 0.5);
   c.excitation.amplitude = 1.2;

@@ -1,10 +1,11 @@
 // The diagnosis on drives of the independent plant with an effect that it is not told.
-//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask FILE [THREADS [RIG]]
+//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask|law|lawless FILE [THREADS [RIG]]
 // Appends one line a case to FILE and prints the counts of all of it with Wilson limits; seeds that FILE
 // holds already are not run again. Effect and rig follow from the seed. "Removed" takes the true effect and
 // its look-alikes out of the candidates that were fitted and decides again. "pair" are two effects, "one" and
 // "beyond" a known one and one outside the catalogue where the search may take as many steps as it likes;
-// "ask" the next experiment for look-alikes.
+// "ask" the next experiment for look-alikes; "law" and "lawless" are the whole diagnosis, laws of last resort
+// included, of drives that lack something outside the catalogue and of drives that lack nothing.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -15,6 +16,7 @@
 #include "blind/expected_place.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/drawn_case.h"
+#include "diagnosis/law_study.h"
 #include "diagnosis/look_alikes.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/pair_study.h"
@@ -158,6 +160,7 @@ StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
 }
 
 StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
+  if (kind == "law" || kind == "lawless") return test::examine_laws(c.pair(), c.seed);
   if (kind == "ask") return test::examine_question(c.effect, c.seed);
   if (kind == "pair" || kind == "one" || kind == "beyond")
     return test::examine_steps(blind::blind_pair(c.rig, test::split_effects(c.effect), c.severity, c.seed),
@@ -166,9 +169,10 @@ StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
 }
 
 void print_counts(const std::string& kind, const std::vector<StudyRow>& rows) {
+  if (kind == "law" || kind == "lawless") test::print_laws(rows);
   if (kind == "known") print_known(rows);
   if (kind == "none") print_none(rows);
-  if (kind == "outside" || kind == "beyond") print_outside(rows);
+  if (kind == "outside" || kind == "beyond" || kind == "law") print_outside(rows);
   if (kind == "pair" || kind == "one") test::print_steps(rows);
   if (kind == "ask") test::print_questions(rows);
 }

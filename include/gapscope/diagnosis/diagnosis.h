@@ -13,6 +13,7 @@
 #include "gapscope/diagnosis/detectable.h"
 #include "gapscope/diagnosis/error_budget.h"
 #include "gapscope/diagnosis/evidence.h"
+#include "gapscope/diagnosis/last_resort.h"
 #include "gapscope/diagnosis/named_value.h"
 #include "gapscope/diagnosis/next_experiment.h"
 #include "gapscope/recording/recording.h"
@@ -163,6 +164,7 @@ struct Diagnosis {
   double outside_probability = kNaN;     ///< that no effect of the catalogue is what is missing first
   std::vector<DiagnosisStep> steps;      ///< the later steps; the last one may not have been taken
   std::vector<PeriodicTorque> periodic;  ///< in what the accepted effects leave: given, then found ones
+  std::vector<LastResortLaw> laws;  ///< of what the effects leave, where a free-form law takes much of it
   MismatchPlace where;
   MismatchPlace remaining;  ///< of what the accepted effects leave
   std::vector<BlameShift> blame;

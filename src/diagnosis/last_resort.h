@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/ranking.h"
+#include "diagnosis/study.h"
+#include "gapscope/diagnosis/last_resort.h"
+
+namespace gapscope::internal::diagnosis {
+
+/// A law of last resort that a model lacks.
+struct LawSearch {
+  ScoredModel before;  ///< the model that it was added to; its score counts no parameters
+  ScoredModel after;
+  std::vector<const EffectEntry*> group;  ///< with it: laws of other variables that do nearly as well
+};
+
+/// The variable that a law of last resort, or an effect, is a function of; "" for an effect of another kind.
+std::string variable_of(const EffectEntry& entry);
+
+/// Every law of last resort on top of a model, with as few nodes or harmonics as what is held out asks for,
+/// refitted by the simulator and judged like an effect. Nothing where the model is at the floor or no law
+/// shrinks the held-out error as a step must.
+std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model);
+
+/// S with all that was estimated of the effects counted: models of several effects and laws side by side.
+double full_score(const ScoredModel& model);
+
+/// As the report tells it.
+LastResortLaw told(const Study& study, const LawSearch& found);
+
+}  // namespace gapscope::internal::diagnosis

@@ -1,0 +1,79 @@
+#include "diagnosis/verdict.h"
+
+#include <cmath>
+
+#include "diagnosis/last_resort.h"
+#include "diagnosis/mismatch_size.h"
+#include "diagnosis/motion.h"
+#include "diagnosis/report_back.h"
+#include "diagnosis/words.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+/// Whether the best candidate shrinks the held-out error, though its cause stays open.
+bool best_helps(const Study& study, const Findings& found) {
+  return !found.candidates.empty() &&
+         shrink_of(found.before.median_free, found.candidates.front().median_free) > 0.0 &&
+         std::isfinite(found.candidates.front().score) && !found.decision.group.empty() &&
+         helps(found.before, found.candidates.front(), study.repeats_badly()) &&
+         motion_left(study.held_out, found.candidates.front()).empty();
+}
+
+void tell_law(const Study& study, const std::optional<LawSearch>& law, Diagnosis& d) {
+  if (!law) return;
+  d.laws.push_back(told(study, *law));
+  d.sentence = sentence_of(d, study.options.coordinates);
+}
+
+/// Whether the drive lacks nothing that the recordings could show.
+bool lacks_nothing(const Findings& found) { return found.candidates.empty() && at_floor(found.before); }
+
+/// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
+/// them they are no causes; where one of another variable than the first does nearly as well, its cause stays
+/// open.
+Diagnosis report_effects(const Study& study, const Findings& found, const Additions& added) {
+  const ScoredModel& nominal = nominal_of(found, added);
+  const auto rest = search_last_resort(study, added.after);
+  const auto instead =
+      at_floor(added.after) || added.explained ? std::nullopt : search_last_resort(study, nominal);
+  const double better = instead ? full_score(added.after) - full_score(instead->after) : -kInfinity;
+  if (better > kRule.tells_apart) {
+    Diagnosis d = report_back(study, found, {});
+    tell_law(study, instead, d);
+    return d;
+  }
+  Diagnosis d = report_back(study, found, added);
+  const bool another =
+      instead && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
+  if (another && better > -kRule.indistinct) {
+    d.verdict = DiagnosisVerdict::kHelps;
+    for (AddedEffect& a : d.added) a.established = false;
+    d.sentence = sentence_of(d, study.options.coordinates);
+  }
+  tell_law(study, rest, d);
+  return d;
+}
+
+}  // namespace
+
+Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
+                     const TorqueSearch& ladder, bool explains) {
+  if (!ladder.added.empty()) {
+    Diagnosis d = report_ladder(study, found, ladder);
+    tell_law(study, search_last_resort(study, ladder.after), d);
+    return d;
+  }
+  if (added.accepted) return report_effects(study, found, added);
+  const bool helped = explains && best_helps(study, found);
+  const auto law = lacks_nothing(found) ? std::nullopt : search_last_resort(study, found.before);
+  // A named effect that does nearly as well says more.
+  const bool beaten = law && !found.candidates.empty() &&
+                      found.candidates.front().score < law->after.score + kRule.tells_apart;
+  if (helped && (beaten || !law)) return report_help(study, found);
+  Diagnosis d = report_back(study, found, added);
+  if (!beaten) tell_law(study, law, d);
+  return d;
+}
+
+}  // namespace gapscope::internal::diagnosis

@@ -1,0 +1,88 @@
+#include "diagnosis/law_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "diagnosis/diagnose.h"
+#include "diagnosis/mismatch_size.h"
+#include "gapscope/diagnosis/diagnosis.h"
+#include "support/thread_time.h"
+
+namespace gapscope::test {
+namespace {
+
+using namespace internal::diagnosis;
+
+/// What the outside effects are functions of.
+std::string true_variable(const std::string& effect) {
+  static const std::map<std::string, std::string> kVariables = {
+      {"friction_hump", "speed"}, {"cable_pull", "position"}, {"one_sided_gain", "input"}};
+  const auto at = kVariables.find(effect);
+  return at == kVariables.end() ? "" : at->second;
+}
+
+/// What the law takes of a recording that the diagnosis has not seen.
+double next_shrink(const blind::BlindPair& pair, const Diagnosis& d, const DiagnosisOptions& options) {
+  const MotorTrace train[] = {pair.train.motor_trace()}, next[] = {pair.next.motor_trace()};
+  const Study study = make_study(train, next, pair.sheet, options);
+  const auto size = [&](const ReferenceModel& model) {
+    return judge(nullptr, {model, {}, 0.0, {}}, study.held_out, d.observer_hz).median_free;
+  };
+  return shrink_of(size(d.fitted), size(d.laws.front().fitted));
+}
+
+}  // namespace
+
+StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
+  DiagnosisOptions options;
+  options.threads = 1;
+  const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
+  const double begin = thread_seconds();
+  const Diagnosis d = diagnose(train, held, pair.sheet, options);
+  StudyRow row;
+  row.seconds = thread_seconds() - begin;
+  row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;
+  row.severity = pair.severity;
+  row.verdict = to_string(d.verdict);
+  row.before = d.mismatch.before / d.mismatch.floor;
+  row.group = static_cast<int>(d.effects.size());
+  row.details = fmt::format("[{}]", fmt::join(d.effects, " "));
+  if (d.laws.empty()) return row;
+  const LastResortLaw& law = d.laws.front();
+  row.first = law.law;
+  row.in_group = law.variable == true_variable(pair.effect);
+  row.shrink = law.shrink;
+  const double next = next_shrink(pair, d, options);
+  row.covered = !std::isfinite(next) || !std::isfinite(law.shrink_ci95.low)   ? "-"
+                : law.shrink_ci95.low <= next && next <= law.shrink_ci95.high ? "yes"
+                                                                              : "no";
+  row.details += fmt::format(" {} [{:.3g}, {:.3g}] next {:.3g}, {}", law.shrink, law.shrink_ci95.low,
+                             law.shrink_ci95.high, next, fmt::join(law.group, " "));
+  return row;
+}
+
+void print_laws(const std::vector<StudyRow>& rows) {
+  int functions = 0, told = 0, right = 0, covered = 0, judged = 0, any = 0;
+  std::vector<double> shrinks;
+  for (const StudyRow& r : rows) {
+    any += r.first != "-" ? 1 : 0;
+    if (true_variable(r.effect).empty() || !r.relevant()) continue;
+    ++functions;
+    if (r.first == "-") continue;
+    ++told, right += r.in_group ? 1 : 0;
+    if (r.in_group) shrinks.push_back(r.shrink);
+    if (r.covered != "-") ++judged, covered += r.covered == "yes" ? 1 : 0;
+  }
+  fmt::print("{} cases, a law told in {}\n", rows.size(), any);
+  if (functions == 0) return;
+  fmt::print(
+      "functions of speed, position or input above 2 floors: {}; law told {}, of the right variable {}\n",
+      functions, told, right);
+  if (!shrinks.empty()) fmt::print("shrink of the right ones, median: {:.3f}\n", median(shrinks));
+  fmt::print("next recording's shrink in the interval: {} of {}\n", covered, judged);
+}
+
+}  // namespace gapscope::test

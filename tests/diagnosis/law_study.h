@@ -1,0 +1,19 @@
+#pragma once
+
+#include "blind/blind_pair.h"
+#include "diagnosis/study_row.h"
+
+namespace gapscope::test {
+
+/// The whole diagnosis of a drive that lacks nothing or something outside the catalogue, laws of last resort
+/// included.
+///   first     the law that was told, else "-"        in_group  it is of the true variable
+///   group     number of effects that were added      before    of the nominal model [floor]
+///   shrink    that the law takes                      covered   whether it takes as much of the next
+///   recording
+StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed);
+
+/// Of what is a function of speed, position or input: how often its law was told, and how much it takes.
+void print_laws(const std::vector<StudyRow>& rows);
+
+}  // namespace gapscope::test

@@ -1,0 +1,62 @@
+// A free-form law finds the variable that an effect outside the catalogue is a function of, and its table.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/fitted_model.h"
+#include "diagnosis/last_resort.h"
+#include "diagnosis/one_inertia.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+/// The law over the nominal model of a drive that lacks what is outside the catalogue.
+struct Searched {
+  blind::BlindPair pair;
+  DiagnosisOptions options;
+  std::optional<Study> study;
+  std::optional<LawSearch> law;
+
+  explicit Searched(const independent_plant::OutsideEffects& outside)
+      : pair(test::one_inertia({}, 5, outside)) {
+    const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
+    study.emplace(make_study(train, held, pair.sheet, options));
+    law = search_last_resort(
+        *study, judge(nullptr, fit_nominal(study->train, study->sheet, options.fit, study->observer_hz),
+                      study->held_out, study->observer_hz));
+  }
+};
+
+TEST(LastResort, AFrictionWithAMaximumIsAFunctionOfSpeed) {
+  const Searched s({.hump_nm = 0.02, .hump_speed_rad_s = 0.5});
+  ASSERT_TRUE(s.law);
+  const LastResortLaw law = told(*s.study, *s.law);
+  EXPECT_EQ(law.law, "friction_curve");
+  EXPECT_EQ(law.variable, "speed");
+  EXPECT_GT(law.shrink, 0.7);
+  EXPECT_LT(law.after_torque, law.before_torque);
+  ASSERT_EQ(law.curve.size(), 14u);  // seven nodes in each direction, backward first
+  EXPECT_LT(law.curve.front().at, 0.0);
+  EXPECT_EQ(law.curve[6].at, 0.0);
+  EXPECT_EQ(law.curve[7].at, 0.0);
+  EXPECT_EQ(law.curve[6].direction, -1);
+  EXPECT_EQ(law.curve[7].direction, 1);
+  for (const CurvePoint& p : law.curve) EXPECT_LE(p.ci95.low, p.torque);
+  EXPECT_FALSE(law.residual.empty());
+}
+
+TEST(LastResort, AGainThatDiffersWithTheSignIsAFunctionOfTheInput) {
+  const Searched s({.one_sided_gain = 0.1, .gain_input = 0.2});
+  ASSERT_TRUE(s.law);
+  const LastResortLaw law = told(*s.study, *s.law);
+  EXPECT_EQ(law.variable, "input");
+  EXPECT_GT(law.shrink, 0.7);
+  // Its even part is gain u tanh(u/0.2): what the drive has beside Km u at the largest input.
+  const double most = law.curve.back().at;
+  EXPECT_NEAR(law.curve.back().torque, 0.172 * 0.1 * most * std::tanh(most / 0.2), 0.3 * 0.172 * 0.1 * most);
+}
+
+TEST(LastResort, NothingIsLaidOverADriveThatLacksNothing) { EXPECT_FALSE(Searched({}).law); }
+
+}  // namespace
+}  // namespace gapscope::internal::diagnosis
