@@ -33,10 +33,11 @@ void require_known(const std::vector<std::string>& effects) {
 
 /// Under the input of what was held out, which stands in the report; a motion that diverges has left no
 /// trace there.
-std::string fitted_model(const Configuration& c, const Diagnosis& d, const MotorTrace& recording) {
-  if (d.traces.empty()) return model_yaml(c, d.fitted, "", recording);
+std::string fitted_model(const Configuration& c, const Diagnosis& d, const ReferenceModel& fitted,
+                         const MotorTrace& recording) {
+  if (d.traces.empty()) return model_yaml(c, fitted, "", recording);
   const MismatchTrace& t = d.traces.front();
-  return model_yaml(c, d.fitted, held_out_trace_name(0, t.file),
+  return model_yaml(c, fitted, held_out_trace_name(0, t.file),
                     {t.file, t.start, t.dt, t.u, t.x1, recording.quantum, t.stamps});
 }
 
@@ -44,7 +45,13 @@ void write_outcome(ReportFolder& report, const Configuration& c, const Diagnosis
                    const MotorTrace& recording) {
   write_diagnosis_result(report.path(), result);
   write_text(report.path() + "/resolved.yaml", result.configuration);
-  write_text(report.path() + "/fitted.yaml", fitted_model(c, result.diagnosis, recording));
+  write_text(report.path() + "/fitted.yaml",
+             fitted_model(c, result.diagnosis, result.diagnosis.fitted, recording));
+  for (const LastResortLaw& law : result.diagnosis.laws) {
+    write_compensation_csv(report.path() + "/" + compensation_name(law), law);
+    write_text(report.path() + "/fitted_with_law.yaml",
+               fitted_model(c, result.diagnosis, law.fitted, recording));
+  }
   if (const NextExperiment& next = result.diagnosis.next_experiment; next.proposes()) {
     write_text(report.path() + "/next_experiment.yaml",
                experiment_yaml(c, result.diagnosis.rivals.front().model, next));
@@ -96,6 +103,8 @@ void add_diagnose(CommandLine& app) {
       "check`\n"
       "says will spoil the estimates is a warning, of each of these files alike.\n"
       "Writes DIR/diagnosis.json [rad, N m, s], fitted.yaml, report.md, figures (PNG), traces/held_out_*.\n"
+      "What no effect explains is tried as any function of speed, position or input: a law of last resort\n"
+      "takes DIR/compensation_<law>.csv, the table for the drive's feed-forward, and fitted_with_law.yaml.\n"
       "Where the recordings do not decide, next_experiment.yaml and .csv hold the input that would, within\n"
       "next_experiment: {input: ..., travel: ..., lowest_frequency: ..., highest_frequency: ..., duration: "
       "...}.\n"

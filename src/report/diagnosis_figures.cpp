@@ -9,6 +9,7 @@
 #include "gapscope/base/text.h"
 #include "report/detectable.h"
 #include "report/error_budget.h"
+#include "report/last_resort.h"
 #include "report/rich_text.h"
 #include "report/ticks.h"
 #include "report/wording.h"
@@ -270,7 +271,7 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
   borrow(sheet, figures, "diagnosis_budget.png", 1);
   borrow(sheet, figures, "diagnosis_traces.png", 2);
   borrow(sheet, figures, "diagnosis_ranking.png", 1);
-  borrow(sheet, figures, "diagnosis_torque_map.png", 1);
+  borrow(sheet, figures, r.diagnosis.laws.empty() ? "diagnosis_torque_map.png" : "diagnosis_law.png", 1);
   borrow(sheet, figures, "diagnosis_where.png", sheet.panels.size() % 2 == 0 ? 2 : 1);
   for (std::size_t i = 0; i + 1 < sheet.panels.size(); i += 2)  // neighbours are equally high
     sheet.panels[i].height = sheet.panels[i + 1].height =
@@ -283,8 +284,9 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
 }  // namespace
 
 std::vector<FigureData> diagnosis_figures(const DiagnosisResult& r) {
-  std::vector<FigureData> figures = {diagnosis_budget(r), diagnosis_traces(r),     diagnosis_ranking(r),
-                                     diagnosis_where(r),  diagnosis_torque_map(r), diagnosis_detectable(r)};
+  std::vector<FigureData> figures = {diagnosis_budget(r),    diagnosis_traces(r),     diagnosis_ranking(r),
+                                     diagnosis_where(r),     diagnosis_torque_map(r), diagnosis_law(r),
+                                     diagnosis_detectable(r)};
   figures.insert(figures.begin(), sheet(r, figures));
   return figures;
 }

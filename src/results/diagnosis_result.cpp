@@ -97,6 +97,19 @@ DiagnosisResult read_diagnosis_result(const std::string& folder) {
   return std::move(document.result);
 }
 
+std::string compensation_name(const LastResortLaw& law) { return "compensation_" + law.law + ".csv"; }
+
+void write_compensation_csv(const std::string& path, const LastResortLaw& law) {
+  const char* const abscissa = law.variable == "speed"      ? "speed_rad_s"
+                               : law.variable == "position" ? "position_rad"
+                                                            : "input";
+  std::string text = fmt::format("{},compensation_nm,low_nm,high_nm\n", abscissa);
+  for (const CurvePoint& p : law.curve)  // what the drive lacks, with the other sign
+    text += fmt::format("{},{},{},{}\n", p.at, 0.0 - p.torque, 0.0 - p.ci95.high, 0.0 - p.ci95.low);
+  std::ofstream out(path);
+  if (!(out << text).flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
 void write_input_csv(const std::string& path, const NextExperiment& experiment) {
   std::string text = "t,u\n";
   for (std::size_t i = 0; i < experiment.u.size(); ++i)

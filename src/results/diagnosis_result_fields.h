@@ -6,6 +6,7 @@
 #include "gapscope/results/diagnosis_result.h"
 #include "results/file_hash_fields.h"
 #include "results/json_archive.h"
+#include "results/last_resort_fields.h"
 
 /// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
 namespace gapscope::internal::results {
@@ -25,12 +26,6 @@ struct DiagnosisDocument {
   DiagnosisResult result;
   std::vector<StoredMismatch> held_out;
 };
-
-/// Units of the values of a list, by their keys.
-template <class Archive>
-void units(Archive& archive, const char* key, std::vector<NamedValue>& values) {
-  archive.named_members(key, values, &NamedValue::key, &NamedValue::unit);
-}
 
 template <class Archive>
 void fields(Archive& archive, RankedEffect& r) {
@@ -246,6 +241,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.list("steps", g.steps);
   archive.added_list("detectable", g.detectable);
   archive.list("periodic_torque", g.periodic);
+  archive.added_list("laws", g.laws);
   archive.single("next_experiment", g.next_experiment);
   archive.single("where", g.where);
   archive.single("remaining", g.remaining);

@@ -13,6 +13,7 @@
 #include "report/diagnosis_figures.h"
 #include "report/draw_figure.h"
 #include "report/error_budget.h"
+#include "report/last_resort.h"
 #include "results/scratch_folder.h"
 #include "support/png_file.h"
 #include "support/reading.h"
@@ -124,6 +125,33 @@ TEST(DiagnosisReport, TheCaptionKnowsOfTheLineThatTheTableLists) {
                    "remains with cogging torque one does: every 2.50 mm."),
       std::string::npos)
       << reading;
+}
+
+TEST(DiagnosisReport, ALawOfLastResortIsDrawnThroughTheResidualAndItsTableIsNamed) {
+  DiagnosisResult r = sample(DiagnosisVerdict::kUnknown);
+  LastResortLaw law;
+  law.law = "friction_curve", law.variable = "speed";
+  law.shrink = 0.8, law.shrink_ci95 = {0.7, 0.9}, law.before_torque = 0.02, law.after_torque = 0.004;
+  for (const int side : {-1, 1})
+    for (int k = 0; k < 7; ++k) {
+      const double at = side < 0 ? -3.0 + 0.5 * k : 0.5 * k;
+      law.curve.push_back({at, side, 0.01 * side, {0.01 * side - 0.002, 0.01 * side + 0.002}});
+      law.residual.push_back({at, side, 50, 0.011 * side, 0.001});
+    }
+  r.diagnosis.laws = {law};
+  const internal::report::FigureData figure = internal::report::diagnosis_law(r);
+  ASSERT_EQ(figure.panels.size(), 2u);
+  EXPECT_EQ(figure.panels[0].series.size(), 2u);
+  ASSERT_EQ(figure.panels[1].series.size(), 3u);                 // both directions and the law
+  EXPECT_DOUBLE_EQ(figure.panels[1].series[1].y.back(), 0.011);  // the law and what it leaves
+  EXPECT_EQ(figure.panels[1].series[2].x.size(), 15u) << "interrupted at standstill";
+  EXPECT_EQ(figure.panels[0].y.range.high, figure.panels[1].y.range.high);
+  const std::string table = internal::report::law_table(r);
+  EXPECT_NE(table.find("as a function of speed"), std::string::npos) << table;
+  EXPECT_NE(table.find("`compensation_friction_curve.csv`"), std::string::npos) << table;
+  r.diagnosis.laws.clear();
+  EXPECT_FALSE(internal::report::diagnosis_law(r).missing.empty());
+  EXPECT_TRUE(internal::report::law_table(r).empty());
 }
 
 TEST(DiagnosisReport, TheTorqueMapShowsWhatRemainsBesideWhatTheNominalModelLeaves) {

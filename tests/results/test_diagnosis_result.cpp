@@ -62,6 +62,20 @@ DiagnosisResult sample() {
   step.ranking = {last};
   d.steps = {step};
   d.outside_probability = 0.05;
+  d.laws = {{"friction_curve",
+             "speed",
+             {"friction_curve"},
+             {"cogging_torque"},
+             {{"torque_0_nm", "N m", kThird}},
+             0.8,
+             {0.7, 0.9},
+             2e-4,
+             4e-5,
+             0.02,
+             0.004,
+             {{-3.0, -1, kThird, {0.1, 0.5}}},
+             {{0.5, 1, 30, 0.1, kNaN}},
+             {}}};
   d.periodic = {{24.3, kThird, 0.002, 0.4, kNaN, 20, 19, true, true}};
   d.next_experiment = {
       "Record a sine.", 1000.0, 5.0, {{{}, "a sine", kThird, {{"a", "b", kThird, false}}, kThird}}, {}};
@@ -116,6 +130,13 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.detectable[1].hidden_by, "input_delay");
   EXPECT_EQ(b.detectable[1].why, "it acts alike");
   EXPECT_EQ(b.outside_probability, 0.05);
+  ASSERT_EQ(b.laws.size(), 1u);
+  EXPECT_EQ(b.laws[0].variable, "speed");
+  EXPECT_EQ(b.laws[0].parameters[0].value, kThird);
+  EXPECT_EQ(b.laws[0].curve[0].torque, kThird);
+  EXPECT_EQ(b.laws[0].curve[0].direction, -1);
+  EXPECT_EQ(b.laws[0].residual[0].samples, 30);
+  EXPECT_TRUE(std::isnan(b.laws[0].residual[0].after));
   ASSERT_EQ(b.periodic.size(), 1u);
   EXPECT_EQ(b.periodic[0].period, kThird);
   EXPECT_EQ(b.periodic[0].better, 19);

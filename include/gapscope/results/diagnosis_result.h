@@ -29,6 +29,15 @@ DiagnosisResult read_diagnosis_result(const std::string& folder);
 /// Where a report keeps its held-out traces: "traces/held_out_1_run.csv".
 std::string held_out_trace_name(std::size_t index, const std::string& recording_file);
 
+/// Where a report keeps the table of a law of last resort: "compensation_friction_curve.csv".
+std::string compensation_name(const LastResortLaw& law);
+
+/// The table that a drive's feed-forward takes: the abscissa (speed_rad_s, position_rad or input),
+/// compensation_nm, what is to be added to the motor's torque there, and its 95 % interval. At standstill a
+/// friction has two rows, backward first.
+/// @throws std::runtime_error if the file cannot be written.
+void write_compensation_csv(const std::string& path, const LastResortLaw& law);
+
 /// Columns t [s] and u of the proposed input.
 /// @throws std::runtime_error if the file cannot be written.
 void write_input_csv(const std::string& path, const NextExperiment& experiment);

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/results/diagnosis_result.h"
+#include "report/figure_data.h"
+
+namespace gapscope::internal::report {
+
+/// The residual torque over the variable that it is a function of, by direction, with the fitted law drawn
+/// through it, and what the law leaves.
+FigureData diagnosis_law(const DiagnosisResult& result);
+
+/// What the laws of last resort take, and where their tables are.
+std::string law_table(const DiagnosisResult& result);
+
+}  // namespace gapscope::internal::report
