@@ -10,7 +10,7 @@ namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr int kPositionPoints = 24;  ///< of a table over a period or over the travel
-constexpr int kBins = 40;            ///< of a picture
+constexpr int kPictureBins = 40;     ///< of a picture
 
 /// A point of the curve as a sum of the law's parameters: torque = Σ weight · parameter.
 struct WeightedPoint {
@@ -114,16 +114,17 @@ std::vector<ResidualBin> residual_of(const Study& study, const LawSearch& found,
   const double period = first.estimate ? first.value : kNaN;
   std::vector<ResidualBin> bins;
   for (const int direction : {-1, 1})
-    for (int b = 0; b < kBins; ++b)
-      bins.push_back({range.low + (range.high - range.low) * (b + 0.5) / kBins, direction, 0, 0.0, 0.0});
+    for (int b = 0; b < kPictureBins; ++b)
+      bins.push_back(
+          {range.low + (range.high - range.low) * (b + 0.5) / kPictureBins, direction, 0, 0.0, 0.0});
   for (std::size_t r = 0; r < before.size(); ++r) {
     const MotorTrace& t = study.held_out.traces[r];
     for (std::size_t i = study.held_out.scored_from[r]; i < before[r].torque.size(); ++i) {
       const double share =
           (at_sample(variable, t, before[r], i, period) - range.low) / (range.high - range.low);
       if (!(share >= 0.0 && share < 1.0) || before[r].w1[i] == 0.0) continue;
-      ResidualBin& bin = bins[static_cast<std::size_t>((before[r].w1[i] > 0.0 ? kBins : 0) +
-                                                       static_cast<int>(share * kBins))];
+      ResidualBin& bin = bins[static_cast<std::size_t>((before[r].w1[i] > 0.0 ? kPictureBins : 0) +
+                                                       static_cast<int>(share * kPictureBins))];
       bin.before += before[r].torque[i], bin.after += after[r].torque[i], ++bin.samples;
     }
   }

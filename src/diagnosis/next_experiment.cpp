@@ -123,7 +123,7 @@ double travel_of(const MotorTrace& t) {
   return *high - *low;
 }
 
-std::string sentence_of(const TriedInput& best, double duration) {
+std::string proposal_of(const TriedInput& best, double duration) {
   std::string text = fmt::format("Record {} for {:.3g} s", describe(best.excitation), duration);
   std::string separate, apart;
   for (const Separation& s : best.separations) {
@@ -178,7 +178,7 @@ NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& 
     return next;
   }
   next.u = sample(next.tried.front().excitation, next.rate, samples, kSeed);
-  next.sentence = sentence_of(next.tried.front(), next.duration);
+  next.sentence = proposal_of(next.tried.front(), next.duration);
   return next;
 }
 
