@@ -121,7 +121,7 @@ struct OutsideEffects {
   double tight_nm = 0.0;  ///< −tight·tanh(w1/tight_speed)·(1 + sin(x1 + φ))/2: friction over the angle
   double tight_speed_rad_s = 1.0;
   double tight_phase_rad = 0.0;
-  AngleHarmonic worn{}; ///< −worn·(t/worn_time)²: detents that come with time
+  AngleHarmonic worn{};  ///< −worn·(t/worn_time)²: detents that come with time
   double worn_time_s = 1.0;
   double stray_nm = 0.0;  ///< stray·sin(2π·stray_hz·t + φ) on the motor
   double stray_hz = 1.0;
