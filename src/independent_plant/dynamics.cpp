@@ -82,8 +82,10 @@ double Dynamics::overlap(double t, const State& s, int flank) const {
 
 double Dynamics::contact_law(double t, const State& s, int flank) const {
   const double p = overlap(t, s, flank);
+  const ContactEffects& e = drive_.effects.contact;
+  const double knees = p / e.hardening_knee_rad;
   const double spring =
-      drive_.contact_stiffness * p * (1.0 + drive_.effects.contact.hardening_per_rad2 * p * p);
+      drive_.contact_stiffness * p * (1.0 + e.hardening_per_rad2 * p * p / (1.0 + knees * knees));
   return spring + drive_.contact_damping * flank * (s[kW1] - s[kW2]);
 }
 
@@ -97,8 +99,12 @@ double Dynamics::stored_energy(double t, const State& s, const Regime& r) const 
   if (drive_.load == BlindLoad::kFree) energy += 0.5 * load_inertia(t) * s[kW2] * s[kW2];
   if (is_rigid() || drive_.load == BlindLoad::kNone || r.contact == Regime::Contact::kOpen) return energy;
   const double p = overlap(t, s, r.flank);
-  return energy + 0.5 * drive_.contact_stiffness * p * p *
-                      (1.0 + 0.5 * drive_.effects.contact.hardening_per_rad2 * p * p);
+  const ContactEffects& e = drive_.effects.contact;
+  const double knee = e.hardening_knee_rad;
+  const double fourth = std::isinf(knee)
+                            ? 0.5 * p * p * p * p
+                            : knee * knee * (p * p - knee * knee * std::log1p(p * p / (knee * knee)));
+  return energy + 0.5 * drive_.contact_stiffness * (p * p + e.hardening_per_rad2 * fourth);
 }
 
 State Dynamics::rates(double t, const State& s, const Regime& r, double held) const {

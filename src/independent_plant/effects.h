@@ -79,9 +79,10 @@ struct ContactEffects {
   double eccentricity_rad = 0.0;   ///< 2β + 2·eccentricity·sin(x2 + φ)
   double eccentricity_phase_rad = 0.0;
   double growth_rad_s = 0.0;  ///< initial rate of 2β, which then saturates: rate·T·(1 − exp(−t/T))
-  double growth_time_s = kInfinity;  ///< T; infinite: linear growth
-  double release_nm = 0.0;           ///< tensile torque at which a closed contact lets go
-  double hardening_per_rad2 = 0.0;   ///< k·p·(1 + hardening·p²) (outside the catalogue)
+  double growth_time_s = kInfinity;       ///< T; infinite: linear growth
+  double release_nm = 0.0;                ///< tensile torque at which a closed contact lets go
+  double hardening_per_rad2 = 0.0;        ///< k·p·(1 + hardening·p²/(1 + (p/knee)²))
+  double hardening_knee_rad = kInfinity;  ///< infinite: a cubic spring
 };
 
 struct CommandEffects {

@@ -21,10 +21,6 @@ void lost_counts(BlindCase& c, EffectScale& s) {
   c.drive.effects.sensor.lost_counts =
       static_cast<int>(std::ceil(s.travel * s.between(0.003, 0.03) / quantum));
 }
-void hardening_contact(BlindCase& c, EffectScale& s) {
-  const double overlap = s.torque / c.drive.contact_stiffness;
-  c.drive.effects.contact.hardening_per_rad2 = s.between(0.3, 10.0) / (overlap * overlap);
-}
 void supply_wander(BlindCase& c, EffectScale& s) {
   c.drive.effects.command.wander_ratio = s.between(0.05, 0.5);
   c.drive.effects.command.wander_period_s = s.record * s.any(0.2, 0.6);

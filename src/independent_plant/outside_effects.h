@@ -32,7 +32,6 @@ void external_knocks(BlindCase& c, EffectScale& s);
 void input_jitter(BlindCase& c, EffectScale& s);
 void input_noise(BlindCase& c, EffectScale& s);
 void lost_counts(BlindCase& c, EffectScale& s);
-void hardening_contact(BlindCase& c, EffectScale& s);
 void supply_wander(BlindCase& c, EffectScale& s);
 void friction_hump(BlindCase& c, EffectScale& s);
 void cable_pull(BlindCase& c, EffectScale& s);

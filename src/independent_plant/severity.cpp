@@ -137,6 +137,10 @@ void gap_growth(BlindCase& c, EffectScale& s) {
 void contact_adhesion(BlindCase& c, EffectScale& s) {
   c.drive.effects.contact.release_nm = s.torque * s.between(0.03, 0.3);
 }
+void contact_hardening(BlindCase& c, EffectScale& s) {
+  const double overlap = s.torque / c.drive.contact_stiffness;
+  c.drive.effects.contact.hardening_per_rad2 = s.between(0.3, 10.0) / (overlap * overlap);
+}
 
 // Sensor
 void encoder_eccentricity(BlindCase& c, EffectScale& s) {
@@ -177,6 +181,7 @@ constexpr DrawnEffect kEntries[] = {
     {"gap_eccentricity", true, Needs::kGap, gap_eccentricity, {.another_law = true}},
     {"gap_growth", true, Needs::kGap, gap_growth},
     {"contact_adhesion", true, Needs::kGap, contact_adhesion},
+    {"contact_hardening", true, Needs::kContact, contact_hardening, {.another_law = true}},
     {"encoder_eccentricity", true, Needs::kNothing, encoder_eccentricity, {.another_law = true}},
     {"encoder_quantization", true, Needs::kNothing, encoder_quantization},
     {"measurement_lag", true, Needs::kNothing, measurement_lag},
@@ -186,7 +191,6 @@ constexpr DrawnEffect kEntries[] = {
     {"input_jitter", false, Needs::kNothing, input_jitter},
     {"input_noise", false, Needs::kNothing, input_noise},
     {"lost_counts", false, Needs::kNothing, lost_counts},
-    {"hardening_contact", false, Needs::kContact, hardening_contact},
     {"supply_wander", false, Needs::kNothing, supply_wander},
     {"friction_hump", false, Needs::kNothing, friction_hump},
     {"cable_pull", false, Needs::kNothing, cable_pull},

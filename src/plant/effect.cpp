@@ -99,6 +99,8 @@ double scale_value(Scale scale, const ScaleContext& c) {
       return c.nominal.gap;
     case Scale::kGapPerRecord:
       return c.nominal.gap / c.duration;
+    case Scale::kPenetration:
+      return torque / c.nominal.contact_stiffness;
     case Scale::kStiffness:
       return k;
     case Scale::kContactDamping:

@@ -20,6 +20,7 @@ struct FlowConstants {
   T gear_friction{};  ///< of the contact torque, which the motor feels as friction [-]
   T decay_rate{};     ///< of a dying extra torque on the motor [1/s]
   bool rigid = false;
+  bool hardens = false;  ///< a compliant contact has torque beyond k(δ − sβ) + c δ̇
 };
 
 /// Torques and half gap as quadratics of the time since the start of the step: Σ f[n] sⁿ.
@@ -28,6 +29,7 @@ struct Forcing {
   T motor[3] = {T(0.0), T(0.0), T(0.0)};     ///< on the motor side, without dampers and contact [N m sⁿ]
   T load[3] = {T(0.0), T(0.0), T(0.0)};      ///< on the load side [N m]
   T half_gap[3] = {T(0.0), T(0.0), T(0.0)};  ///< β [rad]
+  T contact[3] = {T(0.0), T(0.0), T(0.0)};   ///< of the contact beyond k(δ − sβ) + c δ̇ [N m]
   T decaying{};                              ///< amplitude of a dying torque on the motor [N m]
 };
 
@@ -76,12 +78,14 @@ class MotorTorque {
   T decaying_;
 };
 
-/// Contact torque k(δ − sβ) + c δ̇, term by term; zero on no side.
+/// Contact torque k(δ − sβ) + c δ̇ and what is beyond, term by term; zero on no side.
 template <class T>
 T torque_term(const FlowConstants<T>& f, const PowerSeries<T>& z, int n, int side, const Forcing<T>& on) {
   T delta = z.x1[n] - z.x2[n];
   if (n < 3) delta -= static_cast<double>(side) * on.half_gap[n];
-  return f.k * delta + f.c * (z.w1[n] - z.w2[n]);
+  T torque = f.k * delta + f.c * (z.w1[n] - z.w2[n]);
+  if (f.hardens && n < 3) torque += on.contact[n];
+  return torque;
 }
 
 /// What of a contact torque the motor feels where its gears rub: 1 + μ where it drives, 1 − μ where it is

@@ -18,6 +18,16 @@ T StepperImpl<T>::dying_torque() const {
   return decay_share * e.hooks->decay(point(z, now, effect), e.parameters).amplitude;
 }
 
+/// What the contact's torque is beyond k p + c ṗ at a penetration p.
+template <class T>
+T StepperImpl<T>::beyond_spring(const T& penetration) const {
+  T sum(0.0);
+  if (!f.hardens) return sum;
+  for (const ActiveEffect<T>& e : model.effects)
+    if (e.hooks->contact != nullptr) sum += e.hooks->contact(penetration, model, e.parameters);
+  return sum;
+}
+
 /// Of one inertia, which counts as the load's: its gears carry what the motor's torque X, after the motor's
 /// dampers and constant friction, leaves of itself, τ = X − s μ |τ| = X/(1 + s sign(X) μ).
 template <class T>
@@ -43,6 +53,9 @@ Extra<T> StepperImpl<T>::extra_at(const DriveState<T>& state, const T& time) con
     }
     if (e.hooks->half_gap != nullptr) sum.half_gap += e.hooks->half_gap(point(state, time, i), e.parameters);
   }
+  const int side = mode.contact != 0 ? mode.contact : mode.outside;
+  if (f.hardens && side != 0)
+    sum.contact = beyond_spring(state.x1 - state.x2 - static_cast<double>(side) * (half_gap + sum.half_gap));
   if (has_load) return sum;
   sum.motor += sum.load;
   if (model.gears_rub && mode.motor != 0) sum.motor -= rubbed_off(state, time, sum.motor - sum.load);
@@ -67,6 +80,7 @@ void add_constant(Forcing<T>& on, const Extra<T>& extra) {
   on.motor[0] += extra.motor;
   on.load[0] += extra.load;
   on.half_gap[0] += extra.half_gap;
+  on.contact[0] = extra.contact;
 }
 
 template <class T>
@@ -91,6 +105,7 @@ void StepperImpl<T>::bend(Forcing<T>& on, const Extra<T>& start, const Extra<T>&
     if (has_load) quadratic(on.load, start.load, middle.load, end.load, inverse_h);
   }
   if (moves_gap) quadratic(on.half_gap, start.half_gap, middle.half_gap, end.half_gap, inverse_h);
+  if (f.hardens) quadratic(on.contact, start.contact, middle.contact, end.contact, inverse_h);
 }
 
 template <class T>
@@ -98,6 +113,7 @@ double StepperImpl<T>::effect_rate() const {
   double rate = 0.0;
   for (std::size_t i = 0; i < model.effects.size(); ++i) {
     const ActiveEffect<T>& e = model.effects[i];
+    if (e.hooks->contact != nullptr && mode.contact == 0 && mode.outside == 0) continue;
     if (e.hooks->rate != nullptr) rate = std::max(rate, e.hooks->rate(point(z, now, i), e.parameters));
   }
   return std::min(rate, (1 << kMostHalvings) * kEffectReach / dt);

@@ -32,7 +32,7 @@ constexpr int kCorrections = 2;
 /// What the smooth effects add at one point.
 template <class T>
 struct Extra {
-  T motor{}, load{}, half_gap{};
+  T motor{}, load{}, half_gap{}, contact{};
 };
 
 struct Acting;
@@ -95,7 +95,7 @@ struct StepperImpl {
   void inject(const T& dx1, const T& dw1);
   T measured() const;
   double side_distance(int side) const;  ///< s δ − β [rad]
-  T contact_torque(int side) const;  ///< k(δ − sβ) + c δ̇; of a closed rigid contact the holding torque
+  T contact_torque(int side) const;      ///< of a closed rigid contact the holding torque
   T acting_torque() const { return mode.contact != 0 ? contact_torque(mode.contact) : T(0.0); }
   const T& motor_level(int direction) const {
     return direction < 0 ? model.motor_friction_minus : model.motor_friction_plus;
@@ -106,6 +106,7 @@ struct StepperImpl {
   // --- effects: stepper_effects.h
   EffectPoint<T> point(const DriveState<T>& state, const T& time, std::size_t effect) const;
   T dying_torque() const;
+  T beyond_spring(const T& penetration) const;
   T rubbed_off(const DriveState<T>& state, const T& time, const T& extra) const;
   Extra<T> extra_at(const DriveState<T>& state, const T& time) const;
   Forcing<T> forcing_without_effects() const;

@@ -17,6 +17,7 @@ inline bool dips(double g0, double slope0, double g1, double slope1, double h) {
 /// What acts at one end of a step, without friction, dampers and contact: values and rates.
 struct Acting {
   double half_gap, half_gap_rate, motor, motor_rate, load, load_rate;
+  double contact = 0.0, contact_rate = 0.0;  ///< what of it no spring or damper explains
 };
 
 template <class T>
@@ -28,7 +29,7 @@ Acting acting_at(const StepperImpl<T>& d, const Forcing<T>& on, double s) {
   const double rate = value_of(d.f.decay_rate);
   const double dying = rate > 0.0 ? value_of(on.decaying) * std::exp(-rate * s) : 0.0;
   return {value(on.half_gap), slope(on.half_gap), value(on.motor) + dying, slope(on.motor) - rate * dying,
-          value(on.load),     slope(on.load)};
+          value(on.load),     slope(on.load),     value(on.contact),       slope(on.contact)};
 }
 
 /// What the guards look at, at one end of a step.
@@ -44,13 +45,13 @@ Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Acting& o
   const double k = side != 0 ? value_of(d.f.k) : 0.0, c = side != 0 ? value_of(d.f.c) : 0.0;
   q.w1 = value_of(z.w1), q.w2 = value_of(z.w2);
   q.delta = value_of(z.x1) - value_of(z.x2), q.delta_rate = q.w1 - q.w2;
-  q.torque = k * (q.delta - side * on.half_gap) + c * q.delta_rate;
+  q.torque = k * (q.delta - side * on.half_gap) + c * q.delta_rate + on.contact;
   const double contact = d.mode.contact != 0 ? q.torque : 0.0;
   const double d1 = value_of(d.mode.motor < 0 ? d.f.d1_minus : d.f.d1_plus);
   const double felt = value_of(felt_share(d.f, d.mode));
   q.a1 = d.mode.motor == 0 ? 0.0 : (on.motor - d1 * q.w1 - felt * contact) * d.inverse_m1;
   q.a2 = d.mode.load == 0 ? 0.0 : (on.load - value_of(d.f.d2) * q.w2 + contact) * d.inverse_m2;
-  q.torque_rate = k * (q.delta_rate - side * on.half_gap_rate) + c * (q.a1 - q.a2);
+  q.torque_rate = k * (q.delta_rate - side * on.half_gap_rate) + c * (q.a1 - q.a2) + on.contact_rate;
   return q;
 }
 

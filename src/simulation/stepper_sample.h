@@ -41,10 +41,15 @@ void StepperImpl<T>::respond(const StateTransition<T>& step, const Forcing<T>& o
     return;
   }
   const T depth = z.x1 - z.x2 - static_cast<double>(mode.contact) * on.half_gap[0];
+  T motor = on.motor[0], load = on.load[0];
+  if (f.hardens) {
+    motor -= felt_share(f, mode) * on.contact[0];
+    load += on.contact[0];
+  }
   T out[kRows];
   for (int i = 0; i < kRows; ++i)
-    out[i] = r[kDepth][i] * depth + r[kW1][i] * z.w1 + r[kW2][i] * z.w2 + r[kMotor0][i] * on.motor[0] +
-             r[kLoad0][i] * on.load[0];
+    out[i] = r[kDepth][i] * depth + r[kW1][i] * z.w1 + r[kW2][i] * z.w2 + r[kMotor0][i] * motor +
+             r[kLoad0][i] * load;
   if (decaying >= 0)
     for (int i = 0; i < kRows; ++i) out[i] += r[kDying][i] * on.decaying;
   next = {z.x1 + out[kToX1], out[kToW1], z.x2 + out[kToX2], out[kToW2]};
@@ -65,11 +70,12 @@ void StepperImpl<T>::respond_to_slopes(const StateTransition<T>& step, const For
     return;
   }
   T motor[2] = {on.motor[1], on.motor[2]}, load[2] = {on.load[1], on.load[2]};
-  if (moves_gap && !f.rigid) {
-    const T pushing = static_cast<double>(mode.contact) * f.k;
+  if ((moves_gap && !f.rigid) || f.hardens) {
+    const T pushing = static_cast<double>(mode.contact) * f.k, felt = felt_share(f, mode);
     for (int n = 0; n < 2; ++n) {
-      motor[n] += pushing * on.half_gap[n + 1];
-      load[n] -= pushing * on.half_gap[n + 1];
+      const T beyond = on.contact[n + 1] - pushing * on.half_gap[n + 1];
+      motor[n] -= felt * beyond;
+      load[n] += beyond;
     }
   }
   T* const out[kRows] = {&next.x1, &next.w1, &next.x2, &next.w2};

@@ -32,7 +32,8 @@ StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step, double shortest
   for (const ActiveEffect<T>& e : m.effects) {
     adds_torque = adds_torque || e.hooks->torque != nullptr;
     moves_gap = moves_gap || e.hooks->half_gap != nullptr;
-    smooth = smooth || adds_torque || moves_gap;
+    f.hardens = f.hardens || (e.hooks->contact != nullptr && has_load && !f.rigid);
+    smooth = smooth || adds_torque || moves_gap || f.hardens;
     remembers = remembers || e.hooks->advance != nullptr;
     varies_inertia = varies_inertia || e.hooks->load_inertia != nullptr;
     if (e.hooks->decay != nullptr) decaying = static_cast<int>(&e - m.effects.data());
@@ -115,7 +116,10 @@ double StepperImpl<T>::side_distance(int side) const {
 template <class T>
 T StepperImpl<T>::contact_torque(int side) const {
   const Forcing<T> on = forcing_now();
-  if (!f.rigid) return f.k * (z.x1 - z.x2 - static_cast<double>(side) * on.half_gap[0]) + f.c * (z.w1 - z.w2);
+  if (!f.rigid) {
+    const T penetration = z.x1 - z.x2 - static_cast<double>(side) * on.half_gap[0];
+    return f.k * penetration + f.c * (z.w1 - z.w2) + beyond_spring(penetration);
+  }
   if (mode.load == 0 || mode.motor == 0) return motor_coefficient(on, 0);
   const T motor = motor_coefficient(on, 0) - (mode.motor < 0 ? f.d1_minus : f.d1_plus) * z.w1;
   const T felt = felt_share(f, mode);

@@ -128,7 +128,9 @@ TEST_P(EveryEffect, ConvergesAtSecondOrderOrIsExactInTheSamplingInterval) {
   const double fine = largest_difference(measured(model, held(c.u, 4), 4 * kRate, 4), truth);
   std::cout << entry().name << ": " << coarse << " rad at 2 kHz, " << fine << " rad at 8 kHz\n";
   EXPECT_LT(coarse, 1e-5);
-  if (fine > 1e-9) {
+  // Where the effect's own rate divides the steps, finer samples need not change them.
+  constexpr double kFiftiethOfACount20Bit = 0.02 * 2.0 * kPi / (1 << 20);
+  if (fine > 1e-9 && coarse > kFiftiethOfACount20Bit) {
     EXPECT_GE(std::log2(coarse / fine) / 2.0, 1.8);
   }
 }

@@ -172,6 +172,13 @@ const std::vector<EqualForm>& equal_forms() {
        [](const V& p, independent_plant::Effects& e) { e.contact.stiffness_nm_rad = p[0]; }},
       {"impact_damping", [](const Rig& r) { return V{2.0 * r.drive.contact_damping}; },
        [](const V& p, independent_plant::Effects& e) { e.contact.damping_nms_rad = p[0]; }},
+      {"contact_hardening",
+       [](const Rig& r) {
+         return V{2.0, 0.3 * torque(r) / r.drive.contact_stiffness};
+       },
+       [](const V& p, independent_plant::Effects& e) {
+         e.contact.hardening_per_rad2 = p[0] / (p[1] * p[1]), e.contact.hardening_knee_rad = p[1];
+       }},
       {"gap_eccentricity",
        [](const Rig& r) {
          return V{0.1 * r.drive.gap, 0.4};

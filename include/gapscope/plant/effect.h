@@ -28,6 +28,7 @@ enum class Scale {
   kGap,              ///< nominal backlash gap [rad]
   kGapPerRecord,     ///< nominal gap over the duration [rad/s]
   kStiffness,        ///< nominal contact stiffness [N m/rad]
+  kPenetration,      ///< peak torque over nominal contact stiffness [rad]
   kContactDamping,   ///< nominal contact damping, at least a tenth of √(k m1) [N m s/rad]
   kSample,           ///< sampling interval [s]
   kRecord,           ///< duration [s]

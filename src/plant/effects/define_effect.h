@@ -27,6 +27,7 @@ constexpr EffectHooks<T> collected_hooks() {
   if constexpr (requires { &E::template delay<T>; }) h.delay = &E::template delay<T>;
   if constexpr (requires { &E::template torque<T>; }) h.torque = &E::template torque<T>;
   if constexpr (requires { &E::template decay<T>; }) h.decay = &E::template decay<T>;
+  if constexpr (requires { &E::template contact<T>; }) h.contact = &E::template contact<T>;
   if constexpr (requires { &E::template half_gap<T>; }) h.half_gap = &E::template half_gap<T>;
   if constexpr (requires { &E::template load_inertia<T>; }) h.load_inertia = &E::template load_inertia<T>;
   if constexpr (requires { &E::template sense<T>; }) h.sense = &E::template sense<T>;

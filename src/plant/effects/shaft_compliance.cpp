@@ -13,7 +13,7 @@ struct ShaftCompliance {
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"stiffness_nm_rad", "N m/rad", 1.0, 0.01, 100.0, Scale::kStiffness}};
-  static constexpr std::array<const char*, 1> look_alikes = {"impact_damping"};
+  static constexpr std::array<const char*, 2> look_alikes = {"impact_damping", "contact_hardening"};
   static constexpr ResidualPattern follows = ResidualPattern::kMode;
   static constexpr ContactPhase acts_in[] = {ContactPhase::kEngagement, ContactPhase::kImpact};
   static constexpr EffectNeeds needs = EffectNeeds::kContact;

@@ -1,4 +1,5 @@
 // stribeck_friction – dry friction that falls from its break-away level as the motor starts to move.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,18 +11,21 @@ namespace {
 
 struct StribeckFriction {
   static constexpr EffectSide side = EffectSide::kMotor;
-  static constexpr const char* law = "motor torque -Fc1 (1 + r exp(-|w1/vs|^d)) sign(w1), set-valued at rest";
+  static constexpr const char* law =
+      "motor torque -Fc1 (1 + r exp(-|w1/vs|^d)) sign(w1), set-valued at rest; r < 0: less friction at low "
+      "speed";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
-      {"stiction_ratio", "-", 0.0, 0.0, 5.0, Scale::kLevel},
+      {"stiction_ratio", "-", 0.0, -0.9, 5.0, Scale::kLevel},
       {"stribeck_speed_rad_s", "rad/s", 0.05, 1e-3, 1.0, Scale::kPeakSpeed},
       {"exponent", "-", 2.0, 0.5, 3.0, Scale::kOne}};
   static constexpr std::array<const char*, 3> look_alikes = {"motor_coulomb_friction", "presliding_friction",
                                                              "quadratic_drag"};
   static constexpr ResidualPattern follows = ResidualPattern::kDirection;
   static constexpr const char* contains = "motor_coulomb_friction";
-  static constexpr EffectStart starts[] = {{0.05, 0.8, 0.1, 1.5}, {0.1, 0.8, 0.25, 1.5}};
+  static constexpr EffectStart starts[] = {
+      {0.05, 0.8, 0.1, 1.5}, {0.1, 0.8, 0.25, 1.5}, {0.1, -0.6, 0.1, 1.5}};
 
   /// A power below one has no slope at rest.
   static constexpr double kRounding = 1e-12;
@@ -47,7 +51,8 @@ struct StribeckFriction {
   template <class T>
   static double rate(const EffectPoint<T>& at, const T* p) {
     if (std::abs(value_of(at.state.w1)) > 4.0 * value_of(p[2])) return 0.0;
-    const double torque = std::abs(value_of(at.drive_torque)) + value_of(p[0]) * (1.0 + value_of(p[1]));
+    const double torque =
+        std::abs(value_of(at.drive_torque)) + value_of(p[0]) * std::max(1.0, 1.0 + value_of(p[1]));
     return 3.0 * torque / (value_of(at.plant.drive.motor_inertia) * value_of(p[2]) * value_of(p[3]));
   }
 };
