@@ -71,11 +71,17 @@ ReferenceModel with_law(ReferenceModel model, const Variant& v) {
   return model;
 }
 
-ScoredModel judged(const Study& study, const EffectEntry& entry, FittedModel fitted, const Level& level) {
+double estimated_in(const ModelEffect& effect) {
+  return static_cast<double>(std::count_if(effect.parameters.begin(), effect.parameters.end(),
+                                           [](const ParameterSetting& p) { return p.estimate; }));
+}
+
+/// Of the law's parameters those count that are estimated.
+ScoredModel judged(const Study& study, const EffectEntry& entry, FittedModel fitted) {
   ScoredModel j = judge(&entry, std::move(fitted), study.held_out, study.observer_hz);
-  const double idle = static_cast<double>(entry.parameters.size() - (level.last - level.first + 1)) -
-                      (level.period ? 1.0 : 0.0);
-  j.score -= kMeasure.score_per_parameter * idle;
+  if (std::isfinite(j.score))
+    j.score =
+        log_score(j.windows) + kMeasure.score_per_parameter * estimated_in(j.fitted.model.effects.back());
   return j;
 }
 
@@ -85,8 +91,7 @@ ScoredModel polished(const Study& study, ScoredModel law) {
   FittedModel fitted =
       fitted_at(fit, fit.refine_with_loads_placed(fit.point_of(law.fitted.model, law.fitted.starts), {}));
   if (!(fitted.mean_cost < law.fitted.mean_cost)) return law;
-  ScoredModel better = judge(law.entry, std::move(fitted), study.held_out, study.observer_hz);
-  better.score += law.score - scored_by_windows(law.entry, law.windows).score;  // what is not estimated
+  ScoredModel better = judged(study, *law.entry, std::move(fitted));
   return better.score < law.score ? better : law;
 }
 
@@ -103,7 +108,7 @@ ScoredModel climbed(const Study& study, const ScoredModel& before, const Variant
     const reference::ModelFit fit(study.train, model, study.options.fit, study.observer_hz);
     FittedModel fitted = fitted_at(fit, fit.refine(fit.point_of(model, starts), study.effort.quick));
     if (!(fitted.mean_cost < kInfinity)) break;
-    ScoredModel here = judged(study, *v.entry, std::move(fitted), level);
+    ScoredModel here = judged(study, *v.entry, std::move(fitted));
     if (best.entry != nullptr && !(here.score < best.score)) break;
     model = here.fitted.model, starts = here.fitted.starts;
     best = std::move(here);
@@ -129,9 +134,7 @@ std::string variable_of(const EffectEntry& entry) {
 
 double full_score(const ScoredModel& model) {
   double parameters = 0.0;
-  for (const ModelEffect& e : model.fitted.model.effects)
-    parameters += static_cast<double>(std::count_if(e.parameters.begin(), e.parameters.end(),
-                                                    [](const ParameterSetting& p) { return p.estimate; }));
+  for (const ModelEffect& e : model.fitted.model.effects) parameters += estimated_in(e);
   return log_score(model.windows) + kMeasure.score_per_parameter * parameters;
 }
 

@@ -30,7 +30,8 @@ struct SearchEffort {
   double weaker = 0.15;  ///< of a start: a weaker one; there a sine acts in proportion, too
   reference::RefineEffort quick = {3, 8,
                                    1e-3};  ///< to tell whether a start, or a law, is worth a whole refinement
-  double past_travel = 2.0;  ///< period of such a torque over the travel [travel]: it need not close
+  double past_travel =
+      2.0;  ///< period with which a torque over the whole travel begins [travel]: it need not close
   std::size_t leaders = 5;   ///< of the race that are refined, and of these that are refined once more
   double far_better = 0.5;   ///< of the mean square: another minimum, or an effect that explains much
   std::size_t lines = 3;     ///< of the residual torque that periodic effects begin with and that are told

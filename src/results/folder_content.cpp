@@ -29,11 +29,7 @@ bool is_one_of(const std::string& file, std::initializer_list<const char*> names
 
 /// Names that every report may take.
 bool is_taken(const std::string& file) {
-  return is_stored(file) ||
-         is_one_of(file, {"report.md", "compensation_friction_curve.csv", "compensation_input_curve.csv",
-                          "compensation_position_torque.csv", "fitted_with_law.yaml", "resolved.yaml",
-                          "timing.json", "fitted.yaml", "next_experiment.yaml", "next_experiment.csv",
-                          "truth.csv"});
+  return is_stored(file) || is_one_of(file, {"report.md", "truth.csv"});
 }
 
 bool is_partial(const fs::directory_entry& entry) {
@@ -138,10 +134,9 @@ std::vector<std::string> files_below(const fs::path& folder) {
 bool is_stored(const std::string& file) {
   const fs::path path(file);
   if (path.has_parent_path()) return path.parent_path() == "traces" && path.extension() == ".csv";
-  return is_one_of(file, {"compensation_friction_curve.csv", "compensation_input_curve.csv",
-                          "compensation_position_torque.csv", "fitted_with_law.yaml", "result.json",
-                          "diagnosis.json", "campaign.json", "blind.json", "compare.json", "resolved.yaml",
-                          "timing.json", "fitted.yaml", "next_experiment.yaml", "next_experiment.csv"});
+  return is_one_of(file, {"result.json", "diagnosis.json", "campaign.json", "blind.json", "compare.json",
+                          "resolved.yaml", "timing.json"}) ||
+         std::find(kBesideDiagnosis.begin(), kBesideDiagnosis.end(), file) != kBesideDiagnosis.end();
 }
 
 bool is_left_alone(const std::string& kind, const std::string& file) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,6 +17,15 @@ inline constexpr const char* kOwn = ".own";  ///< a folder in it: lists what of 
 inline constexpr const char* kMark = ".made-by-gapscope";  ///< a file in it
 inline constexpr const char* kMarkText =
     "A report that is being written; may be removed when nobody writes it.\n";
+
+/// What a diagnosis writes beside diagnosis.json for the user's own simulations, drives and experiments.
+inline constexpr std::array kBesideDiagnosis = {"fitted.yaml",
+                                                "fitted_with_law.yaml",
+                                                "compensation_friction_curve.csv",
+                                                "compensation_input_curve.csv",
+                                                "compensation_position_torque.csv",
+                                                "next_experiment.yaml",
+                                                "next_experiment.csv"};
 
 std::string word_of(FolderKind kind);
 

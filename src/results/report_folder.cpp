@@ -186,10 +186,7 @@ void ReportFolder::keep_diagnosis(const std::string& version, const std::vector<
   dropped_ = internal::results::why_not_together(final_, "diagnosis.json", version, sources);
   if (dropped_.empty() && fs::exists(fs::path(final_) / "diagnosis.json"))
     keep("diagnosis.json",
-         {"compensation_friction_curve.csv", "compensation_input_curve.csv",
-          "compensation_position_torque.csv", "fitted_with_law.yaml", "fitted.yaml", "next_experiment.yaml",
-          "next_experiment.csv"},
-         true);
+         {internal::results::kBesideDiagnosis.begin(), internal::results::kBesideDiagnosis.end()}, true);
 }
 
 /// Of the list as it is now; empty where there is none.
