@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/numbers.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::diagnosis {
