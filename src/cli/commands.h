@@ -51,7 +51,9 @@ struct RecordingArguments {
   std::vector<double> window;  ///< empty or two [s]
   double resample = 0.0;       ///< 0: as it stands [Hz]
   bool translation = false;
+  std::string voltage;  ///< empty: none
   DeclaredUnits units;
+  RegisterBits registers;
   GearRatios gear;
   int bits = 0;  ///< of the encoder; 0: not given
 

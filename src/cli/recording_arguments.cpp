@@ -25,15 +25,20 @@ RecordingConfig RecordingArguments::configuration() const {
   RecordingConfig c;
   c.files = {{file, file, 0}};
   c.units = units;
+  c.registers = registers;
   c.gear = gear;
   ReadOptions& o = c.reading;
   o.columns.time = time;
   o.columns.input = input;
   o.columns.position = position;
+  o.columns.voltage = voltage;
   require_three_columns(o.columns);
-  o.columns.scales =
-      declared_scales(units, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
-        const std::string& unit = key == "time" ? units.time : key == "input" ? units.input : units.position;
+  o.columns.scales = declared_scales(
+      units, registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
+        const std::string& unit = key == "time"      ? units.time
+                                  : key == "input"   ? units.input
+                                  : key == "voltage" ? units.voltage
+                                                     : units.position;
         throw ConfigError(
             fmt::format("gapscope: --{}-unit {} is not known, expected {}", key, shown(unit), expected));
       });
@@ -51,9 +56,15 @@ void add_unit_options(CommandLine& command, RecordingArguments& a) {
     command.add_option(name, declared, what).value("UNIT");
   };
   unit("--time-unit", a.units.time, "of the time: s, ms, us, ns (default: s)");
-  unit("--input-unit", a.units.input, "of the input: N m, mN m, A, mA, ... (default: as it is)");
+  unit("--input-unit", a.units.input, "of the input: N m, mN m, A, mA, V, %, ... (default: as it is)");
   unit("--position-unit", a.units.position,
        "of the position: rad, mrad, deg, arcmin, arcsec, rev, counts; m, mm, um, nm (default: rad, m)");
+  unit("--voltage-unit", a.units.voltage, "of the supply's voltage: V, mV (default: V)");
+  command
+      .add_option("--input-register", a.registers.input,
+                  "bits of a signed number that was read as an unsigned one: 65535 is -1 of 16")
+      .value("BITS")
+      .within(2, 52);
   command.add_option("--bits", a.bits, "of the encoder, for --position-unit counts").value("N").within(1, 40);
   command
       .add_option("--gear-ratio", a.gear.position,
@@ -72,6 +83,9 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command.add_option("--time", a.time, "column (or variable) of the time (default: t)").value("NAME");
   command.add_option("--input", a.input, "column of the input (default: u)").value("NAME");
   command.add_option("--position", a.position, "column of the position (default: x1)").value("NAME");
+  command
+      .add_option("--voltage", a.voltage, "column of the supply's voltage: u is the input, a duty, times it")
+      .value("NAME");
   command.add_option("--window", a.window, "part of the file that is used [s]")
       .value("FROM TO")
       .values(2, 2)

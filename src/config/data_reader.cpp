@@ -58,11 +58,11 @@ void read_column(const Section& section, const char* key, std::string& name, std
   if (given) name = given->text();
   if (!taken.insert(name).second)
     (given ? *given : section.value())
-        .fail(fmt::format("uses the column {} twice, expected four columns", name));
+        .fail(fmt::format("uses the column {} twice, expected each column once", name));
 }
 
 RecordingColumns read_columns(const Value& value) {
-  const Section section(value, {"time", "input", "position", "load_position"});
+  const Section section(value, {"time", "input", "position", "load_position", "voltage"});
   RecordingColumns columns;
   std::set<std::string> taken;
   read_column(section, "time", columns.time, taken);
@@ -70,6 +70,7 @@ RecordingColumns read_columns(const Value& value) {
   read_column(section, "position", columns.position, taken);
   read_column(section, "load_position", columns.load_position, taken);
   columns.load_position_required = section.find("load_position").has_value();
+  if (section.find("voltage")) read_column(section, "voltage", columns.voltage, taken);
   return columns;
 }
 
@@ -112,7 +113,8 @@ void read_resampling(const Value& value, RecordingConfig& recording) {
 
 RecordingConfig read_recording_block(const Value& value, const std::string& folder,
                                      const EncoderConfig& encoder, Coordinates coordinates) {
-  const Section section(value, {"file", "held_out", "columns", "units", "gear_ratio", "window", "resample"});
+  const Section section(
+      value, {"file", "held_out", "columns", "units", "registers", "gear_ratio", "window", "resample"});
   RecordingConfig recording;
   std::set<std::string> seen;
   recording.files = read_files(section.require("file", "a file or a list of files"), folder, seen);

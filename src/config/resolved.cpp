@@ -41,6 +41,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   } else {
     out.comment("load_position: " + yaml_text(columns.load_position) + " where there is one");
   }
+  if (!columns.voltage.empty()) out.entry("voltage", yaml_text(columns.voltage));
   out.close();
   internal::config::write_units(out, recording);
   if (const auto& window = recording.reading.window)

@@ -85,8 +85,9 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
   out.comment(
       "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
   const RecordingColumns& c = options.columns;
-  out.entry("columns", fmt::format("{{time: {}, input: {}, position: {}}}", yaml_text(c.time),
-                                   yaml_text(c.input), yaml_text(c.position)));
+  out.entry("columns", fmt::format("{{time: {}, input: {}, position: {}{}}}", yaml_text(c.time),
+                                   yaml_text(c.input), yaml_text(c.position),
+                                   c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)));
   internal::config::write_units(out, recording);
   if (options.window)
     out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second), "s");

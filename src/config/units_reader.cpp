@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLargestGear = 1e6;
 constexpr const char* kCounts = "counts";
+constexpr int kMostRegisterBits = 52;  // whole numbers that a double tells apart
 
 }  // namespace
 
@@ -21,6 +22,13 @@ void DeclaredUnits::fields(FieldVisitor& v) {
   v.field({"input", "", "unit of the input"}, input);
   v.field({"position", "", "unit of the position, or counts"}, position);
   v.field({"load_position", "", "unit of the load position"}, load_position);
+  v.field({"voltage", "", "unit of the supply's voltage"}, voltage);
+}
+
+void RegisterBits::fields(FieldVisitor& v) {
+  v.field({"input", "", "bits of the register of the input", 0, kMostRegisterBits}, input);
+  v.field({"position", "", "bits of that of the position", 0, kMostRegisterBits}, position);
+  v.field({"load_position", "", "bits of that of the load position", 0, kMostRegisterBits}, load_position);
 }
 
 void GearRatios::fields(FieldVisitor& v) {
@@ -32,7 +40,8 @@ void GearRatios::fields(FieldVisitor& v) {
 }
 
 ColumnScales declared_scales(
-    const DeclaredUnits& units, const GearRatios& gear, const EncoderConfig& encoder, Coordinates coordinates,
+    const DeclaredUnits& units, const RegisterBits& registers, const GearRatios& gear,
+    const EncoderConfig& encoder, Coordinates coordinates,
     const std::function<void(const char* key, const std::string& expected)>& refuse) {
   const auto scale = [&](const char* key, const std::string& declared, Quantity quantity) {
     if (declared.empty()) return UnitScale{};
@@ -40,7 +49,7 @@ ColumnScales declared_scales(
     if (!known) refuse(key, known_units(quantity));
     return known.value_or(UnitScale{});
   };
-  const auto geared = [](UnitScale s, double ratio) { return UnitScale{s.factor, s.divisor * ratio}; };
+  const auto geared = [](UnitScale s, double ratio) { return UnitScale{s.factor, s.divisor * ratio, 0}; };
   const Quantity travel = coordinates.rotational() ? Quantity::kAngle : Quantity::kLength;
   const bool counts = units.position == kCounts;
   if (counts && !(encoder.quantum > 0.0))
@@ -49,8 +58,12 @@ ColumnScales declared_scales(
   scales.time = scale("time", units.time, Quantity::kTime);
   scales.input = scale("input", units.input, coordinates.rotational() ? Quantity::kTorque : Quantity::kForce);
   scales.position = geared(
-      counts ? UnitScale{encoder.quantum, 1.0} : scale("position", units.position, travel), gear.position);
+      counts ? UnitScale{encoder.quantum, 1.0, 0} : scale("position", units.position, travel), gear.position);
   scales.load_position = geared(scale("load_position", units.load_position, travel), gear.load_position);
+  scales.voltage = scale("voltage", units.voltage, Quantity::kVoltage);
+  scales.input.register_bits = registers.input;
+  scales.position.register_bits = registers.position;
+  scales.load_position.register_bits = registers.load_position;
   return scales;
 }
 
@@ -67,13 +80,14 @@ void read_units(const Section& section, const EncoderConfig& encoder, Coordinate
   }
   const auto units = section.find("units");
   if (units) read_fields(*units, recording.units);
+  if (const auto registers = section.find("registers")) read_fields(*registers, recording.registers);
   FieldKeys keys;
   recording.units.fields(keys);
   const auto refuse = [&](const char* key, const std::string& expected) {
     Section(*units, keys.keys).find(key)->fail_expecting(expected);
   };
   recording.reading.columns.scales =
-      declared_scales(recording.units, recording.gear, encoder, coordinates, refuse);
+      declared_scales(recording.units, recording.registers, recording.gear, encoder, coordinates, refuse);
 }
 
 void write_units(YamlWriter& out, const RecordingConfig& recording) {
@@ -82,9 +96,18 @@ void write_units(YamlWriter& out, const RecordingConfig& recording) {
   for (const auto& [key, unit] : {std::pair{"time", u.time},
                                   {"input", u.input},
                                   {"position", u.position},
-                                  {"load_position", u.load_position}})
+                                  {"load_position", u.load_position},
+                                  {"voltage", u.voltage}})
     if (!unit.empty()) units.push_back(fmt::format("{}: {}", key, yaml_text(unit)));
   if (!units.empty()) out.entry("units", fmt::format("{{{}}}", fmt::join(units, ", ")));
+  const RegisterBits& r = recording.registers;
+  std::vector<std::string> registers;
+  for (const auto& [key, bits] :
+       {std::pair{"input", r.input}, {"position", r.position}, {"load_position", r.load_position}})
+    if (bits > 0) registers.push_back(fmt::format("{}: {}", key, bits));
+  if (!registers.empty())
+    out.entry("registers", fmt::format("{{{}}}", fmt::join(registers, ", ")),
+              "bits of a signed number that was read as an unsigned one");
   const GearRatios& gear = recording.gear;
   if (gear.position != 1.0 || gear.load_position != 1.0)
     out.entry("gear_ratio",

@@ -79,6 +79,21 @@ double curvature_of_flanks(Samples u, const std::vector<bool>& plateau) {
   return largest / (high - low);
 }
 
+/// Bits of a register that holds a signed number and was read as an unsigned one: small numbers and numbers
+/// just below 2^bits, nothing in between; 0: u is none.
+int unsigned_register(Samples u) {
+  if (!whole_numbers(u)) return 0;
+  for (const int bits : {8, 16, 32}) {
+    const double all = std::ldexp(1.0, bits);
+    const auto negative = [&](double x) { return x >= 0.75 * all && x < all; };
+    const auto positive = [&](double x) { return x >= 0.0 && x < 0.25 * all; };
+    if (std::any_of(u.begin(), u.end(), negative) && std::any_of(u.begin(), u.end(), positive) &&
+        std::all_of(u.begin(), u.end(), [&](double x) { return negative(x) || positive(x); }))
+      return bits;
+  }
+  return 0;
+}
+
 /// Median slope of the five samples before each plateau, over the rms slope off the plateaus.
 double entry_slope(Samples u, const std::vector<bool>& plateau) {
   std::vector<double> entries;
@@ -163,6 +178,12 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
             "record what drives the motor while it moves"};
   const std::string found =
       fmt::format("{:.4g} to {:.4g} units of u, noise {:.2g}", low, high, facts.input_noise);
+  if (const int bits = unsigned_register(u))
+    return {"input", Severity::kSpoils,
+            found + fmt::format(", nothing in between: a signed register of {} bits, read without its sign",
+                                bits),
+            fmt::format("recording: registers: {{input: {}}} (--input-register {}), so that {:.0f} is -1",
+                        bits, bits, std::ldexp(1.0, bits) - 1.0)};
   if (facts.input_peak > kLeastOfCounts && whole_numbers(u))
     return {"input", Severity::kNote, found + ", whole numbers: counts or percent?",
             "torque_constant has to be N m (N) per one such unit"};

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
@@ -34,15 +35,15 @@ bool begins_comment(std::string_view text, std::size_t at) {
   return text[at] == '#' && (at == 0 || text[at - 1] == ' ' || text[at - 1] == '\t');
 }
 
-/// Splits at commas outside quotes; a comment ends the line. The vector is reused: no allocation
+/// Splits at separators outside quotes; a comment ends the line. The vector is reused: no allocation
 /// per row. A line with nothing but blanks and comment gives no field.
-void split(std::string_view text, std::vector<std::string_view>& fields) {
+void split(std::string_view text, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
   std::size_t begin = 0, end = 0;
   bool quoted = false;
   for (; end < text.size() && (quoted || !begins_comment(text, end)); ++end) {
     if (text[end] == '"') quoted = !quoted;
-    if (text[end] != ',' || quoted) continue;
+    if (text[end] != separator || quoted) continue;
     fields.push_back(unquoted(trimmed(text.substr(begin, end - begin))));
     begin = end + 1;
   }
@@ -54,11 +55,11 @@ void split(std::string_view text, std::vector<std::string_view>& fields) {
 
 bool CsvRow::next(std::string_view line) {
   if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
-  split(line, fields_);
+  split(line, separator_, fields_);
   if (fields_.empty()) return false;
   if (has_header_) check_width();
   if (has_header_) return true;
-  header();
+  header(line);
   return false;
 }
 
@@ -95,29 +96,65 @@ int CsvRow::place(const std::string& name, bool required) const {
 }
 
 std::string CsvRow::wanted_with(const std::string& name) const {
-  return name == columns_.load_position ? wanted() + ", " + name : wanted();
+  return name == columns_.load_position || name == columns_.voltage ? wanted() + ", " + name : wanted();
 }
 
-void CsvRow::header() {
+/// The separator is the one with which most of the columns that are looked for are there; the comma before
+/// others.
+void CsvRow::header(std::string_view line) {
   has_header_ = true;
+  std::pair<std::ptrdiff_t, bool> most = {-1, false};
+  for (const char separator : {',', ';', '\t'}) {
+    std::vector<std::string_view> fields;
+    split(line, separator, fields);
+    const auto found = std::count_if(fields.begin(), fields.end(), [&](std::string_view name) {
+      return name == columns_.time || name == columns_.input || name == columns_.position;
+    });
+    const std::pair<std::ptrdiff_t, bool> rank = {found, fields.size() > 1};
+    if (rank > most) most = rank, separator_ = separator, fields_ = std::move(fields);
+  }
   while (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
   width_ = fields_.size();
   t_ = place(columns_.time, true);
   u_ = place(columns_.input, true);
   x1_ = place(columns_.position, true);
   x2_ = place(columns_.load_position, columns_.load_position_required);
+  if (!columns_.voltage.empty()) voltage_ = place(columns_.voltage, true);
 }
 
-/// More fields than the header are fine while they are empty (a trailing comma); decimal commas are not.
+/// More fields than the header are fine while they are empty (a trailing comma); decimal commas are not,
+/// where commas separate the columns.
 void CsvRow::check_width() const {
   std::size_t filled = fields_.size();
   while (filled > width_ && fields_[filled - 1].empty()) --filled;
   if (filled < width_ || filled > width_)
-    fail(fmt::format("{} fields, expected {} as in the header", filled, width_));
+    fail(fmt::format("{} fields, expected {} as in the header{}", filled, width_,
+                     separator_ == ',' && filled > width_
+                         ? " (numbers with a decimal comma need ; or a tab between the columns)"
+                         : ""));
 }
 
-double CsvRow::number(int place, const std::string& column, const UnitScale& scale) const {
-  std::string_view text = fields_[static_cast<std::size_t>(place)];
+/// A number as it is read: with a point. A comma is a decimal mark where it separates no columns.
+std::string_view CsvRow::with_decimal_point(std::string_view text, const std::string& column) {
+  const auto mark = separator_ == ',' ? text.npos : text.find_first_of(".,");
+  if (mark == text.npos) return text;
+  if (decimal_mark_ == 0) decimal_mark_ = text[mark];
+  if (text[mark] != decimal_mark_ || text.find_first_of(".,", mark + 1) != text.npos)
+    fail(fmt::format("{} is {}, expected one decimal mark, {} as in the number before", column, shown(text),
+                     decimal_mark_ == ',' ? "a comma" : "a point"));
+  if (decimal_mark_ == '.') return text;
+  text_ = text;
+  text_[mark] = '.';
+  return text_;
+}
+
+double CsvRow::input() {
+  const double u = number(u_, columns_.input, columns_.scales.input);
+  return voltage_ < 0 ? u : u * number(voltage_, columns_.voltage, columns_.scales.voltage);
+}
+
+double CsvRow::number(int place, const std::string& column, const UnitScale& scale) {
+  std::string_view text = with_decimal_point(fields_[static_cast<std::size_t>(place)], column);
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);

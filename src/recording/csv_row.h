@@ -10,6 +10,8 @@
 namespace gapscope::internal::recording {
 
 /// The lines of a CSV one after the other: the header first, then rows of which any column may be asked for.
+/// The header tells what stands between the columns: a comma, a semicolon or a tab. Beside the last two a
+/// number may have a decimal comma; the first number with either mark says which one the file has.
 class CsvRow {
  public:
   /// @param name  of the file, for messages
@@ -20,10 +22,10 @@ class CsvRow {
   bool next(std::string_view line);
 
   // Of the row that was taken last, in SI.  @throws ConfigError where it is no finite number
-  double time() const { return number(t_, columns_.time, columns_.scales.time); }
-  double input() const { return number(u_, columns_.input, columns_.scales.input); }
-  double position() const { return number(x1_, columns_.position, columns_.scales.position); }
-  double load_position() const { return number(x2_, columns_.load_position, columns_.scales.load_position); }
+  double time() { return number(t_, columns_.time, columns_.scales.time); }
+  double input();  ///< times the supply's voltage where there is one
+  double position() { return number(x1_, columns_.position, columns_.scales.position); }
+  double load_position() { return number(x2_, columns_.load_position, columns_.scales.load_position); }
 
   bool has_load_position() const { return x2_ >= 0; }
   std::int64_t line() const { return line_; }  ///< of the file, from 1
@@ -33,20 +35,24 @@ class CsvRow {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  void header();
+  void header(std::string_view line);
   void check_width() const;
   int place(const std::string& name, bool required) const;
   std::string wanted() const;
   std::string wanted_with(const std::string& name) const;
   std::string there() const;
-  double number(int place, const std::string& column, const UnitScale& scale) const;
+  double number(int place, const std::string& column, const UnitScale& scale);
+  std::string_view with_decimal_point(std::string_view text, const std::string& column);
 
   std::string name_;
   RecordingColumns columns_;
   std::vector<std::string_view> fields_;  // of the line that was taken last
+  std::string text_;                      // a number that was written with a decimal comma
+  char separator_ = ',';
+  char decimal_mark_ = 0;  // of the first number that has one
   std::size_t width_ = 0;
   std::int64_t line_ = 0;
-  int t_ = -1, u_ = -1, x1_ = -1, x2_ = -1;
+  int t_ = -1, u_ = -1, x1_ = -1, x2_ = -1, voltage_ = -1;
   bool has_header_ = false;
 };
 

@@ -23,7 +23,7 @@ std::string whole_file(const std::string& path) {
   return text;
 }
 
-void add_row(const CsvRow& row, EarlierRow earlier, RecordedRows& table) {
+void add_row(CsvRow& row, EarlierRow earlier, RecordedRows& table) {
   const double t = row.time();
   if (!table.admits(t, row.line(), earlier, row.columns().time)) return;
   table.t.push_back(t);

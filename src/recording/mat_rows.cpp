@@ -48,7 +48,7 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   };
   const ColumnScales& scales = columns.scales;
   const Column t = column(columns.time, scales.time);
-  const Column u = column(columns.input, scales.input);
+  Column u = column(columns.input, scales.input);
   const Column x1 = column(columns.position, scales.position);
   const std::string& load = columns.load_position;
   const bool has_load = !load.empty() && (columns.load_position_required || content->find(load));
@@ -56,6 +56,11 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   require_length(path, u, t);
   require_length(path, x1, t);
   if (has_load) require_length(path, x2, t);
+  if (!columns.voltage.empty()) {
+    const Column voltage = column(columns.voltage, scales.voltage);
+    require_length(path, voltage, t);
+    for (std::size_t i = 0; i < u.values.size(); ++i) u.values[i] *= voltage.values[i];
+  }
   RecordedRows rows;
   rows.path = path;
   rows.is_text = false;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -15,19 +16,27 @@ struct Unit {
 };
 
 constexpr double kPi = std::numbers::pi;
-constexpr UnitScale kOne, kMilli{1.0, 1e3}, kMicro{1.0, 1e6}, kNano{1.0, 1e9}, kKilo{1e3, 1.0};
+constexpr UnitScale kOne, kMilli{1.0, 1e3, 0}, kMicro{1.0, 1e6, 0}, kNano{1.0, 1e9, 0}, kKilo{1e3, 1.0, 0},
+    kPercent{1.0, 100.0, 0};
 
-/// The first one is that of SI. Current and voltage serve both kinds of axes: torque_constant makes them one.
+/// The first one is that of SI. Current, voltage and a duty serve both kinds of axes:
+/// torque_constant makes them one.
 const std::vector<Unit>& units(Quantity quantity) {
   static const std::vector<Unit> time = {{"s", kOne}, {"ms", kMilli}, {"us", kMicro}, {"ns", kNano}};
-  static const std::vector<Unit> angle = {{"rad", kOne},           {"mrad", kMilli},
-                                          {"deg", {kPi, 180.0}},   {"arcmin", {kPi, 180.0 * 60.0}},
-                                          {"rev", {2 * kPi, 1.0}}, {"arcsec", {kPi, 180.0 * 3600.0}}};
+  static const std::vector<Unit> angle = {{"rad", kOne},
+                                          {"mrad", kMilli},
+                                          {"deg", {kPi, 180.0, 0}},
+                                          {"arcmin", {kPi, 180.0 * 60.0, 0}},
+                                          {"rev", {2 * kPi, 1.0, 0}},
+                                          {"arcsec", {kPi, 180.0 * 3600.0, 0}}};
   static const std::vector<Unit> length = {{"m", kOne}, {"mm", kMilli}, {"um", kMicro}, {"nm", kNano}};
-  static const std::vector<Unit> torque = {{"N m", kOne},  {"mN m", kMilli}, {"kN m", kKilo}, {"A", kOne},
-                                           {"mA", kMilli}, {"V", kOne},      {"mV", kMilli}};
-  static const std::vector<Unit> force = {{"N", kOne},    {"mN", kMilli}, {"kN", kKilo}, {"A", kOne},
-                                          {"mA", kMilli}, {"V", kOne},    {"mV", kMilli}};
+  static const std::vector<Unit> torque = {{"N m", kOne},  {"mN m", kMilli}, {"kN m", kKilo},
+                                           {"A", kOne},    {"mA", kMilli},   {"V", kOne},
+                                           {"mV", kMilli}, {"%", kPercent},  {"permille", kMilli}};
+  static const std::vector<Unit> force = {{"N", kOne},    {"mN", kMilli},  {"kN", kKilo},
+                                          {"A", kOne},    {"mA", kMilli},  {"V", kOne},
+                                          {"mV", kMilli}, {"%", kPercent}, {"permille", kMilli}};
+  static const std::vector<Unit> voltage = {{"V", kOne}, {"mV", kMilli}};
   switch (quantity) {
     case Quantity::kTime:
       return time;
@@ -39,6 +48,8 @@ const std::vector<Unit>& units(Quantity quantity) {
       return torque;
     case Quantity::kForce:
       return force;
+    case Quantity::kVoltage:
+      return voltage;
   }
   return time;
 }
@@ -49,10 +60,16 @@ std::optional<UnitScale> from_number(std::string_view text) {
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (problem != std::errc() || end != text.data() + text.size()) return {};
   if (!(value >= kSmallest && value <= kLargest)) return {};
-  return UnitScale{value, 1.0};
+  return UnitScale{value, 1.0, 0};
 }
 
 }  // namespace
+
+double UnitScale::as_signed(double recorded) const {
+  return register_bits > 0 && recorded >= std::ldexp(1.0, register_bits - 1)
+             ? recorded - std::ldexp(1.0, register_bits)
+             : recorded;
+}
 
 std::optional<UnitScale> unit_scale(Quantity quantity, std::string_view declared) {
   for (const Unit& unit : units(quantity))

@@ -76,6 +76,20 @@ TEST(Configuration, UnitsAndGearsMakeSiOfTheColumnsAndOfTheEncodersStep) {
   EXPECT_EQ(resolved_yaml(parse_configuration(resolved, "rig.yaml")), resolved);
 }
 
+TEST(Configuration, ADutyOfARegisterAndAVoltageAreDeclared) {
+  const std::string declared = "  units: {input: '%', voltage: mV}\n  registers: {input: 16}\n  resample";
+  const std::string text =
+      with(with(kRecorded, "  resample", declared), "columns: {", "columns: {voltage: volts, ");
+  const Configuration c = parse_configuration(text, "rig.yaml");
+  const RecordingColumns& columns = c.recording->reading.columns;
+  EXPECT_EQ(columns.voltage, "volts");
+  EXPECT_EQ(columns.scales.input(65436.0), -1.0);
+  EXPECT_EQ(columns.scales.voltage(7400.0), 7.4);
+  const std::string resolved = resolved_yaml(c);
+  EXPECT_THAT(resolved, ::testing::HasSubstr("registers: {input: 16}"));
+  EXPECT_EQ(resolved_yaml(parse_configuration(resolved, "rig.yaml")), resolved);
+}
+
 TEST(Configuration, WithoutUnitsColumnsStayAsTheyAre) {
   const Configuration c = parse_configuration(kRecorded, "rig.yaml");
   const ColumnScales& s = c.recording->reading.columns.scales;

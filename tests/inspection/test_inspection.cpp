@@ -98,6 +98,14 @@ const std::vector<Fault> kFaults = {
      "position: counts"},
     {"degrees", [] { return changed([](Rows& r) { scale(r.x1, 180.0 / kPi); }); }, {"unit of x1"}, "degrees"},
     {"turns", [] { return changed([](Rows& r) { scale(r.x1, 0.5 / kPi); }); }, {"unit of x1"}, "turns"},
+    {"register_without_its_sign",
+     [] {
+       return changed([](Rows& r) {
+         for (double& u : r.u) u = std::fmod(std::round(885.0 * u) + 65536.0, 65536.0);
+       });
+     },
+     {"input", "sign"},
+     "--input-register 16), so that 65535 is -1"},
     {"far_too_fast",
      [] {
        return changed([](Rows& r) {

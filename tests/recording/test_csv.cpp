@@ -7,31 +7,16 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/random.h"
 #include "gapscope/recording/recording_file.h"
+#include "recording/csv_rows.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::refusal;
+using testing::rows;
 using testing::TemporaryFile;
-
-/// Rows t, u, x1 at 1 kHz.
-std::string rows(int count, const std::string& end = "\n") {
-  std::string text;
-  for (int i = 0; i < count; ++i)
-    text += std::to_string(0.001 * i) + "," + std::to_string(i % 7) + "," + std::to_string(0.01 * i) + end;
-  return text;
-}
-
-std::string refusal(const std::string& text, const ReadOptions& options = {}) {
-  const TemporaryFile file(text);
-  try {
-    read_recording(file.path(), options);
-  } catch (const ConfigError& error) {
-    return std::string(error.what()).substr(file.folder().string().size() + 1);
-  }
-  return "(accepted)";
-}
 
 TEST(Csv, ReadsColumnsByNameWhateverTheirOrder) {
   std::string text = "x1,note,t,u\n";
@@ -204,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
                              "r.csv:2: there is no column 'x1' among 't', 'u', 'y', expected a header with "
                              "the columns t, u, x1"},
                       BadCsv{"column_twice", "t,u,x1,u\n", "r.csv:1: the column 'u' is there twice"},
-                      BadCsv{"semicolons", "t;u;x1\n0;1;2\n", "r.csv:1: there is no column 't'"},
+                      BadCsv{"bars", "t|u|x1\n0|1|2\n", "r.csv:1: there is no column 't'"},
                       BadCsv{"decimal_comma", kHead + "0,001,0,5,0,2\n", "r.csv:2: 6 fields, expected 3"},
                       BadCsv{"short_row", kHead + rows(3) + "0.003,1\n", "r.csv:5: 2 fields, expected 3"},
                       BadCsv{"word", kHead + "0,zero,1\n", "r.csv:2: u is 'zero'"},

@@ -30,6 +30,7 @@ struct RecordingConfig {
   ReadOptions reading;                 ///< columns with what units and gears make of them, window, resampling
   bool resample_for_detector = false;  ///< fit and diagnose take the rows as they are
   DeclaredUnits units;
+  RegisterBits registers;
   GearRatios gear;
 
   /// For an estimator that needs a grid (kRefused), or for one that takes uneven rows as they are (kStamped).

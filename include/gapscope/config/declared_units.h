@@ -22,7 +22,16 @@ struct EncoderConfig {
 /// `recording: units:` as it is written there; empty: s, rad (m), and u as it was recorded. Each is a name
 /// (see known_units()) or a number; the position may be in counts, of which encoder: says how large one is.
 struct DeclaredUnits {
-  std::string time, input, position, load_position;
+  std::string time, input, position, load_position, voltage;
+  void fields(FieldVisitor& v);
+};
+
+/// `recording: registers:` – bits of a drive's register that holds a signed number and was read as an
+/// unsigned one, so that 65535 is -1; 0: the numbers are as they are.
+struct RegisterBits {
+  int input = 0;
+  int position = 0;
+  int load_position = 0;
   void fields(FieldVisitor& v);
 };
 
@@ -34,11 +43,11 @@ struct GearRatios {
   void fields(FieldVisitor& v);
 };
 
-/// What units and gears make of the columns.
+/// What units, registers and gears make of the columns.
 /// @param refuse  is told the key ("position") whose unit is not known, and what was expected; does not
 /// return
-ColumnScales declared_scales(const DeclaredUnits& units, const GearRatios& gear, const EncoderConfig& encoder,
-                             Coordinates coordinates,
+ColumnScales declared_scales(const DeclaredUnits& units, const RegisterBits& registers,
+                             const GearRatios& gear, const EncoderConfig& encoder, Coordinates coordinates,
                              const std::function<void(const char* key, const std::string& expected)>& refuse);
 
 }  // namespace gapscope

@@ -12,7 +12,7 @@ namespace gapscope {
 
 /// What the units of the columns are in SI; an input without a unit of its own stays as it was recorded.
 struct ColumnScales {
-  UnitScale time, input, position, load_position;
+  UnitScale time, input, position, load_position, voltage = {};
 };
 
 /// Names of the columns (of a .mat file: its variables); load_position is optional in the file.
@@ -23,6 +23,7 @@ struct RecordingColumns {
   std::string load_position = "x2";
   bool load_position_required = false;  ///< true when the user named the column
   ColumnScales scales;
+  std::string voltage = {};  ///< of the supply: u is the input, a duty, times it; empty: there is none
 };
 
 /// What becomes of rows that are not uniform in time.
@@ -43,9 +44,10 @@ constexpr std::size_t kFewestSamples = 50;
 
 /// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), of which each column is a vector
 /// of real numbers, all equally long; any other one is a CSV with a header, in which `#` comments and extra
-/// columns are ignored. Sampling is uniform when every step is within 0.1 % of the mean step; anything else
-/// is refused with the figure, taken with its stamps, or resampled on request: x1 and x2 linearly, u as the
-/// mean of the held input over each new interval, so that its impulse is kept.
+/// columns are ignored; its columns stand between commas, semicolons or tabs, beside the last two with a
+/// decimal comma or point. Sampling is uniform when every step is within 0.1 % of the mean step; anything
+/// else is refused with the figure, taken with its stamps, or resampled on request: x1 and x2 linearly, u as
+/// the mean of the held input over each new interval, so that its impulse is kept.
 /// @throws ConfigError with file and line (sample of a .mat file): missing or empty file, missing column, a
 ///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
 ///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.

@@ -11,11 +11,14 @@ namespace gapscope {
 struct UnitScale {
   double factor = 1.0;
   double divisor = 1.0;
-  double operator()(double recorded) const { return recorded * factor / divisor; }
+  int register_bits =
+      0;  ///< of a register that holds a signed number and was read as an unsigned one; 0: none
+  double operator()(double recorded) const { return as_signed(recorded) * factor / divisor; }
+  double as_signed(double recorded) const;  ///< two's complement: 65535 of 16 bits is -1
 };
 
 /// What a column measures. The input of a drive has its own quantities: a torque, a force or what makes one.
-enum class Quantity { kTime, kAngle, kLength, kTorque, kForce };
+enum class Quantity { kTime, kAngle, kLength, kTorque, kForce, kVoltage };
 
 /// The scale of a declared unit: a name ("ms", "deg", "mN m"), or how much SI one recorded unit is, as a
 /// number > 0. Nothing for any other text.
