@@ -30,19 +30,6 @@ namespace {
 constexpr double kMost = 1e15;          ///< as of any number that is read
 constexpr double kLongestDelay = 10.0;  ///< [s]
 
-/// What a parameter can be at all. Bounds that scale with the drive keep their sign here; their size is the
-/// fit's concern, who knows the recording.
-Range possible(const EffectParameterSpec& spec) {
-  if (spec.scale == Scale::kOne) return {spec.low, spec.high, spec.unit};
-  const double most = spec.scale == Scale::kSample ? kLongestDelay : kMost;
-  return {spec.low >= 0.0 ? 0.0 : -most, most, spec.unit};
-}
-
-/// A value that needs no recording to be neutral; NaN where there is none.
-double neutral(const EffectParameterSpec& spec) {
-  return spec.absent == 0.0 || spec.scale == Scale::kOne ? spec.absent : kNaN;
-}
-
 ParameterSetting read_setting(const Value& value, const Range& range) {
   ParameterSetting p;
   if (!value.is_map()) {
@@ -60,6 +47,18 @@ ParameterSetting read_setting(const Value& value, const Range& range) {
 }
 
 }  // namespace
+
+/// Bounds that scale with the drive keep their sign here; their size is the
+/// fit's concern, who knows the recording.
+Range possible(const EffectParameterSpec& spec) {
+  if (spec.scale == Scale::kOne) return {spec.low, spec.high, spec.unit};
+  const double most = spec.scale == Scale::kSample ? kLongestDelay : kMost;
+  return {spec.low >= 0.0 ? 0.0 : -most, most, spec.unit};
+}
+
+double neutral(const EffectParameterSpec& spec) {
+  return spec.absent == 0.0 || spec.scale == Scale::kOne ? spec.absent : kNaN;
+}
 
 const EffectEntry& effect_named(const std::string& name, const Value& value) {
   if (const EffectEntry* entry = find_effect(name)) return *entry;

@@ -12,10 +12,6 @@ constexpr std::pair<double, double> kPossible[kDriveParameterCount] = {
     {0.0, 1e9},   {0.0, 1e9},   {1e-9, 1e15}, {0.0, 1e12},
 };
 
-Range possible(int index) {
-  return {kPossible[index].first, kPossible[index].second, kDriveParameters[index].unit};
-}
-
 /// `prior: {value, std}`; without a value it is around the start.
 std::pair<std::optional<double>, double> read_prior(const Value& value, const Range& range) {
   const Section section(value, {"value", "std"});
@@ -29,7 +25,7 @@ std::pair<std::optional<double>, double> read_prior(const Value& value, const Ra
 
 WrittenParameter read_parameter(const Value& value, int index) {
   WrittenParameter p{{}, {}, {}, {}, value};
-  const Range range = possible(index);
+  const Range range = possible_parameter(index);
   if (!value.is_map()) {
     p.value = value.number(range);
     p.estimate = false;
@@ -65,6 +61,10 @@ void read_parameters(const Value& value, WrittenModel& model) {
 }
 
 }  // namespace
+
+Range possible_parameter(int index) {
+  return {kPossible[index].first, kPossible[index].second, kDriveParameters[index].unit};
+}
 
 WrittenModel read_model(const Value& value) {
   WrittenModel model;

@@ -29,6 +29,14 @@ struct WrittenModel {
   std::optional<Value> place;
 };
 
+/// What a drive parameter can be at all, by its place in kDriveParameters.
+Range possible_parameter(int index);
+
+/// What a parameter of an effect can be at all, and a value that needs no recording to be neutral: NaN where
+/// there is none.
+Range possible(const EffectParameterSpec& spec);
+double neutral(const EffectParameterSpec& spec);
+
 WrittenModel read_model(const Value& value);
 
 /// `base` with everything that `changes` writes. A parameter of both keeps what only the base says.

@@ -1,0 +1,183 @@
+#include "gapscope/config/configuration_schema.h"
+
+#include <cmath>
+
+#include "config/model_reader.h"
+#include "config/schema_parts.h"
+#include "gapscope/config/configuration.h"
+#include "gapscope/plant/effect.h"
+
+namespace gapscope {
+namespace internal::config {
+namespace {
+
+/// A number, or `{value, estimate, bounds}` and, of a drive parameter, a prior.
+Json setting_schema(const Range& range, const std::string& doc, bool prior) {
+  MapSchema written;
+  written.add("value", number_schema(range, "where the fit begins"));
+  written.add("estimate", truth_schema("whether it is fitted"));
+  written.add("bounds", rising_pair_schema(range, "that the fit stays within"));
+  if (prior) {
+    MapSchema known;
+    known.add("value", number_schema(range, "default: where the fit begins"));
+    known.add("std", number_schema({0.0, kInfinity, range.unit}, "standard deviation"));
+    known.required = {"std"};
+    written.add("prior", known.schema("what is known beforehand"));
+  }
+  return described(
+      {{"anyOf", {number_schema(range, "fixed at this value"), written.schema("estimated, or fixed")}}}, doc,
+      range.unit);
+}
+
+Json effect_schema(const EffectEntry& entry) {
+  MapSchema parameters;
+  for (const EffectParameterSpec& spec : entry.parameters) {
+    parameters.add(spec.key, setting_schema(possible(spec), "", false));
+    if (std::isnan(neutral(spec))) parameters.required.emplace_back(spec.key);
+  }
+  return parameters.schema(entry.law);
+}
+
+Json effects_schema() {
+  MapSchema one;
+  for (const auto table : {effect_table(), last_resort_table()})
+    for (const EffectEntry* entry : table) one.add(entry->name, effect_schema(*entry));
+  Json item = one.schema("");
+  item["minProperties"] = 1, item["maxProperties"] = 1;
+  return list_schema(item, "known effects, each {name: {key: number}}; gapscope effects --laws lists them");
+}
+
+Json effect_names_schema(const std::string& doc) {
+  std::vector<std::string> names;
+  for (const auto table : {effect_table(), last_resort_table()})
+    for (const EffectEntry* entry : table) names.emplace_back(entry->name);
+  return list_schema(words_schema(names, ""), doc);
+}
+
+Json model_schema() {
+  MapSchema rigid, contact, parameters, model;
+  rigid.add("restitution", number_schema({0.0, 1.0, "-"}, "1: no energy is lost"));
+  rigid.required = {"restitution"};
+  contact.add("rigid", rigid.schema("impacts without duration, eq. (3)"));
+  contact.required = {"rigid"};
+  for (int i = 0; i < kDriveParameterCount; ++i)
+    parameters.add(kDriveParameters[i].key,
+                   setting_schema(possible_parameter(i), kDriveParameters[i].doc, true));
+  model.add("contact",
+            one_of({words_schema({"compliant"}, ""), contact.schema("")}, "law of the closed contact"));
+  model.add("load", words_schema({"free", "locked"}, "locked: the output does not move"));
+  model.add("parameters",
+            parameters.schema("a bare number is fixed; gap, motor_damping and mass_ratio are estimated "
+                              "where their key is absent"));
+  model.add("effects", effects_schema());
+  return model.schema("the drive that is fitted, and that a simulation starts from");
+}
+
+Json files_or_file(const std::string& doc) {
+  Json list = list_schema(text_schema(""), "");
+  list["minItems"] = 1;
+  return one_of({text_schema(""), list}, doc);
+}
+
+Json recording_schema() {
+  MapSchema columns, resample, recording;
+  const auto column = [&](const char* key, const char* doc) { columns.add(key, text_schema(doc)); };
+  column("time", "default: t");
+  column("input", "default: u");
+  column("position", "of the motor's side; default: x1");
+  column("load_position", "default: x2, where there is one");
+  column("voltage", "of the supply: u is the input, a duty, times it");
+  resample.add("rate", number_schema({1e-3, 1e7, "Hz"}, "that the recording is brought to"));
+  resample.add("for",
+               words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
+  resample.required = {"rate"};
+  recording.add("file", files_or_file("CSV or .mat, relative to this file; several are never concatenated"));
+  recording.add("held_out", files_or_file("only diagnose reads it"));
+  recording.add("columns", columns.schema("names of the columns (of a .mat file: its variables)"));
+  recording.add("units",
+                fields_schema(DeclaredUnits{}).schema("a name, or the size of one recorded unit in SI"));
+  recording.add("registers",
+                fields_schema(RegisterBits{}).schema("signed numbers that were read without their sign"));
+  recording.add("gear_ratio",
+                fields_schema(GearRatios{}).schema("turns of the recorded axis per turn of the model's"));
+  recording.add("window", rising_pair_schema({-kInfinity, kInfinity, "s"}, "part of each file that is used"));
+  recording.add("resample", resample.schema("makes any sampling uniform"));
+  recording.required = {"file"};
+  return recording.schema("data from files");
+}
+
+Json simulation_schema() {
+  MapSchema excitation, simulation;
+  for (const ExcitationKindSpec& spec : excitation_kinds()) {
+    Excitation e;
+    e.kind = spec.kind;
+    excitation.add(spec.name, fields_schema(e).schema(spec.doc));
+  }
+  Json one = excitation.schema("the input u(t), one of these");
+  one["minProperties"] = 1, one["maxProperties"] = 1;
+  simulation.add("rate", number_schema({1e-3, 1e7, "Hz"}, "sampling rate"));
+  simulation.add("duration", number_schema({1e-6, 1e8, "s"}, ""));
+  simulation.add("seed", described({{"type", "integer"}, {"minimum", 0}}, "the only source of randomness"));
+  simulation.add("excitation", one);
+  simulation.add("initial", fields_schema(InitialState{}).schema("state at the first sample"));
+  simulation.add("noise", number_schema({0.0, 1e3, "rad"}, "rms, before quantisation"));
+  simulation.add("plant",
+                 words_schema({"simulator", "independent"}, "independent: code that no estimator shares"));
+  simulation.add("model",
+                 {{"$ref", "#/properties/model"}, {"description", "the true plant, where it differs"}});
+  simulation.required = {"rate", "duration", "excitation"};
+  return simulation.schema("data of its own making");
+}
+
+Json encoder_schema() {
+  MapSchema encoder;
+  encoder.add("bits",
+              described({{"type", "integer"}, {"minimum", 1}, {"maximum", 40}}, "counts per turn = 2^bits"));
+  encoder.add("quantum", number_schema({1e-15, 10.0, "rad; m of a slide"}, "size of one count"));
+  Json one = encoder.schema("what its sheet says: exactly one of both");
+  one["minProperties"] = 1, one["maxProperties"] = 1;
+  return one;
+}
+
+Json detector_schema() {
+  MapSchema knowledge, from, detector;
+  knowledge.add("input_limit", number_schema({1e-12, 1e12, "unit of u"}, "the largest |u|"));
+  knowledge.add("load_force_bound", number_schema({0.0, 1e12, "N m"}, "G, a bound of the unknown forces"));
+  knowledge.required = {"input_limit", "load_force_bound"};
+  from.add("from_model", knowledge.schema("eqs. (11) to (13)"));
+  from.required = {"from_model"};
+  detector.add("bound", one_of({words_schema({"auto"}, ""), number_schema({1e-9, 1e12, "rad/s^2"}, ""),
+                                from.schema("")},
+                               "L, a bound of the motor's acceleration; auto: from the data alone"));
+  detector.add("frozen", truth_schema("learn from the first two periods only, as a stream does"));
+  return detector.schema("the model-free estimator");
+}
+
+}  // namespace
+}  // namespace internal::config
+
+std::string configuration_schema() {
+  using namespace internal::config;
+  MapSchema root;
+  root.add("name", text_schema("of the report's folder; default: the name of this file"));
+  root.add("recording", recording_schema());
+  root.add("simulation", simulation_schema());
+  root.add("encoder", encoder_schema());
+  root.add("coordinates", words_schema({"rotation", "translation"}, "translation: rad and N m mean m and N"));
+  root.add("model", model_schema());
+  root.add("detector", detector_schema());
+  root.add("fit", fields_schema(FitOptions{}).schema("how the reference is found"));
+  root.add("next_experiment", fields_schema(ExperimentLimits{}).schema("what the diagnosis may propose"));
+  MapSchema diagnosis = fields_schema(DiagnosisKnowledge{}), implant = fields_schema(ImplantConfig{});
+  diagnosis.add("exclude", effect_names_schema("effects that are no candidates"));
+  implant.add("effects", effect_names_schema("that may be drawn; default: all"));
+  root.add("diagnosis", diagnosis.schema("what the diagnosis is told beforehand"));
+  root.add("implant", implant.schema("what gapscope blind implant puts into the recordings"));
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}};
+  schema["title"] = "Configuration of gapscope";
+  schema.update(root.schema("YAML that run, detect, fit, diagnose, simulate and export read"));
+  schema["oneOf"] = Json::array({{{"required", {"recording"}}}, {{"required", {"simulation"}}}});
+  return schema.dump(1) + "\n";
+}
+
+}  // namespace gapscope

@@ -1,0 +1,97 @@
+// A configuration that is read is valid by the published schema; one with a mistake in it is not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/validated.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::judged;
+using testing::text_of;
+using testing::Workplace;
+
+const fs::path kSource = GAPSCOPE_SOURCE_DIR;
+
+/// What an editor makes of YAML: plain scalars are numbers and truth values where they look like it.
+nlohmann::json as_json(const YAML::Node& node) {
+  nlohmann::json out;
+  if (node.IsSequence())
+    for (const YAML::Node& item : (out = nlohmann::json::array(), node)) out.push_back(as_json(item));
+  if (node.IsMap())
+    for (const auto& entry : (out = nlohmann::json::object(), node))
+      out[entry.first.Scalar()] = as_json(entry.second);
+  if (!node.IsScalar()) return out;
+  long long whole = 0;
+  double number = 0.0;
+  bool truth = false;
+  if (node.Tag() == "!") return node.Scalar();
+  if (YAML::convert<long long>::decode(node, whole)) return whole;
+  if (YAML::convert<double>::decode(node, number)) return number;
+  if (YAML::convert<bool>::decode(node, truth)) return truth;
+  return node.Scalar();
+}
+
+std::string judged_yaml(const std::string& text) {
+  Workplace place;
+  place.file("configuration.json", as_json(YAML::Load(text)).dump());
+  return judged(place, "configuration.json");
+}
+
+TEST(ConfigurationSchemas, TheConfigurationsOfTheRepositoryAreValid) {
+  int found = 0;
+  for (const auto& entry : fs::directory_iterator(kSource / "configs")) {
+    const std::string name = entry.path().filename().string(), text = text_of(entry.path());
+    if (entry.path().extension() != ".yaml" || name.find("campaign") != name.npos || name == "07_blind.yaml")
+      continue;
+    const std::string said = judged_yaml(text);
+    GAPSCOPE_NEEDS_VALIDATOR(said);
+    EXPECT_EQ(said, "1 files are valid\n") << name;
+    ++found;
+  }
+  EXPECT_GE(found, 6);
+}
+
+TEST(ConfigurationSchemas, WhatTheCommandsWriteIsValid) {
+  Workplace place;
+  const std::string recording = (kSource / "configs/03_recording.csv").string();
+  ASSERT_EQ(place.run("init " + recording + " --model gap -o first.yaml").status, 0);
+  const std::string said = judged_yaml(text_of(place.folder() / "first.yaml"));
+  GAPSCOPE_NEEDS_VALIDATOR(said);
+  EXPECT_EQ(said, "1 files are valid\n");
+  ASSERT_EQ(place.run("detect first.yaml -o r").status, 0);
+  EXPECT_EQ(judged_yaml(text_of(place.folder() / "r/resolved.yaml")), "1 files are valid\n");
+}
+
+TEST(ConfigurationSchemas, MistakesAreNot) {
+  const std::string whole = text_of(kSource / "configs/08_missing_cogging.yaml");
+  GAPSCOPE_NEEDS_VALIDATOR(judged_yaml(whole));
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"\ncolour: red\n", "colour"},
+      {"\nencoder: {bits: 41}\n", "$.encoder"},
+      {"\nencoder: {bits: 20, quantum: 1e-6}\n", "$.encoder"},
+      {"\ncoordinates: polar\n", "$.coordinates"},
+      {"\ndetector: {bound: soon}\n", "$.detector.bound"},
+      {"\nfit: {starts: 0}\n", "$.fit.starts"},
+      {"\nfit: {starts: many}\n", "$.fit.starts"},
+      {"\nsimulation: {duration: 1}\n", "$.simulation"},
+      {"\nmodel: {load: heavy}\n", "$.model.load"},
+      {"\nmodel: {effects: [{coging_torque: {}}]}\n", "$.model.effects[0]"},
+      {"\nmodel: {effects: [{motor_coulomb_friction: {level: 1}}]}\n", "$.model.effects[0]"},
+      {"\nmodel: {parameters: {gap: {value: 0.1, bound: [0, 1]}}}\n", "$.model.parameters.gap"},
+      {"\ndiagnosis: {exclude: [nothing]}\n", "$.diagnosis.exclude[0]"},
+  };
+  for (const auto& [mistake, place] : mistakes) {
+    YAML::Node document = YAML::Load(whole);
+    for (const auto& entry : YAML::Load(mistake)) document[entry.first.Scalar()] = entry.second;
+    EXPECT_THAT(judged_yaml(YAML::Dump(document)), HasSubstr(place)) << mistake;
+  }
+}
+
+}  // namespace
+}  // namespace gapscope
