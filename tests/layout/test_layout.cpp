@@ -54,10 +54,12 @@ const std::map<std::string, Names>& allowed_modules() {
 
 /// Third-party headers (by prefix) and the only places that may include them.
 const std::vector<std::pair<std::string, Names>> kConfined = {
-    {"opencv2/", {"report"}},   {"png", {"report"}},       {"yaml-cpp/", {"config"}},
-    {"nlohmann/", {"results"}}, {"CLI/", {"cli"}},         {"spdlog/", {"campaign", "cli"}},
-    {"matio", {"recording"}},   {"hdf5", {"recording"}},   {"zlib", {"recording"}},
-    {"sqlite3", {"campaign"}},  {"openssl/", {"results"}}, {"tbb/", {"base"}},
+    {"opencv2/", {"report"}},  {"png", {"report"}},
+    {"yaml-cpp/", {"config"}}, {"nlohmann/", {"config", "results"}},
+    {"CLI/", {"cli"}},         {"spdlog/", {"campaign", "cli"}},
+    {"matio", {"recording"}},  {"hdf5", {"recording"}},
+    {"zlib", {"recording"}},   {"sqlite3", {"campaign"}},
+    {"openssl/", {"results"}}, {"tbb/", {"base"}},
     {"oneapi/", {"base"}},
 };
 
