@@ -1,6 +1,8 @@
 #include "gapscope/base/text.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace gapscope {
 
@@ -14,6 +16,31 @@ std::string readable(const std::string& identifier) { return replaced(identifier
 
 bool contains(std::span<const std::string> names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+const std::string& nearest_name(const std::string& word, std::span<const std::string> names) {
+  constexpr std::size_t kTelling = 3;  // letters that say something
+  const auto far = [&](const std::string& name) {
+    const bool within = word.size() >= kTelling && name.find(word) != name.npos;
+    return std::pair(!within, within ? name.size() : edit_distance(word, name));
+  };
+  return *std::min_element(names.begin(), names.end(),
+                           [&](const std::string& a, const std::string& b) { return far(a) < far(b); });
 }
 
 }  // namespace gapscope

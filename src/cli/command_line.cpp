@@ -1,12 +1,14 @@
 #include "cli/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 
 #include "cli/command_tree.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope::cli {
 namespace {
@@ -17,10 +19,9 @@ CLI::Validator unnamed(const Check& check) {
   return CLI::Validator([check](std::string& text) -> std::string { return check(text); }, "");
 }
 
-std::string command_names(const CLI::App& app) {
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands(nullptr))
-    names += (names.empty() ? "" : ", ") + command->get_name();
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
   return names;
 }
 
@@ -28,13 +29,13 @@ std::string command_names(const CLI::App& app) {
 std::string expectation(CLI::App& app) {
   CLI::App* used = &app;
   while (!used->get_subcommands().empty()) used = used->get_subcommands()[0];
-  return used == &app ? "one of the commands " + command_names(app) : usage(command_of(CommandLine(*used)));
+  return used == &app ? fmt::format("one of the commands {}", fmt::join(command_names(app), ", "))
+                      : usage(command_of(CommandLine(*used)));
 }
 
 bool is_unknown_command(const CLI::App& app, const std::string& word) {
   if (!word.empty() && word[0] == '-') return false;
-  const auto commands = app.get_subcommands(nullptr);
-  return std::none_of(commands.begin(), commands.end(), [&](const auto* c) { return c->get_name() == word; });
+  return !contains(command_names(app), word);
 }
 
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
@@ -57,7 +58,11 @@ Option not_empty(Option option) {
 
 Option& Option::required(bool yes) { return option_->required(yes), *this; }
 Option& Option::value(const char* name) { return option_->type_name(name), *this; }
-Option& Option::values(int fewest, int most) { return option_->expected(fewest, most), *this; }
+Option& Option::values(int fewest, int most) {
+  option_->expected(fewest, most);
+  if (fewest == most) option_->allow_extra_args(false);  // what follows is no value of it
+  return *this;
+}
 Option& Option::one_value_each() { return option_->allow_extra_args(false), *this; }
 Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
 Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }
@@ -134,7 +139,9 @@ int parse_and_run(const Program& program, int argc, char** argv, int wrong_input
   CommandLine line(app);
   program.add_commands(line);
   if (argc > 1 && is_unknown_command(app, argv[1]))
-    return tell(app, fmt::format("there is no command '{}'", argv[1])), wrong_input;
+    return tell(app, fmt::format("there is no command '{}' (nearest: {})", argv[1],
+                                 nearest_name(argv[1], command_names(app)))),
+           wrong_input;
   try {
     app.parse(argc, argv);  // the action of the command runs in here
   } catch (const CLI::Success& help) {

@@ -5,6 +5,9 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
+#include "gapscope/base/text.h"
 #include "gapscope/plant/effect.h"
 
 namespace gapscope::cli {
@@ -38,28 +41,56 @@ void print_json() {
   fmt::print("[\n{}\n]\n", fmt::join(rows, ",\n"));
 }
 
+std::string parameters_of(const EffectEntry& e) {
+  std::vector<std::string> parameters;
+  for (const EffectParameterSpec& p : e.parameters)
+    parameters.push_back(fmt::format("{} [{}]", p.key, p.unit));
+  return fmt::format("{}", fmt::join(parameters, ", "));
+}
+
 void print_laws() {
-  for (const EffectEntry* e : listed()) {
-    std::vector<std::string> parameters;
-    for (const EffectParameterSpec& p : e->parameters)
-      parameters.push_back(fmt::format("{} [{}]", p.key, p.unit));
-    fmt::print("{:<23} {:<8} {}\n{:<32} {}\n", e->name, to_string(e->side), e->law, "",
-               fmt::join(parameters, ", "));
+  for (const EffectEntry* e : listed())
+    fmt::print("{:<23} {:<8} {}\n{:<32} {}\n", e->name, to_string(e->side), e->law, "", parameters_of(*e));
+}
+
+/// One effect, and how it is written.
+void print_one(const std::string& name) {
+  const EffectEntry* e = find_effect(name);
+  if (e == nullptr) {
+    std::vector<std::string> names;
+    for (const EffectEntry* other : listed()) names.emplace_back(other->name);
+    throw ConfigError(
+        fmt::format("gapscope: there is no effect {}, expected one of `gapscope effects`; the nearest is {}",
+                    shown(name), nearest_name(name, names)));
   }
+  std::vector<std::string> written;
+  for (const EffectParameterSpec& p : e->parameters)
+    written.push_back(fmt::format("{}: {{estimate: true}}", p.key));
+  fmt::print("effect      {}\nacts on     {}\nlaw         {}\nparameters  {}\n", e->name, to_string(e->side),
+             e->law, parameters_of(*e));
+  if (!e->look_alikes.empty()) fmt::print("look-alikes {}\n", fmt::join(e->look_alikes, ", "));
+  fmt::print("known       effects: [{{{}: {{{}: NUMBER{}}}}}]\nfitted      effects: [{{{}: {{{}}}}}]\n",
+             e->name, e->parameters.front().key, e->parameters.size() > 1 ? ", ..." : "", e->name,
+             fmt::join(written, ", "));
 }
 
 }  // namespace
 
 void add_effects(CommandLine& app) {
   auto json = std::make_shared<bool>(false), laws = std::make_shared<bool>(false);
+  auto name = std::make_shared<std::string>();
   CommandLine command = app.add_command("effects", "Lists the effects that a model or a simulation can have");
+  const Option one =
+      command.add_option("NAME", *name, "one of them, and how it is written (default: all names)");
   const Option as_json =
-      command.add_flag("--json", *json, "with side, law, parameters and units, and look-alikes");
+      command.add_flag("--json", *json, "with side, law, parameters and units, and look-alikes")
+          .excludes(one);
   command
       .add_flag(
           "--laws", *laws,
           "each with what it acts on (command, motor, contact, load, sensor), its law and its parameters")
-      .excludes(as_json);
+      .excludes(as_json)
+      .excludes(one);
   command.footer(
       "One identifier a line. In a law x1, w1 are angle and speed of the motor, x2, w2 of the load, u is the "
       "input.\n"
@@ -68,8 +99,9 @@ void add_effects(CommandLine& app) {
       "over what no effect explains.\n"
       "In a configuration: effects: [{cogging_torque: {amplitude_nm: 0.004,\n"
       "periods_per_turn: 24}}], under model: (known effects) or simulation: model: (the true plant).\n\n"
-      "Example: gapscope effects --laws");
-  command.action([json, laws] {
+      "Example: gapscope effects cogging_torque");
+  command.action([json, laws, name] {
+    if (!name->empty()) return print_one(*name);
     if (*json) return print_json();
     if (*laws) return print_laws();
     for (const EffectEntry* e : listed()) fmt::print("{}\n", e->name);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "config/model_reader.h"
+#include "gapscope/base/text.h"
 #include "gapscope/simulation/simulate.h"
 
 namespace gapscope {
@@ -62,11 +63,11 @@ double neutral(const EffectParameterSpec& spec) {
 
 const EffectEntry& effect_named(const std::string& name, const Value& value) {
   if (const EffectEntry* entry = find_effect(name)) return *entry;
-  const EffectEntry* nearest = effect_table().front();
-  for (const EffectEntry* entry : effect_table())
-    if (distance(entry->name, name) < distance(nearest->name, name)) nearest = entry;
-  value.fail(fmt::format(
-      "is no effect of the catalogue, expected one of `gapscope effects`; the nearest is {}", nearest->name));
+  std::vector<std::string> names;
+  for (const EffectEntry* entry : effect_table()) names.emplace_back(entry->name);
+  value.fail(
+      fmt::format("is no effect of the catalogue, expected one of `gapscope effects`; the nearest is {}",
+                  nearest_name(name, names)));
 }
 
 EffectConfig read_effect(const Value& value) {

@@ -9,6 +9,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope::internal::config {
 namespace {
@@ -27,17 +28,11 @@ std::string with_unit(const std::string& text, const char* unit) {
   return *unit == '\0' || std::string_view(unit) == "-" ? text : text + " " + unit;
 }
 
-const std::string& nearest(const std::string& key, const std::vector<std::string>& known) {
-  return *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-    return distance(key, a) < distance(key, b);
-  });
-}
-
 std::string unknown_key(const std::string& key, const std::string& where,
                         const std::vector<std::string>& known) {
   const std::string place = where.empty() ? "" : " in " + where;
-  const std::string& near = nearest(key, known);
-  const bool alike = distance(key, near) <= std::max<std::size_t>(2, near.size() / 3);
+  const std::string& near = nearest_name(key, known);
+  const bool alike = edit_distance(key, near) <= std::max<std::size_t>(2, near.size() / 3);
   if (known.size() == 1) return fmt::format("unknown key {}{}, expected {}", shown(key), place, known[0]);
   if (alike)
     return fmt::format("unknown key {}{}, expected {} (or one of {})", shown(key), place, near,
@@ -187,21 +182,6 @@ Value Section::require(const std::string& key, const std::string& expected) cons
   if (auto value = find(key)) return *value;
   if (!value_.path().empty()) value_.fail(fmt::format("has no {}, expected {}", key, expected));
   value_.fail(fmt::format("there is no {}, expected {}", key, expected));
-}
-
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace gapscope::internal::config

@@ -82,7 +82,4 @@ class Section {
   std::map<std::string, Value> values_;
 };
 
-/// Edit distance of two keys: letters put in, left out or changed.
-std::size_t distance(const std::string& a, const std::string& b);
-
 }  // namespace gapscope::internal::config

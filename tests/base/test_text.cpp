@@ -22,5 +22,22 @@ TEST(Text, OfAListIsFoundAsAWhole) {
   EXPECT_FALSE(contains(names, "mass"));
 }
 
+TEST(Text, TheNearestNameHasTheWordInItOrIsFewestLettersAway) {
+  const std::vector<std::string> names = {"backlash", "motor_coulomb_friction", "load_coulomb_friction",
+                                          "run"};
+  EXPECT_EQ(nearest_name("coulomb", names), "load_coulomb_friction");
+  EXPECT_EQ(nearest_name("rnu", names), "run");
+  EXPECT_EQ(nearest_name("baklash", names), "backlash");
+  EXPECT_EQ(nearest_name("", names), "run");
+}
+
+TEST(Text, TheEditDistanceCountsLettersPutInLeftOutAndReplaced) {
+  EXPECT_EQ(edit_distance("gap", "gap"), 0u);
+  EXPECT_EQ(edit_distance("gap", "gaps"), 1u);
+  EXPECT_EQ(edit_distance("gap", "cap"), 1u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+  EXPECT_EQ(edit_distance("", "gap"), 3u);
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -78,7 +78,7 @@ const std::vector<BadInput> kRecordings = {
     recording("no_file", "", "c.yaml:3: there is no recording r.csv"),
     recording("no_header", with(rows(60), "t,u,x1\n", ""), "r.csv:1: there is no column 't'"),
     recording("no_position", with(rows(60), "x1", "y"), "r.csv:1: there is no column 'x1'"),
-    recording("semicolons", "t;u;x1\n0;0;0\n", "r.csv:1: there is no column 't'"),
+    recording("bars", "t|u|x1\n0|0|0\n", "r.csv:1: there is no column 't'"),
     recording("word", with(rows(60), "0.003000,0.5", "0.003000,half"), "r.csv:5: u is 'half'"),
     recording("nan", with(rows(60), "0.25\n0.006", "nan\n0.006"), "r.csv:7: x1 is 'nan'"),
     recording("short_row", rows(60) + "0.06\n", "r.csv:62: 1 fields"),
@@ -141,7 +141,7 @@ const std::vector<BadInput> kConfigs = {
 
 const std::vector<BadInput> kCommandLines = {
     line("no_command", "", "gapscope: there is no command"),
-    line("unknown_command", "rnu c.yaml", "gapscope: there is no command 'rnu'"),
+    line("unknown_command", "rnu c.yaml", "gapscope: there is no command 'rnu' (nearest: run), expected"),
     line("no_config", "run", "gapscope: CONFIG is required"),
     line("unknown_option", "run c.yaml --fast", "gapscope: "),
     line("second_config", "run c.yaml d.yaml", "gapscope: "),

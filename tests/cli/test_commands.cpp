@@ -227,14 +227,6 @@ TEST(Commands, TheModelOfADiagnosisRunsUnderTheInputThatWasHeldOut) {
             0.03);  // of 0.5 rad: the first speed is read off 0.1 s
 }
 
-TEST(Commands, EffectsAreBareNamesInAPipeAndExplainedOnRequest) {
-  const Workplace place;
-  EXPECT_THAT(place.run("effects").out, ::testing::StartsWith("actuator_lag\nbacklash\n"));
-  EXPECT_THAT(place.run("effects --laws").out,
-              HasSubstr("\ncogging_torque          motor    motor torque -A (sin"));
-  EXPECT_EQ(place.run("effects --laws --json").status, 2);
-}
-
 TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {
   Workplace place;
   place.file("c.yaml", kConfig);

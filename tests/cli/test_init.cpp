@@ -61,6 +61,14 @@ TEST(Init, AGapIsSeenAndLeftToTheFit) {
   EXPECT_THAT(again.err, HasSubstr("drive.yaml: is there already, expected another name"));
 }
 
+TEST(Init, AnOptionWithTwoNumbersDoesNotTakeTheFileAfterThem) {
+  const Workplace place;
+  const std::string recording = std::string(GAPSCOPE_SOURCE_DIR) + "/configs/03_recording.csv";
+  const auto init = place.run("init --window 0 1.5 " + recording + " -o drive.yaml");
+  EXPECT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(testing::text_of(place.folder() / "drive.yaml"), HasSubstr("window: [0, 1.5]"));
+}
+
 TEST(Init, AGapThatTheDetectorDoesNotSeeIsMarkedAsAGuess) {
   Workplace place;
   TestEncoder encoder;

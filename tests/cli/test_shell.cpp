@@ -11,6 +11,7 @@
 namespace gapscope {
 namespace {
 
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using ::testing::UnorderedElementsAre;
@@ -119,6 +120,19 @@ TEST(Shell, AValueIsCompletedByWhatItIs) {
                                    "load_unbalance"));
   EXPECT_THAT(completion.of("blind drives --kind ''"), UnorderedElementsAre("gap", "gap_free"));
   EXPECT_THAT(completion.of("completion ''"), UnorderedElementsAre("bash", "zsh"));
+}
+
+TEST(Shell, EffectsAreBareNamesInAPipeAndExplainedOnRequest) {
+  const Workplace place;
+  EXPECT_THAT(place.run("effects").out, ::testing::StartsWith("actuator_lag\nbacklash\n"));
+  EXPECT_THAT(place.run("effects --laws").out,
+              HasSubstr("\ncogging_torque          motor    motor torque -A (sin"));
+  EXPECT_EQ(place.run("effects --laws --json").status, 2);
+  EXPECT_THAT(place.run("effects motor_coulomb_friction").out,
+              HasSubstr("known       effects: [{motor_coulomb_friction: {level_nm: NUMBER}}]"));
+  const auto guessed = place.run("effects coulomb");
+  EXPECT_EQ(guessed.status, 2);
+  EXPECT_THAT(guessed.err, HasSubstr("the nearest is motor_coulomb_friction"));
 }
 
 }  // namespace

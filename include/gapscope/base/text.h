@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -10,6 +11,14 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 /// An identifier for people: "cogging_torque" reads "cogging torque".
 std::string readable(const std::string& identifier);
+
+/// Number of letters to insert, delete or replace to make one word of the other (Levenshtein).
+std::size_t edit_distance(const std::string& a, const std::string& b);
+
+/// The name that was probably meant: the shortest one that has the word in it, else the one that is fewest
+/// letters away.
+/// @param names  at least one
+const std::string& nearest_name(const std::string& word, std::span<const std::string> names);
 
 bool contains(std::span<const std::string> names, const std::string& name);
 
