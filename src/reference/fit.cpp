@@ -9,6 +9,7 @@
 #include "reference/profile.h"
 #include "reference/residual_tests.h"
 #include "reference/search.h"
+#include "reference/trust.h"
 #include "reference/words.h"
 
 namespace gapscope {
@@ -75,6 +76,7 @@ void report_motion(const FitProblem& problem, const FitOutcome& outcome, FitSumm
     summary.initial_states.push_back({problem.recordings[r].file, start_state(problem, outcome.solution, r)});
   }
   summary.rmse = free_run_error(problem, summary.traces);
+  summary.fit_percent = fit_percent(problem, summary.traces);
   if (const double ratio = error_over_stillness(problem, summary.traces); ratio > kWorseThanStill)
     summary.warnings.insert(summary.warnings.begin(), words::worse_than_still(ratio));
   summary.innovation_rmse = prediction_error(problem, summary.traces);
@@ -87,6 +89,7 @@ void report_motion(const FitProblem& problem, const FitOutcome& outcome, FitSumm
 void report_failure(const FitProblem& problem, FitSummary& summary) {
   summary.status = FitStatus::kFailed;
   summary.message = words::diverges();
+  summary.why = words::failed_to_fit();
   for (const Parameter& p : problem.parameters) {
     FittedParameter f;
     f.key = p.key, f.unit = p.unit, f.start = p.start, f.low = p.low, f.high = p.high;
@@ -119,6 +122,9 @@ FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& mod
     simulations += outcome.simulations + report_parameters(problem, outcome, summary);
     report_motion(problem, outcome, summary);
     simulations += kSimulationsPerTrace * static_cast<double>(summary.traces.size());
+    const TrustFacts facts = trust_facts(problem, found);
+    judge_trust(problem, outcome, facts, summary);
+    simulations += facts.simulations;
   }
   summary.simulations = static_cast<int>(std::lround(simulations));
   return summary;

@@ -35,6 +35,18 @@ std::string note(const FittedParameter& p) {
 
 }  // namespace
 
+const char* to_string(FitTrust trust) {
+  switch (trust) {
+    case FitTrust::kGood:
+      return "good";
+    case FitTrust::kLimited:
+      return "limited";
+    case FitTrust::kRejected:
+      return "rejected";
+  }
+  return "";
+}
+
 const FittedParameter* FitSummary::find(const std::string& key) const {
   for (const FittedParameter& p : parameters)
     if (p.key == key) return &p;
@@ -46,8 +58,9 @@ std::string FitSummary::brief_report() const {
   if (status == FitStatus::kNotRun || status == FitStatus::kFailed) return text + ": " + message.text();
   if (const FittedParameter* gap = find("gap"); gap != nullptr && gap->estimated) {
     text += fmt::format(", gap {}", number(gap->value));
-    text += gap->identifiable ? fmt::format(" [{}, {}]", number(gap->ci95.low), number(gap->ci95.high))
-                              : " (not identifiable)";
+    text += rejected()          ? " (rejected: " + why.text() + ")"
+            : gap->identifiable ? fmt::format(" [{}, {}]", number(gap->ci95.low), number(gap->ci95.high))
+                                : " (not identifiable)";
   }
   text += fmt::format(", free-run error {} (encoder floor {})", number(rmse), number(floor));
   if (!warnings.empty())
@@ -61,11 +74,14 @@ std::string FitSummary::full_report() const {
   text += fmt::format("{:<34} {:>12} {:>12} {:>12} {:>26}  {}\n", "parameter", "start", "value", "std",
                       "95 %", "");
   for (const FittedParameter& p : parameters) {
+    const Interval ci95 = shown_interval(p);
     const std::string interval =
-        std::isnan(p.ci95.low) ? "-" : fmt::format("{} .. {}", number(p.ci95.low), number(p.ci95.high));
-    text += fmt::format("{:<34} {:>12} {:>12} {:>12} {:>26}  {}\n", fmt::format("{} [{}]", p.key, p.unit),
-                        number(p.start), number(p.value), number(p.std), interval, note(p));
+        std::isnan(ci95.low) ? "-" : fmt::format("{} .. {}", number(ci95.low), number(ci95.high));
+    text +=
+        fmt::format("{:<34} {:>12} {:>12} {:>12} {:>26}  {}\n", fmt::format("{} [{}]", p.key, p.unit),
+                    number(p.start), number(p.value), rejected() ? "-" : number(p.std), interval, note(p));
   }
+  text += fmt::format("trust: {}. {}\nfit {} %, ", to_string(trust), why.text(), number(fit_percent));
   text += fmt::format("free-run error {}, prediction error {} at {} Hz, encoder floor {}\n", number(rmse),
                       number(innovation_rmse), number(observer_hz), number(floor));
   for (const ModeError& m : mode_errors)

@@ -71,6 +71,15 @@ Remark not_explained(double floors, double observer_hz) {
       "missing.",
       {floors, observer_hz}};
 }
+Remark leaves_some(double unexplained_percent, double observer_hz) {
+  return {
+      "leaves_some",
+      "{:.2g} % of what the torque does to the motion is left unexplained: values are those of an observer "
+      "at "
+      "{:.3g} Hz; intervals hold their scatter over windows, gains and parts of the recordings, not what the "
+      "missing physics may bias. `gapscope diagnose` asks what is missing.",
+      {unexplained_percent, observer_hz}};
+}
 Remark free_run_departs(double observer_hz) {
   return {"free_run_departs",
           "the free run departs from the recordings although the predictions do not: values are those of an "
@@ -120,6 +129,64 @@ Remark little_known(const std::string& key, double percent) {
   return {"little_known",
           "{} is known to {:.2g} % only (standard error); sharper by {}.",
           {key, percent, excitation_for(key)}};
+}
+
+Remark at_the_floor(double fit_percent) {
+  return {"at_the_floor",
+          "The free run follows the recording to {:.4g} % and leaves what the encoder leaves.",
+          {fit_percent}};
+}
+Remark failed_to_fit() { return {"failed", "The simulated motion diverges from every starting point."}; }
+Remark leaves_unexplained(double share, double floors) {
+  if (share >= 1.0)
+    return {"leaves_unexplained",
+            "The model predicts the motion no better than a motor that coasts without any torque (prediction "
+            "error {:.2g} encoder floors).",
+            {floors}};
+  return {"leaves_unexplained",
+          "The model misses {:.0f} % of what the torque does to the motion (prediction error {:.2g} encoder "
+          "floors).",
+          {100.0 * share, floors}};
+}
+Remark as_well_without_gap(double ratio) {
+  return {"as_well_without_gap",
+          "The recording is explained as well without a gap (prediction error with the gap closed: {:.3g} "
+          "times that with it open).",
+          {ratio}};
+}
+Remark gap_differs() {
+  return {"gap_differs",
+          "Parts of the recording ask for different gaps: what the model takes for a gap is "
+          "something else."};
+}
+Remark odd_coupling(const std::string& key, double value, const std::string& unit) {
+  return {"odd_coupling",
+          "It misses the recording even with {} at its bound ({:.3g} {}): the coupling takes the place of "
+          "something else.",
+          {key, value, RemarkUnit{unit}}};
+}
+Remark not_settled() { return {"not_settled", "The iterations ran out before the cost settled."}; }
+Remark gap_at_bound() { return {"gap_at_bound", "The gap ended at its bound."}; }
+Remark gap_not_determined() { return {"gap_not_determined", "The recording does not determine the gap."}; }
+Remark parts_disagree() {
+  return {
+      "parts_disagree",
+      "Values move by more than their intervals between parts of the recording or gains of the observer."};
+}
+Remark above_floor(double fit_percent, double floors, double unexplained_percent) {
+  const Remark run =
+      fit_percent > 0.0
+          ? Remark("above_floor", "The free run follows the recording to {:.4g} %", {fit_percent})
+          : Remark("above_floor", "The free run drifts away");
+  return run +
+         Remark("above_floor",
+                ", and {:.2g} % of what the torque does to the motion is left unexplained ({:.2g} encoder "
+                "floors): intervals do not hold what the missing physics may bias.",
+                {unexplained_percent, floors});
+}
+Remark residual_patterned() {
+  return {"residual_patterned",
+          "The residual is within the encoder's size but not random: something small is missing."};
 }
 
 Remark another_gap(double from, const std::string& unit, double to) {

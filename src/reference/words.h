@@ -15,6 +15,7 @@ std::string excitation_for(const std::string& key);
 Remark diverges();
 Remark iterations_ran_out();
 Remark not_explained(double floors, double observer_hz);
+Remark leaves_some(double unexplained_percent, double observer_hz);
 Remark free_run_departs(double observer_hz);
 Remark not_random(double lag1, double quantiser);
 Remark worse_than_still(double ratio);
@@ -30,6 +31,21 @@ Remark not_determined(const std::string& key, double std, const std::string& uni
                       const std::string& partner);
 Remark no_information(const std::string& key);
 Remark little_known(const std::string& key, double percent);
+
+// How far it is trusted.
+Remark at_the_floor(double fit_percent);
+Remark failed_to_fit();
+/// @param share  0 to 1, and more where a coasting motor predicts better
+Remark leaves_unexplained(double share, double floors);
+Remark as_well_without_gap(double ratio);
+Remark gap_differs();
+Remark odd_coupling(const std::string& key, double value, const std::string& unit);
+Remark not_settled();
+Remark gap_at_bound();
+Remark gap_not_determined();
+Remark parts_disagree();
+Remark above_floor(double fit_percent, double floors, double unexplained_percent);
+Remark residual_patterned();
 
 // What differs from part to part.
 struct ValueShift {

@@ -19,6 +19,7 @@ TEST(FitSummary, ADefaultOneSaysThatNothingWasRun) {
 TEST(FitSummary, ReportsNameWhatWasFixedAndWhatCouldNotBeDetermined) {
   FitSummary summary;
   summary.status = FitStatus::kConverged;
+  summary.trust = FitTrust::kGood;
   summary.rmse = 1.5e-5;
   FittedParameter gap;
   gap.key = "gap", gap.unit = "rad", gap.value = 0.0188, gap.estimated = gap.identifiable = true;
@@ -37,6 +38,9 @@ TEST(FitSummary, ReportsNameWhatWasFixedAndWhatCouldNotBeDetermined) {
   EXPECT_NE(full.find("not identifiable"), std::string::npos);
   EXPECT_NE(full.find("warning: something to know."), std::string::npos);
   EXPECT_EQ(full.find("nan"), std::string::npos);
+  summary.trust = FitTrust::kRejected;
+  EXPECT_EQ(summary.brief_report().find("["), std::string::npos);
+  EXPECT_EQ(summary.full_report().find("0.0187"), std::string::npos);
 }
 
 }  // namespace

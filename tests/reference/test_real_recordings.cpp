@@ -60,7 +60,7 @@ TEST(RealRecordings, ABallScrewAxisIsFoundAsItWasPublished) {
     EXPECT_NEAR(summary.find(key)->value / value, 1.0, tolerance) << key;
   }
   // The model is not all there is, and the fit says so.
-  EXPECT_NE(summary.full_report().find("does not explain"), std::string::npos);
+  EXPECT_NE(summary.full_report().find("is left unexplained"), std::string::npos);
 }
 
 TEST(RealRecordings, TheHalvesOfARecordingAgree) {

@@ -12,6 +12,15 @@ namespace gapscope {
 
 enum class FitStatus { kNotRun, kConverged, kNotConverged, kFailed };
 
+/// How far the numbers of a fit can be relied on.
+///   good      the model leaves what the encoder leaves: intervals mean what they say
+///   limited   usable, with what `why` names in mind
+///   rejected  the model misses the recordings by more than their noise and repeatability explain, or what it
+///             says of the gap is not in them: its numbers stand without intervals
+enum class FitTrust { kGood, kLimited, kRejected };
+
+const char* to_string(FitTrust trust);  ///< "good", "limited", "rejected"
+
 struct FittedParameter {
   std::string key;  ///< as in the YAML
   std::string unit;
@@ -61,16 +70,21 @@ struct ResidualTest {
 struct FitSummary {
   FitStatus status = FitStatus::kNotRun;
   Remark message = Remark("not_run", "fit() was not called.");
-  double rmse = kNaN;                  ///< free-run x1 − recorded x1, all recordings [rad]
-  double floor = kNaN;                 ///< what the encoder alone leaves [rad]
-  double innovation_rmse = kNaN;       ///< one-step prediction error of the model run as an observer [rad]
-  double observer_hz = kNaN;           ///< poles of that observer [Hz]
-  double objective_hz = kNaN;          ///< poles of the observer that gave the values; 0: the free run [Hz]
-  int starts = 0;                      ///< starting points tried
-  int simulations = 0;                 ///< plain simulations spent, a Jet run counted as its measured cost
-  double lag1_autocorrelation = kNaN;  ///< of the residual [-]
-  ResidualTest whiteness;              ///< of the residual with itself
-  ResidualTest input_correlation;      ///< of the residual with the input
+  FitTrust trust = FitTrust::kRejected;
+  Remark why = Remark("not_run", "fit() was not called.");  ///< what the trust rests on, one sentence
+  double fit_percent = kNaN;  ///< 100 (1 − |x1 − x̂1|/|x1 − mean|) of the free run, worst recording
+  double rmse = kNaN;         ///< free-run x1 − recorded x1, all recordings [rad]
+  double floor = kNaN;        ///< what the encoder alone leaves [rad]
+  double innovation_rmse = kNaN;    ///< one-step prediction error of the model run as an observer [rad]
+  double observer_hz = kNaN;        ///< poles of that observer [Hz]
+  double objective_hz = kNaN;       ///< poles of the observer that gave the values; 0: the free run [Hz]
+  double coasting_rmse = kNaN;      ///< that error of an observer that knows no torque [rad]
+  double without_gap_ratio = kNaN;  ///< that error with the gap closed, over that with it open; NaN: no gap
+  int starts = 0;                   ///< starting points tried
+  int simulations = 0;              ///< plain simulations spent, a Jet run counted as its measured cost
+  double lag1_autocorrelation = kNaN;       ///< of the residual [-]
+  ResidualTest whiteness;                   ///< of the residual with itself
+  ResidualTest input_correlation;           ///< of the residual with the input
   std::vector<FittedParameter> parameters;  ///< estimated and fixed, in the order of the YAML keys
   std::vector<FittedStart> initial_states;  ///< one per recording
   std::vector<FitTrace> traces;
@@ -80,6 +94,9 @@ struct FitSummary {
   std::vector<Remark> warnings;     ///< null directions, bounds, advice: one sentence each
 
   bool converged() const { return status == FitStatus::kConverged; }
+  bool rejected() const { return trust == FitTrust::kRejected; }
+  /// The interval of one of its parameters as it may be shown: none where the fit is rejected.
+  Interval shown_interval(const FittedParameter& p) const { return rejected() ? Interval{} : p.ci95; }
   const FittedParameter* find(const std::string& key) const;  ///< nullptr if there is none of that key
   std::string brief_report() const;                           ///< one line: log, command line
   std::string full_report() const;                            ///< table: terminal, report.md
