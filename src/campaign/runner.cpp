@@ -41,6 +41,7 @@ void note_reference(const FitSummary& f, CampaignRow& row) {
   row.status = f.status == FitStatus::kConverged ? "converged"
                : f.status == FitStatus::kFailed  ? "failed"
                                                  : "not_converged";
+  row.reference_trust = to_string(f.trust);
   row.rmse = f.rmse;
   const FittedParameter* gap = f.find("gap");
   if (gap == nullptr) return;

@@ -14,6 +14,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/process_lock.h"
 #include "gapscope/base/require.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace {
@@ -81,10 +82,12 @@ std::string made(const std::string& folder) {
   return folder;
 }
 
-/// "INSERT INTO runs VALUES (?, ?, ...)"
-std::string insertion(const char* table, std::size_t columns) {
-  return fmt::format("INSERT INTO {} VALUES ({})", table,
-                     fmt::join(std::vector<std::string>(columns, "?"), ", "));
+/// "INSERT INTO runs (run, ...) VALUES (?, ...)": columns that were added later stand where they were added.
+std::string insertion(const char* table, const std::vector<std::string>& columns) {
+  std::vector<std::string> names;
+  for (const std::string& column : columns) names.push_back(internal::campaign::quoted_name(column));
+  return fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(names, ", "),
+                     fmt::join(std::vector<std::string>(columns.size(), "?"), ", "));
 }
 
 struct Binder {
@@ -104,10 +107,10 @@ struct ColumnReader {
 };
 
 std::string selection(Database& database, const CampaignHeader& header, bool configurations) {
-  const bool codes = internal::campaign::has_reason_codes(database);
+  const std::vector<std::string> missing = internal::campaign::missing_columns(database);
   std::vector<std::string> columns;
   for (const std::string& name : internal::campaign::run_columns(header)) {
-    const bool left_out = (name == "configuration" && !configurations) || (name == kReasonCodes && !codes);
+    const bool left_out = (name == "configuration" && !configurations) || contains(missing, name);
     columns.push_back(left_out ? "''" : "runs." + internal::campaign::quoted_name(name));
   }
   return fmt::format(
@@ -158,12 +161,13 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
     internal::campaign::create_tables(database, header);  // all at once: a kill leaves an empty file, or all
   else
     require_same(database, header);
-  if (!internal::campaign::has_reason_codes(database)) internal::campaign::add_reason_codes(database);
+  internal::campaign::add_columns(database, internal::campaign::missing_columns(database));
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
-  connection_->insert_run = std::make_unique<Statement>(
-      database, insertion("runs", internal::campaign::run_columns(header).size()));
-  connection_->insert_timing = std::make_unique<Statement>(database, insertion("timing", 4));
+  connection_->insert_run =
+      std::make_unique<Statement>(database, insertion("runs", internal::campaign::run_columns(header)));
+  connection_->insert_timing = std::make_unique<Statement>(
+      database, insertion("timing", {"run", "model_free_s", "reference_s", "run_s"}));
 }
 
 CampaignStore::CampaignStore(const std::string& folder)

@@ -212,14 +212,18 @@ CampaignHeader read_header(Database& database, const std::string& file) {
   return h;
 }
 
-bool has_reason_codes(Database& database) {
-  Statement select(database, "SELECT name FROM pragma_table_info('runs') WHERE name = ?");
-  select.bind(std::string(kReasonCodes));
-  return select.step();
+std::vector<std::string> missing_columns(Database& database) {
+  std::vector<std::string> missing;
+  for (const std::string name : kAddedColumns) {
+    Statement select(database, "SELECT name FROM pragma_table_info('runs') WHERE name = ?");
+    select.bind(name);
+    if (!select.step()) missing.push_back(name);
+  }
+  return missing;
 }
 
-void add_reason_codes(Database& database) {
-  database.execute("ALTER TABLE runs ADD COLUMN " + quoted_name(kReasonCodes));
+void add_columns(Database& database, const std::vector<std::string>& names) {
+  for (const std::string& name : names) database.execute("ALTER TABLE runs ADD COLUMN " + quoted_name(name));
 }
 
 std::string header_difference(const CampaignHeader& stored, const CampaignHeader& wanted) {

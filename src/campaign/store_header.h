@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "campaign/sqlite.h"
 #include "gapscope/campaign/store.h"
@@ -18,9 +19,9 @@ CampaignHeader read_header(Database& database, const std::string& file);
 /// Names of the columns of `runs`: run, axes, drawn, fields of a row.
 std::vector<std::string> run_columns(const CampaignHeader& header);
 
-/// Whether `runs` has the column that was added last: stores that were made before have all but that.
-bool has_reason_codes(Database& database);
-void add_reason_codes(Database& database);
+/// Which of kAddedColumns `runs` has not, as in stores that were made before them.
+std::vector<std::string> missing_columns(Database& database);
+void add_columns(Database& database, const std::vector<std::string>& names);
 
 /// What tells two campaigns apart, "" if nothing does; the shard is not looked at.
 /// @param stored, wanted  as the sentence calls them

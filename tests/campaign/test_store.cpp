@@ -154,32 +154,34 @@ TEST(Store, AnotherVersionAndAnotherShardAreRefused) {
               HasSubstr("holds shard 1/1, expected 1/2"));
 }
 
-TEST(Store, OneThatWasMadeWithoutTheCodesOfReasonsIsReadAndGoneOnWith) {
+TEST(Store, OneThatWasMadeWithoutColumnsThatWereAddedLaterIsReadAndGoneOnWith) {
   const SmallCampaign small("axes: {encoder.bits: [16, 20]}\n");
   CampaignRow row;
   row.point = {"16"};
   row.reason = "too slow";
   row.reason_codes = "too_slow";
+  row.reference_trust = "limited";
   const auto add = [&] {
     CampaignStore(small.place("store"), campaign_header(small.config, {})).add(row, {});
   };
   add();
   testing::change_store(small.place("store/results.sqlite"),
-                        "ALTER TABLE runs DROP COLUMN model_free_reason_codes");
+                        "ALTER TABLE runs DROP COLUMN model_free_reason_codes; "
+                        "ALTER TABLE runs DROP COLUMN reference_trust");
   std::vector<std::string> codes;
   const auto read = [&] {
     codes.clear();
     CampaignStore(small.place("store")).each([&](CampaignRow& r, const CampaignTiming&) {
-      codes.push_back(r.reason_codes);
+      codes.push_back(r.reason_codes + "/" + r.reference_trust);
       EXPECT_EQ(r.reason, row.reason);
     });
     return codes;
   };
-  EXPECT_THAT(read(), ::testing::ElementsAre(""));
+  EXPECT_THAT(read(), ::testing::ElementsAre("/"));
   row.run = 1;
   row.point = {"20"};
   add();
-  EXPECT_THAT(read(), ::testing::ElementsAre("", "too_slow"));
+  EXPECT_THAT(read(), ::testing::ElementsAre("/", "too_slow/limited"));
 }
 
 TEST(Store, OnlyOneProcessAddsAtATime) {

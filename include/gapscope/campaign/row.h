@@ -33,6 +33,7 @@ struct CampaignRow {
   double joint_std = kNaN;
   std::optional<bool> agree;
   std::string reason_codes;  ///< Remark::codes() of the reason; empty in stores that were made without them
+  std::string reference_trust;  ///< good, limited, rejected; empty in stores that were made without it
 };
 
 /// Wall times of a run; they are kept apart from what a run is a function of.
@@ -42,8 +43,8 @@ struct CampaignTiming {
   double run_s = kNaN;  ///< with making or reading the data
 };
 
-/// The column that stores of earlier versions do not have.
-inline constexpr const char* kReasonCodes = "model_free_reason_codes";
+/// The columns that stores of earlier versions do not have, in the order in which they were added.
+inline constexpr const char* kAddedColumns[] = {"model_free_reason_codes", "reference_trust"};
 
 /// Meets every field but `run` and `point` with its name in the store and in the export.
 template <class Visitor>
@@ -69,7 +70,8 @@ void fields(Visitor& visit, CampaignRow& r) {
   visit("joint_std_rad", r.joint_std);
   visit("agree", r.agree);
   visit("configuration", r.configuration);
-  visit(kReasonCodes, r.reason_codes);  // an addition, behind what older stores have
+  visit(kAddedColumns[0], r.reason_codes);  // additions, behind what older stores have
+  visit(kAddedColumns[1], r.reference_trust);
 }
 
 }  // namespace gapscope
