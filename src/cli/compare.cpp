@@ -73,9 +73,9 @@ void add_compare(CommandLine& app) {
       "would\n"
       "one in twenty; a gap that was denied may be anything up to the smallest that would have shown.\n"
       "Warned of: other numbers given, another excitation, encoder or method, the same recording twice, a\n"
-      "model that does not explain its recording. Intervals are those of single recordings; what a drive "
-      "does\n"
-      "differently from day to day is not in them, so see a small change twice before you believe it.\n"
+      "model that leaves more than the encoder explains. Numbers of a rejected model are left out.\n"
+      "Intervals are those of single recordings; what a drive does differently from day to day is not in\n"
+      "them, so see a small change twice before you believe it.\n"
       "Writes compare.json (units in the keys; rad means m on a translational axis), report.md and\n"
       "gap_over_recordings.png into the folder of -o.\n\n"
       "Example: gapscope compare reports/march reports/june reports/june_repaired -o reports/2026");

@@ -41,6 +41,11 @@ std::string reference_line(const FitSummary& f, Coordinates coordinates) {
   const std::string quality = fmt::format("{}, rmse {}", f.converged() ? "converged" : "not converged",
                                           coordinates.thousandths(f.rmse));
   const FittedParameter* gap = f.find("gap");
+  if (f.rejected())
+    return fmt::format("rejected: {}{}", f.why.text(),
+                       gap == nullptr || !gap->estimated || std::isnan(gap->value)
+                           ? ""
+                           : fmt::format(" ({} not to be believed)", coordinates.thousandths(gap->value)));
   if (gap == nullptr) return "no gap in this model (" + quality + ")";
   if (!gap->estimated) return fmt::format("{} fixed ({})", coordinates.thousandths(gap->value), quality);
   if (!gap->identifiable)
@@ -55,7 +60,8 @@ void print_parameters(const FitSummary& f, Coordinates coordinates) {
   for (const FittedParameter& p : f.parameters) {
     if (!p.estimated || p.key == "gap") continue;
     const std::string unit = p.unit == "-" ? "" : " " + coordinates.unit(p.unit);
-    const std::string interval = !p.identifiable ? "not identifiable"
+    const std::string interval = f.rejected()      ? "model rejected"
+                                 : !p.identifiable ? "not identifiable"
                                  : std::isnan(p.ci95.low)
                                      ? "no interval"
                                      : fmt::format("[{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high);
@@ -86,6 +92,9 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 void print_headline(const std::string& folder, const RunResult& r) {
   line("report", folder);
+  if (r.answer) line("answer", fmt::format("{} (trust: {})", r.answer->sentence, to_string(r.answer->trust)));
+  if (r.answer)
+    for (const std::string& step : r.answer->next) line("next", step);
   if (r.model_free) line("model-free", model_free_line(*r.model_free, r.coordinates));
   if (r.reference) line("reference", reference_line(*r.reference, r.coordinates));
   if (r.reference && !r.model_free) print_parameters(*r.reference, r.coordinates);

@@ -7,7 +7,7 @@ namespace gapscope {
 Comparison compare(const GapEstimate& model_free, const FitSummary& reference) {
   Comparison c;
   const FittedParameter* gap = reference.find("gap");
-  if (model_free.verdict != GapVerdict::kBacklash || gap == nullptr) return c;
+  if (model_free.verdict != GapVerdict::kBacklash || gap == nullptr || reference.rejected()) return c;
   // A gap of another quantity (play at zero torque) is not what the reference fits.
   if (model_free.quantity != GapQuantity::kGap) return c;
   c.difference = model_free.gap - gap->value;

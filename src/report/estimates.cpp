@@ -50,10 +50,14 @@ void add_model_free(const ReportView& view, Panel& panel) {
 void add_reference(const ReportView& view, Panel& panel) {
   const FittedParameter* gap = parameter(view.run, "gap");
   if (gap == nullptr) return;
-  std::string remark = plus_minus(gap->value, gap->ci95, view.length_unit);
+  const Interval ci95 = view.run.reference->shown_interval(*gap);
+  std::string remark = plus_minus(gap->value, ci95, view.length_unit);
   if (!gap->estimated) remark = quantity(gap->value, view.length_unit) + ", given";
   if (gap->estimated && !gap->identifiable) remark = "not identifiable";
-  add_row(panel, "reference", gap->value, gap->ci95, reference_style(), Marker::kCircle, remark);
+  const bool rejected = gap->estimated && view.run.reference->rejected();
+  if (rejected) remark = quantity(gap->value, view.length_unit) + ", model rejected";
+  add_row(panel, "reference", gap->value, ci95, rejected ? LineStyle{kGrey, 4.0, {}} : reference_style(),
+          rejected ? Marker::kCross : Marker::kCircle, remark);
 }
 
 void add_truth(const ReportView& view, Panel& panel) {

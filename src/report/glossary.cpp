@@ -31,6 +31,10 @@ constexpr Word kWords[] = {
      "the recordings determine this number; if not, its value is one of many"},
     {"Free run", "free run",
      "the fitted model under the recorded input from its initial state on, never corrected by the recording"},
+    {"a fit of", "fit",
+     "100·(1 − |x1 − model| / |x1 − mean|) of the free run (NRMSE), worst recording: 100 % is perfect, 0 no "
+     "better "
+     "than its mean"},
     {"prediction error", "prediction error",
      "what an observer, the model corrected by the encoder at every sample, still misses at the next one"},
     {"nominal model", "nominal model", "the model of the configuration, its estimated parameters fitted"},

@@ -16,17 +16,17 @@ std::string sentence(const std::string& text) {
   return text.empty() ? "" : text + (text.ends_with(".") ? " " : ". ");
 }
 
-std::string parameter_row(const FittedParameter& p, Coordinates coordinates) {
+std::string parameter_row(const FittedParameter& p, const FitSummary& fit, Coordinates coordinates) {
   const std::string unit = coordinates.shown_unit(p.unit);
   const char* known = !p.estimated ? "given" : p.identifiable ? "yes" : "no";
   const std::string start = p.estimated ? quantity(p.start, unit) : "";
   std::string remark = p.at_bound ? "at its bound" : "";
-  if (std::isfinite(p.profile_ci95.low))
+  if (std::isfinite(p.profile_ci95.low) && !fit.rejected())
     remark += (remark.empty() ? "profile likelihood " : ", profile likelihood ") +
               interval_text(p.profile_ci95, unit);
   return fmt::format("| `{}` | {} | {} | {} | {} |\n", p.key,
-                     p.estimated ? plus_minus(p.value, p.ci95, unit) : quantity(p.value, unit), known, start,
-                     remark);
+                     p.estimated ? plus_minus(p.value, fit.shown_interval(p), unit) : quantity(p.value, unit),
+                     known, start, remark);
 }
 
 /// The gap, or what the verdict says instead.
@@ -55,8 +55,8 @@ std::string estimate_rows(const RunResult& run) {
          g.method == GapMethod::kLostMotion ? "motor position and torque" : "motor position");
   }
   if (const FittedParameter* gap = parameter(run, "gap"))
-    row("model-based reference", gap->value, gap->ci95,
-        "motor position, input, equations and the given parameters");
+    row(run.reference->rejected() ? "model-based reference (rejected)" : "model-based reference", gap->value,
+        run.reference->shown_interval(*gap), "motor position, input, equations and the given parameters");
   if (run.comparison && std::isfinite(run.comparison->map_width))
     row("read off the x1–x2 map", run.comparison->map_width, {}, "both encoders");
   if (std::isfinite(run.simulated_gap)) row("simulated plant", run.simulated_gap, {}, "");
@@ -88,13 +88,17 @@ std::string bounds_line(const RunResult& run) {
 
 std::string parameter_table(const RunResult& run) {
   if (!run.reference || run.reference->parameters.empty()) return "";
-  std::string text =
-      "\n## Parameters of the reference\n\n| parameter | value (± half of the 95 % interval) | identifiable "
-      "| start | remark |\n|---|---|---|---|---|\n";
-  for (const FittedParameter& p : run.reference->parameters) text += parameter_row(p, run.coordinates);
   const FitSummary& fit = *run.reference;
+  std::string text = fmt::format(
+      "\n## Parameters of the reference\n\nTrust: {}. {}\n\n| parameter | {} | identifiable | start | remark "
+      "|\n|---|---|---|---|---|\n",
+      to_string(fit.trust), fit.why.text(),
+      fit.rejected() ? "value (of a rejected model, hence without an interval)"
+                     : "value (± half of the 95 % interval)");
+  for (const FittedParameter& p : fit.parameters) text += parameter_row(p, fit, run.coordinates);
   text +=
       "\n" + sentence(fit.message.text()) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";
+  if (std::isfinite(fit.fit_percent)) text += ", a fit of " + rounded(fit.fit_percent, 4) + " %";
   if (std::isfinite(fit.floor)) text += ", the encoder floor is " + quantity(fit.floor, position_unit(run));
   return text + ".\n";
 }
@@ -151,8 +155,18 @@ std::string bullet_section(const char* title, const std::vector<std::string>& li
   return text;
 }
 
-std::string report_text(const RunResult& run, const Timing& timing, const std::vector<FigureData>& figures) {
+/// What heads the report: the answer, what to do next, and what it was made of.
+std::string answer_section(const RunResult& run) {
   std::string text = fmt::format("# {}\n\n**{}**\n", run.name, headline(run));
+  if (!run.answer) return text;
+  text += fmt::format("\nTrust: {}.\n", to_string(run.answer->trust));
+  for (const std::string& step : run.answer->next)
+    text += (&step == &run.answer->next.front() ? "\nNext:\n\n- " : "- ") + step + "\n";
+  return text + "\n" + estimates_text(run) + "\n";
+}
+
+std::string report_text(const RunResult& run, const Timing& timing, const std::vector<FigureData>& figures) {
+  std::string text = answer_section(run);
   if (const auto lines = warnings_of(run); !lines.empty()) text += bullet_section("Warnings", lines);
   text += "\n## Estimates\n\n" + estimate_rows(run) + comparison_line(run);
   if (run.model_free && !run.model_free->reason.empty())

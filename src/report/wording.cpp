@@ -52,6 +52,9 @@ std::string reference_sentence(const RunResult& run) {
   if (fit.status == FitStatus::kFailed || fit.status == FitStatus::kNotRun)
     return "The model-based reference has no result: " + fit.message.text();
   if (gap == nullptr) return "The model-based reference was told that the drive has no gap" + state + ".";
+  if (fit.rejected())
+    return "The model-based reference is rejected, its gap (" + quantity(gap->value, position_unit(run)) +
+           ") is not to be believed: " + fit.why.text();
   const std::string value = with_interval(gap->value, gap->ci95, position_unit(run));
   if (!gap->estimated) return "The model-based reference took the gap as known, " + value + state + ".";
   if (!gap->identifiable)
@@ -173,7 +176,8 @@ std::string accuracy(const RunResult& run) {
   std::string text;
   if (run.model_free) text += error_sentence(run, "model-free", run.model_free->gap, run.model_free->ci95);
   if (const FittedParameter* gap = parameter(run, "gap"); gap != nullptr && gap->estimated)
-    text += (text.empty() ? "" : " ") + error_sentence(run, "reference", gap->value, gap->ci95);
+    text += (text.empty() ? "" : " ") +
+            error_sentence(run, "reference", gap->value, run.reference->shown_interval(*gap));
   return text;
 }
 
@@ -181,12 +185,14 @@ std::string fit_quality(const RunResult& run) {
   if (!run.reference || !std::isfinite(run.reference->rmse)) return "";
   const FitSummary& fit = *run.reference;
   std::string text = "Free run of the fitted model: " + quantity(fit.rmse, position_unit(run)) + " rms";
-  if (std::isfinite(fit.floor) && fit.floor > 0.0)
-    text += ", " + plain_number(fit.rmse / fit.floor) + " times the encoder floor";
+  if (std::isfinite(fit.fit_percent)) text += ", a fit of " + rounded(fit.fit_percent, 4) + " %";
+  if (std::isfinite(fit.floor)) text += "; the encoder floor is " + quantity(fit.floor, position_unit(run));
   return text + ".";
 }
 
-std::string headline(const RunResult& run) {
+std::string headline(const RunResult& run) { return run.answer ? run.answer->sentence : estimates_text(run); }
+
+std::string estimates_text(const RunResult& run) {
   std::string text;
   if (run.model_free) text += model_free_sentence(run);
   if (run.reference) text += (text.empty() ? "" : " ") + reference_sentence(run);

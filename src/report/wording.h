@@ -44,7 +44,10 @@ std::string accuracy(const RunResult& run);
 /// How well the free run of the fitted model meets the recording; empty without a fit.
 std::string fit_quality(const RunResult& run);
 
-/// The verdict and the estimates of a run in one or two sentences.
+/// The answer of a run in a sentence; of a result without one its estimates.
 std::string headline(const RunResult& run);
+
+/// What each estimator says, and how they compare.
+std::string estimates_text(const RunResult& run);
 
 }  // namespace gapscope::internal::report

@@ -45,6 +45,7 @@ Observation fitted(const DriveReport& report, const std::string& key) {
   const FittedParameter* p = report.reference->find(key);
   if (p == nullptr) return untold("not in the model");
   if (!p->estimated) return untold(fmt::format("given, {:.4g}", p->value));
+  if (report.reference->rejected()) return untold("left out, the model is rejected");
   if (!report.reference->converged()) return untold("the fit did not converge");
   if (p->at_bound) return untold("at a bound");
   if (!p->identifiable) return untold("not identifiable");

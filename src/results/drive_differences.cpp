@@ -97,11 +97,16 @@ void compare_method(const DriveReport& first, const DriveReport& r, Lines& lines
 }
 
 void add_misfit(const DriveReport& r, Lines& lines) {
-  if (!r.reference || !r.reference->converged()) return;
+  if (!r.reference) return;
+  if (r.reference->rejected())
+    return lines.push_back(
+        fmt::format("{}: the numbers of the reference are left out, its model is rejected. {}", r.folder,
+                    r.reference->why.text()));
+  if (!r.reference->converged()) return;
   const double floors = r.reference->innovation_rmse / r.reference->floor;
   if (floors > kUnexplained)
     lines.push_back(fmt::format(
-        "{}: the model does not explain the recording (prediction error {:.2g} encoder floors): a change "
+        "{}: the model leaves more than the encoder explains (prediction error {:.2g} encoder floors): a change "
         "of what it lacks "
         "moves every number of the reference, and their intervals do not hold that",
         r.folder, floors));

@@ -227,6 +227,16 @@ void JsonReader::addition(const char* key, std::string& value) {
   if (json_.contains(key)) (*this)(key, value);
 }
 
+void JsonReader::addition(const char* key, double& value) {
+  value = kNaN;
+  if (json_.contains(key)) (*this)(key, value);
+}
+
+void JsonReader::addition(const char* key, Remark& value) {
+  value = {};
+  if (json_.contains(key)) (*this)(key, value);
+}
+
 void JsonReader::configuration(std::string& resolved) {
   resolved.clear();
   if (const Json made = json_.value(kConfiguration, Json()); !made.is_null()) {

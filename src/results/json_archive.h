@@ -73,10 +73,16 @@ class JsonWriter {
 
   /// What files of earlier versions do not have.
   void addition(const char* key, std::string& value) { (*this)(key, value); }
+  void addition(const char* key, double& value) { (*this)(key, value); }
+  void addition(const char* key, Remark& value) { (*this)(key, value); }
 
   template <class Struct>
   void added_list(const char* key, std::vector<Struct>& values) {
     list(key, values);
+  }
+  template <class Enum>
+  void added_choice(const char* key, Enum& value, Words<Enum> words, Enum) {
+    choice(key, value, words);
   }
 
   // What only some documents have: nothing is written where it is not there, and what was sealed without it
@@ -152,8 +158,10 @@ class JsonReader {
   void operator()(const char* key, std::vector<double>& values);
   void bound(const char* key, double& value);
   void addition(const char* key,
-                std::string& value);          ///< empty in files that were written before it was stored
-  void configuration(std::string& resolved);  ///< empty in files that were written before it was stored
+                std::string& value);              ///< empty in files that were written before it was stored
+  void addition(const char* key, double& value);  ///< NaN there
+  void addition(const char* key, Remark& value);  ///< empty there
+  void configuration(std::string& resolved);      ///< empty in files that were written before it was stored
   void seldom(const char* key, std::vector<std::string>& values) {
     values.clear();
     if (json_.contains(key)) (*this)(key, values);
@@ -194,6 +202,11 @@ class JsonReader {
   void added_list(const char* key, std::vector<Struct>& values) {  ///< empty in files without it
     values.clear();
     if (json_.contains(key)) list(key, values);
+  }
+  template <class Enum>
+  void added_choice(const char* key, Enum& value, Words<Enum> words, Enum without) {  ///< in files without it
+    value = without;
+    if (json_.contains(key)) choice(key, value, words);
   }
   template <class Struct>
   void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {

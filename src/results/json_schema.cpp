@@ -13,11 +13,6 @@ void SchemaWriter::bound(const char* key, double&) {
   add(key, {{"anyOf", {type_of(0.0), {{"enum", {"inf", "-inf"}}}}}});
 }
 
-void SchemaWriter::addition(const char* key, std::string& value) {
-  (*this)(key, value);
-  additions_.insert(key);
-}
-
 void SchemaWriter::configuration(std::string& resolved) {
   SchemaWriter made;
   made("resolved", resolved);

@@ -21,7 +21,11 @@ class SchemaWriter {
   void operator()(const char* key, std::vector<std::string>&) { add(key, list_of(type_of(std::string()))); }
   void operator()(const char* key, std::vector<double>&) { add(key, list_of(type_of(0.0))); }
   void bound(const char* key, double&);
-  void addition(const char* key, std::string& value);
+  template <class Value>
+  void addition(const char* key, Value& value) {
+    (*this)(key, value);
+    additions_.insert(key);
+  }
   void seldom(const char* key, std::vector<std::string>& values) {
     (*this)(key, values);
     additions_.insert(key);
@@ -48,6 +52,11 @@ class SchemaWriter {
   template <class Struct>
   void added_list(const char* key, std::vector<Struct>& values) {
     list(key, values);
+    additions_.insert(key);
+  }
+  template <class Enum>
+  void added_choice(const char* key, Enum& value, Words<Enum> words, Enum) {
+    choice(key, value, words);
     additions_.insert(key);
   }
   template <class Struct>

@@ -132,9 +132,18 @@ void fields(Archive& archive, FitSummary& f) {
                                   {FitStatus::kNotConverged, "not_converged"},
                                   {FitStatus::kFailed, "failed"}});
   archive("message", f.message);
+  archive.added_choice(
+      "trust", f.trust,
+      Words<FitTrust>{
+          {FitTrust::kGood, "good"}, {FitTrust::kLimited, "limited"}, {FitTrust::kRejected, "rejected"}},
+      FitTrust::kLimited);
+  archive.addition("why", f.why);
+  archive.addition("fit_percent", f.fit_percent);
   archive.named("parameters", f.parameters, &FittedParameter::key);
   archive("floor_rad", f.floor);
   archive("innovation_rmse_rad", f.innovation_rmse);
+  archive.addition("coasting_rmse_rad", f.coasting_rmse);
+  archive.addition("without_gap_ratio", f.without_gap_ratio);
   archive("observer_hz", f.observer_hz);
   archive("objective_hz", f.objective_hz);
   archive("starts", f.starts);
@@ -158,6 +167,22 @@ void fields(Archive& archive, Comparison& c) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Answer& a) {
+  archive("gap_rad", a.gap);
+  archive("ci95_rad", a.ci95);
+  archive.choice("from", a.from,
+                 Words<AnswerSource>{{AnswerSource::kModelFree, "model_free"},
+                                     {AnswerSource::kReference, "reference"},
+                                     {AnswerSource::kNone, "none"}});
+  archive.choice(
+      "trust", a.trust,
+      Words<AnswerTrust>{
+          {AnswerTrust::kGood, "good"}, {AnswerTrust::kLimited, "limited"}, {AnswerTrust::kNone, "none"}});
+  archive("sentence", a.sentence);
+  archive("next", a.next);
+}
+
+template <class Archive>
 void fields(Archive& archive, StoredRecording& r) {
   archive("file", r.recording.file);
   archive("trace", r.trace);
@@ -176,6 +201,7 @@ void fields(Archive& archive, Document& d) {
   archive("name", d.run.name);
   archive("version", d.run.version);
   coordinates_field(archive, d.run.coordinates);
+  archive.seldom("answer", d.run.answer);
   archive.part("model_free", d.run.model_free);
   archive.part("reference", d.run.reference);
   archive.part("comparison", d.run.comparison);

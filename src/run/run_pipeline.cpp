@@ -9,6 +9,7 @@
 
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/version.h"
+#include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/reference/fit.h"
 #include "gapscope/sliding_mode/detector.h"
@@ -71,7 +72,9 @@ void put_into_words(RunResult& r) {
     std::for_each(remarks.begin(), remarks.end(), put);
   };
   if (r.model_free) put(r.model_free->reason), put_all(r.model_free->warnings);
-  if (r.reference) put(r.reference->message), put_all(r.reference->warnings), put_all(r.reference->advice);
+  if (r.reference)
+    put(r.reference->message), put(r.reference->why), put_all(r.reference->warnings),
+        put_all(r.reference->advice);
 }
 
 std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
@@ -157,6 +160,8 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   if (r.reference) append(out.warnings, texts_of(r.reference->warnings));
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);
+  r.answer = answer_of({r.model_free ? &*r.model_free : nullptr, r.reference ? &*r.reference : nullptr,
+                        r.comparison ? r.comparison->agree : std::nullopt, r.coordinates});
   stop_point();
   return out;
 }

@@ -18,6 +18,7 @@ GapEstimate model_free(double gap, double std) {
 FitSummary reference(double gap, double std, bool identifiable = true) {
   FitSummary f;
   f.status = FitStatus::kConverged;
+  f.trust = FitTrust::kGood;
   FittedParameter p;
   p.key = "gap";
   p.value = gap;
@@ -44,6 +45,14 @@ TEST(Comparison, SaysNothingWhereEitherEstimateIsMissing) {
   EXPECT_FALSE(compare(none, reference(0.02, 1e-4)).agree.has_value());
   EXPECT_FALSE(compare(model_free(0.02, 1e-4), FitSummary()).agree.has_value());
   EXPECT_FALSE(compare(model_free(0.02, 1e-4), reference(0.02, kNaN, false)).agree.has_value());
+}
+
+TEST(Comparison, ARejectedReferenceIsNoNumberToCompareWith) {
+  FitSummary rejected = reference(0.02, 1e-4);
+  rejected.trust = FitTrust::kRejected;
+  const Comparison c = compare(model_free(0.02, 1e-4), rejected);
+  EXPECT_FALSE(c.agree.has_value());
+  EXPECT_TRUE(std::isnan(c.difference));
 }
 
 TEST(Comparison, DoesNotComparePlayAtZeroTorqueWithAGap) {

@@ -24,6 +24,15 @@ TEST(Estimates, ShowsEveryEstimateWithItsInterval) {
   EXPECT_EQ(panel.x_marks[0].at, kSampleGap);
 }
 
+TEST(Estimates, OfARejectedModelIsACrossWithoutAnInterval) {
+  RunResult run = full_run();
+  run.reference->trust = FitTrust::kRejected;
+  const Panel panel = estimates(ReportView(run)).panels[0];
+  EXPECT_TRUE(panel.series[1].x_intervals.empty());
+  EXPECT_EQ(panel.series[1].marker, Marker::kCross);
+  EXPECT_EQ(panel.y.remarks[1], "18.8 mrad, model rejected");
+}
+
 TEST(Estimates, SplitsThePassagesByDirectionAndCountsWhatIsBeyondTheScale) {
   const FigureData figure = estimates(ReportView(full_run()));
   std::size_t up = 0, down = 0, aside = 0;

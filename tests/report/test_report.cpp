@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/diagnosis/answer.h"
 #include "gapscope/report/report.h"
 #include "report/sample_run.h"
 #include "results/scratch_folder.h"
@@ -55,6 +56,24 @@ TEST(Report, OfAnInconclusiveDetectionSaysWhyAndWhatIsLeftOut) {
     EXPECT_TRUE(has(text, "- `" + std::string(name) + "`: ")) << name;
   }
   EXPECT_TRUE(has(text, "## Notes\n\n- The recording was resampled to 400 Hz."));
+}
+
+TEST(Report, OfARejectedModelShowsNoIntervalOfItAnywhere) {
+  ScratchFolder scratch;
+  RunResult run = sample_run({.samples = 6000, .load_recorded = false, .detected = false});
+  run.comparison.reset();
+  run.reference->trust = FitTrust::kRejected;
+  run.reference->why = Remark::said("The model misses 65 % of what the torque does to the motion.");
+  run.answer = answer_of({nullptr, &*run.reference, {}, run.coordinates});
+  write_run_result(scratch.path.string(), run);
+  write_report(scratch.path.string());
+  const std::string text = text_of(scratch.path / "report.md");
+  EXPECT_TRUE(
+      has(text, "# rig_p\n\n**The gap is not known. The fitted model is rejected: The model misses 65 %"));
+  EXPECT_TRUE(has(text, "Trust: rejected. The model misses 65 %"));
+  EXPECT_TRUE(has(text, "| `gap` | 18.8 mrad | yes |"));
+  EXPECT_FALSE(has(text, " ± ")) << text;
+  EXPECT_FALSE(has(text, "(95 %")) << text;
 }
 
 TEST(Report, DrawnAgainGivesTheSameBytesAndRemovesFiguresThatNoLongerAre) {

@@ -37,7 +37,7 @@ TEST(Wording, TypesetsNumbers) {
 TEST(Headline, TellsEveryVerdict) {
   RunResult run = sample_run({.samples = 6000});
   EXPECT_EQ(
-      headline(run),
+      estimates_text(run),
       "Without a model: backlash gap 18.91 mrad (95 %: 18.62 to 19.21). Model-based reference: 18.828 mrad "
       "(95 %: 18.799 to 18.858). They agree: the difference is 84.6 µrad, its standard deviation 151 µrad.");
   run.comparison->agree = false;
@@ -52,6 +52,37 @@ TEST(Headline, TellsEveryVerdict) {
   EXPECT_NE(headline(run).find("could not determine the gap"), std::string::npos);
   run.reference->status = FitStatus::kNotConverged;
   EXPECT_NE(headline(run).find("did not converge"), std::string::npos);
+}
+
+/// A model that misses its recording, whose interval is narrow all the same.
+RunResult rejected_run() {
+  RunResult run = sample_run({.samples = 6000});
+  run.reference->trust = FitTrust::kRejected;
+  run.reference->why = Remark::said("The model misses 65 % of what the torque does to the motion.");
+  return run;
+}
+
+TEST(Headline, BeginsWithTheAnswerWhereThereIsOne) {
+  RunResult run = sample_run({.samples = 6000});
+  run.answer =
+      Answer{0.0188, {}, AnswerSource::kReference, AnswerTrust::kGood, "The backlash gap is so much.", {}};
+  EXPECT_EQ(headline(run), "The backlash gap is so much.");
+  EXPECT_TRUE(estimates_text(run).starts_with("Without a model: backlash gap 18.91 mrad"));
+}
+
+TEST(Headline, OfARejectedModelHasNoIntervalAndSaysWhatItMisses) {
+  RunResult run = rejected_run();
+  run.model_free.reset(), run.comparison.reset();
+  EXPECT_EQ(
+      estimates_text(run),
+      "The model-based reference is rejected, its gap (18.8 mrad) is not to be believed: The model misses "
+      "65 % of what the torque does to the motion.");
+}
+
+TEST(Accuracy, OfARejectedModelSpeaksOfNoInterval) {
+  RunResult run = rejected_run();
+  run.model_free.reset();
+  EXPECT_EQ(accuracy(run), "The reference estimate is 0.15 % above the simulated gap.");
 }
 
 TEST(Accuracy, SaysWhetherTheIntervalHoldsTheTruth) {

@@ -55,6 +55,11 @@ inline FitSummary summary(const RunResult& run) {
   FitSummary f;
   f.status = FitStatus::kNotConverged;
   f.message = Remark::said("100 iterations");
+  f.trust = FitTrust::kRejected;
+  f.why = Remark::said("It misses 40 % of the motion.");
+  f.fit_percent = 96.0 * kThird;
+  f.coasting_rmse = 1e-4 * kThird;
+  f.without_gap_ratio = 7.0 * kThird;
   f.rmse = 1e-5 * kThird;
   f.floor = 1e-6 * kThird;
   f.innovation_rmse = 1e-7 * kThird;
@@ -86,6 +91,8 @@ inline RunResult full_result() {
   run.model_free = estimate(run);
   run.reference = summary(run);
   run.comparison = Comparison{-1e-4 * kThird, 1e-4, true, 0.0188 * kThird};
+  run.answer = Answer{0.0187 * kThird,       {0.018 * kThird, 0.019 * kThird}, AnswerSource::kModelFree,
+                      AnswerTrust::kLimited, "The backlash gap is \"6\" mm.",  {"one", "two"}};
   run.simulated_gap = 0.0188;
   run.notes = {"resampled to 400 Hz"};
   return run;

@@ -41,6 +41,7 @@ DriveReport report(const std::string& folder, double gap, double std,
   r.model_free->ci95 = {gap - 1.96 * std, gap + 1.96 * std};
   r.reference.emplace();
   r.reference->status = FitStatus::kConverged;
+  r.reference->trust = FitTrust::kGood;
   r.reference->parameters = std::move(fitted);
   r.reference->innovation_rmse = r.reference->floor = 1e-5;
   ExcitationFacts e;
@@ -81,6 +82,24 @@ TEST(DriveChanges, HoldEachReportAgainstTheFirstAndBothErrors) {
   EXPECT_EQ(fitted.changes[1].verdict, ChangeVerdict::kChanged);
   EXPECT_EQ(c.compared, 4);
   EXPECT_THAT(c.warnings, IsEmpty());
+}
+
+TEST(DriveChanges, NumbersOfARejectedModelAreLeftOutAndTheReasonIsTold) {
+  const std::vector friction = {estimated("load_coulomb_friction", 0.05, 1e-4)};
+  const std::vector another = {estimated("load_coulomb_friction", 0.09, 1e-4)};
+  DriveReport rejected = report("b", 0.03, 4e-4, another);
+  rejected.reference->trust = FitTrust::kRejected;
+  rejected.reference->why = Remark::said("The model misses 65 % of what the torque does to the motion.");
+  const DriveChanges c = compared({report("a", 0.020, 3e-4, friction), rejected});
+  const DriveQuantity& q = quantity(c, "reference", "load_coulomb_friction");
+  EXPECT_TRUE(std::isnan(q.observed[1].value));
+  EXPECT_EQ(q.observed[1].remark, "left out, the model is rejected");
+  EXPECT_EQ(q.changes[0].verdict, ChangeVerdict::kUntold);
+  EXPECT_EQ(quantity(c, "model_free", "gap").changes[0].verdict, ChangeVerdict::kChanged);
+  ASSERT_FALSE(c.warnings.empty());
+  EXPECT_THAT(c.warnings.front(),
+              HasSubstr("b: the numbers of the reference are left out, its model is rejected. "
+                        "The model misses 65 %"));
 }
 
 TEST(DriveChanges, AnIntervalWiderThanItsStandardErrorCounts) {
@@ -193,7 +212,7 @@ TEST(DriveChanges, OtherRecordingsAndPoorModelsAreTold) {
               HasSubstr("b: another excitation or another encoder than in a (input rms 0.3 instead of "
                         "0.4 units of u, input frequency 2.5 instead of 1 Hz)"));
   EXPECT_THAT(c.warnings[1],
-              HasSubstr("c: the model does not explain the recording (prediction error 5 encoder floors)"));
+              HasSubstr("c: the model leaves more than the encoder explains (prediction error 5 encoder floors)"));
   EXPECT_THAT(c.warnings[2], HasSubstr("d: the recording is the one of a"));
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/results/run_result.h"
@@ -128,11 +129,43 @@ TEST(RunResult, EventsComeBackExactly) {
   }
 }
 
+TEST(RunResult, TheAnswerComesBackExactly) {
+  const Answer a = *full_result().answer;
+  const Answer b = *round_trip(full_result()).answer;
+  EXPECT_SAME(gap);
+  EXPECT_SAME(ci95.low);
+  EXPECT_SAME(ci95.high);
+  EXPECT_EQ(a.from, b.from);
+  EXPECT_EQ(a.trust, b.trust);
+  EXPECT_EQ(a.sentence, b.sentence);
+  EXPECT_EQ(a.next, b.next);
+}
+
+TEST(RunResult, OfATimeBeforeTrustWasJudgedIsLimitedAndHasNoAnswer) {
+  ScratchFolder scratch;
+  write_run_result(scratch.path.string(), full_result());
+  const fs::path file = scratch.path / "result.json";
+  auto json = nlohmann::json::parse(text_of(file));
+  json.erase("answer");
+  for (const char* key : {"trust", "why", "fit_percent", "coasting_rmse_rad", "without_gap_ratio"})
+    ASSERT_EQ(json["reference"].erase(key), 1u) << key;
+  std::ofstream(file) << json;
+  const RunResult old = read_run_result(scratch.path.string());
+  EXPECT_FALSE(old.answer);
+  EXPECT_EQ(old.reference->trust, FitTrust::kLimited);
+  EXPECT_TRUE(std::isnan(old.reference->fit_percent));
+}
+
 TEST(RunResult, TheReferenceComesBackExactly) {
   const FitSummary a = *full_result().reference;
   const FitSummary b = *round_trip(full_result()).reference;
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.message, b.message);
+  EXPECT_EQ(a.trust, b.trust);
+  EXPECT_EQ(a.why, b.why);
+  EXPECT_SAME(fit_percent);
+  EXPECT_SAME(coasting_rmse);
+  EXPECT_SAME(without_gap_ratio);
   EXPECT_SAME(rmse);
   EXPECT_SAME(floor);
   EXPECT_SAME(innovation_rmse);

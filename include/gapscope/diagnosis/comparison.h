@@ -8,7 +8,8 @@
 
 namespace gapscope {
 
-/// The two estimates of the backlash gap side by side.
+/// The two estimates of the backlash gap side by side. A rejected reference is no number to compare with:
+/// it counts as missing.
 struct Comparison {
   double difference = kNaN;   ///< model-free − reference [rad]
   double joint_std = kNaN;    ///< √(σ² + σ²) [rad]

@@ -6,6 +6,7 @@
 
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/file_hash.h"
+#include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit_summary.h"
@@ -20,6 +21,7 @@ struct RunResult {
   std::string configuration;              ///< resolved_yaml(), which is stored with its SHA-256
   std::vector<FileHash> sources;          ///< the configuration and every recording that it names
   Coordinates coordinates;                ///< of a translation: rad and N·m mean m and N
+  std::optional<Answer> answer;           ///< absent in files that were written before it was stored
   std::optional<GapEstimate> model_free;  ///< absent: not asked for (`fit`)
   std::optional<FitSummary> reference;    ///< absent: not asked for (`detect`)
   std::optional<Comparison> comparison;   ///< absent unless both were asked for

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gapscope/base/coordinates.h"
+#include "gapscope/reference/fit_summary.h"
+#include "gapscope/sliding_mode/gap_estimate.h"
+
+namespace gapscope {
+
+enum class AnswerSource { kModelFree, kReference, kNone };
+enum class AnswerTrust { kGood, kLimited, kNone };
+
+const char* to_string(AnswerSource source);  ///< "model_free", "reference", "none"
+const char* to_string(AnswerTrust trust);    ///< "good", "limited", "none"
+
+/// What is the gap, can it be believed, and what should be done next.
+struct Answer {
+  double gap = kNaN;  ///< 2β [rad]; NaN where none is read, or none is there
+  Interval ci95;      ///< [rad]
+  AnswerSource from = AnswerSource::kNone;
+  AnswerTrust trust = AnswerTrust::kNone;
+  std::string sentence;
+  std::vector<std::string> next;  ///< at most three steps
+};
+
+/// What was found. A part that was not asked for is null.
+struct Findings {
+  const GapEstimate* model_free = nullptr;
+  const FitSummary* reference = nullptr;
+  std::optional<bool> agree;  ///< of the comparison
+  Coordinates coordinates;
+};
+
+/// Which of both numbers to believe. A rejected reference has no say; one that is good goes before a reading
+/// that contradicts it, and before one that agrees and is less sharp; one that is limited behind any reading.
+/// Where they contradict each other the trust is limited.
+Answer answer_of(const Findings& findings);
+
+}  // namespace gapscope

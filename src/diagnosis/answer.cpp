@@ -1,0 +1,219 @@
+#include "gapscope/diagnosis/answer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gapscope {
+namespace {
+
+/// The gap that the reference tells; nullptr where it tells none, or is rejected.
+const FittedParameter* told_gap(const Findings& f) {
+  if (f.reference == nullptr || f.reference->rejected()) return nullptr;
+  const FittedParameter* gap = f.reference->find("gap");
+  const bool told = gap != nullptr && gap->estimated && gap->identifiable && std::isfinite(gap->ci95.low);
+  return told ? gap : nullptr;
+}
+
+bool is_good(const Findings& f) { return f.reference->trust == FitTrust::kGood; }
+
+double width(const Interval& i) { return i.high - i.low; }
+
+/// "18.96 mrad (95 %: 18.79 to 19.13)": two digits of the half width.
+std::string with_interval(double value, const Interval& ci95, Coordinates c) {
+  const double half = 1e3 * width(ci95) / 2.0;
+  if (!(half > 0.0)) return c.thousandths(value);
+  const int d = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 6.0));
+  return fmt::format("{:.{}f} m{} (95 %: {:.{}f} to {:.{}f})", 1e3 * value, d, c.position_unit(),
+                     1e3 * ci95.low, d, 1e3 * ci95.high, d);
+}
+
+/// Without its full stop.
+std::string clause(const Remark& remark) {
+  std::string text = remark.text();
+  if (text.ends_with(".")) text.pop_back();
+  return text;
+}
+
+Answer from_model_free(const Findings& f, AnswerTrust trust) {
+  const GapEstimate& g = *f.model_free;
+  Answer a{g.gap, g.ci95, AnswerSource::kModelFree, trust, "", {}};
+  a.sentence =
+      "The backlash gap is " + with_interval(g.gap, g.ci95, f.coordinates) + ", measured without a model";
+  return a;
+}
+
+Answer from_reference(const Findings& f, const FittedParameter& gap, AnswerTrust trust) {
+  Answer a{gap.value, gap.ci95, AnswerSource::kReference, trust, "", {}};
+  a.sentence =
+      "The backlash gap is " + with_interval(gap.value, gap.ci95, f.coordinates) + " by the fitted model";
+  return a;
+}
+
+Answer agreed(const Findings& f, const FittedParameter& gap) {
+  const bool sharper = is_good(f) && width(gap.ci95) < width(f.model_free->ci95);
+  Answer a = sharper ? from_reference(f, gap, AnswerTrust::kGood) : from_model_free(f, AnswerTrust::kGood);
+  a.sentence += sharper ? ", and the reading without a model agrees." : ", and the fitted model agrees.";
+  return a;
+}
+
+Answer contradicted(const Findings& f, const FittedParameter& gap) {
+  const GapEstimate& g = *f.model_free;
+  const bool model = is_good(f);
+  Answer a =
+      model ? from_reference(f, gap, AnswerTrust::kLimited) : from_model_free(f, AnswerTrust::kLimited);
+  a.sentence +=
+      model ? ", but without a model it reads " + with_interval(g.gap, g.ci95, f.coordinates) + "."
+            : ", but the fitted model says " + with_interval(gap.value, gap.ci95, f.coordinates) + ".";
+  return a;
+}
+
+/// Ends a sentence that goes without the reference.
+std::string end_without_model(const Findings& f) {
+  if (f.reference == nullptr || !f.reference->rejected()) return ".";
+  return "; the fitted model is rejected. " + f.reference->why.text();
+}
+
+Answer read(const Findings& f) {
+  const FittedParameter* gap = told_gap(f);
+  if (gap != nullptr && f.agree) return *f.agree ? agreed(f, *gap) : contradicted(f, *gap);
+  Answer a = from_model_free(f, AnswerTrust::kGood);
+  a.sentence += end_without_model(f);
+  return a;
+}
+
+Answer denied(const Findings& f) {
+  const std::string least = f.coordinates.thousandths(f.model_free->smallest_visible_gap);
+  Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kGood, "", {}};
+  const FittedParameter* gap = told_gap(f);
+  if (gap == nullptr) {
+    a.sentence = "There is no backlash above " + least + end_without_model(f);
+  } else if (gap->ci95.low > f.model_free->smallest_visible_gap) {
+    a.trust = AnswerTrust::kLimited;
+    a.sentence = "Without a model there is no backlash above " + least + ", but the fitted model says " +
+                 with_interval(gap->value, gap->ci95, f.coordinates) + ".";
+  } else {
+    a = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
+    a.sentence += "; without a model none above " + least + " is seen, which agrees.";
+  }
+  return a;
+}
+
+/// Lost motion is no gap: the reader gets its limit in words.
+Answer play(const Findings& f) {
+  Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
+  a.sentence =
+      "The play at zero torque is " + with_interval(f.model_free->gap, f.model_free->ci95, f.coordinates) +
+      ", measured without a model; friction and compliance have a share in it, so the gap is at most that.";
+  const FittedParameter* gap = told_gap(f);
+  if (gap == nullptr || gap->value > f.model_free->ci95.high) return a;
+  const std::string measured = a.sentence;
+  a = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
+  a.sentence += ". " + measured;
+  return a;
+}
+
+/// Why the reference tells no gap.
+std::string no_number(const FitSummary& fit) {
+  const FittedParameter* gap = fit.find("gap");
+  if (fit.rejected()) return "The fitted model is rejected: " + fit.why.text();
+  if (gap == nullptr) return "The model has no gap. " + fit.why.text();
+  if (!gap->estimated) return "The model took the gap as known. " + fit.why.text();
+  return fit.why.text();
+}
+
+Answer by_model_alone(const Findings& f) {
+  Answer a;
+  if (const FittedParameter* gap = told_gap(f)) {
+    a = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
+    a.sentence += ". " + f.reference->why.text();
+    return a;
+  }
+  if (f.model_free != nullptr)
+    a.sentence = "The gap is not known: without a model the recording is inconclusive (" +
+                 clause(f.model_free->reason) + ").";
+  else if (f.reference != nullptr && f.reference->rejected())
+    a.sentence = "The gap is not known.";
+  if (f.reference != nullptr) a.sentence += (a.sentence.empty() ? "" : " ") + no_number(*f.reference);
+  if (a.sentence.empty()) a.sentence = "Nothing was estimated.";
+  return a;
+}
+
+/// What to do about a reference that is not good, by the code of its reason.
+const std::map<std::string, std::string>& remedies() {
+  static const std::string diagnose =
+      "Run `gapscope diagnose`: it asks what the model lacks, such as friction, a delay or compliance.";
+  static const std::string without =
+      "Fit a model without a gap (mass_ratio: 0), or record a motion that closes the contact on both sides.";
+  static const std::map<std::string, std::string> all = {
+      {"leaves_unexplained", diagnose},
+      {"above_floor", diagnose},
+      {"residual_patterned", diagnose},
+      {"parts_disagree", diagnose},
+      {"as_well_without_gap", without},
+      {"gap_differs", without},
+      {"odd_coupling", diagnose},
+      {"gap_at_bound", without},
+      {"gap_not_determined", "Record a motion that closes the contact on both sides, several times."},
+      {"not_settled", "Start the fit nearer to the drive (model: parameters), or raise fit: max_iterations."},
+      {"failed", "Start the fit nearer to the drive (model: parameters), and check the unit of u."}};
+  return all;
+}
+
+bool coasts_better(const FitSummary& fit) { return fit.innovation_rmse >= fit.coasting_rmse; }
+
+std::string step_without_model(const GapEstimate& g) {
+  if (g.verdict == GapVerdict::kInconclusive)
+    return "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell "
+           "at "
+           "the reversals, the output free.";
+  if (g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kPlayAtZeroTorque)
+    return "Repeat the ramps at half and at twice the torque: the part of the play that grows with it is no "
+           "gap.";
+  return "";
+}
+
+/// Three at most: a contradiction has a reading and a model that is not rejected, so no sign to be checked.
+std::vector<std::string> steps(const Findings& f) {
+  std::vector<std::string> next;
+  const auto add = [&](const std::string& step) {
+    if (!step.empty()) next.push_back(step);
+  };
+  if (f.reference != nullptr && f.reference->rejected() && coasts_better(*f.reference))
+    add("Check the sign and the unit of u (`gapscope check`): a motor without torque would predict this "
+        "motion better.");
+  if (f.agree && !*f.agree)
+    add("Record once more at another amplitude or frequency: the estimate that stays is the one to believe.");
+  if (f.reference != nullptr) {
+    const auto found = remedies().find(f.reference->why.code());
+    if (found != remedies().end()) add(found->second);
+  }
+  if (f.model_free != nullptr) add(step_without_model(*f.model_free));
+  return next;
+}
+
+}  // namespace
+
+const char* to_string(AnswerSource source) {
+  constexpr const char* kWords[] = {"model_free", "reference", "none"};
+  return kWords[static_cast<int>(source)];
+}
+
+const char* to_string(AnswerTrust trust) {
+  constexpr const char* kWords[] = {"good", "limited", "none"};
+  return kWords[static_cast<int>(trust)];
+}
+
+Answer answer_of(const Findings& f) {
+  const GapVerdict verdict = f.model_free == nullptr ? GapVerdict::kNotRun : f.model_free->verdict;
+  Answer a = verdict == GapVerdict::kNone                               ? denied(f)
+             : verdict != GapVerdict::kBacklash                         ? by_model_alone(f)
+             : f.model_free->quantity == GapQuantity::kPlayAtZeroTorque ? play(f)
+                                                                        : read(f);
+  a.next = steps(f);
+  return a;
+}
+
+}  // namespace gapscope

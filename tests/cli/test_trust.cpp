@@ -1,0 +1,100 @@
+// What a report and the terminal say of a model that is right, and of one whose input has the wrong sign.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/executable.h"
+#include "support/paper_model.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::text_of;
+using testing::Workplace;
+
+nlohmann::json result_of(const Workplace& place, const std::string& folder) {
+  return nlohmann::json::parse(text_of(place.folder() / folder / "result.json"));
+}
+
+/// The paper's rig, by the plant that shares no code with the estimators, and its recording read by two
+/// configurations: as it is, and with an input of the wrong sign.
+void make_recordings(Workplace& place) {
+  place.file("made.yaml",
+             "name: made\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 6, noise: 1.0e-5, plant: "
+             "independent, seed: 5, excitation: {sine: {amplitude: 0.58, frequency: 1}}}\nmodel: " +
+                 testing::kPaperModel);
+  ASSERT_EQ(place.run("simulate made.yaml -o right.csv").status, 0);
+  std::istringstream rows(text_of(place.folder() / "right.csv"));
+  std::string turned;
+  for (std::string row; std::getline(rows, row);) {
+    std::istringstream cells(row);
+    std::string t, u, x1;
+    std::getline(cells, t, ','), std::getline(cells, u, ','), std::getline(cells, x1, ',');
+    const bool header = t.find_first_of("0123456789") != 0;
+    turned += header && t != "t" ? ""
+                                 : t + "," +
+                                       (header               ? u
+                                        : u.starts_with("-") ? u.substr(1)
+                                                             : "-" + u) +
+                                       "," + x1 + "\n";
+  }
+  place.file("turned.csv", turned);
+  for (const std::string name : {"right", "turned"})
+    place.file(name + ".yaml", "name: " + name + "\nrecording: {file: " + name +
+                                   ".csv}\nencoder: {bits: 18}\nmodel: " + testing::kPaperModel);
+}
+
+TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
+  Workplace place;
+  make_recordings(place);
+  const auto run = place.run("run right.yaml");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("report      reports/right\nanswer      The backlash gap is 19.0"));
+  EXPECT_THAT(run.out, HasSubstr("(trust: good)"));
+  const auto result = result_of(place, "reports/right");
+  EXPECT_EQ(result["reference"]["trust"], "good");
+  EXPECT_GT(result["reference"]["fit_percent"].get<double>(), 99.0);
+  EXPECT_EQ(result["answer"]["from"], "reference");
+  EXPECT_NEAR(result["answer"]["gap_rad"].get<double>(), 0.019, 1e-5);
+  const std::string sentence = result["answer"]["sentence"];
+  EXPECT_THAT(text_of(place.folder() / "reports/right/report.md"),
+              ::testing::StartsWith("# right\n\n**" + sentence + "**\n\nTrust: good."));
+}
+
+TEST(Trust, ARejectedModelHasNoIntervalInTheTerminalTheReportOrTheComparison) {
+  Workplace place;
+  make_recordings(place);
+  ASSERT_EQ(place.run("fit right.yaml").status, 0);
+  const auto fit = place.run("fit turned.yaml");
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  EXPECT_THAT(fit.out, HasSubstr("answer      The gap is not known. The fitted model is rejected: "));
+  EXPECT_THAT(fit.out, HasSubstr("next        Check the sign and the unit of u"));
+  EXPECT_THAT(fit.out, Not(HasSubstr("["))) << "an interval";
+  const std::string report = text_of(place.folder() / "reports/turned/report.md");
+  EXPECT_THAT(report, Not(HasSubstr(" ± ")));
+  EXPECT_THAT(report, Not(HasSubstr("(95 %")));
+  const auto result = result_of(place, "reports/turned");
+  EXPECT_EQ(result["reference"]["trust"], "rejected");
+  EXPECT_EQ(result["answer"]["from"], "none");
+  EXPECT_TRUE(result["answer"]["gap_rad"].is_null());
+  const auto compared = place.run("compare reports/right reports/turned");
+  EXPECT_EQ(compared.status, 0) << compared.err;
+  EXPECT_THAT(compared.out, HasSubstr("left out, the model is rejected"));
+  EXPECT_THAT(compared.out, Not(HasSubstr(", changed")));
+  EXPECT_THAT(compared.err, HasSubstr("the numbers of the reference are left out, its model is rejected."));
+}
+
+TEST(Trust, BothEstimatorsAreComparedOnlyWhereBothAreTrusted) {
+  Workplace place;
+  make_recordings(place);
+  ASSERT_EQ(place.run("run turned.yaml").status, 0);
+  const auto result = result_of(place, "reports/turned");
+  EXPECT_TRUE(result["comparison"]["agree"].is_null());
+  EXPECT_NE(result["answer"]["from"], "reference");
+}
+
+}  // namespace
+}  // namespace gapscope

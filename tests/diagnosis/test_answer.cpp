@@ -1,0 +1,154 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gapscope/diagnosis/answer.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+GapEstimate reading(double gap, double half) {
+  GapEstimate g;
+  g.verdict = GapVerdict::kBacklash;
+  g.gap = gap, g.ci95 = {gap - half, gap + half};
+  return g;
+}
+
+GapEstimate denying(double least) {
+  GapEstimate g;
+  g.verdict = GapVerdict::kNone;
+  g.smallest_visible_gap = least;
+  return g;
+}
+
+GapEstimate undecided() {
+  GapEstimate g;
+  g.verdict = GapVerdict::kInconclusive;
+  g.reason = Remark("too_slow", "no impact to be expected.");
+  return g;
+}
+
+FitSummary fitted(FitTrust trust, double gap, double half) {
+  FitSummary f;
+  f.status = FitStatus::kConverged;
+  f.trust = trust;
+  f.why = trust == FitTrust::kRejected ? Remark("leaves_unexplained", "The model misses 65 % of the motion.")
+                                       : Remark("above_floor", "It follows the recording to 98 %.");
+  f.innovation_rmse = 0.65, f.coasting_rmse = 1.0;
+  FittedParameter p;
+  p.key = "gap", p.value = gap, p.ci95 = {gap - half, gap + half}, p.std = half / 1.96;
+  p.estimated = p.identifiable = true;
+  f.parameters = {p};
+  return f;
+}
+
+Answer of(const GapEstimate* g, const FitSummary* f, std::optional<bool> agree = {}) {
+  return answer_of({g, f, agree, {}});
+}
+
+TEST(Answer, OfTwoThatAgreeIsTheSharperOneThatIsGood) {
+  const GapEstimate g = reading(0.019, 2e-4);
+  const FitSummary good = fitted(FitTrust::kGood, 0.0191, 1e-5),
+                   blunt = fitted(FitTrust::kGood, 0.0191, 1e-3);
+  const Answer a = of(&g, &good, true);
+  EXPECT_EQ(a.from, AnswerSource::kReference);
+  EXPECT_EQ(a.trust, AnswerTrust::kGood);
+  EXPECT_EQ(a.gap, 0.0191);
+  EXPECT_EQ(a.sentence,
+            "The backlash gap is 19.100 mrad (95 %: 19.090 to 19.110) by the fitted model, and the reading "
+            "without a model agrees.");
+  EXPECT_EQ(of(&g, &blunt, true).from, AnswerSource::kModelFree);
+  const FitSummary limited = fitted(FitTrust::kLimited, 0.0191, 1e-5);
+  EXPECT_EQ(of(&g, &limited, true).from, AnswerSource::kModelFree)
+      << "a limited model goes behind any reading";
+}
+
+TEST(Answer, OfTwoThatContradictEachOtherIsLimitedAndNamesBoth) {
+  const GapEstimate g = reading(0.019, 2e-4);
+  const FitSummary good = fitted(FitTrust::kGood, 0.025, 1e-4),
+                   limited = fitted(FitTrust::kLimited, 0.025, 1e-4);
+  const Answer by_good = of(&g, &good, false), by_limited = of(&g, &limited, false);
+  EXPECT_EQ(by_good.from, AnswerSource::kReference);
+  EXPECT_EQ(by_limited.from, AnswerSource::kModelFree);
+  for (const Answer& a : {by_good, by_limited}) {
+    EXPECT_EQ(a.trust, AnswerTrust::kLimited);
+    EXPECT_THAT(a.sentence, HasSubstr("19.00 mrad"));
+    EXPECT_THAT(a.sentence, HasSubstr("25.00 mrad"));
+    ASSERT_FALSE(a.next.empty());
+    EXPECT_THAT(a.next.front(), HasSubstr("Record once more"));
+  }
+}
+
+TEST(Answer, NeverTakesTheNumberOfARejectedModel) {
+  const FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
+  const GapEstimate g = reading(0.019, 2e-4), none = denying(1e-3), open = undecided();
+  EXPECT_EQ(of(&g, &rejected).gap, 0.019);
+  EXPECT_EQ(of(&g, &rejected).trust, AnswerTrust::kGood);
+  EXPECT_EQ(of(&none, &rejected).sentence,
+            "There is no backlash above 1 mrad; the fitted model is rejected. The model misses 65 % of the "
+            "motion.");
+  EXPECT_EQ(of(&none, nullptr).sentence, "There is no backlash above 1 mrad.");
+  for (const Answer& a : {of(nullptr, &rejected), of(&open, &rejected)}) {
+    EXPECT_EQ(a.from, AnswerSource::kNone);
+    EXPECT_EQ(a.trust, AnswerTrust::kNone);
+    EXPECT_TRUE(std::isnan(a.gap));
+    EXPECT_TRUE(std::isnan(a.ci95.low));
+    EXPECT_THAT(a.sentence, HasSubstr("The model misses 65 % of the motion."));
+    EXPECT_THAT(a.sentence, Not(HasSubstr("24.9")));
+    EXPECT_THAT(a.next, ::testing::Contains(HasSubstr("gapscope diagnose")));
+  }
+}
+
+TEST(Answer, OfAModelThatCoastingBeatsAsksForTheSignFirst) {
+  FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
+  rejected.innovation_rmse = 1.7;
+  ASSERT_FALSE(of(nullptr, &rejected).next.empty());
+  EXPECT_THAT(of(nullptr, &rejected).next.front(), HasSubstr("sign and the unit of u"));
+}
+
+TEST(Answer, TakesTheModelWhereTheReadingIsInconclusiveOrWasNotAskedFor) {
+  const FitSummary good = fitted(FitTrust::kGood, 0.0191, 1e-5),
+                   limited = fitted(FitTrust::kLimited, 0.0191, 1e-5);
+  const GapEstimate open = undecided();
+  EXPECT_EQ(of(&open, &good).trust, AnswerTrust::kGood);
+  EXPECT_EQ(of(nullptr, &limited).trust, AnswerTrust::kLimited);
+  EXPECT_EQ(of(nullptr, &limited).gap, 0.0191);
+  EXPECT_EQ(
+      of(&open, nullptr).sentence,
+      "The gap is not known: without a model the recording is inconclusive (no impact to be expected).");
+}
+
+TEST(Answer, HoldsADeniedGapAgainstTheModel) {
+  const FitSummary small = fitted(FitTrust::kGood, 5e-4, 1e-5), large = fitted(FitTrust::kGood, 5e-3, 1e-5);
+  const GapEstimate none = denying(1e-3);
+  EXPECT_EQ(of(&none, &small).from, AnswerSource::kReference);
+  EXPECT_EQ(of(&none, &small).trust, AnswerTrust::kGood);
+  EXPECT_EQ(of(&none, &large).trust, AnswerTrust::kLimited);
+  EXPECT_TRUE(std::isnan(of(&none, &large).gap));
+}
+
+TEST(Answer, CallsPlayAtZeroTorqueALimitOfTheGapAndNotTheGap) {
+  GapEstimate play = reading(0.034, 5e-4);
+  play.quantity = GapQuantity::kPlayAtZeroTorque;
+  const Answer a = of(&play, nullptr);
+  EXPECT_TRUE(std::isnan(a.gap));
+  EXPECT_EQ(a.trust, AnswerTrust::kLimited);
+  EXPECT_THAT(a.sentence, HasSubstr("play at zero torque is 34.00 mrad"));
+  EXPECT_THAT(a.sentence, HasSubstr("at most that"));
+}
+
+TEST(Answer, HasAtMostThreeStepsAndMillimetresOnASlide) {
+  FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
+  rejected.innovation_rmse = 1.7;
+  const GapEstimate open = undecided(), g = reading(0.0019, 2e-5);
+  EXPECT_LE(of(&open, &rejected).next.size(), 3u);
+  const Answer slide = answer_of({&g, nullptr, {}, Coordinates::kTranslation});
+  EXPECT_EQ(slide.sentence, "The backlash gap is 1.900 mm (95 %: 1.880 to 1.920), measured without a model.");
+}
+
+}  // namespace
+}  // namespace gapscope
