@@ -178,7 +178,7 @@ constexpr std::pair<FitTrust, Judge> kJudges[] = {
     {FitTrust::kRejected, unexplained},   {FitTrust::kRejected, other_gap},
     {FitTrust::kRejected, no_gap_needed}, {FitTrust::kRejected, odd_coupling},
     {FitTrust::kLimited, unfinished},     {FitTrust::kLimited, gap_open},
-    {FitTrust::kLimited, moving},         {FitTrust::kLimited, above_floor},
+    {FitTrust::kLimited, above_floor},    {FitTrust::kLimited, moving},
     {FitTrust::kLimited, patterned}};
 
 /// A model that is usable is not one that does not explain its recordings, however far the encoder's floor.

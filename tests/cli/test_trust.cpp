@@ -52,7 +52,7 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   make_recordings(place);
   const auto run = place.run("run right.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("report      reports/right\nanswer      The backlash gap is 19.0"));
+  EXPECT_THAT(run.out, HasSubstr("report      reports/right\nanswer      The backlash gap is 18.999"));
   EXPECT_THAT(run.out, HasSubstr("(trust: good)"));
   const auto result = result_of(place, "reports/right");
   EXPECT_EQ(result["reference"]["trust"], "good");

@@ -52,14 +52,14 @@ Answer of(const GapEstimate* g, const FitSummary* f, std::optional<bool> agree =
 
 TEST(Answer, OfTwoThatAgreeIsTheSharperOneThatIsGood) {
   const GapEstimate g = reading(0.019, 2e-4);
-  const FitSummary good = fitted(FitTrust::kGood, 0.0191, 1e-5),
+  const FitSummary good = fitted(FitTrust::kGood, 0.0191, 1.2e-5),
                    blunt = fitted(FitTrust::kGood, 0.0191, 1e-3);
   const Answer a = of(&g, &good, true);
   EXPECT_EQ(a.from, AnswerSource::kReference);
   EXPECT_EQ(a.trust, AnswerTrust::kGood);
   EXPECT_EQ(a.gap, 0.0191);
   EXPECT_EQ(a.sentence,
-            "The backlash gap is 19.100 mrad (95 %: 19.090 to 19.110) by the fitted model, and the reading "
+            "The backlash gap is 19.100 mrad (95 %: 19.088 to 19.112) by the fitted model, and the reading "
             "without a model agrees.");
   EXPECT_EQ(of(&g, &blunt, true).from, AnswerSource::kModelFree);
   const FitSummary limited = fitted(FitTrust::kLimited, 0.0191, 1e-5);
@@ -69,8 +69,8 @@ TEST(Answer, OfTwoThatAgreeIsTheSharperOneThatIsGood) {
 
 TEST(Answer, OfTwoThatContradictEachOtherIsLimitedAndNamesBoth) {
   const GapEstimate g = reading(0.019, 2e-4);
-  const FitSummary good = fitted(FitTrust::kGood, 0.025, 1e-4),
-                   limited = fitted(FitTrust::kLimited, 0.025, 1e-4);
+  const FitSummary good = fitted(FitTrust::kGood, 0.025, 2.1e-4),
+                   limited = fitted(FitTrust::kLimited, 0.025, 2.1e-4);
   const Answer by_good = of(&g, &good, false), by_limited = of(&g, &limited, false);
   EXPECT_EQ(by_good.from, AnswerSource::kReference);
   EXPECT_EQ(by_limited.from, AnswerSource::kModelFree);
