@@ -15,6 +15,7 @@ void add_run(CommandLine& app);
 void add_detect(CommandLine& app);
 void add_fit(CommandLine& app);
 void add_simulate(CommandLine& app);
+void add_drive_export(CommandLine& app);
 void add_report(CommandLine& app);
 void add_schema(CommandLine& app);
 void add_effects(CommandLine& app);

@@ -38,6 +38,7 @@ void add_commands(CommandLine& program) {
   add_diagnose(program);
   add_compare(program);
   add_simulate(program);
+  add_drive_export(program);
   add_report(program);
   add_effects(program);
   add_schema(program);

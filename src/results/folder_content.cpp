@@ -29,7 +29,7 @@ bool is_one_of(const std::string& file, std::initializer_list<const char*> names
 
 /// Names that every report may take.
 bool is_taken(const std::string& file) {
-  return is_stored(file) || is_one_of(file, {"report.md", "truth.csv"});
+  return is_stored(file) || is_one_of(file, {"report.md", "truth.csv", "certificate.md"});
 }
 
 bool is_partial(const fs::directory_entry& entry) {
@@ -107,7 +107,7 @@ std::string half_difference(const Half& a, const Half& b) {
 }  // namespace
 
 std::string word_of(FolderKind kind) {
-  constexpr std::array kWords = {"drive", "campaign", "blind", "cases", "drives", "changes"};
+  constexpr std::array kWords = {"drive", "campaign", "blind", "cases", "drives", "changes", "export"};
   return kWords[static_cast<std::size_t>(kind)];
 }
 
@@ -135,7 +135,7 @@ bool is_stored(const std::string& file) {
   const fs::path path(file);
   if (path.has_parent_path()) return path.parent_path() == "traces" && path.extension() == ".csv";
   return is_one_of(file, {"result.json", "diagnosis.json", "campaign.json", "blind.json", "compare.json",
-                          "resolved.yaml", "timing.json"}) ||
+                          "certificate.json", "resolved.yaml", "timing.json"}) ||
          std::find(kBesideDiagnosis.begin(), kBesideDiagnosis.end(), file) != kBesideDiagnosis.end();
 }
 

@@ -50,6 +50,7 @@ std::vector<JsonSchema> json_schemas() {
       {"check", text_of("What gapscope check --json says", check_schema())},
       {"compare", text_of("compare.json of gapscope compare", compare_schema())},
       {"diagnosis", text_of("diagnosis.json of gapscope diagnose", diagnosis_schema())},
+      {"export", text_of("certificate.json of gapscope export", export_schema())},
       {"files", text_of("files.json of every folder that gapscope writes", files_schema())},
       {"result", text_of("result.json of gapscope run, detect and fit", result_schema())},
       {"stream", text_of("A line of gapscope detect --stream", stream_schema())},

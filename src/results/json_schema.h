@@ -115,6 +115,7 @@ Json document_schema(const std::string& name, Struct&& value) {
 Json result_schema();
 Json timing_schema();
 Json diagnosis_schema();
+Json export_schema();
 Json check_schema();
 Json compare_schema();
 Json campaign_schema();

@@ -24,7 +24,7 @@ const std::map<std::string, Names>& allowed_modules() {
     const std::vector<std::string> order = {
         "base",       "recording",    "signals",   "inspection", "plant",  "torque_view",
         "simulation", "sliding_mode", "reference", "diagnosis",  "config", "results",
-        "run",        "campaign",     "blind",     "report",     "cli"};
+        "run",        "exports",      "campaign",  "blind",      "report", "cli"};
     std::map<std::string, Names> t = {
         {"base", {}},
         {"recording", {"base"}},

@@ -15,7 +15,7 @@ struct FileList;
 }
 
 /// What a folder holds. A folder takes reports of one kind.
-enum class FolderKind { kDrive, kCampaign, kBlind, kCases, kDrives, kChanges };
+enum class FolderKind { kDrive, kCampaign, kBlind, kCases, kDrives, kChanges, kExport };
 
 /// A folder that is written whole or not at all, and in which nothing is touched that gapscope did not write
 /// there. It is taken before the work: files.json in it lists what gapscope wrote, with SHA-256, and only

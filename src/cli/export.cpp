@@ -1,0 +1,111 @@
+// `export`: the drive in the format of a simulator, with a certificate.
+#include "gapscope/exports/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/results/report_folder.h"
+
+namespace gapscope::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportArguments {
+  std::string source, format, folder;
+  bool quiet = false;
+};
+
+/// The model that a report folder holds, or the configuration itself.
+std::string configuration_in(const std::string& source) {
+  if (!fs::is_directory(source)) return source;
+  const std::string fitted = (fs::path(source) / "fitted.yaml").string();
+  if (!fs::exists(fitted))
+    throw ConfigError(source, "holds no fitted.yaml, expected the report folder of run, fit or diagnose");
+  return fitted;
+}
+
+ExportFormat format_of(const std::string& word) {
+  const auto formats = export_formats();
+  return std::find_if(formats.begin(), formats.end(),
+                      [&](const ExportFormatSpec& f) { return f.name == word; })
+      ->format;
+}
+
+void write_export(ReportFolder& report, const DriveExport& drive) {
+  for (const ExportedFile& file : drive.files) write_text(report.path() + "/" + file.name, file.text);
+  write_text(report.path() + "/certificate.md", certificate_text(drive.certificate));
+  write_certificate(report.path(), drive.certificate);
+  stop_point();
+  report.commit();
+}
+
+/// "exact: gap, ...": the parts of one fidelity.
+void say_parts(const char* what, Fidelity fidelity, const Certificate& c) {
+  std::string names;
+  for (const CarriedPart& part : c.parts)
+    if (part.fidelity == fidelity) names += (names.empty() ? "" : ", ") + part.part;
+  if (!names.empty()) say(what, names);
+}
+
+void export_configuration(const ExportArguments& a) {
+  const Configuration c = load_configuration(configuration_in(a.source));
+  ReportFolder report(a.folder, FolderKind::kExport, source_paths(c));
+  progress_on_terminal(a.quiet)("exporting " + c.name);
+  const DriveExport drive = export_drive(c, format_of(a.format));
+  write_export(report, drive);
+  print_warnings(drive.certificate.warnings);
+  for (const ExportedFile& file : drive.files) say("written", (fs::path(a.folder) / file.name).string());
+  say("certificate", (fs::path(a.folder) / "certificate.md").string());
+  say_parts("exact", Fidelity::kExact, drive.certificate);
+  say_parts("approximate", Fidelity::kApproximate, drive.certificate);
+  say_parts("left out", Fidelity::kLeftOut, drive.certificate);
+}
+
+std::string format_help() {
+  std::string text = "Formats:\n";
+  for (const ExportFormatSpec& f : export_formats()) text += fmt::format("  {:<6} {}\n", f.name, f.doc);
+  return text;
+}
+
+}  // namespace
+
+void add_drive_export(CommandLine& app) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CommandLine command = app.add_command("export", "The fitted drive for a simulator, with a certificate");
+  std::vector<std::string> words;
+  for (const ExportFormatSpec& f : export_formats()) words.emplace_back(f.name);
+  command
+      .add_option("SOURCE", arguments->source,
+                  "report folder of run, fit or diagnose (its fitted.yaml), or a configuration (YAML)")
+      .required();
+  command.add_option("--to", arguments->format, "format of the simulator")
+      .required()
+      .value("FORMAT")
+      .one_of(words);
+  command.add_option("-o,--output", arguments->folder, "folder for the model and its certificate")
+      .required()
+      .value("DIR");
+  command.add_flag("--quiet", arguments->quiet, "no progress");
+  command.footer(
+      format_help() +
+      "Writes the model, certificate.md and certificate.json (rad, s; rad means m on a translational axis).\n"
+      "The certificate says of every number and effect whether the target has it exactly, approximately or "
+      "not\n"
+      "and why; how far the target's x1 is from gapscope's simulator under the same input at several steps;\n"
+      "the largest step that it stands; and what the format's own defaults would do.\n"
+      "SOURCE with recording: needs every number of its model, and is judged under the recorded input; a\n"
+      "fitted.yaml under that of its trace (after diagnose: of what was held out), for the first 10 s.\n"
+      "DIR may be empty, new, or hold an earlier export that was not changed since.\n\n"
+      "Example: gapscope export reports/drive --to mjcf -o drive_mjcf");
+  command.action([arguments] { export_configuration(*arguments); });
+}
+
+}  // namespace gapscope::cli

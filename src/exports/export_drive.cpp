@@ -1,0 +1,39 @@
+#include <iterator>
+
+#include "exports/mjcf.h"
+#include "gapscope/base/version.h"
+#include "gapscope/exports/export.h"
+
+namespace gapscope {
+namespace {
+
+using internal::exports::ExportSource;
+
+constexpr ExportFormatSpec kFormats[] = {
+    {ExportFormat::kMjcf, "mjcf", "MuJoCo: a model that stands alone and a fragment to include"},
+};
+
+/// In the order of kFormats.
+constexpr DriveExport (*kExporters[])(const ExportSource&) = {internal::exports::export_mjcf};
+static_assert(std::size(kExporters) == std::size(kFormats));
+
+}  // namespace
+
+std::span<const ExportFormatSpec> export_formats() { return kFormats; }
+
+DriveExport export_drive(const Configuration& configuration, ExportFormat format) {
+  const ExportSource source = internal::exports::export_source(configuration);
+  DriveExport out = kExporters[static_cast<std::size_t>(format)](source);
+  Certificate& c = out.certificate;
+  c.name = source.name;
+  c.version = version();
+  c.coordinates = source.coordinates;
+  c.input = source.input;
+  c.duration = source.duration();
+  c.encoder_floor = source.encoder_floor;
+  c.configuration = source.configuration;
+  for (const ExportedFile& file : out.files) c.files.push_back(file.name);
+  return out;
+}
+
+}  // namespace gapscope

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/config/configuration.h"
+#include "gapscope/plant/plant_model.h"
+
+namespace gapscope::internal::exports {
+
+/// A drive that is to be exported, every number known, and the motion by which the target is judged.
+struct ExportSource {
+  std::string name;
+  std::string stem;  ///< of names in files of other programs: letters, digits and _
+  Coordinates coordinates;
+  SimulatedPlant drive;  ///< numbers and effects as configured
+  PlantModel<double> plant;
+  DriveState<double> initial;
+  double dt = 0.0;             ///< sampling interval of the input [s]
+  std::vector<double> u;       ///< held over it
+  double encoder_floor = 0.0;  ///< [rad]; NaN: the encoder is not known
+  std::string input;           ///< in words
+  std::string configuration;   ///< as resolved
+
+  double duration() const { return dt * static_cast<double>(u.size()); }
+};
+
+/// @throws ConfigError where a number of the model is not known, or the recording cannot be read or is uneven
+ExportSource export_source(const Configuration& configuration);
+
+/// x1 as the encoder would see it at the given times, by gapscope's own simulator.
+/// @param times  increasing, from 0 on [s]
+std::vector<double> model_motion(const ExportSource& source, const std::vector<double>& times);
+
+}  // namespace gapscope::internal::exports

@@ -1,0 +1,214 @@
+#include "exports/mjcf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "exports/mujoco_drive.h"
+#include "exports/target_errors.h"
+
+namespace gapscope::internal::exports {
+namespace {
+
+constexpr double kGravity = 9.81;  // m/s²
+
+/// Where a mass beside the axis y has gravity's torque −G sin(q + phase), and how heavy it is: so that it
+/// makes up a tenth of the inertia.
+std::string inertial(const MujocoDrive& d, std::size_t body, bool turns) {
+  const double inertia = d.inertia[body];
+  double mass = turns ? 1.0 : inertia, x = 0.0, z = 0.0, own = inertia;
+  if (d.unbalance > 0.0 && body == (d.has_load && !d.locked ? 1u : 0u)) {
+    mass = 10.0 * d.unbalance * d.unbalance / (kGravity * kGravity * inertia);
+    const double radius = d.unbalance / (mass * kGravity);
+    x = -radius * std::sin(d.unbalance_phase), z = -radius * std::cos(d.unbalance_phase);
+    own = inertia - mass * radius * radius;
+  }
+  return fmt::format("<inertial pos=\"{} 0 {}\" mass=\"{}\" diaginertia=\"{} {} {}\"/>", x, z, mass, own, own,
+                     own);
+}
+
+std::string joint(const std::string& name, const MujocoDrive& d, std::size_t body, bool turns) {
+  std::string text = turns ? fmt::format("<joint name=\"{}\" type=\"hinge\" axis=\"0 1 0\" damping=\"{}\"",
+                                         name, d.damping[body])
+                           : fmt::format("<joint name=\"{}\" type=\"slide\" axis=\"1 0 0\" damping=\"{}\"",
+                                         name, d.damping[body]);
+  if (d.friction[body] > 0.0)
+    text += fmt::format(
+        "\n             frictionloss=\"{}\" solreffriction=\"{} 1\" solimpfriction=\"{} {} .001\"",
+        d.friction[body], kShortest, kHardest, kHardest);
+  return text + "/>";
+}
+
+std::string bodies(const ExportSource& s, const MujocoDrive& d) {
+  const bool turns = s.coordinates.rotational();
+  std::string text = "  <worldbody>\n";
+  for (std::size_t body = 0; body < (d.has_load && !d.locked ? 2u : 1u); ++body) {
+    const std::string name = s.stem + (body == 0 ? "_motor" : "_load");
+    text += fmt::format("    <body name=\"{}\">\n      {}\n      {}\n    </body>\n", name,
+                        inertial(d, body, turns), joint(name, d, body, turns));
+  }
+  return text + "  </worldbody>\n";
+}
+
+/// The gap: a limit of x1 − x2 on either side, as a spring and a damper that only push.
+std::string contact(const ExportSource& s, const MujocoDrive& d) {
+  if (!d.has_load) return "";
+  const double mobility = d.contact_mobility(), place = d.locked ? d.load_place : 0.0;
+  const double half = std::max(d.half_gap, 1e-12);  // MuJoCo asks for a range
+  std::string text = fmt::format(
+      "  <tendon>\n    <fixed name=\"{}_gap\" limited=\"true\" range=\"{} {}\"\n           solreflimit=\"{} "
+      "{}\" "
+      "solimplimit=\"{} {} .0001\">\n      <joint joint=\"{}_motor\" coef=\"1\"/>\n",
+      s.stem, place - half, place + half, -d.stiffness * mobility, -d.contact_damping * mobility, kSoftest,
+      kSoftest, s.stem);
+  if (!d.locked) text += fmt::format("      <joint joint=\"{}_load\" coef=\"-1\"/>\n", s.stem);
+  return text + "    </fixed>\n  </tendon>\n";
+}
+
+std::string actuators(const ExportSource& s, const MujocoDrive& d) {
+  std::string text =
+      fmt::format("  <actuator>\n    <general name=\"{0}_drive\" joint=\"{0}_motor\" gear=\"{1}\"", s.stem,
+                  d.torque_constant);
+  if (d.lag > 0.0) text += fmt::format(" dyntype=\"filter\" dynprm=\"{}\"", d.lag);
+  if (d.input_limit > 0.0)
+    text += fmt::format(" ctrllimited=\"true\" ctrlrange=\"{} {}\"", -d.input_limit, d.input_limit);
+  text += "/>\n";
+  for (std::size_t body = 0; body < 2; ++body)
+    if (d.constant[body] != 0.0)
+      text += fmt::format(
+          "    <general name=\"{0}_constant_{1}\" joint=\"{0}_{1}\" gainprm=\"0\" biastype=\"affine\" "
+          "biasprm=\"{2} "
+          "0 0\"/>\n",
+          s.stem, body == 0 ? "motor" : "load", d.constant[body]);
+  return text + "  </actuator>\n";
+}
+
+std::string sensors(const ExportSource& s) {
+  return fmt::format("  <sensor>\n    <jointpos name=\"{0}_encoder\" joint=\"{0}_motor\"/>\n  </sensor>\n",
+                     s.stem);
+}
+
+std::string parts(const ExportSource& s, const MujocoDrive& d) {
+  return bodies(s, d) + contact(s, d) + actuators(s, d) + sensors(s);
+}
+
+/// As the input's first sample finds it.
+std::string start(const ExportSource& s, const MujocoDrive& d) {
+  const bool two = d.has_load && !d.locked;
+  const auto pair = [&](const double(&v)[2]) {
+    return two ? fmt::format("{} {}", v[0], v[1]) : fmt::to_string(v[0]);
+  };
+  const std::string act = d.lag > 0.0 ? fmt::format(" act=\"{}\"", d.first_input) : "";
+  return fmt::format("  <keyframe>\n    <key name=\"{}_start\" qpos=\"{}\" qvel=\"{}\"{}/>\n  </keyframe>\n",
+                     s.stem, pair(d.place), pair(d.speed), act);
+}
+
+std::string heading(const ExportSource& s, const std::string& what) {
+  const char* torque = s.coordinates.torque_unit();
+  return fmt::format(
+      "<!-- {} by gapscope: {}; certificate.md says what it carries and how exactly.\n"
+      "     ctrl of {}_drive is u (torque {} per unit of u on the motor), held from step to step; {}_encoder "
+      "is x1.\n"
+      "     The tendon is the gap; solreflimit belongs to these two inertias: more inertia on the load's "
+      "body asks\n"
+      "     for -k (1/m1 + 1/m2). solreffriction is raised to two steps by MuJoCo, whatever the step is. "
+      "-->\n",
+      s.stem, what, s.stem, torque, s.stem);
+}
+
+std::string alone(const ExportSource& s, const MujocoDrive& d, double step) {
+  return heading(s, "a model that stands alone") +
+         fmt::format(
+             "<mujoco model=\"{}\">\n  <option timestep=\"{}\" integrator=\"RK4\" gravity=\"0 0 -{}\" "
+             "tolerance=\"1e-15\" iterations=\"100\"/>\n",
+             s.stem, step, kGravity) +
+         parts(s, d) + start(s, d) + "</mujoco>\n";
+}
+
+std::string fragment(const ExportSource& s, const MujocoDrive& d) {
+  return heading(s, "a fragment, <include file=\"...\"/> in a model of yours") + "<mujocoinclude>\n" +
+         parts(s, d) + "</mujocoinclude>\n";
+}
+
+/// Parts whose law has a kink that falls between two steps.
+bool has_a_kink(const std::string& part) {
+  return part.starts_with("contact_") || part == "shaft_compliance" || part == "impact_damping";
+}
+
+/// Exact in its law is not yet exact in an engine of fixed steps.
+void judge_parts(const std::vector<TargetError>& errors, Certificate& c) {
+  const bool within = std::any_of(errors.begin(), errors.end(), [](const TargetError& e) {
+    return e.within_encoder && std::abs(e.step - kCertifiedStep) < 1e-9;
+  });
+  if (within) return;
+  for (CarriedPart& part : c.parts)
+    if (part.fidelity == Fidelity::kExact && has_a_kink(part.part)) {
+      part.fidelity = Fidelity::kApproximate;
+      part.how +=
+          fmt::format("; its law is exact, but MuJoCo closes and opens it at its steps, which at {} ms shows",
+                      1e3 * kCertifiedStep);
+    }
+}
+
+struct Integrator {
+  const char* name;
+  MujocoIntegrator kind;
+};
+constexpr Integrator kIntegrators[] = {{"Euler", MujocoIntegrator::kEuler},
+                                       {"RK4", MujocoIntegrator::kRungeKutta}};
+
+/// What an MJCF does that gives frictionloss and nothing else.
+void judge_defaults(const MujocoDrive& d, const TargetErrors& errors, Certificate& c) {
+  if (d.friction[0] <= 0.0 && (d.friction[1] <= 0.0 || d.locked)) return;
+  const TargetError creep = errors.at(kCertifiedStep, [&](double step, std::span<const double> u) {
+    return mujoco_motion(d, {step, MujocoIntegrator::kRungeKutta, true}, u);
+  });
+  c.default_error = creep.rms;
+  c.warnings.push_back(
+      fmt::format("frictionloss with MuJoCo's default solreffriction and solimpfriction creeps where the "
+                  "drive holds: {:.3g} "
+                  "instead of {:.3g} thousandths rms at {} ms, at any step. Keep both attributes when you "
+                  "copy the joint.",
+                  1e3 * creep.rms,
+                  1e3 * errors
+                            .at(kCertifiedStep,
+                                [&](double step, std::span<const double> u) {
+                                  return mujoco_motion(d, {step, MujocoIntegrator::kRungeKutta}, u);
+                                })
+                            .rms,
+                  1e3 * kCertifiedStep));
+}
+
+/// The largest step within the encoder by the better integrator; where there is none the certified one.
+double chosen_step(const std::vector<StepLimits>& limits) {
+  for (const StepLimits& l : limits)
+    if (l.integrator == "RK4" && l.within_encoder >= kCertifiedStep) return l.within_encoder;
+  return kCertifiedStep;
+}
+
+}  // namespace
+
+DriveExport export_mjcf(const ExportSource& s) {
+  const MujocoDrive d = mujoco_drive(s);
+  DriveExport out;
+  Certificate& c = out.certificate;
+  c.format = "mjcf";
+  c.parts = mujoco_parts(s);
+  const TargetErrors errors(s);
+  for (const Integrator& integrator : kIntegrators)
+    c.limits.push_back(errors.scan(
+        integrator.name,
+        [&](double step, std::span<const double> u) {
+          return mujoco_motion(d, {step, integrator.kind}, u);
+        },
+        c.errors));
+  judge_parts(c.errors, c);
+  judge_defaults(d, errors, c);
+  c.travel = errors.travel();
+  out.files = {{s.stem + ".xml", alone(s, d, chosen_step(c.limits))},
+               {s.stem + "_fragment.xml", fragment(s, d)}};
+  return out;
+}
+
+}  // namespace gapscope::internal::exports

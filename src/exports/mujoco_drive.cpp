@@ -1,0 +1,109 @@
+#include "exports/mujoco_drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal::exports {
+namespace {
+
+constexpr Fidelity kExact = Fidelity::kExact, kApproximate = Fidelity::kApproximate;
+
+constexpr Carriage kByMjcf[] = {
+    {"motor_inertia", kExact, "inertial of the motor's body"},
+    {"torque_constant", kExact, "gear of the actuator; ctrl is u"},
+    {"motor_damping", kExact, "damping of the motor's joint"},
+    {"mass_ratio", kExact, "inertial of the load's body"},
+    {"gap", kExact, "range of the fixed tendon motor − load"},
+    {"load_damping", kExact, "damping of the load's joint"},
+    {"load_coulomb_friction", kExact,
+     "frictionloss with solreffriction and solimpfriction that hold; the defaults creep"},
+    {"contact_stiffness", kExact, "solreflimit of the tendon: −k (1/m1 + 1/m2), solimplimit 1e-4"},
+    {"contact_damping", kExact, "solreflimit of the tendon: −c (1/m1 + 1/m2)"},
+    {"motor_coulomb_friction", kExact, "frictionloss of the motor's joint"},
+    {"friction_asymmetry", kApproximate,
+     "frictionloss of the mean level and a constant actuator for the difference; the viscous part is the "
+     "mean of "
+     "both directions, the rest needs qfrc_applied in your loop",
+     "viscous_ratio"},
+    {"stribeck_friction", kApproximate,
+     "frictionloss of the level at speed; what break-away takes beyond it needs MuJoCo 3.7 (dcmotor with "
+     "lugre)"},
+    {"presliding_friction", kApproximate,
+     "frictionloss of the level; the bristle needs MuJoCo 3.7 (dcmotor with lugre)"},
+    {"load_dependent_friction", kApproximate,
+     "frictionloss of the level; what grows with the torque needs qfrc_applied in your loop"},
+    {"constant_load_torque", kExact, "a general actuator with a bias and no gain"},
+    {"load_unbalance", kExact, "a mass beside the axis, under gravity 9.81 m/s² along −z"},
+    {"shaft_compliance", kExact, "solreflimit of the tendon"},
+    {"impact_damping", kExact, "solreflimit of the tendon"},
+    {"contact_hardening", kApproximate, "the stiffness at first touch"},
+    {"backlash", kApproximate, "a stiff contact in place of an impact"},
+    {"torque_saturation", kApproximate, "ctrlrange: a hard limit at the knee"},
+    {"actuator_lag", kExact, "dyntype filter of the actuator"},
+};
+
+constexpr const char* kOtherwise =
+    "MJCF of MuJoCo 2.2 has no element for it; --to c gives it as code for a callback or your loop";
+
+/// A contact of no stiffness of its own: as fast as the certified step follows well, with the damping that
+/// keeps the share e of a speed, ζ = −ln e/√(π² + ln² e).
+void stiffen(const DriveStructure& structure, MujocoDrive& d) {
+  constexpr double kFastest = 0.2 / 1e-4;  // rad/s
+  const double log = std::log(std::max(structure.restitution, 1e-3));
+  const double ratio = -log / std::hypot(kPi, log);
+  d.stiffness = kFastest * kFastest / d.contact_mobility();
+  d.contact_damping = 2.0 * ratio * kFastest / d.contact_mobility();
+}
+
+/// Levels of dry friction as an MJCF has them: what holds only at rest, or only under torque, is not theirs.
+void set_motor_friction(const ExportSource& s, MujocoDrive& d) {
+  const double spared = effect_value(s, "stribeck_friction", "level_nm") *
+                        effect_value(s, "stribeck_friction", "stiction_ratio");
+  const double bristle = effect_value(s, "presliding_friction", "level_nm");
+  const double plus = s.plant.motor_friction_plus - spared + bristle;
+  const double minus = s.plant.motor_friction_minus - spared + bristle;
+  d.friction[0] = std::max(0.5 * (plus + minus), 0.0);
+  d.constant[0] = 0.5 * (minus - plus);
+}
+
+}  // namespace
+
+MujocoDrive mujoco_drive(const ExportSource& s) {
+  const DriveParameters<double>& p = s.plant.drive;
+  MujocoDrive d;
+  d.has_load = s.plant.structure.has_load;
+  d.locked = d.has_load && s.plant.structure.load == LoadKind::kLocked;
+  d.inertia[0] = p.motor_inertia, d.inertia[1] = p.motor_inertia * p.mass_ratio;
+  d.damping[0] = p.motor_damping, d.damping[1] = p.load_damping;
+  set_motor_friction(s, d);
+  d.friction[1] = p.load_coulomb_friction;
+  d.constant[d.has_load ? 1 : 0] += s.plant.load_torque;
+  d.torque_constant = p.torque_constant;
+  d.lag = effect_value(s, "actuator_lag", "time_constant_s");
+  const double knee = effect_value(s, "torque_saturation", "knee");
+  if (knee > 0.0) d.input_limit = knee;
+  d.first_input = s.u.front();
+  d.half_gap = 0.5 * p.gap, d.stiffness = p.contact_stiffness, d.contact_damping = p.contact_damping;
+  d.load_place = s.initial.x2;
+  if (s.coordinates.rotational()) {
+    d.unbalance = effect_value(s, "load_unbalance", "amplitude_nm");
+    d.unbalance_phase = effect_value(s, "load_unbalance", "phase_rad");
+  }
+  d.place[0] = s.initial.x1, d.place[1] = s.initial.x2;
+  d.speed[0] = s.initial.w1, d.speed[1] = s.initial.w2;
+  if (d.has_load && s.plant.structure.contact == ContactLaw::kRigid) stiffen(s.plant.structure, d);
+  return d;
+}
+
+std::vector<CarriedPart> mujoco_parts(const ExportSource& s) {
+  std::vector<CarriedPart> parts = carried_parts(s, kByMjcf, kOtherwise);
+  for (CarriedPart& part : parts) {
+    if (part.part == "gap" && s.drive.structure.contact == ContactLaw::kRigid)
+      part = {"gap", kApproximate, "range of the fixed tendon; a stiff contact in place of the impact law"};
+    if (part.part == "load_unbalance" && !s.coordinates.rotational())
+      part = {"load_unbalance", Fidelity::kLeftOut, kOtherwise};
+  }
+  return parts;
+}
+
+}  // namespace gapscope::internal::exports

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exports/export_source.h"
+#include "gapscope/results/certificate.h"
+
+namespace gapscope::internal::exports {
+
+/// The target's x1 at every step, from t = 0 on, under an input held over each; shorter where it diverges.
+using TargetMotion = std::function<std::vector<double>(double step, std::span<const double> u)>;
+
+/// The target against the model at many steps. What is compared are the steps that fall
+/// on multiples of kJudgedEvery.
+class TargetErrors {
+ public:
+  explicit TargetErrors(const ExportSource& source);
+
+  /// At one step [s]: kCommonTime over a whole number, or a whole multiple of it.
+  TargetError at(double step, const TargetMotion& motion) const;
+  /// At the listed steps, and between them the largest that the target stands.
+  StepLimits scan(const std::string& integrator, const TargetMotion& motion,
+                  std::vector<TargetError>& errors) const;
+
+  double travel() const { return travel_; }
+
+ private:
+  bool stands(const TargetError& error) const {
+    return !error.diverges && !error.unstable && error.max <= 0.1 * travel_;
+  }
+  bool grows(double step, std::vector<double> u, const std::vector<double>& x1,
+             const TargetMotion& motion) const;
+  double between(double good, double bad, const TargetMotion& motion) const;
+
+  const ExportSource& source_;
+  std::vector<double> model_;  ///< x1 at multiples of kJudgedEvery
+  double travel_ = 0.0;
+};
+
+/// What all listed steps divide or are multiples of [s].
+inline constexpr double kCommonTime = 4e-3;
+
+/// Where the target is compared with the model [s].
+inline constexpr double kJudgedEvery = 1e-3;
+
+/// The step at which a part may be called exact, or not [s].
+inline constexpr double kCertifiedStep = 1e-4;
+
+}  // namespace gapscope::internal::exports
