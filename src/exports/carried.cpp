@@ -25,10 +25,9 @@ CarriedPart carried_part(std::string_view name, const Carriage* by, const char* 
 }  // namespace
 
 double effect_value(const ExportSource& source, std::string_view effect, std::string_view parameter) {
-  double sum = 0.0;
   for (const EffectConfig& e : source.drive.effects)
-    if (e.effect.entry->name == effect) sum += value_in(e.effect, parameter);
-  return sum;
+    if (e.effect.entry->name == effect) return value_in(e.effect, parameter);
+  return 0.0;
 }
 
 std::vector<CarriedPart> carried_parts(const ExportSource& source, std::span<const Carriage> table,
@@ -44,6 +43,9 @@ std::vector<CarriedPart> carried_parts(const ExportSource& source, std::span<con
     CarriedPart part = carried_part(e.effect.entry->name, by, otherwise);
     if (by != nullptr && !by->exact_without.empty() && value_in(e.effect, by->exact_without) == 0.0)
       part.fidelity = Fidelity::kExact;
+    const bool second =
+        std::any_of(parts.begin(), parts.end(), [&](const CarriedPart& p) { return p.part == part.part; });
+    if (second) part = {part.part, Fidelity::kLeftOut, "a second one of its kind"};
     parts.push_back(part);
   }
   return parts;

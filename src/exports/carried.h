@@ -22,7 +22,8 @@ struct Carriage {
 std::vector<CarriedPart> carried_parts(const ExportSource& source, std::span<const Carriage> table,
                                        const char* otherwise);
 
-/// The value of an effect's parameter; 0 where the drive does not have the effect.
+/// The value of an effect's parameter; 0 where the drive does not have the effect; of several
+/// the first one.
 double effect_value(const ExportSource& source, std::string_view effect, std::string_view parameter);
 
 }  // namespace gapscope::internal::exports

@@ -1,5 +1,6 @@
 #include <iterator>
 
+#include "exports/c_header.h"
 #include "exports/mjcf.h"
 #include "gapscope/base/version.h"
 #include "gapscope/exports/export.h"
@@ -11,10 +12,13 @@ using internal::exports::ExportSource;
 
 constexpr ExportFormatSpec kFormats[] = {
     {ExportFormat::kMjcf, "mjcf", "MuJoCo: a model that stands alone and a fragment to include"},
+    {ExportFormat::kC, "c",
+     "one C99 header without dependencies: the same motion, for a controller or a callback"},
 };
 
 /// In the order of kFormats.
-constexpr DriveExport (*kExporters[])(const ExportSource&) = {internal::exports::export_mjcf};
+constexpr DriveExport (*kExporters[])(const ExportSource&) = {internal::exports::export_mjcf,
+                                                              internal::exports::export_c};
 static_assert(std::size(kExporters) == std::size(kFormats));
 
 }  // namespace

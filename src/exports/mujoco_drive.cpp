@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exports/stiff_contact.h"
+
 namespace gapscope::internal::exports {
 namespace {
 
@@ -45,16 +47,6 @@ constexpr Carriage kByMjcf[] = {
 constexpr const char* kOtherwise =
     "MJCF of MuJoCo 2.2 has no element for it; --to c gives it as code for a callback or your loop";
 
-/// A contact of no stiffness of its own: as fast as the certified step follows well, with the damping that
-/// keeps the share e of a speed, ζ = −ln e/√(π² + ln² e).
-void stiffen(const DriveStructure& structure, MujocoDrive& d) {
-  constexpr double kFastest = 0.2 / 1e-4;  // rad/s
-  const double log = std::log(std::max(structure.restitution, 1e-3));
-  const double ratio = -log / std::hypot(kPi, log);
-  d.stiffness = kFastest * kFastest / d.contact_mobility();
-  d.contact_damping = 2.0 * ratio * kFastest / d.contact_mobility();
-}
-
 /// Levels of dry friction as an MJCF has them: what holds only at rest, or only under torque, is not theirs.
 void set_motor_friction(const ExportSource& s, MujocoDrive& d) {
   const double spared = effect_value(s, "stribeck_friction", "level_nm") *
@@ -91,7 +83,10 @@ MujocoDrive mujoco_drive(const ExportSource& s) {
   }
   d.place[0] = s.initial.x1, d.place[1] = s.initial.x2;
   d.speed[0] = s.initial.w1, d.speed[1] = s.initial.w2;
-  if (d.has_load && s.plant.structure.contact == ContactLaw::kRigid) stiffen(s.plant.structure, d);
+  if (d.has_load && s.plant.structure.contact == ContactLaw::kRigid) {
+    const StiffContact stiff = stiff_contact(s.plant.structure, d.contact_mobility());
+    d.stiffness = stiff.stiffness, d.contact_damping = stiff.damping;
+  }
   return d;
 }
 

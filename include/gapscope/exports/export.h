@@ -9,7 +9,7 @@
 
 namespace gapscope {
 
-enum class ExportFormat { kMjcf };
+enum class ExportFormat { kMjcf, kC };
 
 /// The word by which a format is asked for, and one line of what it is.
 struct ExportFormatSpec {
