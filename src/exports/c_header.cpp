@@ -8,6 +8,7 @@
 
 #include "exports/carried.h"
 #include "exports/stiff_contact.h"
+#include "exports/target_errors.h"
 #include "gapscope/base/require.h"
 #include "gapscope/base/text.h"
 
@@ -204,19 +205,11 @@ std::string header_text(const ExportSource& s, const gsd_numbers& n) {
 TargetError error_of(const ExportSource& s, double& travel) {
   std::vector<double> times;
   for (std::size_t i = 0; i <= s.u.size(); ++i) times.push_back(s.dt * static_cast<double>(i));
-  const std::vector<double> model = model_motion(s, times), target = c_motion(s);
-  TargetError e;
-  e.integrator = "event-exact", e.step = s.dt, e.max = 0.0;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < std::min(model.size(), target.size()); ++i) {
-    const double d = target[i] - model[i];
-    sum += d * d, e.max = std::max(e.max, std::abs(d));
-  }
-  e.rms = std::sqrt(sum / static_cast<double>(times.size()));
-  e.diverges = !std::isfinite(e.rms);
+  const std::vector<double> model = model_motion(s, times);
+  TargetError e = compared(model, c_motion(s));
+  e.integrator = "event-exact", e.step = s.dt;
   e.within_encoder = e.rms <= s.encoder_floor;
-  const auto [low, high] = std::minmax_element(model.begin(), model.end());
-  travel = *high - *low;
+  travel = range_of(model);
   return e;
 }
 

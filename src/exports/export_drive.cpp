@@ -1,6 +1,7 @@
 #include <iterator>
 
 #include "exports/c_header.h"
+#include "exports/flat.h"
 #include "exports/mjcf.h"
 #include "gapscope/base/version.h"
 #include "gapscope/exports/export.h"
@@ -14,11 +15,18 @@ constexpr ExportFormatSpec kFormats[] = {
     {ExportFormat::kMjcf, "mjcf", "MuJoCo: a model that stands alone and a fragment to include"},
     {ExportFormat::kC, "c",
      "one C99 header without dependencies: the same motion, for a controller or a callback"},
+    {ExportFormat::kSdf, "sdf", "Gazebo: one joint with inertia, damping and friction"},
+    {ExportFormat::kUrdf, "urdf", "ROS and many others: the same"},
+    {ExportFormat::kIsaac, "isaac",
+     "Isaac Lab: an actuator configuration (Python), the same and friction at rest"},
+    {ExportFormat::kBam, "bam",
+     "BAM and Newton: a friction model (JSON), with Stribeck and load-dependent friction"},
 };
 
 /// In the order of kFormats.
-constexpr DriveExport (*kExporters[])(const ExportSource&) = {internal::exports::export_mjcf,
-                                                              internal::exports::export_c};
+constexpr DriveExport (*kExporters[])(const ExportSource&) = {
+    internal::exports::export_mjcf, internal::exports::export_c,     internal::exports::export_sdf,
+    internal::exports::export_urdf, internal::exports::export_isaac, internal::exports::export_bam};
 static_assert(std::size(kExporters) == std::size(kFormats));
 
 }  // namespace

@@ -6,26 +6,19 @@
 #include <cmath>
 
 #include "exports/mujoco_drive.h"
+#include "exports/offset_mass.h"
 #include "exports/target_errors.h"
 
 namespace gapscope::internal::exports {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s²
-
-/// Where a mass beside the axis y has gravity's torque −G sin(q + phase), and how heavy it is: so that it
-/// makes up a tenth of the inertia.
+/// On a slide the mass is the inertia.
 std::string inertial(const MujocoDrive& d, std::size_t body, bool turns) {
-  const double inertia = d.inertia[body];
-  double mass = turns ? 1.0 : inertia, x = 0.0, z = 0.0, own = inertia;
-  if (d.unbalance > 0.0 && body == (d.has_load && !d.locked ? 1u : 0u)) {
-    mass = 10.0 * d.unbalance * d.unbalance / (kGravity * kGravity * inertia);
-    const double radius = d.unbalance / (mass * kGravity);
-    x = -radius * std::sin(d.unbalance_phase), z = -radius * std::cos(d.unbalance_phase);
-    own = inertia - mass * radius * radius;
-  }
-  return fmt::format("<inertial pos=\"{} 0 {}\" mass=\"{}\" diaginertia=\"{} {} {}\"/>", x, z, mass, own, own,
-                     own);
+  const bool heavy = body == (d.has_load && !d.locked ? 1u : 0u);
+  OffsetMass m = offset_mass(d.inertia[body], heavy ? d.unbalance : 0.0, d.unbalance_phase);
+  if (!turns) m.mass = d.inertia[body];
+  return fmt::format("<inertial pos=\"{} 0 {}\" mass=\"{}\" diaginertia=\"{} {} {}\"/>", m.x, m.z, m.mass,
+                     m.own, m.own, m.own);
 }
 
 std::string joint(const std::string& name, const MujocoDrive& d, std::size_t body, bool turns) {

@@ -29,13 +29,30 @@ std::vector<double> input_at_steps(const ExportSource& source, double step) {
 
 }  // namespace
 
+TargetError compared(const std::vector<double>& model, const std::vector<double>& target) {
+  TargetError error;
+  double sum = 0.0;
+  error.max = 0.0;
+  for (std::size_t i = 0; i < std::min(model.size(), target.size()); ++i) {
+    const double e = target[i] - model[i];
+    sum += e * e, error.max = std::max(error.max, std::abs(e));
+  }
+  error.rms = std::sqrt(sum / static_cast<double>(model.size()));
+  error.diverges = target.size() < model.size() || !std::isfinite(error.rms);
+  return error;
+}
+
+double range_of(const std::vector<double>& x1) {
+  const auto [low, high] = std::minmax_element(x1.begin(), x1.end());
+  return *high - *low;
+}
+
 TargetErrors::TargetErrors(const ExportSource& source) : source_(source) {
   std::vector<double> times;
   const auto count = static_cast<std::size_t>(std::floor(source.duration() / kJudgedEvery + 1e-9));
   for (std::size_t i = 0; i <= count; ++i) times.push_back(kJudgedEvery * static_cast<double>(i));
   model_ = model_motion(source, times);
-  const auto [low, high] = std::minmax_element(model_.begin(), model_.end());
-  travel_ = *high - *low;
+  travel_ = range_of(model_);
 }
 
 TargetError TargetErrors::at(double step, const TargetMotion& motion) const {

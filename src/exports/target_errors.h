@@ -10,6 +10,11 @@
 
 namespace gapscope::internal::exports {
 
+/// Of two motions at the same times; diverges where the target is no number or ends before.
+TargetError compared(const std::vector<double>& model, const std::vector<double>& target);
+
+double range_of(const std::vector<double>& x1);
+
 /// The target's x1 at every step, from t = 0 on, under an input held over each; shorter where it diverges.
 using TargetMotion = std::function<std::vector<double>(double step, std::span<const double> u)>;
 

@@ -9,7 +9,7 @@
 
 namespace gapscope {
 
-enum class ExportFormat { kMjcf, kC };
+enum class ExportFormat { kMjcf, kC, kSdf, kUrdf, kIsaac, kBam };
 
 /// The word by which a format is asked for, and one line of what it is.
 struct ExportFormatSpec {
