@@ -53,8 +53,9 @@ compdef _gapscope gapscope
 /// What the shell offers in place of a value: by its name, as the help has it.
 std::string kind_of(const Argument& a) {
   static const std::map<std::string, std::string> kinds = {
-      {"ANSWERS", "file"},  {"CASES", "folder"}, {"CONFIG", "configuration"}, {"DIR", "folder"},
-      {"EFFECT", "effect"}, {"FILE", "file"},    {"LABELS", "file"}};
+      {"ANSWERS", "file"}, {"CASES", "folder"},  {"CONFIG", "configuration"},
+      {"DIR", "folder"},   {"EFFECT", "effect"}, {"FILE", "file"},
+      {"LABELS", "file"},  {"MODEL", "file"},    {"SOURCE", "file"}};
   const auto known = kinds.find(a.value);
   return known == kinds.end() ? "" : known->second;
 }

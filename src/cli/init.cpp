@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/config/starter.h"
 
 namespace gapscope::cli {
@@ -17,7 +18,8 @@ namespace fs = std::filesystem;
 struct InitArguments {
   RecordingArguments recording;
   std::string output;
-  std::string model;  ///< empty: as the detector sees it
+  std::string model;        ///< empty: as the detector sees it
+  std::string from, joint;  ///< of a simulator's model; empty: none
 };
 
 StarterModel model_of(const std::string& word) {
@@ -26,13 +28,25 @@ StarterModel model_of(const std::string& word) {
   return word.empty() ? StarterModel::kAsSeen : StarterModel::kOneBody;
 }
 
+std::optional<JointNumbers> nominal_of(const InitArguments& a) {
+  if (a.from.empty()) return {};
+  JointNumbers numbers = joint_numbers(a.from, a.joint);
+  if (numbers.slides == a.recording.coordinates().rotational())
+    throw ConfigError(a.from, fmt::format("says that joint '{}' {}, expected {}", printable(a.joint, 40),
+                                          numbers.slides ? "slides" : "turns",
+                                          numbers.slides ? "--translation" : "no --translation"));
+  return numbers;
+}
+
 void write_starter(const InitArguments& a) {
   const RecordingArguments& r = a.recording;
+  const std::optional<JointNumbers> nominal = nominal_of(a);
   const std::string output = a.output.empty() ? fs::path(r.file).stem().string() + ".yaml" : a.output;
   require_file_name(output, {r.file}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
-  const Starter starter = starter_configuration(r.configuration(), r.encoder(), r.coordinates(),
-                                                parent.empty() ? "." : parent.string(), model_of(a.model));
+  const Starter starter =
+      starter_configuration(r.configuration(), r.encoder(), r.coordinates(),
+                            parent.empty() ? "." : parent.string(), model_of(a.model), nominal);
   write_text(output, starter.yaml, "");
   print_warnings(starter.spoiling);
   fmt::print(
@@ -56,6 +70,12 @@ void add_init(CommandLine& app) {
                   "gap, locked (the output does not move) or one_body (default: what the detector sees)")
       .value("KIND")
       .one_of({"gap", "locked", "one_body"});
+  Option from = command.add_option("--from", arguments->from, "MJCF or URDF with the numbers to begin with")
+                    .value("MODEL");
+  Option joint =
+      command.add_option("--joint", arguments->joint, "joint in it that is the drive").value("NAME");
+  from.needs(joint);
+  joint.needs(from);
   command.footer(
       "Reads off the recording what it tells: columns, a rate for the detector where time is not uniform,\n"
       "the step of the encoder [rad], and whether the model needs a gap, a locked output or one body (the\n"
@@ -63,6 +83,11 @@ void add_init(CommandLine& app) {
       "with: diagnose then says what is missing beside them.\n"
       "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit.\n"
       "A gap that the detector does not see (inconclusive) is a GUESS too.\n"
+      "--from takes armature, damping, frictionloss, gear and the body's inertia of a joint, of MJCF with "
+      "its\n"
+      "classes; a gap where a fixed tendon limits the difference of two joints or a second joint of the body "
+      "has\n"
+      "a narrow range. The fit begins there, and diagnose says what that model lacks.\n"
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
   command.action([arguments] { write_starter(*arguments); });

@@ -10,6 +10,7 @@
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/base/plain_name.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/sliding_mode/detector.h"
 
@@ -55,6 +56,13 @@ Choice choose(StarterModel model, const MotorTrace& trace, Coordinates coordinat
       return {model, "one body, as asked for"};
   }
   return {};
+}
+
+Choice as_modelled(const JointNumbers& n) {
+  const std::string where = "joint " + printable(n.joint, 40) + " of " + printable(n.model, 80);
+  return n.gap > 0.0
+             ? Choice{StarterModel::kGap, "gap and free load, as " + where + " has them"}
+             : Choice{StarterModel::kOneBody, "one body, as " + where + " has it: it knows of no gap"};
 }
 
 /// Two digits, not above: a rate that the recording has.
@@ -115,70 +123,105 @@ void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f
                         coordinates.position_unit()));
 }
 
-/// {value: …, estimate: true} with a number that was read, else without.
-void write_estimated(YamlWriter& out, const char* key, double value, const std::string& unit) {
-  const bool known = value > 0.0;
-  out.entry(key, known ? fmt::format("{{value: {:.3g}, estimate: true}}", value) : "{estimate: true}",
-            unit + (known ? "; read, as one body" : "; the fit finds its start"));
+/// Where a fit begins: with the numbers of a simulator's model, of the recording read as one body, or
+/// without.
+struct Begin {
+  JointNumbers numbers;
+  std::string from;  ///< "read, as one body"
+  bool nominal = false;
+};
+
+Begin begin_of(const RecordingFacts& f, bool one_body, const std::optional<JointNumbers>& nominal) {
+  if (nominal) return {*nominal, "of joint " + printable(nominal->joint, 40), true};
+  Begin begin;
+  begin.from = "read, as one body";
+  if (one_body)
+    begin.numbers.inertia = f.inertia, begin.numbers.damping = f.damping, begin.numbers.friction = f.friction;
+  return begin;
 }
 
-void write_motor(YamlWriter& out, const RecordingFacts& f, Coordinates coordinates, bool one_body) {
-  out.entry("torque_constant", "1",
-            coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u"));
-  write_estimated(out, "motor_inertia", one_body ? f.inertia : kNaN,
-                  coordinates.with_units("[kg m^2] (over torque_constant); better the sheet's"));
-  write_estimated(out, "motor_damping", one_body ? f.damping : kNaN, coordinates.unit("N m s/rad"));
+/// {value: …, estimate: true} with a number that is known, else without.
+void write_estimated(YamlWriter& out, const char* key, double value, const std::string& unit,
+                     const std::string& from) {
+  const bool known = value > 0.0;
+  out.entry(key, known ? fmt::format("{{value: {:.3g}, estimate: true}}", value) : "{estimate: true}",
+            unit + "; " + (known ? from : "the fit finds its start"));
+}
+
+void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
+  if (begin.numbers.torque_constant > 0.0)
+    out.entry("torque_constant", yaml_number(begin.numbers.torque_constant),
+              coordinates.with_units("[N m] per unit of u; ") + begin.from);
+  else
+    out.entry("torque_constant", "1",
+              coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u"));
+  write_estimated(out, "motor_inertia", begin.numbers.inertia,
+                  coordinates.with_units("[kg m^2] (over torque_constant); better the sheet's"), begin.from);
+  write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad"), begin.from);
 }
 
 /// Coulomb friction, where it was read: a diagnosis then begins with what is missing beside it.
-void write_friction(YamlWriter& out, double friction, Coordinates coordinates) {
+void write_friction(YamlWriter& out, double friction, const std::string& from, Coordinates coordinates) {
   const char* const others = "`gapscope effects` lists what else a drive may have";
   if (!(friction > 0.0)) return out.entry("effects", "[]", others);
   out.open("effects");
   out.comment(others);
   out.entry("- motor_coulomb_friction",
             fmt::format("{{level_nm: {{value: {:.3g}, estimate: true}}}}", friction),
-            coordinates.torque_unit() + std::string("; read, as one body"));
+            coordinates.torque_unit() + ("; " + from));
   out.close();
 }
 
-void write_model(YamlWriter& out, const Choice& choice, const RecordingFacts& f, Coordinates coordinates) {
+void write_load(YamlWriter& out, const Choice& choice, const Begin& begin, Coordinates coordinates) {
+  const bool free = choice.structure == StarterModel::kGap;
+  const JointNumbers& n = begin.numbers;
+  const auto estimated = [&](const char* key, double value, const std::string& unit) {
+    write_estimated(out, key, value, unit, begin.from);
+  };
+  if (free) estimated("mass_ratio", n.load_inertia / n.inertia, "load over motor");
+  estimated("gap", n.gap,
+            (choice.seen ? "" : "GUESS that there is one; ") + std::string(coordinates.position_unit()));
+  if (free) estimated("load_damping", n.load_damping, coordinates.unit("N m s/rad"));
+  if (free) estimated("load_coulomb_friction", n.load_friction, coordinates.torque_unit());
+  estimated("contact_stiffness", n.stiffness, coordinates.unit("N m/rad"));
+  estimated("contact_damping", n.contact_damping, coordinates.unit("N m s/rad"));
+}
+
+void write_model(YamlWriter& out, const Choice& choice, const Begin& begin, Coordinates coordinates) {
   const bool load = choice.structure != StarterModel::kOneBody, free = choice.structure == StarterModel::kGap;
-  const std::string length = coordinates.position_unit();
   out.open("model");
   out.comment(choice.why);
+  for (const std::string& note : begin.numbers.notes) out.comment(note);
   if (!choice.seen)
     out.comment(
         "no gap in this drive: gapscope init --model one_body; an output that stands still: --model locked");
   if (load) out.entry("contact", "compliant");
   if (load) out.entry("load", free ? "free" : "locked");
   out.open("parameters");
-  write_motor(out, f, coordinates, !load);
+  write_motor(out, begin, coordinates);
   if (!load)
     out.entry("mass_ratio", "0",
               "one body; for a drive with a gap: {estimate: true}, and gap, contact_stiffness alike");
-  if (free) write_estimated(out, "mass_ratio", kNaN, "load over motor");
-  if (load) write_estimated(out, "gap", kNaN, (choice.seen ? "" : "GUESS that there is one; ") + length);
-  if (free) write_estimated(out, "load_damping", kNaN, coordinates.unit("N m s/rad"));
-  if (free) write_estimated(out, "load_coulomb_friction", kNaN, coordinates.torque_unit());
-  if (load) write_estimated(out, "contact_stiffness", kNaN, coordinates.unit("N m/rad"));
-  if (load) write_estimated(out, "contact_damping", kNaN, coordinates.unit("N m s/rad"));
+  if (load) write_load(out, choice, begin, coordinates);
   out.close();
-  write_friction(out, load ? kNaN : f.friction, coordinates);
+  write_friction(out, begin.numbers.friction, begin.from, coordinates);
   out.close();
 }
 
 }  // namespace
 
 Starter starter_configuration(RecordingConfig config, const EncoderConfig& encoder, Coordinates coordinates,
-                              const std::string& folder, StarterModel model) {
+                              const std::string& folder, StarterModel model,
+                              const std::optional<JointNumbers>& nominal) {
   const std::string& recording = config.files.front().path;
   ReadOptions& options = config.reading;
   const Inspection seen = inspect(recording, options, coordinates);
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
-  const Choice choice = choose(model, r.motor_trace(), coordinates);
+  const Choice choice = nominal && model == StarterModel::kAsSeen
+                            ? as_modelled(*nominal)
+                            : choose(model, r.motor_trace(), coordinates);
   Starter starter;
   starter.model = choice.why;
   YamlWriter out(coordinates);
@@ -197,7 +240,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   write_recording(out, named_from(folder, recording), config, irregular);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
   out.entry("coordinates", coordinates.name());
-  write_model(out, choice, seen.facts, coordinates);
+  const bool one_body = choice.structure == StarterModel::kOneBody;
+  write_model(out, choice, begin_of(seen.facts, one_body, nominal), coordinates);
   out.entry("detector", "{bound: auto}");
   starter.yaml = out.text();
   return starter;

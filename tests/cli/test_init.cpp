@@ -46,6 +46,30 @@ TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {
   EXPECT_THAT(yaml, Not(HasSubstr("SPOILS")));
 }
 
+TEST(Init, BeginsWithTheNumbersOfAMuJoCoModel) {
+  Workplace place;
+  TestEncoder encoder;
+  encoder.rate = 500.0, encoder.duration = 4.0, encoder.bits = 18, encoder.step = 1e-4;
+  place.file("r.csv", testing::rows_of(record({}, sine(0.5814, 1.0), encoder)).csv());
+  place.file(
+      "robot.xml",
+      "<mujoco><worldbody><body><inertial pos='0 0 0' mass='1' diaginertia='1e-3 1e-3 1e-3'/><joint "
+      "name='elbow' armature='2e-3' damping='0.05' frictionloss='0.02'/></body></worldbody><actuator><motor "
+      "joint='elbow' gear='0.172'/></actuator></mujoco>");
+  const auto init = place.run("init r.csv --from robot.xml --joint elbow -o drive.yaml");
+  EXPECT_EQ(init.status, 0) << init.err;
+  const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
+  EXPECT_THAT(yaml, HasSubstr("one body, as joint elbow of robot.xml has it"));
+  EXPECT_THAT(yaml, HasSubstr("torque_constant: 0.172"));
+  EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.003, estimate: true}"));
+  EXPECT_THAT(yaml, HasSubstr("motor_damping: {value: 0.05, estimate: true}"));
+  EXPECT_THAT(yaml, HasSubstr("- motor_coulomb_friction: {level_nm: {value: 0.02, estimate: true}}"));
+  EXPECT_EQ(place.run("fit drive.yaml -o report").status, 0);
+  EXPECT_THAT(place.run("init r.csv --from robot.xml --joint knee -o d.yaml").err,
+              HasSubstr("has no joint 'knee'"));
+  EXPECT_EQ(place.run("init r.csv --from robot.xml -o d.yaml").status, 2);
+}
+
 TEST(Init, AGapIsSeenAndLeftToTheFit) {
   Workplace place;
   TestEncoder encoder;

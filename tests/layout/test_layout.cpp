@@ -60,7 +60,7 @@ const std::vector<std::pair<std::string, Names>> kConfined = {
     {"matio", {"recording"}},  {"hdf5", {"recording"}},
     {"zlib", {"recording"}},   {"sqlite3", {"campaign"}},
     {"openssl/", {"results"}}, {"tbb/", {"base"}},
-    {"oneapi/", {"base"}},
+    {"tinyxml2", {"config"}},  {"oneapi/", {"base"}},
 };
 
 struct Include {

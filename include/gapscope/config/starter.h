@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gapscope/config/data_config.h"
+#include "gapscope/config/joint_numbers.h"
 
 namespace gapscope {
 
@@ -24,9 +26,13 @@ struct Starter {
 /// @param encoder what is known of it; else the step that is seen
 /// @param model   kAsSeen: the detector decides
 /// @param folder  where the configuration will be: the recording is named relative to it
+/// @param nominal what a simulator's model says: its numbers stand where a fit begins, and its gap decides
+/// where
+///   nobody asks for another structure
 /// @throws ConfigError where the recording cannot be read
 Starter starter_configuration(RecordingConfig recording, const EncoderConfig& encoder,
                               Coordinates coordinates, const std::string& folder,
-                              StarterModel model = StarterModel::kAsSeen);
+                              StarterModel model = StarterModel::kAsSeen,
+                              const std::optional<JointNumbers>& nominal = {});
 
 }  // namespace gapscope

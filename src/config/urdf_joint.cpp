@@ -1,0 +1,74 @@
+#include <cstring>
+
+#include "config/joint_reader.h"
+#include "gapscope/base/errors.h"
+
+namespace gapscope::internal::config {
+namespace {
+
+using tinyxml2::XMLElement;
+
+const XMLElement* named(const XMLElement& robot, const char* kind, const std::string& name) {
+  for (const XMLElement* e = robot.FirstChildElement(kind); e != nullptr; e = e->NextSiblingElement(kind))
+    if (e->Attribute("name") != nullptr && e->Attribute("name") == name) return e;
+  return nullptr;
+}
+
+double attribute(const XMLElement* e, const char* name, const std::string& file) {
+  const auto found = numbers_in(e == nullptr ? nullptr : e->Attribute(name), file);
+  return found.empty() ? kNaN : found[0];
+}
+
+std::vector<double> three(const XMLElement* e, const char* name, const std::string& file) {
+  auto found = numbers_in(e == nullptr ? nullptr : e->Attribute(name), file);
+  found.resize(3, 0.0);
+  return found;
+}
+
+void read_link(const XMLElement& link, const XMLElement* axis, const std::string& file, JointNumbers& n) {
+  const XMLElement* inertial = link.FirstChildElement("inertial");
+  if (inertial == nullptr) return;
+  const double mass = attribute(inertial->FirstChildElement("mass"), "value", file);
+  n.notes.push_back("the inertia is that of the link alone, not of what hangs behind it");
+  if (n.slides) {
+    n.inertia = mass;
+    return;
+  }
+  const XMLElement* tensor = inertial->FirstChildElement("inertia");
+  std::vector<double> t;
+  for (const char* key : {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}) {
+    const double value = attribute(tensor, key, file);
+    t.push_back(std::isnan(value) ? 0.0 : value);
+  }
+  const XMLElement* origin = inertial->FirstChildElement("origin");
+  for (const double angle : three(origin, "rpy", file))
+    if (angle != 0.0) {
+      n.notes.push_back("the link's inertia is given in turned axes and was not taken");
+      return;
+    }
+  const std::vector<double> along =
+      axis == nullptr ? std::vector<double>{1.0, 0.0, 0.0} : three(axis, "xyz", file);
+  n.inertia = inertia_about(along, std::isnan(mass) ? 0.0 : mass, three(origin, "xyz", file), t);
+}
+
+}  // namespace
+
+JointNumbers urdf_joint(const XMLElement& robot, const std::string& file, const std::string& name) {
+  const XMLElement* joint = named(robot, "joint", name);
+  if (joint == nullptr) no_such_joint(robot, file, name);
+  JointNumbers n;
+  const char* type = joint->Attribute("type");
+  n.slides = type != nullptr && std::strcmp(type, "prismatic") == 0;
+  const XMLElement* dynamics = joint->FirstChildElement("dynamics");
+  n.damping = attribute(dynamics, "damping", file);
+  n.friction = attribute(dynamics, "friction", file);
+  n.torque_constant = 1.0;
+  n.notes.push_back("URDF has no actuator: u is taken as the joint's effort");
+  const XMLElement* child = joint->FirstChildElement("child");
+  const char* link_name = child == nullptr ? nullptr : child->Attribute("link");
+  const XMLElement* link = link_name == nullptr ? nullptr : named(robot, "link", link_name);
+  if (link != nullptr) read_link(*link, joint->FirstChildElement("axis"), file, n);
+  return n;
+}
+
+}  // namespace gapscope::internal::config

@@ -1,0 +1,88 @@
+// What the models of simulators say of a joint's drive.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/config/joint_numbers.h"
+#include "support/temporary_file.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+JointNumbers read(const std::string& xml, const std::string& joint) {
+  const testing::TemporaryFile file(xml, "model.xml");
+  return joint_numbers(file.path(), joint);
+}
+
+std::string refused(const std::string& xml, const std::string& joint) {
+  try {
+    read(xml, joint);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(JointNumbers, OfAnMjcfComeFromTheJointItsClassAndTheClassAround) {
+  const std::string xml = R"(<mujoco>
+  <default><joint damping="0.1" armature="0.01"/>
+    <default class="servo"><joint frictionloss="0.2"/><default class="small"><joint armature="0.002"/></default></default>
+  </default>
+  <worldbody><body childclass="servo">
+    <inertial pos="0 0 0.1" mass="2" diaginertia="0.001 0.002 0.003"/>
+    <joint name="a" class="small" axis="1 0 0"/>
+    <body><inertial pos="0 0 0" mass="1" diaginertia="1e-3 1e-3 1e-3"/><joint name="b" damping="0.5"/></body>
+  </body></worldbody>
+  <actuator><motor joint="a" gear="3"/></actuator></mujoco>)";
+  const JointNumbers a = read(xml, "a");
+  EXPECT_DOUBLE_EQ(a.inertia, 0.002 + 0.001 + 2.0 * 0.01);  // about x through the joint: m z² beside Ixx
+  EXPECT_DOUBLE_EQ(a.damping, 0.1);
+  EXPECT_DOUBLE_EQ(a.friction, 0.2);
+  EXPECT_DOUBLE_EQ(a.torque_constant, 3.0);
+  EXPECT_TRUE(std::isnan(a.gap));
+  EXPECT_THAT(a.notes.at(0), HasSubstr("not of the bodies behind it"));
+  const JointNumbers b = read(xml, "b");
+  EXPECT_DOUBLE_EQ(b.inertia, 0.011);
+  EXPECT_DOUBLE_EQ(b.damping, 0.5);
+  EXPECT_DOUBLE_EQ(b.friction, 0.2);
+  EXPECT_TRUE(std::isnan(b.torque_constant));
+}
+
+TEST(JointNumbers, OfAnMjcfKnowTheGapOfANarrowSecondJoint) {
+  const std::string body = R"(<worldbody><body><inertial pos="0 0 0" mass="1" diaginertia="1e-3 1e-3 1e-3"/>
+    <joint name="drive" armature="0.01"/><joint name="play" range="-1 1" limited="true"/></body></worldbody>)";
+  EXPECT_NEAR(read("<mujoco>" + body + "</mujoco>", "drive").gap, 2.0 * 3.14159265358979 / 180.0, 1e-12);
+  EXPECT_TRUE(std::isnan(read("<mujoco><compiler angle=\"radian\"/>" + body + "</mujoco>", "drive").gap))
+      << "two radians are no gap";
+}
+
+TEST(JointNumbers, OfAUrdfAreItsDynamicsAndTheLinkAboutTheAxis) {
+  const std::string xml =
+      R"(<robot name="r"><link name="base"/><link name="arm"><inertial><origin xyz="0.1 0 0"/>
+    <mass value="2"/><inertia ixx="0.001" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.003"/></inertial></link>
+    <joint name="elbow" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 2"/>
+    <limit lower="-1" upper="1" effort="5" velocity="3"/><dynamics damping="0.2" friction="0.3"/></joint></robot>)";
+  const JointNumbers n = read(xml, "elbow");
+  EXPECT_DOUBLE_EQ(n.inertia, 0.003 + 2.0 * 0.01);
+  EXPECT_DOUBLE_EQ(n.damping, 0.2);
+  EXPECT_DOUBLE_EQ(n.friction, 0.3);
+  EXPECT_DOUBLE_EQ(n.torque_constant, 1.0);
+  EXPECT_FALSE(n.slides);
+}
+
+TEST(JointNumbers, AreRefusedWithWhatWasExpected) {
+  EXPECT_THAT(refused("<mujoco><worldbody><body><joint name=\"hip\"/></body></worldbody></mujoco>", "knee"),
+              HasSubstr("has no joint 'knee', expected one of: hip"));
+  EXPECT_THAT(refused("<sdf/>", "knee"), HasSubstr("begins with <sdf>, expected <mujoco> or <robot>"));
+  EXPECT_THAT(refused("no XML", "knee"), HasSubstr("cannot be read as XML"));
+  EXPECT_THAT(
+      refused("<mujoco><worldbody><body><joint name=\"a\" damping=\"soft\"/></body></worldbody></mujoco>",
+              "a"),
+      HasSubstr("expected numbers"));
+}
+
+}  // namespace
+}  // namespace gapscope
