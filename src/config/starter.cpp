@@ -58,11 +58,15 @@ Choice choose(StarterModel model, const MotorTrace& trace, Coordinates coordinat
   return {};
 }
 
-Choice as_modelled(const JointNumbers& n) {
+/// The model's structure, unless it knows of no gap and the detector does.
+Choice as_modelled(const JointNumbers& n, const MotorTrace& trace, Coordinates coordinates) {
   const std::string where = "joint " + printable(n.joint, 40) + " of " + printable(n.model, 80);
-  return n.gap > 0.0
-             ? Choice{StarterModel::kGap, "gap and free load, as " + where + " has them"}
-             : Choice{StarterModel::kOneBody, "one body, as " + where + " has it: it knows of no gap"};
+  if (n.gap > 0.0) return {StarterModel::kGap, "gap and free load, as " + where + " has them"};
+  Choice seen = as_seen(trace, coordinates);
+  if (!seen.seen || seen.structure == StarterModel::kOneBody)
+    return {StarterModel::kOneBody, "one body, as " + where + " has it"};
+  seen.why += "; " + where + " knows of none";
+  return seen;
 }
 
 /// Two digits, not above: a rate that the recording has.
@@ -220,7 +224,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
   const Choice choice = nominal && model == StarterModel::kAsSeen
-                            ? as_modelled(*nominal)
+                            ? as_modelled(*nominal, r.motor_trace(), coordinates)
                             : choose(model, r.motor_trace(), coordinates);
   Starter starter;
   starter.model = choice.why;

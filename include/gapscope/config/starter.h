@@ -26,9 +26,8 @@ struct Starter {
 /// @param encoder what is known of it; else the step that is seen
 /// @param model   kAsSeen: the detector decides
 /// @param folder  where the configuration will be: the recording is named relative to it
-/// @param nominal what a simulator's model says: its numbers stand where a fit begins, and its gap decides
-/// where
-///   nobody asks for another structure
+/// @param nominal what a simulator's model says: the fit begins with its numbers. Its gap, or the detector's
+///   where it has none, decides the structure where nobody asks for another
 /// @throws ConfigError where the recording cannot be read
 Starter starter_configuration(RecordingConfig recording, const EncoderConfig& encoder,
                               Coordinates coordinates, const std::string& folder,
