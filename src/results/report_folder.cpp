@@ -42,7 +42,8 @@ fs::path without_trailing_slash(const std::string& folder) {
 /// A result is found when all that belongs to it is there.
 bool is_result(const std::string& file) {
   return file == "result.json" || file == "diagnosis.json" || file == "campaign.json" ||
-         file == "blind.json" || file == "compare.json" || file == "certificate.json" || file == "manifest.json" || file == "truth.csv";
+         file == "blind.json" || file == "compare.json" || file == "certificate.json" ||
+         file == "manifest.json" || file == "truth.csv";
 }
 
 /// An entry of the list for a file that was just written. Wall times are no function of the input.
