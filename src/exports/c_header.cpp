@@ -4,7 +4,10 @@
 #include <math.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 
 #include "exports/carried.h"
 #include "exports/stiff_contact.h"
