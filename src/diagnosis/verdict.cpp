@@ -34,7 +34,6 @@ bool lacks_nothing(const Findings& found) { return found.candidates.empty() && a
 /// open.
 Diagnosis report_effects(const Study& study, const Findings& found, const Additions& added) {
   const ScoredModel& nominal = nominal_of(found, added);
-  const auto rest = search_last_resort(study, added.after);
   const auto instead =
       at_floor(added.after) || added.explained ? std::nullopt : search_last_resort(study, nominal);
   const double better = instead ? full_score(added.after) - full_score(instead->after) : -kInfinity;
@@ -51,7 +50,7 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
     for (AddedEffect& a : d.added) a.established = false;
     d.sentence = sentence_of(d, study.options.coordinates);
   }
-  tell_law(study, rest, d);
+  tell_law(study, search_last_resort(study, added.after), d);
   return d;
 }
 
