@@ -94,14 +94,8 @@ class LawFit {
     origin_.model = with_law(origin_.model, variant);
   }
 
-  double least() const {
-    double least = kInfinity;
-    for (const FittedModel& f : fitted_) least = std::min(least, f.mean_cost);
-    return least;
-  }
-  const ReferenceModel& drive() const {
-    return std::min_element(fitted_.begin(), fitted_.end(), costs_less)->model;
-  }
+  /// The level that leaves least of what was fitted.
+  const FittedModel& closest() const { return *std::min_element(fitted_.begin(), fitted_.end(), costs_less); }
 
   /// Every level on the numbers of a drive: without the law, and with that of the level before.
   void race_on(const ReferenceModel& drive) {
@@ -160,33 +154,62 @@ class LawFit {
   std::vector<FittedModel> fitted_;  ///< of each level
 };
 
-/// All laws race from the fitted drive, which may have drifted to hide what is missing, and from that of the
-/// sheet. The leader is refined first; the others then begin on its drive, too, and where it does not explain
-/// what was fitted, they are refined as well.
-std::vector<ScoredModel> fitted_laws(const Study& study, const ScoredModel& before) {
+/// All laws over a model.
+struct FittedLaws {
+  std::vector<ScoredModel> judged;  ///< each with the level that serves best, best first
+  FittedModel closest;              ///< the one that leaves least of what was fitted
+};
+
+/// All laws race from the fitted drive, which may have drifted to hide what is missing, and from others. The
+/// leader is refined first; the rest then begin on its drive, too, and where it does not explain what was
+/// fitted, they are refined as well.
+FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
+                       const std::vector<ReferenceModel>& other_drives) {
   std::vector<LawFit> laws;
   for (const Variant& v : variants_of(study, before)) laws.emplace_back(study, before, v);
   if (laws.empty()) return {};
   parallel_for(laws.size(), study.options.threads, [&](std::size_t i) {
     laws[i].race_on(before.fitted.model);
-    laws[i].race_on(study.sheet);
+    for (const ReferenceModel& drive : other_drives) laws[i].race_on(drive);
   });
   std::stable_sort(laws.begin(), laws.end(),
-                   [](const LawFit& a, const LawFit& b) { return a.least() < b.least(); });
-  if (!(laws.front().least() < kInfinity)) return {};
+                   [](const LawFit& a, const LawFit& b) { return costs_less(a.closest(), b.closest()); });
+  if (!(laws.front().closest().mean_cost < kInfinity)) return {};
   laws.front().refine();
-  const ReferenceModel leader = laws.front().drive();
-  const bool explained = laws.front().least() < kExplained;
+  FittedLaws found{{}, laws.front().closest()};
+  const bool explained = found.closest.mean_cost < kExplained;
   parallel_for(laws.size() - 1, study.options.threads, [&](std::size_t i) {
-    laws[i + 1].race_on(leader);
+    laws[i + 1].race_on(found.closest.model);
     if (!explained) laws[i + 1].refine();
   });
-  std::vector<ScoredModel> judged;
-  for (const LawFit& law : laws) judged.push_back(law.best());
-  std::erase_if(judged, [](const ScoredModel& law) { return law.entry == nullptr; });
-  std::stable_sort(judged.begin(), judged.end(),
+  for (const LawFit& law : laws) {
+    if (costs_less(law.closest(), found.closest)) found.closest = law.closest();
+    found.judged.push_back(law.best());
+  }
+  std::erase_if(found.judged, [](const ScoredModel& law) { return law.entry == nullptr; });
+  std::stable_sort(found.judged.begin(), found.judged.end(),
                    [](const ScoredModel& a, const ScoredModel& b) { return a.score < b.score; });
-  return judged;
+  return found;
+}
+
+/// Whether a law explains what was fitted but not what is held out, which asks for what that leaves open.
+bool asks_far_too_little(const Study& study, const FittedLaws& laws) {
+  if (!may_fit_half_of_the_held_out(study) || !(laws.closest.mean_cost < kRule.near_floor)) return false;
+  const ScoredModel closest = judge(nullptr, laws.closest, study.held_out, study.observer_hz);
+  return leaves_far_more_held_out(closest, laws.closest.mean_cost);
+}
+
+/// A fitted model once more, by what a study fits and holds out.
+ScoredModel fitted_and_judged(const Study& study, const ScoredModel& model) {
+  return judge(model.entry, fit_near(study.train, model.fitted.model, study.options.fit, study.observer_hz),
+               study.held_out, study.observer_hz);
+}
+
+/// The model as one that laws are laid over: its score counts no parameters.
+ScoredModel as_base(ScoredModel model) {
+  model.entry = nullptr;
+  model.score = log_score(model.windows);
+  return model;
 }
 
 }  // namespace
@@ -211,22 +234,34 @@ double full_score(const ScoredModel& model) {
   return log_score(model.windows) + kMeasure.score_per_parameter * parameters;
 }
 
+double score_beside(const LawSearch& law, const ScoredModel& model) {
+  return full_score(law.wider ? fitted_and_judged(*law.wider, model) : model);
+}
+
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model) {
   if (at_floor(model) || !(model.fitted.mean_cost < kInfinity)) return {};
   LawSearch found;
-  found.before = model;
-  found.before.entry = nullptr;
-  found.before.score = log_score(model.windows);
+  found.before = as_base(model);
   study.options.progress("laying free-form laws over what remains");
-  std::vector<ScoredModel> laws = fitted_laws(study, found.before);
-  if (laws.empty() || !(found.before.score - laws.front().score >= kRule.tells_apart) ||
-      !helps(found.before, laws.front(), study.repeats_badly()))
+  FittedLaws laws = fitted_laws(study, found.before, {study.sheet});
+  if (asks_far_too_little(study, laws)) {
+    const auto wider = std::make_shared<Study>(study);
+    fit_half_of_the_held_out(*wider);
+    found.wider = wider;
+    found.before = as_base(fitted_and_judged(*wider, found.before));
+    if (at_floor(found.before) || !(found.before.fitted.mean_cost < kInfinity)) return {};
+    laws = fitted_laws(*wider, found.before, {study.sheet, laws.closest.model});
+  }
+  if (laws.judged.empty()) return {};
+  ScoredModel& best = laws.judged.front();
+  if (!(found.before.score - best.score >= kRule.tells_apart) ||
+      !helps(found.before, best, study.repeats_badly()))
     return {};
-  for (const ScoredModel& law : laws)
-    if (law.score - laws.front().score < kRule.tells_apart &&
+  for (const ScoredModel& law : laws.judged)
+    if (law.score - best.score < kRule.tells_apart &&
         std::find(found.group.begin(), found.group.end(), law.entry) == found.group.end())
       found.group.push_back(law.entry);
-  found.after = std::move(laws.front());
+  found.after = std::move(best);
   return found;
 }
 
