@@ -20,8 +20,7 @@ struct Level {
 /// A law and the abscissa that it begins with.
 struct Variant {
   const EffectEntry* entry = nullptr;
-  bool from_sheet = false;  ///< begins on the drive of the sheet, from which the fitted one may have drifted
-  double abscissa = kNaN;   ///< peak speed, peak input or period
+  double abscissa = kNaN;     ///< peak speed, peak input or period
   std::vector<Level> levels;  ///< each contains the one before
 };
 
@@ -43,18 +42,13 @@ std::vector<Variant> variants_of(const Study& study, const ScoredModel& model) {
   const auto played = play_on_train(study, model.fitted.model);
   const EffectEntry &friction = *find_effect("friction_curve"), &input = *find_effect("input_curve"),
                     &position = *find_effect("position_torque");
-  std::vector<Variant> variants = {
-      {&friction, false, rough.peak_speed, by_direction(friction)},
-      {&input, false, rough.peak_input, by_direction(input)},
-      {&position, false, study.effort.past_travel * rough.travel, by_harmonics(false)}};
+  std::vector<Variant> variants = {{&friction, rough.peak_speed, by_direction(friction)},
+                                   {&input, rough.peak_input, by_direction(input)},
+                                   {&position, study.effort.past_travel * rough.travel, by_harmonics(false)}};
   std::vector<double> lines = given_periods(study.options.known);
   const auto standing = standing_lines(ripples_of(played), study.train);
   if (!standing.empty()) lines.push_back(standing.front().line.periods);
-  for (const double n : lines) variants.push_back({&position, false, 2.0 * kPi / n, by_harmonics(true)});
-  for (std::size_t i = 0, all = variants.size(); i < all; ++i) {
-    variants.push_back(variants[i]);
-    variants.back().from_sheet = true;
-  }
+  for (const double n : lines) variants.push_back({&position, 2.0 * kPi / n, by_harmonics(true)});
   const auto& excluded = study.options.excluded;
   std::erase_if(variants, [&](const Variant& v) {
     return std::find(excluded.begin(), excluded.end(), v.entry->name) != excluded.end();
@@ -85,35 +79,137 @@ ScoredModel judged(const Study& study, const EffectEntry& entry, FittedModel fit
   return j;
 }
 
-/// A law that was chosen, refined to the end.
-ScoredModel polished(const Study& study, ScoredModel law) {
-  const reference::ModelFit fit(study.train, law.fitted.model, study.options.fit, study.observer_hz);
-  FittedModel fitted =
-      fitted_at(fit, fit.refine_with_loads_placed(fit.point_of(law.fitted.model, law.fitted.starts), {}));
-  if (!(fitted.mean_cost < law.fitted.mean_cost)) return law;
-  ScoredModel better = judged(study, *law.entry, std::move(fitted));
-  return better.score < law.score ? better : law;
+bool costs_less(const FittedModel& a, const FittedModel& b) { return a.mean_cost < b.mean_cost; }
+
+void keep_lower(FittedModel& best, FittedModel other) {
+  if (costs_less(other, best)) best = std::move(other);
 }
 
-/// As many parameters as pay, each level from where the one before has led.
-ScoredModel climbed(const Study& study, const ScoredModel& before, const Variant& v) {
-  ScoredModel best;
-  const ReferenceModel& drive = before.fitted.model;
-  ReferenceModel model = with_law(v.from_sheet ? with_drive(drive, study.sheet) : drive, v);
-  std::vector<reference::RecordingStart> starts = before.fitted.starts;
-  for (const Level& level : v.levels) {
-    auto& settings = model.effects.back().parameters;
-    settings[0].estimate = level.period;
-    for (std::size_t i = level.first; i <= level.last; ++i) settings[i].estimate = true;
-    const reference::ModelFit fit(study.train, model, study.options.fit, study.observer_hz);
-    FittedModel fitted = fitted_at(fit, fit.refine(fit.point_of(model, starts), study.effort.quick));
-    if (!(fitted.mean_cost < kInfinity)) break;
-    ScoredModel here = judged(study, *v.entry, std::move(fitted));
-    if (best.entry != nullptr && !(here.score < best.score)) break;
-    model = here.fitted.model, starts = here.fitted.starts;
-    best = std::move(here);
+/// A law over a model: its levels, each as far as it has been fitted.
+class LawFit {
+ public:
+  LawFit(const Study& study, const ScoredModel& before, const Variant& variant)
+      : study_(&study), variant_(variant), fitted_(variant.levels.size()) {
+    origin_ = before.fitted;
+    origin_.model = with_law(origin_.model, variant);
   }
-  return best;
+
+  /// The level that leaves least of what was fitted.
+  const FittedModel& closest() const { return *std::min_element(fitted_.begin(), fitted_.end(), costs_less); }
+
+  /// Every level on the numbers of a drive: without the law, and with that of the level before.
+  void race_on(const ReferenceModel& drive) {
+    FittedModel origin = origin_;
+    origin.model = with_drive(origin.model, drive);
+    FittedModel before;
+    for (std::size_t i = 0; i < fitted_.size(); ++i) {
+      FittedModel here = quickly(origin, i);
+      if (before.mean_cost < kInfinity) keep_lower(here, quickly(before, i));
+      keep_lower(fitted_[i], here);
+      before = std::move(here);
+    }
+  }
+
+  /// Level by level to the end, until one explains what was fitted.
+  void refine() {
+    for (std::size_t i = 0; i < fitted_.size(); ++i) {
+      FittedModel& here = fitted_[i];
+      if (i > 0 && costs_less(fitted_[i - 1], here)) keep_lower(here, quickly(fitted_[i - 1], i));
+      if (!(here.mean_cost < kInfinity)) continue;
+      keep_lower(here, fit_from(here, {}));
+      if (!(here.mean_cost < kExplained) && study_->observer_hz < kMeasure.fast_hz)
+        keep_lower(here, led_by_faster_observer(*study_, here));
+      if (here.mean_cost < kExplained) break;
+    }
+  }
+
+  /// With as many parameters as what is held out asks for.
+  ScoredModel best() const {
+    ScoredModel best;
+    for (const FittedModel& f : fitted_) {
+      if (!(f.mean_cost < kInfinity)) continue;
+      ScoredModel here = judged(*study_, *variant_.entry, f);
+      if (best.entry == nullptr || here.score < best.score) best = std::move(here);
+    }
+    return best;
+  }
+
+ private:
+  FittedModel fit_from(const FittedModel& from, const reference::RefineEffort& effort) const {
+    const reference::ModelFit fit(study_->train, from.model, study_->options.fit, study_->observer_hz);
+    return fitted_at(fit, fit.refine_with_loads_placed(fit.point_of(from.model, from.starts), effort));
+  }
+
+  FittedModel quickly(FittedModel from, std::size_t level) const {
+    const Level& l = variant_.levels[level];
+    auto& settings = from.model.effects.back().parameters;
+    settings[0].estimate = l.period;
+    for (std::size_t i = l.first; i <= l.last; ++i) settings[i].estimate = true;
+    return fit_from(from, study_->effort.quick);
+  }
+
+  const Study* study_;
+  Variant variant_;
+  FittedModel origin_;               ///< the model without the law
+  std::vector<FittedModel> fitted_;  ///< of each level
+};
+
+/// All laws over a model.
+struct FittedLaws {
+  std::vector<ScoredModel> judged;  ///< each with the level that serves best, best first
+  FittedModel closest;              ///< the one that leaves least of what was fitted
+};
+
+/// All laws race from the fitted drive, which may have drifted to hide what is missing, and from others. The
+/// leader is refined first; the rest then begin on its drive, too, and where it does not explain what was
+/// fitted, they are refined as well.
+FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
+                       const std::vector<ReferenceModel>& other_drives) {
+  std::vector<LawFit> laws;
+  for (const Variant& v : variants_of(study, before)) laws.emplace_back(study, before, v);
+  if (laws.empty()) return {};
+  parallel_for(laws.size(), study.options.threads, [&](std::size_t i) {
+    laws[i].race_on(before.fitted.model);
+    for (const ReferenceModel& drive : other_drives) laws[i].race_on(drive);
+  });
+  std::stable_sort(laws.begin(), laws.end(),
+                   [](const LawFit& a, const LawFit& b) { return costs_less(a.closest(), b.closest()); });
+  if (!(laws.front().closest().mean_cost < kInfinity)) return {};
+  laws.front().refine();
+  FittedLaws found{{}, laws.front().closest()};
+  const bool explained = found.closest.mean_cost < kExplained;
+  parallel_for(laws.size() - 1, study.options.threads, [&](std::size_t i) {
+    laws[i + 1].race_on(found.closest.model);
+    if (!explained) laws[i + 1].refine();
+  });
+  for (const LawFit& law : laws) {
+    if (costs_less(law.closest(), found.closest)) found.closest = law.closest();
+    found.judged.push_back(law.best());
+  }
+  std::erase_if(found.judged, [](const ScoredModel& law) { return law.entry == nullptr; });
+  std::stable_sort(found.judged.begin(), found.judged.end(),
+                   [](const ScoredModel& a, const ScoredModel& b) { return a.score < b.score; });
+  return found;
+}
+
+/// Whether a law explains what was fitted but not what is held out, which asks for what that leaves open.
+bool asks_far_too_little(const Study& study, const FittedLaws& laws) {
+  if (!may_fit_half_of_the_held_out(study) || !(laws.closest.mean_cost < kRule.near_floor)) return false;
+  const ScoredModel closest = judge(nullptr, laws.closest, study.held_out, study.observer_hz);
+  return leaves_far_more_held_out(closest, laws.closest.mean_cost);
+}
+
+/// A fitted model once more, by what a study fits and holds out.
+ScoredModel fitted_and_judged(const Study& study, const ScoredModel& model) {
+  return judge(model.entry, fit_near(study.train, model.fitted.model, study.options.fit, study.observer_hz),
+               study.held_out, study.observer_hz);
+}
+
+/// The model as one that laws are laid over: its score counts no parameters.
+ScoredModel as_base(ScoredModel model) {
+  model.entry = nullptr;
+  model.score = log_score(model.windows);
+  return model;
 }
 
 }  // namespace
@@ -138,28 +234,34 @@ double full_score(const ScoredModel& model) {
   return log_score(model.windows) + kMeasure.score_per_parameter * parameters;
 }
 
+double score_beside(const LawSearch& law, const ScoredModel& model) {
+  return full_score(law.wider ? fitted_and_judged(*law.wider, model) : model);
+}
+
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model) {
   if (at_floor(model) || !(model.fitted.mean_cost < kInfinity)) return {};
   LawSearch found;
-  found.before = model;
-  found.before.entry = nullptr;
-  found.before.score = log_score(model.windows);
+  found.before = as_base(model);
   study.options.progress("laying free-form laws over what remains");
-  const std::vector<Variant> variants = variants_of(study, found.before);
-  std::vector<ScoredModel> laws(variants.size());
-  parallel_for(variants.size(), study.options.threads,
-               [&](std::size_t i) { laws[i] = climbed(study, found.before, variants[i]); });
-  std::erase_if(laws, [](const ScoredModel& law) { return law.entry == nullptr; });
-  std::stable_sort(laws.begin(), laws.end(),
-                   [](const ScoredModel& a, const ScoredModel& b) { return a.score < b.score; });
-  if (laws.empty() || !(found.before.score - laws.front().score >= kRule.tells_apart) ||
-      !helps(found.before, laws.front(), study.repeats_badly()))
+  FittedLaws laws = fitted_laws(study, found.before, {study.sheet});
+  if (asks_far_too_little(study, laws)) {
+    const auto wider = std::make_shared<Study>(study);
+    fit_half_of_the_held_out(*wider);
+    found.wider = wider;
+    found.before = as_base(fitted_and_judged(*wider, found.before));
+    if (at_floor(found.before) || !(found.before.fitted.mean_cost < kInfinity)) return {};
+    laws = fitted_laws(*wider, found.before, {study.sheet, laws.closest.model});
+  }
+  if (laws.judged.empty()) return {};
+  ScoredModel& best = laws.judged.front();
+  if (!(found.before.score - best.score >= kRule.tells_apart) ||
+      !helps(found.before, best, study.repeats_badly()))
     return {};
-  for (const ScoredModel& law : laws)
-    if (law.score - laws.front().score < kRule.tells_apart &&
+  for (const ScoredModel& law : laws.judged)
+    if (law.score - best.score < kRule.tells_apart &&
         std::find(found.group.begin(), found.group.end(), law.entry) == found.group.end())
       found.group.push_back(law.entry);
-  found.after = polished(study, std::move(laws.front()));
+  found.after = std::move(best);
   return found;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ struct LawSearch {
   ScoredModel before;  ///< the model that it was added to; its score counts no parameters
   ScoredModel after;
   std::vector<const EffectEntry*> group;  ///< with it: laws of other variables that do nearly as well
+  /// Where it explains what was fitted, but far less of what was held out: with the first half of that
+  /// fitted, too. The second half judges.
+  std::shared_ptr<const Study> wider;
 };
 
 /// The variable that a law of last resort, or an effect, is a function of; "" for an effect of another kind.
@@ -27,6 +31,9 @@ std::optional<LawSearch> search_last_resort(const Study& study, const ScoredMode
 
 /// S with all that was estimated of the effects counted: models of several effects and laws side by side.
 double full_score(const ScoredModel& model);
+
+/// The same of a model beside a law, by what judges that.
+double score_beside(const LawSearch& law, const ScoredModel& model);
 
 /// As the report tells it.
 LastResortLaw told(const Study& study, const LawSearch& found);

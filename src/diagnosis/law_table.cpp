@@ -135,7 +135,8 @@ std::vector<ResidualBin> residual_of(const Study& study, const LawSearch& found,
 
 }  // namespace
 
-LastResortLaw told(const Study& study, const LawSearch& found) {
+LastResortLaw told(const Study& first, const LawSearch& found) {
+  const Study& study = found.wider ? *found.wider : first;
   LastResortLaw law;
   law.law = found.after.entry->name;
   law.variable = variable_of(*found.after.entry);

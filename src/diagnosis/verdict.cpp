@@ -23,6 +23,10 @@ bool best_helps(const Study& study, const Findings& found) {
 void tell_law(const Study& study, const std::optional<LawSearch>& law, Diagnosis& d) {
   if (!law) return;
   d.laws.push_back(told(study, *law));
+  if (law->wider)
+    d.warnings.push_back(
+        "the recordings that were fitted do not determine the free-form law: the first half of what was held "
+        "out was fitted with them, and the second half judges it.");
   d.sentence = sentence_of(d, study.options.coordinates);
 }
 
@@ -34,10 +38,10 @@ bool lacks_nothing(const Findings& found) { return found.candidates.empty() && a
 /// open.
 Diagnosis report_effects(const Study& study, const Findings& found, const Additions& added) {
   const ScoredModel& nominal = nominal_of(found, added);
-  const auto rest = search_last_resort(study, added.after);
   const auto instead =
       at_floor(added.after) || added.explained ? std::nullopt : search_last_resort(study, nominal);
-  const double better = instead ? full_score(added.after) - full_score(instead->after) : -kInfinity;
+  const double better =
+      instead ? score_beside(*instead, added.after) - full_score(instead->after) : -kInfinity;
   if (better > kRule.tells_apart) {
     Diagnosis d = report_back(study, found, {});
     tell_law(study, instead, d);
@@ -51,7 +55,7 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
     for (AddedEffect& a : d.added) a.established = false;
     d.sentence = sentence_of(d, study.options.coordinates);
   }
-  tell_law(study, rest, d);
+  tell_law(study, search_last_resort(study, added.after), d);
   return d;
 }
 
@@ -68,8 +72,9 @@ Diagnosis verdict_on(const Study& study, const Findings& found, const Additions&
   const bool helped = explains && best_helps(study, found);
   const auto law = lacks_nothing(found) ? std::nullopt : search_last_resort(study, found.before);
   // A named effect that does nearly as well says more.
-  const bool beaten = law && !found.candidates.empty() &&
-                      found.candidates.front().score < law->after.score + kRule.tells_apart;
+  const bool beaten =
+      law && !found.candidates.empty() &&
+      score_beside(*law, found.candidates.front()) < full_score(law->after) + kRule.tells_apart;
   if (helped && (beaten || !law)) return report_help(study, found);
   Diagnosis d = report_back(study, found, added);
   if (!beaten) tell_law(study, law, d);

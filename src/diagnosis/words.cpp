@@ -14,6 +14,20 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
+/// What an effect is where a parameter of it is negative.
+struct Turned {
+  const char *effect, *parameter, *words;
+};
+constexpr Turned kTurned[] = {{"stribeck_friction", "stiction_ratio",
+                               "friction that is lower at low speed (stribeck friction, negative ratio)"}};
+
+std::string name_as_added(const AddedEffect& added) {
+  for (const Turned& t : kTurned)
+    for (const NamedValue& p : added.parameters)
+      if (added.effect == t.effect && p.key == t.parameter && p.value < 0.0) return t.words;
+  return readable(added.effect);
+}
+
 /// Where a recording cannot tell an effect from others.
 std::string likeness(std::vector<std::string> group) {
   if (group.size() < 2) return "";
@@ -77,7 +91,7 @@ std::string error_fall(const Diagnosis& d) {
 std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
   std::vector<std::string> causes, open;
   for (const AddedEffect& a : d.added) {
-    const std::string name = readable(a.effect);
+    const std::string name = name_as_added(a);
     a.established ? causes.push_back(name) : open.push_back(name + likeness(a.group));
   }
   const std::string fall = d.budget.exists() ? torque_fall(d, coordinates) : error_fall(d);

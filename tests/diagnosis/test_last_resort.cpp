@@ -18,7 +18,8 @@ struct Searched {
   std::optional<LawSearch> law;
 
   explicit Searched(const independent_plant::OutsideEffects& outside)
-      : pair(test::one_inertia({}, 5, outside)) {
+      : Searched(test::one_inertia({}, 5, outside)) {}
+  explicit Searched(blind::BlindPair drawn) : pair(std::move(drawn)) {
     const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
     study.emplace(make_study(train, held, pair.sheet, options));
     law = search_last_resort(
@@ -56,7 +57,17 @@ TEST(LastResort, AGainThatDiffersWithTheSignIsAFunctionOfTheInput) {
   EXPECT_NEAR(law.curve.back().torque, 0.172 * 0.1 * most * std::tanh(most / 0.2), 0.3 * 0.172 * 0.1 * most);
 }
 
-TEST(LastResort, NothingIsLaidOverADriveThatLacksNothing) { EXPECT_FALSE(Searched({}).law); }
+TEST(LastResort, ACableThatPullsBehindAGapIsAFunctionOfPositionThoughFewHarmonicsLeaveMore) {
+  const Searched s(blind::blind_pair("geared", "cable_pull", 0.825, 1200010));
+  ASSERT_TRUE(s.law);  // on held-out data two and four harmonics do worse than none
+  EXPECT_STREQ(s.law->after.entry->name, "position_torque");
+  EXPECT_LT(s.law->after.fitted.mean_cost, kExplained);
+  EXPECT_LT(s.law->after.median_free, 0.1 * s.law->before.median_free);
+}
+
+TEST(LastResort, NothingIsLaidOverADriveThatLacksNothing) {
+  EXPECT_FALSE(Searched(independent_plant::OutsideEffects{}).law);
+}
 
 }  // namespace
 }  // namespace gapscope::internal::diagnosis

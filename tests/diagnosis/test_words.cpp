@@ -28,5 +28,23 @@ TEST(Words, WhatShrinksIsWhatIsAboveTheFloor) {
   EXPECT_THAT(sentence({"cogging_torque"}), HasSubstr("shrinks by 90 % of what is above the floor"));
 }
 
+TEST(Words, AStribeckFrictionOfNegativeRatioIsFrictionThatIsLowerAtLowSpeed) {
+  Diagnosis d;
+  d.effects = {"stribeck_friction"};
+  d.mismatch.shrink = 0.9;
+  AddedEffect added;
+  added.effect = "stribeck_friction";
+  added.parameters = {{"level_nm", "N m", 1.0}, {"stiction_ratio", "-", -0.5}};
+  for (const auto verdict : {DiagnosisVerdict::kEffect, DiagnosisVerdict::kHelps}) {
+    d.verdict = verdict;
+    added.established = verdict == DiagnosisVerdict::kEffect;
+    added.parameters[1].value = -0.5, d.added = {added};
+    EXPECT_THAT(internal::diagnosis::sentence_of(d, Coordinates::kRotation),
+                HasSubstr("friction that is lower at low speed"));
+    added.parameters[1].value = 0.5, d.added = {added};
+    EXPECT_THAT(internal::diagnosis::sentence_of(d, Coordinates::kRotation), Not(HasSubstr("lower")));
+  }
+}
+
 }  // namespace
 }  // namespace gapscope
