@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "gapscope/base/require.h"
+
 namespace gapscope::internal::diagnosis {
 
 std::vector<EffectStart> effect_starts(const EffectEntry& entry) {
@@ -16,6 +18,7 @@ std::vector<EffectStart> effect_starts(const EffectEntry& entry) {
 
 ModelEffect searched_effect(const EffectEntry& entry, const std::vector<double>& values,
                             const ShaftTurns& turns) {
+  GAPSCOPE_REQUIRE(values.size() == entry.parameters.size());
   ModelEffect effect;
   effect.entry = &entry;
   for (std::size_t i = 0; i < entry.parameters.size(); ++i) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/plant/effect.h"
 #include "report/detectable.h"
 #include "report/diagnosis_figures.h"
 #include "report/error_budget.h"
@@ -38,19 +37,15 @@ std::string measures_table(const DiagnosisResult& r) {
 }
 
 /// A harmonic that is not there, or a period that is the once per turn.
-bool is_left_out(const std::string& effect, const NamedValue& value) {
-  const EffectEntry* entry = find_effect(effect);
-  if (entry == nullptr) return false;
-  return std::any_of(entry->parameters.begin(), entry->parameters.end(), [&](const EffectParameterSpec& p) {
-    const double neutral = value.unit == "1/rev" ? 1.0 : p.absent;
-    return p.held && value.key == p.key && value.value == neutral;
-  });
+bool is_left_out(const NamedValue& p) {
+  return (p.key.find("_harmonic") != std::string::npos && p.value == 0.0) ||
+         (p.key == "periods_per_turn" && p.value == 1.0);
 }
 
 std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
   std::vector<std::string> parts;
   for (const NamedValue& p : e.parameters) {
-    if (is_left_out(e.effect, p)) continue;
+    if (is_left_out(p)) continue;
     const bool phase = p.key == "phase_rad";  // an angle on a linear axis, too
     const std::string unit = (phase ? Coordinates() : coordinates).shown_unit(p.unit);
     parts.push_back(fmt::format("{} {}{}", p.key, rounded(p.value, 4), unit.empty() ? "" : " " + unit));

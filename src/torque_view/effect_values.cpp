@@ -52,12 +52,12 @@ std::vector<double> unbalance_values(const Eigen::VectorXd& theta, double period
 }
 
 std::vector<double> cogging_values(const Eigen::VectorXd& theta, double periods, const Drive&) {
-  return {amplitude(theta), periods, phase(theta), 0.0};
+  return {amplitude(theta), periods, phase(theta), 0.0, 0.0, 0.0, 0.0};
 }
 
 /// u = τ/(1 + s sin y), nearly τ − τ s sin y.
 std::vector<double> ripple_values(const Eigen::VectorXd& theta, double periods, const Drive&) {
-  return {amplitude(theta), periods, phase(-theta), 0.0};
+  return {amplitude(theta), periods, phase(-theta), 0.0, 0.0, 0.0, 0.0};
 }
 
 /// θ0 sin h(y − φ) + θ1 cos h(y − φ) over A, with y and A of the line whose coefficients are given.

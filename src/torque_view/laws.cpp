@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "torque_view/law_shapes.h"
 
 namespace gapscope::internal::torque_view {
 namespace {
 
 using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
-constexpr double kFewestCycles = 2.0;  ///< of a line over the travel: fewer are a slope or an offset
-constexpr double kDamping = 0.1;       ///< of the linear resonance [-]
+constexpr double kDamping = 0.1;  ///< of the linear resonance [-]
 constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< of the top speed [-]
 constexpr int kContactKnots = 16;  ///< of the torque over the travel of a locked output
 constexpr int kHarmonics = 3;      ///< of the free position curve
@@ -23,53 +23,6 @@ template <class Value>  // one column, sample by sample
 void each(const Samples& s, Columns g, int column, Value value) {
   for (std::size_t i = 0; i < s.t.size(); ++i) g(static_cast<Eigen::Index>(i), column) = value(i);
 }
-
-std::vector<double> geometric(double from, double to, int count) {
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(from * std::pow(to / from, i / (count - 1.0)));
-  return values;
-}
-
-// Grids of shapes.
-std::vector<double> no_shape(const Scales&) { return {kNaN}; }
-std::vector<double> only_if(bool true_here, double shape) {
-  return true_here ? std::vector<double>{shape} : std::vector<double>{};
-}
-std::vector<double> motor_turn(const Scales& s) {
-  return only_if(std::isfinite(s.turns.motor), s.turns.motor);
-}
-std::vector<double> load_turn(const Scales& s) {
-  return only_if(std::isfinite(s.turns.load) && !s.held_output, s.turns.load);
-}
-std::vector<double> only_held(const Scales& s) { return only_if(s.held_output, kNaN); }
-std::vector<double> low_speeds(const Scales& s) {
-  return geometric(0.02 * s.speed_std, 0.4 * s.speed_std, 8);
-}
-std::vector<double> lengths(const Scales& s) { return geometric(1e-4 * s.travel, 1e-2 * s.travel, 9); }
-/// Of a locked output the torque goes with the position: a law of one is a law of the other. At one speed the
-/// torque stays at one level, where no law of it shows.
-bool shows_levels(const Scales& s) { return !s.held_output && !s.one_speed; }
-std::vector<double> dead_zones(const Scales& s) {
-  if (!shows_levels(s)) return {};
-  return geometric(0.01 * s.torque_rms, 0.3 * s.torque_rms, 5);
-}
-std::vector<double> powers(const Scales& s) {
-  if (!shows_levels(s)) return {};
-  return {2.0, 4.0, 8.0};
-}
-std::vector<double> times(const Scales& s) {
-  std::vector<double> at;
-  for (int i = 1; i <= 5; ++i) at.push_back(s.start + s.duration * i / 6.0);
-  return at;
-}
-std::vector<double> spans(const Scales& s) { return geometric(0.1 * s.duration, 3.0 * s.duration, 4); }
-std::vector<double> resonances(const Scales& s) {
-  return geometric(2.0, std::max(4.0, std::min(80.0, 2.0 * s.hz)), 12);
-}
-std::vector<double> found_line(const Scales& s) { return only_if(std::isfinite(s.line), s.line); }
-std::vector<double> found_ripple(const Scales& s) { return only_if(std::isfinite(s.ripple), s.ripple); }
-std::vector<double> only_known(const Scales&) { return {}; }
-std::vector<double> top_speed(const Scales& s) { return {s.top_speed}; }
 
 void inertia(const Samples& s, double, Columns g) {
   each(s, g, 0, [&](auto i) { return s.a[i]; });
@@ -308,13 +261,6 @@ const Law& law(std::string_view name) {
       std::find_if(std::begin(kLaws), std::end(kLaws), [&](const Law& l) { return name == l.name; });
   GAPSCOPE_REQUIRE(at != std::end(kLaws));
   return *at;
-}
-
-std::vector<double> line_grid(const Scales& s) {
-  const double step = 0.5 * kPi / s.travel, top = 2.0 * kPi * s.hz / s.speed_rms;
-  std::vector<double> k;
-  for (double at = 2.0 * kPi * kFewestCycles / s.travel; at <= top; at += step) k.push_back(at);
-  return k;
 }
 
 }  // namespace gapscope::internal::torque_view

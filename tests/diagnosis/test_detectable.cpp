@@ -6,6 +6,7 @@
 
 #include "diagnosis/one_inertia.h"
 #include "gapscope/base/text.h"
+#include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope {
 namespace {
