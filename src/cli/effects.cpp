@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/commands.h"
@@ -16,15 +17,21 @@ namespace {
 /// Names, units and laws hold nothing that JSON would have to escape.
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
+bool is_last_resort(const EffectEntry& e) {
+  const auto laws = last_resort_table();
+  return std::find(laws.begin(), laws.end(), &e) != laws.end();
+}
+
 std::string json_of(const EffectEntry& e) {
   std::vector<std::string> parameters, look_alikes;
   for (const EffectParameterSpec& p : e.parameters)
     parameters.push_back(fmt::format("{{\"key\": {}, \"unit\": {}}}", quoted(p.key), quoted(p.unit)));
   for (const char* other : e.look_alikes) look_alikes.push_back(quoted(other));
   return fmt::format(
-      "{{\"effect\": {}, \"side\": {}, \"law\": {}, \"parameters\": [{}], \"look_alikes\": [{}]}}",
+      "{{\"effect\": {}, \"side\": {}, \"law\": {}, \"parameters\": [{}], \"look_alikes\": [{}], "
+      "\"last_resort\": {}}}",
       quoted(e.name), quoted(to_string(e.side)), quoted(e.law), fmt::join(parameters, ", "),
-      fmt::join(look_alikes, ", "));
+      fmt::join(look_alikes, ", "), is_last_resort(e));
 }
 
 /// The catalogue, then the laws of last resort.
@@ -45,6 +52,7 @@ std::string parameters_of(const EffectEntry& e) {
   std::vector<std::string> parameters;
   for (const EffectParameterSpec& p : e.parameters)
     parameters.push_back(fmt::format("{} [{}]", p.key, p.unit));
+  if (e.period_at() >= 0) parameters.emplace_back("or period_rad [rad] in place of periods_per_turn");
   return fmt::format("{}", fmt::join(parameters, ", "));
 }
 
@@ -98,7 +106,11 @@ void add_effects(CommandLine& app) {
       "lays\n"
       "over what no effect explains.\n"
       "In a configuration: effects: [{cogging_torque: {amplitude_nm: 0.004,\n"
-      "periods_per_turn: 24}}], under model: (known effects) or simulation: model: (the true plant).\n\n"
+      "periods_per_turn: 24}}], under model: (known effects) or simulation: model: (the true plant).\n"
+      "periods_per_turn counts the turns of x1 (x2); it may be written as a length, period_rad [rad, m on a\n"
+      "slide]. Unbalance and both eccentricities come once per turn of the load and of the encoder, as\n"
+      "recording: gear_ratio: says; a slide has no turn, and they need period_rad, such as a screw's "
+      "pitch.\n\n"
       "Example: gapscope effects cogging_torque");
   command.action([json, laws, name] {
     if (!name->empty()) return print_one(*name);

@@ -156,6 +156,8 @@ Configuration read_configuration(const Value& document) {
   c.model = resolved_model(model);
   require_bound_from_model(c);
   read_data(root, model, c);
+  settle_periods(c.model.effects, c.turns(), c.file);
+  if (c.simulation) settle_periods(c.simulation->plant.effects, c.turns(), c.file);
   if (c.simulation) c.fit.seed = c.simulation->seed;
   if (const auto fit = root.find("fit")) read_fields(*fit, c.fit);
   if (const auto diagnosis = root.find("diagnosis")) read_diagnosis(*diagnosis, c);
@@ -173,6 +175,12 @@ Configuration read_configuration(const Value& document) {
 
 double Configuration::position_quantum() const {
   return encoder.quantum / (recording ? std::abs(recording->gear.position) : 1.0);
+}
+
+ShaftTurns Configuration::turns() const {
+  if (!coordinates.rotational()) return ShaftTurns::of_a_slide();
+  if (!recording) return {};
+  return {std::abs(recording->gear.position), std::abs(recording->gear.load_position)};
 }
 
 Configuration parse_configuration(const std::string& text, const std::string& file) {
@@ -202,6 +210,7 @@ DiagnosisOptions diagnosis_options(const Configuration& c) {
   options.known = c.diagnosis;
   options.excluded = c.excluded;
   options.coordinates = c.coordinates;
+  options.turns = c.turns();
   return options;
 }
 

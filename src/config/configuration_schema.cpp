@@ -33,7 +33,13 @@ Json effect_schema(const EffectEntry& entry) {
   MapSchema parameters;
   for (const EffectParameterSpec& spec : entry.parameters) {
     parameters.add(spec.key, setting_schema(possible(spec), "", false));
-    if (std::isnan(neutral(spec))) parameters.required.emplace_back(spec.key);
+    const bool period =
+        entry.period_at() >= 0 && &spec == &entry.parameters[static_cast<std::size_t>(entry.period_at())];
+    const auto place = static_cast<std::size_t>(&spec - entry.parameters.data());
+    if (period)
+      parameters.add(kPeriodKey, setting_schema(kPossiblePeriod, "in place of periods_per_turn", false));
+    else if (std::isnan(neutral_value(entry, place, {})))
+      parameters.required.emplace_back(spec.key);
   }
   return parameters.schema(entry.law);
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "config/model_reader.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/statistics.h"
 #include "gapscope/base/text.h"
 #include "gapscope/simulation/simulate.h"
 
@@ -31,6 +33,17 @@ namespace {
 constexpr double kMost = 1e15;          ///< as of any number that is read
 constexpr double kLongestDelay = 10.0;  ///< [s]
 
+/// 2 pi over a number of periods, and the other way round: both fall where the other rises.
+double other_way(double periods) { return 2.0 * kPi / periods; }
+
+/// `period_rad` in place of `periods_per_turn`.
+ParameterSetting from_period(const ParameterSetting& period) {
+  ParameterSetting periods = period;
+  periods.value = other_way(period.value);
+  periods.low = other_way(period.high), periods.high = other_way(period.low);
+  return periods;
+}
+
 ParameterSetting read_setting(const Value& value, const Range& range) {
   ParameterSetting p;
   if (!value.is_map()) {
@@ -47,6 +60,39 @@ ParameterSetting read_setting(const Value& value, const Range& range) {
   return p;
 }
 
+/// The keys of an effect; of one with a period the other way to write it, too.
+std::vector<std::string> keys_of(const EffectEntry& entry) {
+  std::vector<std::string> keys;
+  for (const EffectParameterSpec& spec : entry.parameters) keys.emplace_back(spec.key);
+  if (entry.period_at() >= 0) keys.emplace_back(kPeriodKey);
+  return keys;
+}
+
+void refuse_both(const Section& section, const EffectEntry& entry) {
+  if (entry.period_at() < 0) return;
+  const char* const other = entry.parameters[static_cast<std::size_t>(entry.period_at())].key;
+  if (const auto length = section.find(kPeriodKey); length && section.find(other))
+    length->fail(fmt::format("stands beside {}, expected only one of both", other));
+}
+
+void read_effect_parameters(const Value& written, ModelEffect& effect) {
+  const EffectEntry& entry = *effect.entry;
+  const Section section(written, keys_of(entry));
+  refuse_both(section, entry);
+  for (std::size_t i = 0; i < entry.parameters.size(); ++i) {
+    const EffectParameterSpec& spec = entry.parameters[i];
+    ParameterSetting& setting = effect.parameters[i];
+    setting.value = neutral_value(entry, i, ShaftTurns::of_a_slide());
+    const bool period = static_cast<int>(i) == entry.period_at();
+    if (const auto given = section.find(spec.key))
+      setting = read_setting(*given, possible(spec));
+    else if (const auto length = period ? section.find(kPeriodKey) : std::nullopt)
+      setting = from_period(read_setting(*length, kPossiblePeriod));
+    else if (std::isnan(setting.value) && !(period && entry.turns_with != Shaft::kNone))
+      section.require(spec.key, fmt::format("a number in {}{}", spec.unit, period ? ", or period_rad" : ""));
+  }
+}
+
 }  // namespace
 
 /// Bounds that scale with the drive keep their sign here; their size is the
@@ -55,10 +101,6 @@ Range possible(const EffectParameterSpec& spec) {
   if (spec.scale == Scale::kOne) return {spec.low, spec.high, spec.unit};
   const double most = spec.scale == Scale::kSample ? kLongestDelay : kMost;
   return {spec.low >= 0.0 ? 0.0 : -most, most, spec.unit};
-}
-
-double neutral(const EffectParameterSpec& spec) {
-  return spec.absent == 0.0 || spec.scale == Scale::kOne ? spec.absent : kNaN;
 }
 
 const EffectEntry& effect_named(const std::string& name, const Value& value) {
@@ -80,19 +122,22 @@ EffectConfig read_effect(const Value& value) {
   EffectConfig effect;
   effect.line = written.line();
   effect.effect.entry = &effect_named(entries[0].first, written);
-  std::vector<std::string> keys;
-  for (const EffectParameterSpec& spec : effect.effect.entry->parameters) keys.emplace_back(spec.key);
-  const Section section(written, keys);
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const EffectParameterSpec& spec = effect.effect.entry->parameters[i];
-    ParameterSetting& setting = effect.effect.parameters[i];
-    setting.value = neutral(spec);
-    if (const auto given = section.find(keys[i]))
-      setting = read_setting(*given, possible(spec));
-    else if (std::isnan(setting.value))
-      section.require(keys[i], fmt::format("a number in {}", spec.unit));
-  }
+  read_effect_parameters(written, effect.effect);
   return effect;
+}
+
+void settle_periods(std::vector<EffectConfig>& effects, const ShaftTurns& turns, const std::string& file) {
+  for (EffectConfig& e : effects) {
+    const int at = e.effect.entry->period_at();
+    if (at < 0 || e.effect.entry->turns_with == Shaft::kNone) continue;
+    ParameterSetting& period = e.effect.parameters[static_cast<std::size_t>(at)];
+    if (std::isnan(period.value)) period.value = turns.of(e.effect.entry->turns_with);
+    if (std::isnan(period.value))
+      throw ConfigError(file, e.line,
+                        fmt::format("{} comes once per turn, and nothing here says how far a turn of a slide "
+                                    "is, expected period_rad [m], such as the pitch of its screw",
+                                    e.effect.entry->name));
+  }
 }
 
 }  // namespace internal::config

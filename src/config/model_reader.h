@@ -32,10 +32,12 @@ struct WrittenModel {
 /// What a drive parameter can be at all, by its place in kDriveParameters.
 Range possible_parameter(int index);
 
-/// What a parameter of an effect can be at all, and a value that needs no recording to be neutral: NaN where
-/// there is none.
+/// What a parameter of an effect can be at all.
 Range possible(const EffectParameterSpec& spec);
-double neutral(const EffectParameterSpec& spec);
+
+/// A period as a length, in place of a number of periods per turn.
+inline constexpr const char* kPeriodKey = "period_rad";
+inline constexpr Range kPossiblePeriod = {1e-15, 1e15, "rad"};
 
 WrittenModel read_model(const Value& value);
 
@@ -54,5 +56,9 @@ const EffectEntry& effect_named(const std::string& name, const Value& value);
 
 /// `{name: {key: number, key: {value, estimate, bounds}}}` of a known effect.
 EffectConfig read_effect(const Value& value);
+
+/// Effects that come once per turn, and whose period is not written, get that of the shaft they turn with.
+/// @throws ConfigError at the effect where nothing turns
+void settle_periods(std::vector<EffectConfig>& effects, const ShaftTurns& turns, const std::string& file);
 
 }  // namespace gapscope::internal::config

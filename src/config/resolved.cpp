@@ -2,6 +2,9 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
 
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
@@ -71,20 +74,34 @@ std::string setting_text(const ParameterSetting& p) {
   return "{" + joined(parts) + "}";
 }
 
-void write_effects(YamlWriter& out, const std::vector<EffectConfig>& effects) {
+/// As many digits as come back from a period and its reciprocal.
+double to_fifteen_digits(double value) { return std::stod(fmt::format("{:.15g}", value)); }
+
+/// Along a slide a period is a length, such as the pitch of a screw.
+std::string period_text(ParameterSetting p) {
+  const auto length = [](double periods) { return to_fifteen_digits(2.0 * std::numbers::pi / periods); };
+  p.value = length(p.value);
+  std::tie(p.low, p.high) = std::pair(length(p.high), length(p.low));
+  return "period_rad: " + setting_text(p);
+}
+
+void write_effects(YamlWriter& out, const std::vector<EffectConfig>& effects, Coordinates coordinates) {
   std::vector<std::string> list;
   for (const EffectConfig& effect : effects) {
     std::vector<std::string> keys;
     const EffectEntry& entry = *effect.effect.entry;
-    for (std::size_t i = 0; i < entry.parameters.size(); ++i)
-      keys.push_back(
-          fmt::format("{}: {}", entry.parameters[i].key, setting_text(effect.effect.parameters[i])));
+    for (std::size_t i = 0; i < entry.parameters.size(); ++i) {
+      const ParameterSetting& p = effect.effect.parameters[i];
+      const bool length = !coordinates.rotational() && static_cast<int>(i) == entry.period_at();
+      keys.push_back(length ? period_text(p)
+                            : fmt::format("{}: {}", entry.parameters[i].key, setting_text(p)));
+    }
     list.push_back(fmt::format("{{{}: {{{}}}}}", entry.name, joined(keys)));
   }
   out.entry("effects", "[" + joined(list) + "]");
 }
 
-void write_model(YamlWriter& out, const ModelConfig& model) {
+void write_model(YamlWriter& out, const ModelConfig& model, Coordinates coordinates) {
   if (!model.given) return;
   out.open("model");
   write_structure(out, model.structure);
@@ -98,11 +115,11 @@ void write_model(YamlWriter& out, const ModelConfig& model) {
         std::string(kDriveParameters[i].unit) + (derived ? "; what is not here the fit derives" : ""));
   }
   out.close();
-  write_effects(out, model.effects);
+  write_effects(out, model.effects, coordinates);
   out.close();
 }
 
-void write_plant(YamlWriter& out, const SimulatedPlant& plant) {
+void write_plant(YamlWriter& out, const SimulatedPlant& plant, Coordinates coordinates) {
   out.open("model");
   write_structure(out, plant.structure);
   const int ratio = drive_parameter_index("mass_ratio");
@@ -112,11 +129,11 @@ void write_plant(YamlWriter& out, const SimulatedPlant& plant) {
       out.quantity(kDriveParameters[i].key, yaml_number(drive_parameter(plant.drive, i)),
                    kDriveParameters[i].unit);
   out.close();
-  write_effects(out, plant.effects);
+  write_effects(out, plant.effects, coordinates);
   out.close();
 }
 
-void write_simulation(YamlWriter& out, SimulationConfig simulation) {
+void write_simulation(YamlWriter& out, SimulationConfig simulation, Coordinates coordinates) {
   FieldWriter fields(out);
   out.open("simulation");
   out.entry("rate", yaml_number(simulation.rate), "Hz");
@@ -132,7 +149,7 @@ void write_simulation(YamlWriter& out, SimulationConfig simulation) {
   out.close();
   out.quantity("noise", yaml_number(simulation.noise), "rad");
   out.entry("plant", simulation.independent ? "independent" : "simulator");
-  write_plant(out, simulation.plant);
+  write_plant(out, simulation.plant, coordinates);
   out.close();
 }
 
@@ -155,7 +172,7 @@ void write_detector(YamlWriter& out, const DetectorConfig& detector) {
 
 void write_reading(YamlWriter& out, const Configuration& c) {
   if (c.recording) write_recording(out, *c.recording);
-  if (c.simulation) write_simulation(out, *c.simulation);
+  if (c.simulation) write_simulation(out, *c.simulation, c.coordinates);
   if (c.encoder.bits) {
     out.entry("encoder", fmt::format("{{bits: {}}}", *c.encoder.bits));
   } else if (c.encoder.quantum > 0.0) {
@@ -193,7 +210,7 @@ std::string yaml_of(const Configuration& c, const std::string& heading) {
   if (!heading.empty()) out.comment(heading);
   out.entry("name", yaml_text(c.name));
   write_reading(out, c);
-  write_model(out, c.model);
+  write_model(out, c.model, c.coordinates);
   write_detector(out, c.detector);
   FieldWriter fields(out);
   out.open("fit");

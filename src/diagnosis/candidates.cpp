@@ -13,12 +13,9 @@ bool replaces_last(const ReferenceModel& model, const EffectEntry& entry) {
   return !model.effects.empty() && contained_effect(entry) == model.effects.back().entry;
 }
 
-ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry) {
+ReferenceModel with_effect(ReferenceModel model, const EffectEntry& entry, const ShaftTurns& turns) {
   if (replaces_last(model, entry)) model.effects.pop_back();
-  ModelEffect effect;
-  effect.entry = &entry;
-  for (std::size_t i = 0; i < entry.parameters.size(); ++i) effect.parameters[i].estimate = true;
-  model.effects.push_back(effect);
+  model.effects.push_back(searched_effect(entry, turns));
   return model;
 }
 
@@ -42,7 +39,7 @@ std::vector<reference::FitLinearisation> bases_of(const Study& study, const Fitt
 RacedCandidate::RacedCandidate(const Study& study, const FittedModel& nominal,
                                std::span<const reference::FitLinearisation> bases, const EffectEntry& entry,
                                std::span<const EffectStart> starts, const FittedModel* parent)
-    : fit_(std::make_unique<reference::ModelFit>(study.train, with_effect(nominal.model, entry),
+    : fit_(std::make_unique<reference::ModelFit>(study.train, with_effect(nominal.model, entry, study.turns),
                                                  study.options.fit, study.observer_hz)),
       race_(*fit_, nominal, bases, study.effort) {
   const std::size_t shrinking = replaces_last(nominal.model, entry) ? 1 : 0;  // the base has the first one

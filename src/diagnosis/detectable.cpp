@@ -13,6 +13,15 @@ std::vector<const EffectEntry*> asked_of(const Study& study, const ReferenceMode
   return asked;
 }
 
+/// What comes once per turn where nothing turns.
+std::vector<const EffectEntry*> turning_with_nothing(const Study& study, const ReferenceModel& model) {
+  std::vector<const EffectEntry*> entries;
+  for (const EffectEntry* entry : effect_table())
+    if (!study.can_turn(*entry) && !study.is_excluded(*entry) && is_candidate(*entry, model))
+      entries.push_back(entry);
+  return entries;
+}
+
 /// Whether the ladder of the balance, not the score of the motion, decides: see climb() in diagnose.cpp.
 bool decided_in_torque(const Study& study, const Findings& found, const ReferenceModel& model) {
   if (!found.budget || !found.budget->says_most) return false;
@@ -46,6 +55,11 @@ void tell_detectable(const Study& study, const Findings& found, Diagnosis& d) {
   const std::vector<const EffectEntry*> asked = asked_of(study, d.fitted);
   d.detectable = decided_in_torque(study, found, d.fitted) ? detectable_in_torque(study, found, asked)
                                                            : detectable_in_motion(study, d.fitted, asked);
+  for (const EffectEntry* entry : turning_with_nothing(study, d.fitted))
+    d.detectable.push_back(
+        not_detectable(*entry, "", "it goes with an angle, and this drive moves along a line"));
+  std::stable_sort(d.detectable.begin(), d.detectable.end(),
+                   [](const DetectableEffect& a, const DetectableEffect& b) { return a.effect < b.effect; });
 }
 
 }  // namespace gapscope::internal::diagnosis

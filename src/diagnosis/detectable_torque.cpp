@@ -44,7 +44,7 @@ DetectableEffect told(const EffectEntry& entry, const view::LeastNamed& least, c
 constexpr const char* kActsAlike = "input_delay";
 
 DetectableEffect without_law(const EffectEntry& entry, const std::vector<DetectableEffect>& others,
-                             bool in_budget, bool rotates) {
+                             bool in_budget) {
   const auto delay = std::find_if(others.begin(), others.end(), [](const DetectableEffect& d) {
     return d.effect == kActsAlike && d.can_be_shown();
   });
@@ -54,8 +54,6 @@ DetectableEffect without_law(const EffectEntry& entry, const std::vector<Detecta
   if (in_budget) return not_detectable(entry, "model", "the error budget has a torque of its kind already");
   if (reads_counts(entry))
     return not_detectable(entry, "", "coarser counts explain nothing of what this model leaves");
-  if (!rotates && entry.follows == ResidualPattern::kAngle)
-    return not_detectable(entry, "", "it goes with an angle, and this drive moves along a line");
   if (contained_effect(entry) != nullptr)
     return not_detectable(entry, contained_effect(entry)->name,
                           "the drive shows nothing that it would change");
@@ -93,10 +91,7 @@ std::vector<DetectableEffect> detectable_in_torque(const Study& study, const Fin
     if (std::none_of(laws.begin(), laws.end(), [&](const view::LeastNamed& least) {
           return entry->name == std::string_view(least.law->effect);
         }))
-      detectable.push_back(without_law(*entry, detectable, is_in(budget.model, *entry),
-                                       study.options.coordinates.rotational()));
-  std::stable_sort(detectable.begin(), detectable.end(),
-                   [](const DetectableEffect& a, const DetectableEffect& b) { return a.effect < b.effect; });
+      detectable.push_back(without_law(*entry, detectable, is_in(budget.model, *entry)));
   return detectable;
 }
 

@@ -9,13 +9,6 @@ namespace {
 
 bool is_phase(const EffectParameterSpec& spec) { return spec.key == std::string_view("phase_rad"); }
 
-ModelEffect effect_with(const EffectEntry& entry, const std::vector<double>& values) {
-  ModelEffect effect;
-  effect.entry = &entry;
-  for (std::size_t i = 0; i < values.size(); ++i) effect.parameters[i] = ParameterSetting::sought(values[i]);
-  return effect;
-}
-
 /// The model without the effect that is contained, and that effect's level.
 ReferenceModel freed(ReferenceModel model, const EffectEntry* contained, double& level) {
   std::erase_if(model.effects, [&](const ModelEffect& e) {
@@ -35,14 +28,20 @@ double usual(const EffectEntry& entry, std::size_t i) {
 }  // namespace
 
 ExemplaryEffect::ExemplaryEffect(const Study& study, const ReferenceModel& model, const EffectEntry& entry)
-    : model_(model), entry_(entry) {
+    : model_(model), entry_(entry), turns_(study.turns) {
   ReferenceModel with = model;
   const std::size_t count = entry.parameters.size();
-  with.effects.push_back(effect_with(entry, std::vector<double>(count, kNaN)));
+  with.effects.push_back(searched_effect(entry, turns_));
   const reference::ModelFit fit(study.held_out.traces, with, study.options.fit, study.observer_hz);
   const int place = static_cast<int>(with.effects.size()) - 1;
   for (std::size_t i = 0; i < count; ++i) {
     const EffectParameterSpec& spec = entry.parameters[i];
+    const ParameterSetting& setting = with.effects.back().parameters[i];
+    if (!setting.estimate) {
+      bounds_.push_back({setting.value, setting.value});
+      start_.push_back(setting.value), absent_.push_back(setting.value);
+      continue;
+    }
     bounds_.push_back(fit.bounds({place, static_cast<int>(i)}));
     const double scale = bounds_.back().high / spec.high;
     start_.push_back(usual(entry, i) * scale);
@@ -91,7 +90,7 @@ ReferenceModel ExemplaryEffect::in_model(double size, bool quarter) const {
     if (quarter && is_phase(entry_.parameters[i])) all[i] = 0.5 * kPi;
   double level = kNaN;
   ReferenceModel model = inherits_ ? freed(model_, contained_effect(entry_), level) : model_;
-  model.effects.push_back(effect_with(entry_, all));
+  model.effects.push_back(searched_effect(entry_, all, turns_));
   return model;
 }
 

@@ -29,6 +29,7 @@ class ExemplaryEffect {
 
   const ReferenceModel& model_;
   const EffectEntry& entry_;
+  ShaftTurns turns_;
   bool inherits_ = false;
   std::vector<double> start_, absent_;
   std::vector<Interval> bounds_;

@@ -77,9 +77,8 @@ std::optional<ContactPhase> densest_phase(const std::vector<MapShare>& mode) {
 
 double cycles_of(const ModelEffect& effect) {
   if (effect.entry->follows != ResidualPattern::kAngle) return kNaN;
-  for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i)
-    if (effect.entry->parameters[i].scale == Scale::kPerTravel) return effect.parameters[i].value;
-  return 1.0;
+  const int period = effect.entry->period_at();
+  return period < 0 ? 1.0 : effect.parameters[static_cast<std::size_t>(period)].value;
 }
 
 std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength>& patterns,

@@ -25,6 +25,11 @@ Interval Race::bounds(std::size_t i) const {
 std::vector<double> Race::physical(const EffectStart& start) const {
   std::vector<double> values;
   for (std::size_t i = 0; i < entry().parameters.size(); ++i) {
+    const ParameterSetting& setting = fit_.model().effects.back().parameters[i];
+    if (!setting.estimate) {
+      values.push_back(setting.value);
+      continue;
+    }
     const Interval b = bounds(i);
     values.push_back(std::clamp(start[i] * b.high / entry().parameters[i].high, b.low, b.high));
   }

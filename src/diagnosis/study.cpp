@@ -63,6 +63,7 @@ double floor_of(const MotorTrace& t, bool coarser) {
 Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                  const ReferenceModel& model, const DiagnosisOptions& options) {
   Study study{{}, {}, model, {}, kMeasure.slow_hz, 0.0, {}, options};
+  study.turns = options.coordinates.rotational() ? options.turns : ShaftTurns::of_a_slide();
   if (held_out.empty()) {
     hold_out_the_last_third(train, study);
   } else {
@@ -77,9 +78,16 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
     study.held_out.periods.push_back(signals::rough_period(t));
   for (const std::string& name : options.excluded) GAPSCOPE_REQUIRE(find_effect(name) != nullptr);
   for (const EffectEntry* entry : effect_table())
-    if (std::find(options.excluded.begin(), options.excluded.end(), entry->name) == options.excluded.end())
-      study.catalogue.push_back(entry);
+    if (study.can_turn(*entry) && !study.is_excluded(*entry)) study.catalogue.push_back(entry);
   return study;
+}
+
+bool Study::can_turn(const EffectEntry& entry) const {
+  return entry.turns_with == Shaft::kNone || std::isfinite(turns.of(entry.turns_with));
+}
+
+bool Study::is_excluded(const EffectEntry& entry) const {
+  return std::find(options.excluded.begin(), options.excluded.end(), entry.name) != options.excluded.end();
 }
 
 bool Study::is_exhausted() const {

@@ -18,8 +18,12 @@ struct Study {
   SearchEffort effort;
   const DiagnosisOptions& options;
   std::int64_t nominal_work = 0;  ///< samples that the first nominal fit has simulated
+  ShaftTurns turns = {};          ///< none of a slide
 
   bool is_exhausted() const;
+  bool is_excluded(const EffectEntry& entry) const;
+  /// Whether what the effect would turn with turns at all.
+  bool can_turn(const EffectEntry& entry) const;
 
   bool repeats_badly() const { return held_out.innovation_repeats > 0.0; }
   /// What a step must reach: a drive that repeats itself badly has no floor that a model could come to.

@@ -3,21 +3,36 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/effect_starts.h"
+
 namespace gapscope::internal::diagnosis {
 namespace {
 
 namespace view = torque_view;
 
-ModelEffect effect_of(const EffectEntry& entry, const std::vector<double>& values) {
-  ModelEffect effect;
-  effect.entry = &entry;
-  for (std::size_t i = 0; i < entry.parameters.size(); ++i)
-    effect.parameters[i] = ParameterSetting::sought(values[i]);
-  return effect;
+/// A harmonic belongs to the effect of its line.
+void put_harmonic(ReferenceModel& model, const view::Model& terms, const view::Term& term) {
+  const view::Term* line = view::find_term(terms, term.law->simpler);
+  for (ModelEffect& effect : model.effects) {
+    const int period = effect.entry->period_at();
+    if (line == nullptr || effect.entry->name != std::string_view(term.law->effect) ||
+        effect.parameters[static_cast<std::size_t>(period)].value != line->shape)
+      continue;
+    // Sines and cosines of the harmonics, from the second on, stand behind amplitude, period and phase.
+    const auto first = static_cast<std::size_t>(2 * term.law->harmonic - 1);
+    const bool ripple =
+        term.law->kind == view::Kind::kOnTorque;  // its sign is the other one, see ripple_values()
+    const auto values =
+        view::harmonic_values(ripple ? Eigen::VectorXd(-term.theta) : term.theta, term.law->harmonic,
+                              ripple ? Eigen::VectorXd(-line->theta) : line->theta);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      effect.parameters[first + k] = ParameterSetting::sought(values[k]);
+  }
 }
 
 /// An effect takes the place of the simpler one that it contains. Where another has taken it, one whose ratio
-/// is of the level shares that level; one with a size of its own leaves it there.
+/// is of the level shares that level; one with a size of its own leaves it there. Bristles bear a part of it,
+/// or all where nothing else would hold the rest.
 void put_into(ReferenceModel& model, ModelEffect effect) {
   const EffectEntry* simpler = contained_effect(*effect.entry);
   ParameterSetting &level = effect.parameters[0], &ratio = effect.parameters[1];
@@ -25,10 +40,17 @@ void put_into(ReferenceModel& model, ModelEffect effect) {
     if (simpler == nullptr || contained_effect(*other.entry) != simpler) continue;
     const Scale of_ratio = effect.entry->parameters[1].scale;
     if (of_ratio == Scale::kOne) level.value = 0.0, level.estimate = false;
+    if (of_ratio == Scale::kTravel && other.parameters[0].value > level.value) {
+      other.parameters[0].value -= level.value;
+      break;
+    }
     if (of_ratio != Scale::kLevel) continue;
     other.parameters[0].value -= 0.5 * level.value;
     level.value *= 0.5, level.estimate = false, ratio.value /= 0.5;
   }
+  for (const ModelEffect& other : model.effects)
+    if (other.entry == simpler && effect.entry->parameters[1].scale == Scale::kTravel)
+      level.value = std::max(level.value, other.parameters[0].value);
   std::erase_if(model.effects, [&](const ModelEffect& e) { return e.entry == simpler; });
   model.effects.push_back(effect);
 }
@@ -55,8 +77,12 @@ ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
   take(place::kMotorDamping, drive.viscous);
   for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
     const view::Term& term = budget.addable[i];
-    put_into(model,
-             effect_of(*find_effect(term.law->effect), term.law->values(term.theta, term.shape, drive)));
+    if (term.law->harmonic > 0) {
+      put_harmonic(model, budget.addable, term);
+      continue;
+    }
+    put_into(model, searched_effect(*find_effect(term.law->effect),
+                                    term.law->values(term.theta, term.shape, drive), budget.scales.turns));
   }
   return model;
 }

@@ -122,9 +122,11 @@ void establish_contained(std::vector<TorqueAddition>& added) {
 }
 
 /// At one speed the torque hardly varies, and a line is one of position, of command and of sensor alike.
-bool is_same_line(const view::Candidate& choice, const view::Law& law, double travel) {
+bool is_same_line(const view::Candidate& choice, const view::Law& law, const view::Scales& scales) {
   if (!choice.law->line || !law.line) return false;
-  return law.shapes == view::line_grid || std::abs(choice.model.back().shape - 1.0) * travel < 0.5 * kPi;
+  if (law.shapes == view::line_grid) return true;
+  const std::vector<double> turn = law.shapes(scales);
+  return !turn.empty() && std::abs(choice.model.back().shape - turn.front()) * scales.travel < 0.5 * kPi;
 }
 
 /// All that the choice of a rung cannot be told from: its group, and rivals that it does not lead clearly.
@@ -143,7 +145,7 @@ std::vector<const EffectEntry*> group_of(const view::Budget& budget, const view:
   if (!budget.band.free_constant) return group;
   for (const view::Law& l : view::laws()) {
     const EffectEntry* entry = find_effect(l.effect);
-    if (entry != nullptr && is_same_line(rung.choice(), l, budget.travel) &&
+    if (entry != nullptr && is_same_line(rung.choice(), l, budget.scales) &&
         std::find(group.begin(), group.end(), entry) == group.end())
       group.push_back(entry);
   }
@@ -177,11 +179,11 @@ view::SplitRecordings in_torque(const Study& study, const ReferenceModel& nomina
   for (const MotorTrace& t : study.train) data.fit.push_back(in_torque(t, 0, km));
   for (std::size_t r = 0; r < study.held_out.traces.size(); ++r)
     data.judge.push_back(in_torque(study.held_out.traces[r], study.held_out.scored_from[r], km));
-  data.rotates = study.options.coordinates.rotational();
+  data.turns = study.turns;
   data.held_output = nominal.structure.has_load;
   data.new_phase = study.held_out.scored_from.front() == 0;  // other recordings, not the rest of these
   view::Scales scales;
-  scales.rotates = data.rotates, scales.held_output = data.held_output;
+  scales.turns = data.turns, scales.held_output = data.held_output;
   double square = 0.0, samples = 0.0;
   for (const view::StampedTrace& t : data.fit)
     for (const double torque : t.u) square += torque * torque, samples += 1.0;
@@ -226,6 +228,7 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
   TorqueSearch search;
   for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
     const view::Law& law = *budget.addable[i].law;
+    if (law.harmonic > 0) continue;  // the effect is there already
     const std::optional<std::size_t> at = rung_of(budget, law);
     const EffectEntry& entry = *find_effect(law.effect);
     if (!at) continue;

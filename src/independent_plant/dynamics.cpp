@@ -68,7 +68,8 @@ Dynamics::Dynamics(const BlindDrive& drive, std::vector<Knock> knocks)
 double Dynamics::half_gap(double t, double x2) const {
   const ContactEffects& e = drive_.effects.contact;
   double beta = 0.5 * drive_.gap;
-  if (e.eccentricity_rad != 0.0) beta += e.eccentricity_rad * std::sin(x2 + e.eccentricity_phase_rad);
+  if (e.eccentricity_rad != 0.0)
+    beta += e.eccentricity_rad * std::sin(e.eccentricity_periods * x2 + e.eccentricity_phase_rad);
   if (e.growth_rad_s != 0.0)
     beta += 0.5 * e.growth_rad_s *
             (std::isinf(e.growth_time_s) ? t : -e.growth_time_s * std::expm1(-t / e.growth_time_s));

@@ -32,12 +32,17 @@ struct BristleFriction {
 
 /// Periodic in the motor angle, steeper on one side of a tooth than on the other: with y = N·x1 + φ
 ///   amplitude·sin(y + skew·sin(y)),
-/// whose second harmonic is skew/2 of the first, its third skew²/8, and so on.
+/// whose second harmonic is skew/2 of the first, its third skew²/8, and so on; and harmonics of other origin,
+/// amplitude·(second·sin(2y + φ2) + third·sin(3y + φ3)).
 struct AngleHarmonic {
   double amplitude = 0.0;  ///< cogging: [N·m]; ripple: share of the torque [-]
   double periods_per_turn = 12.0;
   double phase_rad = 0.0;
-  double skew = 0.0;  ///< [rad]
+  double skew = 0.0;    ///< [rad]
+  double second = 0.0;  ///< [-]
+  double second_phase_rad = 0.0;
+  double third = 0.0;  ///< [-]
+  double third_phase_rad = 0.0;
 };
 
 /// A short push on the motor from outside: half-sine torque pulses at random times (outside the catalogue).
@@ -60,8 +65,9 @@ struct MotorEffects {
 };
 
 struct LoadEffects {
-  double unbalance_nm = 0.0;  ///< −unbalance·sin(x2 + φ)
+  double unbalance_nm = 0.0;  ///< −unbalance·sin(N·x2 + φ)
   double unbalance_phase_rad = 0.0;
+  double unbalance_periods = 1.0;  ///< N, of a load that turns otherwise than x2 counts
   double constant_torque_nm = 0.0;
   double inertia_ratio =
       0.0;  ///< m2·(1 + ratio·r(t)), r a ramp from 0 to 1: mass arrives with the speed of the load
@@ -76,8 +82,9 @@ struct LoadEffects {
 struct ContactEffects {
   double stiffness_nm_rad = kNaN;  ///< true stiffness where it is not the nominal one
   double damping_nms_rad = kNaN;   ///< true damping where it is not the nominal one
-  double eccentricity_rad = 0.0;   ///< 2β + 2·eccentricity·sin(x2 + φ)
+  double eccentricity_rad = 0.0;   ///< 2β + 2·eccentricity·sin(N·x2 + φ)
   double eccentricity_phase_rad = 0.0;
+  double eccentricity_periods = 1.0;  ///< N
   double growth_rad_s = 0.0;  ///< initial rate of 2β, which then saturates: rate·T·(1 − exp(−t/T))
   double growth_time_s = kInfinity;       ///< T; infinite: linear growth
   double release_nm = 0.0;                ///< tensile torque at which a closed contact lets go
@@ -100,12 +107,13 @@ struct CommandEffects {
 };
 
 struct SensorEffects {
-  double eccentricity_rad = 0.0;  ///< x1 + e·sin(x1 + φ)
+  double eccentricity_rad = 0.0;  ///< x1 + e·sin(N·x1 + φ)
   double eccentricity_phase_rad = 0.0;
-  double quantum_rad = 0.0;  ///< the real quantum where it is coarser than that of the sheet
-  double lag_s = 0.0;        ///< first-order filter on the angle
-  int lost_count_times = 0;  ///< how often counts are lost (outside the catalogue)
-  int lost_counts = 0;       ///< how many each time; the sign is drawn
+  double eccentricity_periods = 1.0;  ///< N
+  double quantum_rad = 0.0;           ///< the real quantum where it is coarser than that of the sheet
+  double lag_s = 0.0;                 ///< first-order filter on the angle
+  int lost_count_times = 0;           ///< how often counts are lost (outside the catalogue)
+  int lost_counts = 0;                ///< how many each time; the sign is drawn
 };
 
 /// What no effect of the catalogue is, beside what the sides above have of it. The first three are functions

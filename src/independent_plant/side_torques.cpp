@@ -9,7 +9,10 @@ namespace {
 
 double harmonic(const AngleHarmonic& h, double angle) {
   const double phase = h.periods_per_turn * angle + h.phase_rad;
-  return h.amplitude * std::sin(phase + (h.skew != 0.0 ? h.skew * std::sin(phase) : 0.0));
+  double wave = std::sin(phase + (h.skew != 0.0 ? h.skew * std::sin(phase) : 0.0));
+  if (h.second != 0.0) wave += h.second * std::sin(2.0 * phase + h.second_phase_rad);
+  if (h.third != 0.0) wave += h.third * std::sin(3.0 * phase + h.third_phase_rad);
+  return h.amplitude * wave;
 }
 
 double knock_torque(const std::vector<Knock>& knocks, double duration, double t) {
@@ -66,7 +69,8 @@ double Dynamics::shape_command(double u) const {
 
 double Dynamics::measured_angle(double x1) const {
   const SensorEffects& e = drive_.effects.sensor;
-  return e.eccentricity_rad == 0.0 ? x1 : x1 + e.eccentricity_rad * std::sin(x1 + e.eccentricity_phase_rad);
+  if (e.eccentricity_rad == 0.0) return x1;
+  return x1 + e.eccentricity_rad * std::sin(e.eccentricity_periods * x1 + e.eccentricity_phase_rad);
 }
 
 /// Everything on the motor but dry friction and contact; `direction` is that of its dry friction.
@@ -93,7 +97,8 @@ double Dynamics::motor_drive(double t, const State& s, int direction, double hel
 double Dynamics::load_torques(double x, double w, const State& s) const {
   const LoadEffects& e = drive_.effects.load;
   double torque = e.constant_torque_nm;
-  if (e.unbalance_nm != 0.0) torque -= e.unbalance_nm * std::sin(x + e.unbalance_phase_rad);
+  if (e.unbalance_nm != 0.0)
+    torque -= e.unbalance_nm * std::sin(e.unbalance_periods * x + e.unbalance_phase_rad);
   if (e.resonator_inertia > 0.0)
     torque += e.resonator_stiffness * (s[kX3] - x) + e.resonator_damping * (s[kW3] - w);
   return torque;

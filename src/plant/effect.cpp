@@ -45,6 +45,22 @@ const EffectEntry* contained_effect(const EffectEntry& entry) {
   return entry.contains == nullptr ? nullptr : find_effect(entry.contains);
 }
 
+double ShaftTurns::of(Shaft shaft) const {
+  return shaft == Shaft::kMotor ? motor : shaft == Shaft::kLoad ? load : kNaN;
+}
+
+int EffectEntry::period_at() const {
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (std::string_view(parameters[i].key) == "periods_per_turn") return static_cast<int>(i);
+  return -1;
+}
+
+double neutral_value(const EffectEntry& entry, std::size_t parameter, const ShaftTurns& turns) {
+  if (static_cast<int>(parameter) == entry.period_at()) return turns.of(entry.turns_with);
+  const EffectParameterSpec& spec = entry.parameters[parameter];
+  return spec.absent == 0.0 || spec.scale == Scale::kOne ? spec.absent : kNaN;
+}
+
 const char* to_string(ResidualPattern pattern) {
   static constexpr const char* kWords[] = {"angle", "direction",   "speed",  "input",
                                            "time",  "input_steps", "counts", "mode"};

@@ -125,7 +125,10 @@ Parameter parameter_of_effect(ParameterId id, const EffectEntry& effect, const P
   p.key = std::string(effect.name) + "." + spec.key;
   p.unit = spec.unit;
   if (!p.estimated) return p;
-  set_bounds(p, setting, {spec.low * scale, spec.high * scale}, -kInfinity);
+  const bool known_period = p.given && id.index == effect.period_at() && effect.turns_with != Shaft::kNone;
+  const Interval derived =
+      known_period ? Interval{0.5 * p.start, 2.0 * p.start} : Interval{spec.low * scale, spec.high * scale};
+  set_bounds(p, setting, derived, -kInfinity);
   p.typical = p.start != 0.0 ? std::abs(p.start) : 0.01 * std::max(std::abs(p.low), std::abs(p.high));
   p.coordinate = p.low >= 0.0 ? Coordinate::logarithmic(p.typical) : Coordinate::linear(p.start, p.typical);
   return p;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "report/detectable.h"
@@ -35,9 +36,16 @@ std::string measures_table(const DiagnosisResult& r) {
   return text + "\n";
 }
 
+/// A harmonic that is not there, or a period that is the once per turn.
+bool is_left_out(const NamedValue& p) {
+  return (p.key.find("_harmonic") != std::string::npos && p.value == 0.0) ||
+         (p.key == "periods_per_turn" && p.value == 1.0);
+}
+
 std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
   std::vector<std::string> parts;
   for (const NamedValue& p : e.parameters) {
+    if (is_left_out(p)) continue;
     const bool phase = p.key == "phase_rad";  // an angle on a linear axis, too
     const std::string unit = (phase ? Coordinates() : coordinates).shown_unit(p.unit);
     parts.push_back(fmt::format("{} {}{}", p.key, rounded(p.value, 4), unit.empty() ? "" : " " + unit));

@@ -119,6 +119,13 @@ std::string budget_table(const DiagnosisResult& r) {
                         rounded(100.0 * rung.after / b.input, 2), rounded(rung.share, 2),
                         rounded(rung.share_ci95.low, 2), rounded(rung.share_ci95.high, 2),
                         rounded(rung.alone, 2), rounded(rung.last, 2));
+  if (std::any_of(b.rungs.begin(), b.rungs.end(),
+                  [](const BudgetRung& g) { return std::isfinite(g.period); }))
+    text +=
+        "\nOf what repeats with the position, period and amplitude are those of what was fitted. An encoder "
+        "that "
+        "counts from where it was switched on does not keep the phase: where other recordings judge, it is "
+        "refitted in each of them.\n";
   std::vector<std::string> floors;
   for (const Floor& f : floors_of(b))
     floors.push_back(fmt::format("{} {}", f.name, quantity(f.size, budget_unit(r))));

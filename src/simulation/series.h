@@ -20,6 +20,7 @@ struct FlowConstants {
   T gear_friction{};  ///< of the contact torque, which the motor feels as friction [-]
   T decay_rate{};     ///< of a dying extra torque on the motor [1/s]
   bool rigid = false;
+  bool rubs = false;     ///< gear_friction is in force, be it zero
   bool hardens = false;  ///< a compliant contact has torque beyond k(δ − sβ) + c δ̇
 };
 
@@ -29,8 +30,8 @@ struct Forcing {
   T motor[3] = {T(0.0), T(0.0), T(0.0)};     ///< on the motor side, without dampers and contact [N m sⁿ]
   T load[3] = {T(0.0), T(0.0), T(0.0)};      ///< on the load side [N m]
   T half_gap[3] = {T(0.0), T(0.0), T(0.0)};  ///< β [rad]
-  T contact[3] = {T(0.0), T(0.0), T(0.0)};   ///< of the contact beyond k(δ − sβ) + c δ̇ [N m]
   T decaying{};                              ///< amplitude of a dying torque on the motor [N m]
+  T contact[3] = {T(0.0), T(0.0), T(0.0)};   ///< of the contact beyond k(δ − sβ) + c δ̇ [N m]
 };
 
 /// Order of the series over a step h of a flow of the given rate: the least n with (rate h)ⁿ⁺¹/(n + 1)! below
@@ -104,20 +105,19 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
   const T inverse_m1 = 1.0 / f.m1;
   const T inverse_m2 = 1.0 / f.m2;
   const int side = mode.contact != 0 ? mode.contact : mode.outside;
-  const T felt = felt_share(f, mode);
   MotorTorque<T> motor(f, on);
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w2;
   for (int n = 0;; ++n) {
     z.torque[n] = side != 0 ? torque_term(f, z, n, side, on) : T(0.0);
     if (n == z.order) break;
     const double next = kReciprocal[n + 1];
-    const T contact = mode.contact != 0 ? z.torque[n] : T(0.0);
+    T contact = mode.contact != 0 ? z.torque[n] : T(0.0);
     z.x1[n + 1] = z.w1[n] * next;
     z.x2[n + 1] = z.w2[n] * next;
-    z.w1[n + 1] =
-        mode.motor == 0 ? T(0.0) : (motor.term(n) - d1 * z.w1[n] - felt * contact) * inverse_m1 * next;
     z.w2[n + 1] =
         mode.load == 0 ? T(0.0) : (coefficient(on.load, n) - f.d2 * z.w2[n] + contact) * inverse_m2 * next;
+    if (f.rubs) contact *= felt_share(f, mode);
+    z.w1[n + 1] = mode.motor == 0 ? T(0.0) : (motor.term(n) - d1 * z.w1[n] - contact) * inverse_m1 * next;
   }
 }
 

@@ -127,6 +127,7 @@ struct StepperImpl {
   StateTransition<T>& transition(const T& span, int index, int times_halved);
   int halvings(double h) const;
   void respond(const StateTransition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
+  Forcing<T> with_hardening(Forcing<T> on) const;
   void respond_to_slopes(const StateTransition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
   void advance_smoothly(const StateTransition<T>& step, Forcing<T>& on, DriveState<T>& next) const;
   void accept(const DriveState<T>& next, const T& h);

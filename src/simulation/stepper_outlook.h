@@ -45,13 +45,16 @@ Outlook outlook(const StepperImpl<T>& d, const DriveState<T>& z, const Acting& o
   const double k = side != 0 ? value_of(d.f.k) : 0.0, c = side != 0 ? value_of(d.f.c) : 0.0;
   q.w1 = value_of(z.w1), q.w2 = value_of(z.w2);
   q.delta = value_of(z.x1) - value_of(z.x2), q.delta_rate = q.w1 - q.w2;
-  q.torque = k * (q.delta - side * on.half_gap) + c * q.delta_rate + on.contact;
+  q.torque = k * (q.delta - side * on.half_gap) + c * q.delta_rate;
+  if (d.f.hardens) q.torque += on.contact;
   const double contact = d.mode.contact != 0 ? q.torque : 0.0;
   const double d1 = value_of(d.mode.motor < 0 ? d.f.d1_minus : d.f.d1_plus);
-  const double felt = value_of(felt_share(d.f, d.mode));
-  q.a1 = d.mode.motor == 0 ? 0.0 : (on.motor - d1 * q.w1 - felt * contact) * d.inverse_m1;
+  double felt = contact;
+  if (d.f.rubs) felt *= 1.0 + d.mode.motor * d.mode.contact * value_of(d.f.gear_friction);
+  q.a1 = d.mode.motor == 0 ? 0.0 : (on.motor - d1 * q.w1 - felt) * d.inverse_m1;
   q.a2 = d.mode.load == 0 ? 0.0 : (on.load - value_of(d.f.d2) * q.w2 + contact) * d.inverse_m2;
-  q.torque_rate = k * (q.delta_rate - side * on.half_gap_rate) + c * (q.a1 - q.a2) + on.contact_rate;
+  q.torque_rate = k * (q.delta_rate - side * on.half_gap_rate) + c * (q.a1 - q.a2);
+  if (d.f.hardens) q.torque_rate += on.contact_rate;
   return q;
 }
 

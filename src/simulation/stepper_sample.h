@@ -41,18 +41,21 @@ void StepperImpl<T>::respond(const StateTransition<T>& step, const Forcing<T>& o
     return;
   }
   const T depth = z.x1 - z.x2 - static_cast<double>(mode.contact) * on.half_gap[0];
-  T motor = on.motor[0], load = on.load[0];
-  if (f.hardens) {
-    motor -= felt_share(f, mode) * on.contact[0];
-    load += on.contact[0];
-  }
   T out[kRows];
   for (int i = 0; i < kRows; ++i)
-    out[i] = r[kDepth][i] * depth + r[kW1][i] * z.w1 + r[kW2][i] * z.w2 + r[kMotor0][i] * motor +
-             r[kLoad0][i] * load;
+    out[i] = r[kDepth][i] * depth + r[kW1][i] * z.w1 + r[kW2][i] * z.w2 + r[kMotor0][i] * on.motor[0] +
+             r[kLoad0][i] * on.load[0];
   if (decaying >= 0)
     for (int i = 0; i < kRows; ++i) out[i] += r[kDying][i] * on.decaying;
   next = {z.x1 + out[kToX1], out[kToW1], z.x2 + out[kToX2], out[kToW2]};
+}
+
+/// What a contact has beyond its spring and damper acts on both sides, as torques do.
+template <class T>
+Forcing<T> StepperImpl<T>::with_hardening(Forcing<T> on) const {
+  on.motor[0] -= felt_share(f, mode) * on.contact[0];
+  on.load[0] += on.contact[0];
+  return on;
 }
 
 /// Adds what the slopes and curvatures of the torques do. A gap that opens under a closed contact pushes on
@@ -100,7 +103,10 @@ void StepperImpl<T>::advance_smoothly(const StateTransition<T>& step, Forcing<T>
                                       DriveState<T>& next) const {
   const Extra<T> start = extra_at(z, now);
   add_constant(on, start);
-  respond(step, on, next);
+  if (f.hardens && mode.contact != 0)
+    respond(step, with_hardening(on), next);
+  else
+    respond(step, on, next);
   const DriveState<T> constant = next;
   const T& h = step.h;
   for (int pass = 0; pass < kCorrections; ++pass) {

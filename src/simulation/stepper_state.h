@@ -25,6 +25,7 @@ StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step, double shortest
   f.k = p.contact_stiffness;
   f.c = p.contact_damping;
   f.gear_friction = m.gear_friction;
+  f.rubs = m.gears_rub;
   f.rigid = m.structure.contact == ContactLaw::kRigid;
   half_gap = 0.5 * p.gap;
   adds_torque = smooth = m.gears_rub && !has_load;

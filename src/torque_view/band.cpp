@@ -14,11 +14,12 @@ struct Products {
 };
 
 /// What a drive mostly has: only so that a missing friction or weight does not pass for inertia.
-Model probe_model(bool rotates) {
+Model probe_model(const ShaftTurns& turns) {
   Model model = nominal_model();
   for (const char* name : {"motor_coulomb_friction", "friction_asymmetry"})
     model.push_back({&law(name), kNaN, Eigen::VectorXd::Zero(law(name).columns)});
-  if (rotates) model.push_back({&law("load_unbalance"), 1.0, Eigen::VectorXd::Zero(2)});
+  if (std::isfinite(turns.load))
+    model.push_back({&law("load_unbalance"), turns.load, Eigen::VectorXd::Zero(2)});
   return model;
 }
 
@@ -78,7 +79,7 @@ void read_octaves(FrequencyBand& band, std::vector<Rows>& rows, const std::vecto
 
 }  // namespace
 
-FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
+FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns& turns,
                           const TorqueViewOptions& options, int threads) {
   FrequencyBand band;
   const std::vector<double> hz =
@@ -88,7 +89,7 @@ FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
   parallel_for(hz.size(), threads, [&](std::size_t i) { rows[i] = stacked(traces, hz[i], false, options); });
   for (const BandRecord& r : rows.front().records) band.free_constant |= is_constant_speed(r, options);
 
-  const Model probe = probe_model(rotates);
+  const Model probe = probe_model(turns);
   read_octaves(band, rows, hz, traces, fitted(rows.front(), probe));
   std::size_t quiet = 0;
   for (std::size_t i = 0; i < hz.size(); ++i)

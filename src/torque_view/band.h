@@ -27,7 +27,7 @@ struct FrequencyBand {
   bool free_constant = false;  ///< a recording has one speed
   std::vector<Octave> octaves;
 };
-FrequencyBand choose_band(std::span<const StampedTrace> traces, bool rotates,
+FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns& turns,
                           const TorqueViewOptions& options, int threads = 1);
 
 }  // namespace gapscope::internal::torque_view

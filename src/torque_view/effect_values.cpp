@@ -33,9 +33,9 @@ std::vector<double> stribeck_values(const Eigen::VectorXd& theta, double speed, 
   return {d.coulomb, over(theta[0], d.coulomb), speed, 2.0};
 }
 
-/// Coulomb friction that was found before it is part of its level.
-std::vector<double> presliding_values(const Eigen::VectorXd& theta, double length, const Drive& d) {
-  return {theta[0] + d.coulomb, length, 0.0};
+/// The bristles bear a part of the Coulomb friction that was found before them.
+std::vector<double> presliding_values(const Eigen::VectorXd& theta, double length, const Drive&) {
+  return {theta[0], length, 0.0};
 }
 
 /// Coulomb friction that was found before it is its level at no torque.
@@ -47,17 +47,25 @@ std::vector<double> drag_values(const Eigen::VectorXd& theta, double, const Driv
   return {theta[0], 2.0};
 }
 
-std::vector<double> unbalance_values(const Eigen::VectorXd& theta, double, const Drive&) {
-  return {amplitude(theta), phase(theta)};
+std::vector<double> unbalance_values(const Eigen::VectorXd& theta, double periods, const Drive&) {
+  return {amplitude(theta), phase(theta), periods};
 }
 
 std::vector<double> cogging_values(const Eigen::VectorXd& theta, double periods, const Drive&) {
-  return {amplitude(theta), periods, phase(theta), 0.0};
+  return {amplitude(theta), periods, phase(theta), 0.0, 0.0, 0.0, 0.0};
 }
 
 /// u = τ/(1 + s sin y), nearly τ − τ s sin y.
 std::vector<double> ripple_values(const Eigen::VectorXd& theta, double periods, const Drive&) {
-  return {amplitude(theta), periods, phase(-theta), 0.0};
+  return {amplitude(theta), periods, phase(-theta), 0.0, 0.0, 0.0, 0.0};
+}
+
+/// θ0 sin h(y − φ) + θ1 cos h(y − φ) over A, with y and A of the line whose coefficients are given.
+std::array<double, 2> harmonic_values(const Eigen::VectorXd& theta, int harmonic,
+                                      const Eigen::VectorXd& line) {
+  const double turn = harmonic * phase(line), sine = std::sin(turn), cosine = std::cos(turn);
+  return {(theta[0] * cosine + theta[1] * sine) / amplitude(line),
+          (theta[1] * cosine - theta[0] * sine) / amplitude(line)};
 }
 
 std::vector<double> drift_values(const Eigen::VectorXd& theta, double span, const Drive& d) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <vector>
 
 #include "gapscope/base/statistics.h"
@@ -29,6 +30,10 @@ std::vector<double> drag_values(const Eigen::VectorXd& theta, double shape, cons
 std::vector<double> unbalance_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
 std::vector<double> cogging_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
 std::vector<double> ripple_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
+/// Sine and cosine of a harmonic relative to its line A sin(y), both of a cogging or both of a ripple.
+/// @param line  coefficients of the line
+std::array<double, 2> harmonic_values(const Eigen::VectorXd& theta, int harmonic,
+                                      const Eigen::VectorXd& line);
 std::vector<double> drift_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
 std::vector<double> inertia_step_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);
 std::vector<double> delay_values(const Eigen::VectorXd& theta, double shape, const Drive& drive);

@@ -7,7 +7,7 @@ namespace gapscope::internal::torque_view {
 /// Recordings as they come, and what the caller knows of them.
 struct SplitRecordings {
   std::vector<StampedTrace> fit, judge;
-  bool rotates = true;       ///< positions are angles
+  ShaftTurns turns = {};     ///< along 2π; none of a slide
   bool held_output = false;  ///< the load is locked
   bool new_phase = false;    ///< the encoder counts anew in every recording: a line keeps its amplitude only
   Model known = {};          ///< what the nominal model has beside inertia and viscous damping

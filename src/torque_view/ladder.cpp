@@ -77,7 +77,7 @@ void keep_addable(const SplitRecordings& data, Bench& bench, Budget& budget) {
   };
   budget.addable = budget.nominal;
   for (std::size_t i = budget.nominal.size(); i < budget.model.size(); ++i)
-    if (budget.model[i].law->values != nullptr && can(budget.model[i]))
+    if ((budget.model[i].law->values != nullptr || budget.model[i].law->harmonic > 0) && can(budget.model[i]))
       budget.addable.push_back(budget.model[i]);
   budget.addable = fitted(bench.fit, std::move(budget.addable));
   for (std::size_t i = budget.addable.size();
@@ -101,21 +101,22 @@ Bench bench_of(const SplitRecordings& data, const FrequencyBand& band, const Tor
               data.new_phase,
               data.closed,
               data.threads};
-  bench.scales = scales_of(bench.fit, data.rotates, data.held_output);
+  bench.scales = scales_of(bench.fit, data.turns, data.held_output);
   bench.blocks = Blocks(bench.judge, options);
   return bench;
 }
 
 void take_line(Bench& bench, const Model& model) {
   if (const Term* line = find_term(model, "cogging_torque")) bench.scales.line = line->shape;
+  if (const Term* line = find_term(model, "torque_ripple")) bench.scales.ripple = line->shape;
 }
 
 Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options) {
   Budget budget;
-  budget.band = choose_band(data.fit, data.rotates, options, data.threads);
+  budget.band = choose_band(data.fit, data.turns, options, data.threads);
   if (std::isnan(budget.band.hz)) return budget;
   Bench bench = bench_of(data, budget.band, options);
-  budget.travel = bench.scales.travel;
+  budget.scales = bench.scales;
   Model nominal = nominal_model();
   nominal.insert(nominal.end(), data.known.begin(), data.known.end());
   budget.nominal = budget.model = fitted(bench.fit, std::move(nominal));

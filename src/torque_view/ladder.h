@@ -26,7 +26,7 @@ struct Budget {
   Model addable;             ///< the model without the terms that the caller's model cannot have
   double addable_rms = 0.0;  ///< what it leaves of the held-out rows [unit of u]
   double torque_rms = 0.0;   ///< of the model, at the samples that were fitted [unit of u]
-  double travel = kNaN;      ///< of what was fitted [rad]
+  Scales scales;             ///< of what was fitted
   std::vector<Rung> rungs;
   bool says_most = false;            ///< of the held-out input: the terms that the caller's model can have
   std::vector<std::string> dropped;  ///< by the backward step: the others say it as well
@@ -36,7 +36,7 @@ struct Budget {
 
 /// The recordings in that band, ready for comparisons.
 Bench bench_of(const SplitRecordings& data, const FrequencyBand& band, const TorqueViewOptions& options);
-/// The free position curve has the period of the model's line.
+/// The free position curve and the harmonics have the period of the model's line.
 void take_line(Bench& bench, const Model& model);
 
 Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options = {});

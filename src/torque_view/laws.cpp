@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "torque_view/law_shapes.h"
 
 namespace gapscope::internal::torque_view {
 namespace {
 
 using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
-constexpr double kFewestCycles = 2.0;  ///< of a line over the travel: fewer are a slope or an offset
-constexpr double kDamping = 0.1;       ///< of the linear resonance [-]
+constexpr double kDamping = 0.1;  ///< of the linear resonance [-]
 constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< of the top speed [-]
 constexpr int kContactKnots = 16;  ///< of the torque over the travel of a locked output
 constexpr int kHarmonics = 3;      ///< of the free position curve
@@ -23,48 +23,6 @@ template <class Value>  // one column, sample by sample
 void each(const Samples& s, Columns g, int column, Value value) {
   for (std::size_t i = 0; i < s.t.size(); ++i) g(static_cast<Eigen::Index>(i), column) = value(i);
 }
-
-std::vector<double> geometric(double from, double to, int count) {
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(from * std::pow(to / from, i / (count - 1.0)));
-  return values;
-}
-
-// Grids of shapes.
-std::vector<double> no_shape(const Scales&) { return {kNaN}; }
-std::vector<double> only_if(bool true_here, double shape) {
-  return true_here ? std::vector<double>{shape} : std::vector<double>{};
-}
-std::vector<double> only_angles(const Scales& s) { return only_if(s.rotates, 1.0); }
-std::vector<double> only_free(const Scales& s) { return only_if(s.rotates && !s.held_output, 1.0); }
-std::vector<double> only_held(const Scales& s) { return only_if(s.held_output, kNaN); }
-std::vector<double> low_speeds(const Scales& s) {
-  return geometric(0.02 * s.speed_std, 0.4 * s.speed_std, 8);
-}
-std::vector<double> lengths(const Scales& s) { return geometric(1e-3 * s.travel, 1e-2 * s.travel, 5); }
-/// Of a locked output the torque goes with the position: a law of one is a law of the other. At one speed the
-/// torque stays at one level, where no law of it shows.
-bool shows_levels(const Scales& s) { return !s.held_output && !s.one_speed; }
-std::vector<double> dead_zones(const Scales& s) {
-  if (!shows_levels(s)) return {};
-  return geometric(0.01 * s.torque_rms, 0.3 * s.torque_rms, 5);
-}
-std::vector<double> powers(const Scales& s) {
-  if (!shows_levels(s)) return {};
-  return {2.0, 4.0, 8.0};
-}
-std::vector<double> times(const Scales& s) {
-  std::vector<double> at;
-  for (int i = 1; i <= 5; ++i) at.push_back(s.start + s.duration * i / 6.0);
-  return at;
-}
-std::vector<double> spans(const Scales& s) { return geometric(0.1 * s.duration, 3.0 * s.duration, 4); }
-std::vector<double> resonances(const Scales& s) {
-  return geometric(2.0, std::max(4.0, std::min(80.0, 2.0 * s.hz)), 12);
-}
-std::vector<double> found_line(const Scales& s) { return only_if(std::isfinite(s.line), s.line); }
-std::vector<double> only_known(const Scales&) { return {}; }
-std::vector<double> top_speed(const Scales& s) { return {s.top_speed}; }
 
 void inertia(const Samples& s, double, Columns g) {
   each(s, g, 0, [&](auto i) { return s.a[i]; });
@@ -90,13 +48,15 @@ void stribeck(const Samples& s, double speed, Columns g) {
   });
 }
 
-/// Dahl's bristle between the samples: z(x) = σ + (z0 − σ) exp(−|x − x0|/length), σ = sign w.
+/// What Dahl's bristle bears less than Coulomb friction of its level while it bends: z − σ, between the
+/// samples z(x) = σ + (z0 − σ) exp(−|x − x0|/length), σ = sign w.
 void presliding(const Samples& s, double length, Columns g) {
   double z = 0.0;
   each(s, g, 0, [&](auto i) {
     const double move = i > 0 ? 0.5 * (s.w[i - 1] + s.w[i]) * (s.t[i] - s.t[i - 1]) : 0.0;
     const double side = direction(move);
-    return z = side + (z - side) * std::exp(-std::abs(move) / length);
+    z = side + (z - side) * std::exp(-std::abs(move) / length);
+    return z - direction(s.w[i]);
   });
 }
 
@@ -125,15 +85,25 @@ void ripple(const Samples& s, double k, Columns g) {
   each(s, g, 1, [&](auto i) { return s.tau[i] * std::cos(k * s.x[i]); });
 }
 
-/// The encoder says x + e sin(x + φ): J and d act on less than what is measured.
-void eccentricity(const Samples& s, double, Columns g) {
+/// The harmonic h of a line at k, of the position or of the model's torque over it.
+template <int h>
+void sines_of(const Samples& s, double k, Columns g) {
+  sines(s, h * k, g);
+}
+template <int h>
+void ripple_of(const Samples& s, double k, Columns g) {
+  ripple(s, h * k, g);
+}
+
+/// The encoder says x + e sin(kx + φ): J and d act on less than what is measured.
+void eccentricity(const Samples& s, double k, Columns g) {
   each(s, g, 0, [&](auto i) {
-    const double sine = std::sin(s.x[i]), cosine = std::cos(s.x[i]);
-    return s.inertia * (sine * s.w[i] * s.w[i] - cosine * s.a[i]) - s.viscous * cosine * s.w[i];
+    const double sine = std::sin(k * s.x[i]), cosine = k * std::cos(k * s.x[i]);
+    return s.inertia * (k * k * sine * s.w[i] * s.w[i] - cosine * s.a[i]) - s.viscous * cosine * s.w[i];
   });
   each(s, g, 1, [&](auto i) {
-    const double sine = std::sin(s.x[i]), cosine = std::cos(s.x[i]);
-    return s.inertia * (cosine * s.w[i] * s.w[i] + sine * s.a[i]) + s.viscous * sine * s.w[i];
+    const double sine = k * std::sin(k * s.x[i]), cosine = std::cos(k * s.x[i]);
+    return s.inertia * (k * k * cosine * s.w[i] * s.w[i] + sine * s.a[i]) + s.viscous * sine * s.w[i];
   });
 }
 
@@ -214,6 +184,8 @@ void speed_curve(const Samples& s, double top, Columns g) {
 }
 
 constexpr const char* kCoulomb = "motor_coulomb_friction";
+constexpr const char* kCogging = "cogging_torque";
+constexpr const char* kRipple = "torque_ripple";
 constexpr int kBothCurves = 2 * static_cast<int>(kKnots.size());
 
 constexpr Law kLaws[] = {
@@ -230,20 +202,28 @@ constexpr Law kLaws[] = {
      no_shape, asymmetry, asymmetry_values, -1},
     {"stribeck_friction", "stribeck_friction", kCoulomb, 1, Kind::kFriction, false, false, Sign::kAny,
      low_speeds, stribeck, stribeck_values, 2},
-    {"presliding_friction", "presliding_friction", nullptr, 1, Kind::kFriction, false, false, Sign::kPositive,
-     lengths, presliding, presliding_values, 1},
+    {"presliding_friction", "presliding_friction", kCoulomb, 1, Kind::kFriction, false, false,
+     Sign::kPositive, lengths, presliding, presliding_values, 1},
     {"quadratic_drag", "quadratic_drag", nullptr, 1, Kind::kFriction, true, false, Sign::kPositive, no_shape,
      drag, drag_values, -1},
     {"load_dependent_friction", "load_dependent_friction", nullptr, 1, Kind::kOnTorque, false, false,
      Sign::kPositive, no_shape, load_friction, load_friction_values, -1},
-    {"load_unbalance", "load_unbalance", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, only_free, sines,
-     unbalance_values, -1},
-    {"cogging_torque", "cogging_torque", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, line_grid, sines,
-     cogging_values, 1},
-    {"torque_ripple", "torque_ripple", nullptr, 2, Kind::kOnTorque, true, true, Sign::kAny, line_grid, ripple,
-     ripple_values, 1},
+    {"load_unbalance", "load_unbalance", nullptr, 2, Kind::kMotion, false, true, Sign::kAny, load_turn, sines,
+     unbalance_values, 2},
+    {kCogging, kCogging, nullptr, 2, Kind::kMotion, false, true, Sign::kAny, line_grid, sines, cogging_values,
+     1},
+    {kRipple, kRipple, nullptr, 2, Kind::kOnTorque, true, true, Sign::kAny, line_grid, ripple, ripple_values,
+     1},
+    {"second_harmonic_of_cogging", kCogging, kCogging, 2, Kind::kMotion, false, true, Sign::kAny, found_line,
+     sines_of<2>, nullptr, -1, 2},
+    {"third_harmonic_of_cogging", kCogging, kCogging, 2, Kind::kMotion, false, true, Sign::kAny, found_line,
+     sines_of<3>, nullptr, -1, 3},
+    {"second_harmonic_of_ripple", kRipple, kRipple, 2, Kind::kOnTorque, true, true, Sign::kAny, found_ripple,
+     ripple_of<2>, nullptr, -1, 2},
+    {"third_harmonic_of_ripple", kRipple, kRipple, 2, Kind::kOnTorque, true, true, Sign::kAny, found_ripple,
+     ripple_of<3>, nullptr, -1, 3},
     {"encoder_eccentricity", "encoder_eccentricity", nullptr, 2, Kind::kOnTorque, true, true, Sign::kAny,
-     only_angles, eccentricity, unbalance_values, -1},
+     motor_turn, eccentricity, unbalance_values, 2},
     {"viscous_drift", "viscous_drift", nullptr, 1, Kind::kFriction, true, false, Sign::kAny, spans, drift,
      drift_values, 1},
     {"load_inertia_variation", "load_inertia_variation", nullptr, 1, Kind::kMotion, true, false, Sign::kAny,
@@ -269,8 +249,8 @@ constexpr Law kLaws[] = {
 }  // namespace
 
 int Law::parameters() const {
-  const bool given =
-      shapes == no_shape || shapes == only_angles || shapes == only_free || shapes == only_held;
+  const bool given = shapes == no_shape || shapes == motor_turn || shapes == load_turn ||
+                     shapes == only_held || harmonic > 0;
   return columns + (given ? 0 : 1);
 }
 
@@ -281,13 +261,6 @@ const Law& law(std::string_view name) {
       std::find_if(std::begin(kLaws), std::end(kLaws), [&](const Law& l) { return name == l.name; });
   GAPSCOPE_REQUIRE(at != std::end(kLaws));
   return *at;
-}
-
-std::vector<double> line_grid(const Scales& s) {
-  const double step = 0.5 * kPi / s.travel, top = 2.0 * kPi * s.hz / s.speed_rms;
-  std::vector<double> k;
-  for (double at = 2.0 * kPi * kFewestCycles / s.travel; at <= top; at += step) k.push_back(at);
-  return k;
 }
 
 }  // namespace gapscope::internal::torque_view

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/plant/effect.h"
 #include "torque_view/effect_values.h"
 
 namespace gapscope::internal::torque_view {
@@ -23,11 +24,12 @@ struct Scales {
   double start = 0.0, duration = 1.0;  ///< [s]
   double speed_std = 1.0, speed_rms = 1.0, top_speed = 1.0;
   double travel = 1.0, torque_rms = 1.0;
-  double hz = 1.0;      ///< top of the band
-  bool rotates = true;  ///< positions are angles
+  double hz = 1.0;   ///< top of the band
+  ShaftTurns turns = {};  ///< along 2π; none of a slide
   bool held_output = false;
   bool one_speed = false;  ///< a recording has one
   double line = kNaN;      ///< cycles per 2π of the strongest line in the model; NaN: none
+  double ripple = kNaN;    ///< the same of its ripple
 };
 
 /// The shapes that a law is tried at, in rising order; one NaN where it has none.
@@ -57,6 +59,7 @@ struct Law {
   Fill fill;
   EffectValues values;     ///< of the effect; nullptr: it has none, or one that needs another structure
   int shape_at;            ///< place of the shape among the effect's parameters; -1: it is none of them
+  int harmonic = 0;        ///< of the line that it adds to: more of the same effect; 0: it is none
   int parameters() const;  ///< coefficients and shape
 };
 

@@ -105,9 +105,9 @@ Rows stacked(std::span<const StampedTrace> traces, double hz, bool free_constant
   return rows;
 }
 
-Scales scales_of(const Rows& rows, bool rotates, bool held_output) {
+Scales scales_of(const Rows& rows, const ShaftTurns& turns, bool held_output) {
   Scales s;
-  s.rotates = rotates, s.held_output = held_output, s.one_speed = rows.free_constant;
+  s.turns = turns, s.held_output = held_output, s.one_speed = rows.free_constant;
   s.hz = rows.records.front().hz;
   s.start = kInfinity;
   double low = kInfinity, high = -kInfinity, end = -kInfinity;

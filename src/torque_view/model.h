@@ -45,7 +45,7 @@ bool is_constant_speed(const BandRecord& record, const TorqueViewOptions& option
 
 Rows stacked(std::span<const StampedTrace> traces, double hz, bool free_constant,
              const TorqueViewOptions& options);
-Scales scales_of(const Rows& rows, bool rotates, bool held_output);
+Scales scales_of(const Rows& rows, const ShaftTurns& turns, bool held_output);
 
 /// A law's columns at the rows.
 void fill_columns(Rows& rows, const Law& law, double shape, Eigen::Ref<Eigen::MatrixXd> columns);

@@ -14,11 +14,12 @@ Model with(Model model, const Law& law, double shape) {
   return model;
 }
 
-/// A law may come again only as a further line.
+/// A law may come again only as a further line, and a harmonic with its line only.
 bool is_open(const Bench& bench, const Model& model, const Law& l) {
   if (*l.effect != '\0' &&
       std::find(bench.closed.begin(), bench.closed.end(), l.effect) != bench.closed.end())
     return false;
+  if (l.harmonic > 0 && lacks_simpler(model, l)) return false;
   return l.name != std::string_view("inertia") &&
          (find_term(model, l.name) == nullptr || l.shapes == line_grid);
 }

@@ -15,15 +15,16 @@ struct EffectCase {
 };
 
 const std::vector<EffectCase>& effect_cases() {
-  static const std::vector<EffectCase> cases = {{"shape", "motor_coulomb_friction", {0.01}},
-                                                {"command", "input_dead_zone", {0.05}},
-                                                {"delay", "input_delay", {1.37 / kRate}},
-                                                {"torque", "cogging_torque", {0.01, 24.0, 0.4, 0.1}},
-                                                {"decay", "actuator_lag", {3.0 / kRate}},
-                                                {"half_gap", "gap_eccentricity", {0.005, 0.4}},
-                                                {"load_inertia", "load_inertia_variation", {0.5, 3.0, 1.0}},
-                                                {"sense", "encoder_eccentricity", {0.001, 0.4}},
-                                                {"advance", "presliding_friction", {0.01, 0.005, 0.0}}};
+  static const std::vector<EffectCase> cases = {
+      {"shape", "motor_coulomb_friction", {0.01}},
+      {"command", "input_dead_zone", {0.05}},
+      {"delay", "input_delay", {1.37 / kRate}},
+      {"torque", "cogging_torque", {0.01, 24.0, 0.4, 0.1, 0.0, 0.0, 0.0}},
+      {"decay", "actuator_lag", {3.0 / kRate}},
+      {"half_gap", "gap_eccentricity", {0.005, 0.4, 1.0}},
+      {"load_inertia", "load_inertia_variation", {0.5, 3.0, 1.0}},
+      {"sense", "encoder_eccentricity", {0.001, 0.4, 1.0}},
+      {"advance", "presliding_friction", {0.01, 0.005, 0.0}}};
   return cases;
 }
 

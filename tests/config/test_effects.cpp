@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "config/texts.h"
 #include "gapscope/base/errors.h"
@@ -78,6 +79,74 @@ TEST_P(EveryEffect, RefusesAKeyThatItDoesNotHave) {
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, ::testing::ValuesIn(names()),
                          [](const auto& row) { return row.param; });
+
+const char* const kCogging = "effects: [{cogging_torque: {amplitude_nm: 0.1, ";
+
+ParameterSetting period_of(const std::string& text) {
+  const Configuration c = parse_configuration(text, "c.yaml");
+  const ModelEffect& effect = c.model.effects.at(0).effect;
+  return effect.parameters.at(static_cast<std::size_t>(effect.entry->period_at()));
+}
+
+std::string with_period(const std::string& written) {
+  return with(kRecorded, "effects: []", kCogging + written + "}}]");
+}
+
+TEST(Periods, MayBeWrittenAsALengthWithBoundsAndToBeEstimated) {
+  EXPECT_EQ(period_of(with_period("period_rad: 0.25")).value, 8.0 * std::numbers::pi);
+  const ParameterSetting p =
+      period_of(with_period("period_rad: {value: 0.25, estimate: true, bounds: [0.2, 0.5]}"));
+  EXPECT_TRUE(p.estimate);
+  EXPECT_EQ(p.value, 8.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(p.low, 4.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(p.high, 10.0 * std::numbers::pi);
+}
+
+std::string refusal_of(const std::string& text) {
+  try {
+    parse_configuration(text, "c.yaml");
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Periods, AreWrittenInOneWayAndNotForgotten) {
+  EXPECT_THAT(refusal_of(with_period("period_rad: 0.25, periods_per_turn: 24")),
+              ::testing::HasSubstr("stands beside periods_per_turn"));
+  EXPECT_THAT(refusal_of(with_period("phase_rad: 0.25")), ::testing::HasSubstr("or period_rad"));
+  EXPECT_THAT(refusal_of(with_period("period_rad: 0")), ::testing::HasSubstr("c.yaml:23"));
+}
+
+const std::string kOnce = with(kRecorded, "effects: []", "effects: [{load_unbalance: {amplitude_nm: 0.1}}]");
+
+TEST(Periods, OncePerTurnIsOfTheShaftThatTheGearRatioTells) {
+  EXPECT_EQ(period_of(kOnce).value, 1.0);
+  const std::string gear = "recording:\n  gear_ratio: {position: -10, load_position: 0.25}";
+  EXPECT_EQ(period_of(with(kOnce, "recording:", gear)).value, 0.25);
+  const std::string eccentric =
+      with(kOnce, "load_unbalance: {amplitude_nm", "encoder_eccentricity: {amplitude_rad");
+  EXPECT_EQ(period_of(with(eccentric, "recording:", gear)).value, 10.0);
+  const DiagnosisOptions options =
+      diagnosis_options(parse_configuration(with(kOnce, "recording:", gear), "c"));
+  EXPECT_EQ(options.turns.motor, 10.0);
+  EXPECT_EQ(options.turns.load, 0.25);
+}
+
+TEST(Periods, OfASlideAreLengthsAndNeverOncePerTwoPiMetres) {
+  const std::string slide =
+      with(with(kOnce, "coordinates: rotation", "coordinates: translation"), "bits: 20", "quantum: 1e-6");
+  EXPECT_THAT(refusal_of(slide), ::testing::HasSubstr("expected period_rad [m]"));
+  const std::string screw = with(slide, "amplitude_nm: 0.1", "amplitude_nm: 0.1, period_rad: 2.5e-3");
+  EXPECT_EQ(period_of(screw).value, 2.0 * std::numbers::pi / 2.5e-3);
+  const std::string resolved = resolved_yaml(parse_configuration(screw, "c.yaml"));
+  EXPECT_THAT(resolved, ::testing::HasSubstr("period_rad: 0.0025}"));
+  const Configuration again = parse_configuration(resolved, "c.yaml");
+  EXPECT_NEAR(again.model.effects[0].effect.parameters[2].value * 2.5e-3 / (2.0 * std::numbers::pi), 1.0,
+              1e-14);
+  EXPECT_EQ(resolved_yaml(again), resolved);
+  EXPECT_TRUE(std::isnan(diagnosis_options(again).turns.load));
+}
 
 TEST(Effects, OfTheSimulatedPlantAreNotThoseOfTheModel) {
   const Configuration c = parse_configuration(

@@ -75,6 +75,18 @@ struct EqualForm {
   std::function<void(const std::vector<double>&, independent_plant::Effects&)> apply;
 };
 
+/// Sines and cosines of the harmonics as amplitudes and phases.
+independent_plant::AngleHarmonic with_harmonics(const std::vector<double>& p) {
+  return {p[0],
+          p[1],
+          p[2],
+          0.0,
+          std::hypot(p[3], p[4]),
+          std::atan2(p[4], p[3]),
+          std::hypot(p[5], p[6]),
+          std::atan2(p[6], p[5])};
+}
+
 double torque(const Rig& rig) { return rig.amplitude * rig.drive.torque_constant; }
 
 const std::vector<EqualForm>& equal_forms() {
@@ -122,20 +134,18 @@ const std::vector<EqualForm>& equal_forms() {
        [](const V& p, independent_plant::Effects& e) {
          e.motor.drag_nms2 = p[0], e.motor.drag_exponent = p[1];
        }},
-      {"cogging_torque",
-       [](const Rig& r) {
-         return V{0.1 * torque(r), 24.0, 0.3, 0.0};
-       },
+      {"cogging_torque", [](const Rig& r) { return V{0.1 * torque(r), 24.0, 0.3, 0.0, 0.0, 0.0, 0.0}; },
        [](const V& p, independent_plant::Effects& e) {
          e.motor.cogging = {p[0], p[1], p[2], 0.0};
        }},
-      {"torque_ripple",
-       [](const Rig&) {
-         return V{0.1, 12.0, 0.3, 0.0};
-       },
+      {"cogging_torque", [](const Rig& r) { return V{0.06 * torque(r), 18.0, 0.3, 0.3, -0.2, 0.1, 0.25}; },
+       [](const V& p, independent_plant::Effects& e) { e.motor.cogging = with_harmonics(p); }},
+      {"torque_ripple", [](const Rig&) { return V{0.1, 12.0, 0.3, 0.0, 0.0, 0.0, 0.0}; },
        [](const V& p, independent_plant::Effects& e) {
          e.command.ripple = {p[0], p[1], p[2], 0.0};
        }},
+      {"torque_ripple", [](const Rig&) { return V{0.1, 9.0, 0.3, -0.2, 0.3, 0.25, 0.1}; },
+       [](const V& p, independent_plant::Effects& e) { e.command.ripple = with_harmonics(p); }},
       {"load_resonance",
        [](const Rig&) {
          return V{0.3, 12.0, 0.04};
@@ -155,10 +165,11 @@ const std::vector<EqualForm>& equal_forms() {
        }},
       {"load_unbalance",
        [](const Rig& r) {
-         return V{0.1 * torque(r), 0.7};
+         return V{0.1 * torque(r), 0.7, 2.5};
        },
        [](const V& p, independent_plant::Effects& e) {
          e.load.unbalance_nm = p[0], e.load.unbalance_phase_rad = p[1];
+         e.load.unbalance_periods = p[2];
        }},
       {"constant_load_torque", [](const Rig& r) { return V{0.05 * torque(r)}; },
        [](const V& p, independent_plant::Effects& e) { e.load.constant_torque_nm = p[0]; }},
@@ -181,10 +192,11 @@ const std::vector<EqualForm>& equal_forms() {
        }},
       {"gap_eccentricity",
        [](const Rig& r) {
-         return V{0.1 * r.drive.gap, 0.4};
+         return V{0.1 * r.drive.gap, 0.4, 2.5};
        },
        [](const V& p, independent_plant::Effects& e) {
          e.contact.eccentricity_rad = p[0], e.contact.eccentricity_phase_rad = p[1];
+         e.contact.eccentricity_periods = p[2];
        }},
       {"gap_growth", [](const Rig& r) { return V{0.05 * r.drive.gap}; },
        [](const V& p, independent_plant::Effects& e) { e.contact.growth_rad_s = p[0]; }},
@@ -192,10 +204,11 @@ const std::vector<EqualForm>& equal_forms() {
        [](const V& p, independent_plant::Effects& e) { e.contact.release_nm = p[0]; }},
       {"encoder_eccentricity",
        [](const Rig&) {
-         return V{1e-3, 0.4};
+         return V{1e-3, 0.4, 2.5};
        },
        [](const V& p, independent_plant::Effects& e) {
          e.sensor.eccentricity_rad = p[0], e.sensor.eccentricity_phase_rad = p[1];
+         e.sensor.eccentricity_periods = p[2];
        }},
       {"measurement_lag", [](const Rig& r) { return V{2.0 / r.rate}; },
        [](const V& p, independent_plant::Effects& e) { e.sensor.lag_s = p[0]; }},
@@ -241,7 +254,7 @@ TEST(OneBody, WithGearsThatRubUnderAnUnbalanceAndItsOwnInertiaFreeRunsTenSeconds
   one.has_load = false;
   PlantModel<double> model = plant_model(rig.drive, one);
   const double peak = torque(rig);
-  add_effect<double>(model, *find_effect("load_unbalance"), std::vector<double>{0.2 * peak, 0.7});
+  add_effect<double>(model, *find_effect("load_unbalance"), std::vector<double>{0.2 * peak, 0.7, 1.0});
   add_effect<double>(model, *find_effect("constant_load_torque"), std::vector<double>{0.05 * peak});
   add_effect<double>(model, *find_effect("load_dependent_friction"), std::vector<double>{0.05 * peak, 0.3});
   independent_plant::BlindDrive truth = independent(rig.drive);

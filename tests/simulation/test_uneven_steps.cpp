@@ -95,8 +95,11 @@ PlantModel<double> with_effect(const EffectEntry& e) {
   PlantModel<double> model = plant_model(paper_rig(), {});
   model.structure.has_load = std::string(e.name) != "backlash";
   std::vector<double> values;
-  for (const EffectParameterSpec& p : e.parameters)
-    values.push_back(scale_value(p.scale, context()) * (p.low + 0.1 * (p.high - p.low)));
+  for (const EffectParameterSpec& p : e.parameters) {
+    // With strong harmonics of 200 detents the motor may rest in another one after a rounding.
+    const double value = p.held ? 0.1 * p.high : p.low + 0.1 * (p.high - p.low);
+    values.push_back(scale_value(p.scale, context()) * value);
+  }
   add_effect<double>(model, e, values);
   return model;
 }

@@ -33,7 +33,7 @@ Order read_order(int argc, char** argv) {
     if (word == "--")
       judge = true;
     else if (word == "--translation")
-      order.data.rotates = false;
+      order.data.turns = gapscope::ShaftTurns::of_a_slide();
     else if (word == "--new-phase")
       order.data.new_phase = true;
     else if (word == "--held")

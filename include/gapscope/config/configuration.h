@@ -39,6 +39,8 @@ struct Configuration {
   std::optional<ImplantConfig> implant = {};  ///< `implant:` – only read by `blind implant`
 
   double position_quantum() const;  ///< of the encoder, seen on the axis of x1 [rad]; 0: not given
+  /// Turns of the encoder of x1 (the motor's) and of that of x2 (the load's), as their gears say.
+  ShaftTurns turns() const;
 };
 
 /// Reads a configuration strictly: unknown and repeated keys, wrong types, numbers out of range and

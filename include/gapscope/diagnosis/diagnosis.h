@@ -200,6 +200,7 @@ struct DiagnosisOptions {
   std::vector<std::string> excluded;  ///< effects that are no candidates
   int threads = 0;                    ///< 0: all cores; the answer is the same for any number
   Coordinates coordinates;            ///< of a translation: rad and N·m mean m and N in texts
+  ShaftTurns turns;                   ///< of a rotation; along a slide nothing is known to turn
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 

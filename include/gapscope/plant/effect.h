@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -55,6 +57,7 @@ struct EffectParameterSpec {
   double low;     ///< bounds, in units of the scale
   double high;
   Scale scale;
+  bool held = false;  ///< a search leaves it at its neutral value where nothing else is known of it
 };
 
 /// Parameters of an effect in units of their scales; NaN: not known beforehand.
@@ -85,6 +88,20 @@ enum class EffectNeeds {
   kFreeLoad,  ///< no output that is held; without a load it acts on the one inertia
 };
 
+/// What turns once in the period of an effect for which no other period is given.
+enum class Shaft { kNone, kMotor, kLoad };
+
+/// How often the motor and the load turn along 2 pi of x1 and of x2; NaN along a slide, where nothing says
+/// how far one turn is.
+struct ShaftTurns {
+  double motor = 1.0, load = 1.0;
+
+  static constexpr ShaftTurns of_a_slide() {
+    return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  }
+  double of(Shaft shaft) const;  ///< NaN for none
+};
+
 struct EffectLaws;
 
 /// One row of the catalogue: all that is known of an effect but its law, which effect_hooks.h has.
@@ -103,7 +120,16 @@ struct EffectEntry {
   StartSearch start_search;
   std::span<const EffectStart> starts;  ///< magnitudes and phases at which its search begins
   const EffectLaws* laws;
+  Shaft turns_with = Shaft::kNone;  ///< a period that is not given is one turn of it
+
+  /// The place of `periods_per_turn` among the parameters, which may be written as `period_rad` = 2 pi over
+  /// it; -1: it repeats along no angle, or its period is a parameter as it is.
+  int period_at() const;
 };
+
+/// What a parameter is where nothing is known of it: one turn for a period, else where the effect is absent.
+/// NaN where that depends on the recordings, or where nothing turns.
+double neutral_value(const EffectEntry& entry, std::size_t parameter, const ShaftTurns& turns);
 
 /// The catalogue, sorted by name.
 std::span<const EffectEntry* const> effect_table();

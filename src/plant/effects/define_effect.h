@@ -66,6 +66,7 @@ constexpr EffectEntry entry_of(const char* name) {
   if constexpr (requires { E::law_is_fixed; }) e.law_is_fixed = E::law_is_fixed;
   if constexpr (requires { E::start_search; }) e.start_search = E::start_search;
   if constexpr (requires { E::starts; }) e.starts = E::starts;
+  if constexpr (requires { E::turns_with; }) e.turns_with = E::turns_with;
   return e;
 }
 
