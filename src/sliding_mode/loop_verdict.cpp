@@ -49,7 +49,7 @@ bool any_disagree(Levels levels) {
 double limit_of(const TorqueLevel& level) {
   const double most =
       std::max(std::max(level.play(), 0.0) + kSurely * level.std(), kFinest * level.resolution);
-  return level.runs() ? most : std::min(most, level.shape.visible);
+  return level.runs_nowhere() ? std::min(most, level.shape.visible) : most;
 }
 
 /// Limit on a gap from all levels. Ramps that do not overcome the friction pass no gap: where the levels
@@ -75,6 +75,7 @@ Remark doubt(Levels levels, double visible) {
     resolution = std::max(resolution, level.resolution);
   }
   if (!(visible < travel)) return words::small_ramps(travel, visible);
+  if (!all(levels, &TorqueLevel::runs_nowhere)) return words::sticks_and_leaps();
   if (is_informative(visible, travel, kFinest * resolution)) return {};
   return words::hysteresis_hides(plays_of(levels), visible, travel);
 }
@@ -143,9 +144,7 @@ void explain(Levels levels, LostMotion& m) {
   const bool apart = any_disagree(levels);
   const bool known = std::ranges::all_of(
       levels, [](const TorqueLevel& l) { return l.reading.half_width <= kKnown * l.play(); });
-  const bool nowhere = std::ranges::all_of(
-      levels, [](const TorqueLevel& l) { return l.shape.free_run <= kNowhere * l.play(); });
-  const bool still = nowhere && !any(levels, &TorqueLevel::runs) && !any(levels, &TorqueLevel::runs_free) &&
+  const bool still = all(levels, &TorqueLevel::runs_nowhere) && !any(levels, &TorqueLevel::runs_free) &&
                      !any(levels, &TorqueLevel::leaps) && !any(levels, &TorqueLevel::runs_backwards);
   m.cause = LostMotionCause::kOpen;
   if (all(levels, &TorqueLevel::runs) && !any(levels, &TorqueLevel::leaps) && known)
@@ -163,6 +162,9 @@ bool TorqueLevel::runs() const {
 }
 bool TorqueLevel::shows_play() const { return runs() && !leaps() && reading.half_width <= kKnown * play(); }
 bool TorqueLevel::leaps() const { return shape.free_run > kLeaps * play() && play() > kFinest * resolution; }
+bool TorqueLevel::runs_nowhere() const {
+  return shape.free_run <= kNowhere * std::max(play(), kFinest * resolution);
+}
 bool TorqueLevel::runs_free() const { return shape.sure_run >= shape.stands_out; }
 bool TorqueLevel::runs_backwards() const { return play() + kSurely * std() < 0.0; }
 

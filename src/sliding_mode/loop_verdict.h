@@ -21,6 +21,7 @@ struct TorqueLevel {
   bool runs() const;            ///< x1 runs free on each ramp, at one torque, over most of P
   bool shows_play() const;      ///< the same over no more than P, and P is known
   bool leaps() const;           ///< x1 runs free over more than P
+  bool runs_nowhere() const;    ///< x1 runs free over next to nothing of P
   bool runs_free() const;       ///< as far as a gap that would have stood out: it stood out
   bool runs_backwards() const;  ///< friction and gaps lag behind u; only a u that is late itself leads
 };

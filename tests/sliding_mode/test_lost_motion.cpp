@@ -95,7 +95,7 @@ TEST(LostMotion, HysteresisOfFrictionAndComplianceIsNoPlay) {
   for (const independent_plant::BlindDrive& drive : {coulomb, presliding, soft}) {
     const GapEstimate estimate = detect({ramps(drive)});
     EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
-    EXPECT_EQ(estimate.reason.code(), "hysteresis_hides");
+    EXPECT_THAT(estimate.reason.code(), AnyOf("hysteresis_hides", "sticks_and_leaps"));
     EXPECT_NE(estimate.lost_motion.cause, LostMotionCause::kGap) << estimate.lost_motion.meaning;
     EXPECT_LT(estimate.lost_motion.gap_limit, 0.05);
   }

@@ -89,6 +89,7 @@ TEST(RealRecordings, LostMotionIsToldAtEveryPreloadAndBacklashOnlyWhereThereIsAG
     close += std::abs(m.value / p.play - 1.0) < 0.05;
     EXPECT_NE(m.cause, p.gap ? LostMotionCause::kFriction : LostMotionCause::kGap)
         << p.file << ": " << m.meaning;
+    EXPECT_TRUE(!p.gap || m.gap_limit > 0.9 * p.play) << p.file << ": a gap is not denied " << m.gap_limit;
     EXPECT_TRUE(p.gap || e.verdict != GapVerdict::kBacklash) << p.file;
   }
   EXPECT_GE(close, 7) << "06 moves from ramp to ramp: its ramps allow 3.6 to 7.6 mrad";
