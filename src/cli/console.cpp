@@ -37,6 +37,14 @@ std::string model_free_line(const GapEstimate& g, Coordinates coordinates) {
   return fmt::format("{}: {}", to_string(g.verdict), g.reason.text());
 }
 
+std::string lost_motion_line(const LostMotion& m, Coordinates coordinates) {
+  std::string text = estimate(m.value, m.ci95, coordinates) + " ";
+  if (m.levels.size() > 1)
+    text += fmt::format("{} to {} by torque level, ", coordinates.thousandths(m.range().low),
+                        coordinates.thousandths(m.range().high));
+  return text + m.meaning.text();
+}
+
 std::string reference_line(const FitSummary& f, Coordinates coordinates) {
   const std::string quality = fmt::format("{}, rmse {}", f.converged() ? "converged" : "not converged",
                                           coordinates.thousandths(f.rmse));
@@ -96,6 +104,8 @@ void print_headline(const std::string& folder, const RunResult& r) {
   if (r.answer)
     for (const std::string& step : r.answer->next) line("next", step);
   if (r.model_free) line("model-free", model_free_line(*r.model_free, r.coordinates));
+  if (r.model_free && r.model_free->lost_motion.read())
+    line("lost motion", lost_motion_line(r.model_free->lost_motion, r.coordinates));
   if (r.reference) line("reference", reference_line(*r.reference, r.coordinates));
   if (r.reference && !r.model_free) print_parameters(*r.reference, r.coordinates);
   if (r.comparison) line("difference", comparison_line(*r.comparison, r.coordinates));

@@ -127,9 +127,16 @@ void add_detect(CommandLine& app) {
   const auto arguments = std::make_shared<EstimateArguments>();
   CommandLine command = add(
       app, "detect", "The model-free detector alone: the gap from the motor encoder, without a model",
-      "Writes the same files as run, with \"reference\": null. The bound L of the detector is detector: "
-      "bound\n"
-      "[rad/s^2]: auto, a number, or {from_model: {input_limit [unit of u], load_force_bound [N m]}}.\n\n"
+      "Writes the same files as run, with \"reference\": null. How it looks is detector: method:\n"
+      "  auto         impacts, and where they tell no gap the lost-motion loop (slow ramps, locked output)\n"
+      "  impact       impacts alone\n"
+      "  lost_motion  the loop alone: x1 at zero torque after ramps to either side\n"
+      "  paper        one error signal with the bound L that is given\n"
+      "L is detector: bound [rad/s^2]: auto, a number, or {from_model: {input_limit [unit of u], "
+      "load_force_bound\n"
+      "[N m]}}; with one of the latter auto means paper. With model: load: locked no reason speaks of a load "
+      "that\n"
+      "could rest. The lost motion is told wherever there is a loop, whatever the verdict.\n\n"
       "--stream reads a CSV (t, u, x1) from standard input and writes lines of JSON (units in the keys):\n"
       "  settings first: the version, the columns as they are read and the SHA-256 of that text\n"
       "  learnt   once: bounds, floors and thresholds, from the first two periods and frozen from then on\n"

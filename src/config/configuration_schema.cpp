@@ -155,6 +155,9 @@ Json detector_schema() {
   detector.add("bound", one_of({words_schema({"auto"}, ""), number_schema({1e-9, 1e12, "rad/s^2"}, ""),
                                 from.schema("")},
                                "L, a bound of the motor's acceleration; auto: from the data alone"));
+  detector.add("method",
+               words_schema({"auto", "impact", "lost_motion", "paper"},
+                            "auto: the loop or the impacts, whichever reads; paper: S1 to S6 at a bound"));
   detector.add("frozen", truth_schema("learn from the first two periods only, as a stream does"));
   return detector.schema("the model-free estimator");
 }

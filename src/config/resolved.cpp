@@ -155,6 +155,7 @@ void write_simulation(YamlWriter& out, SimulationConfig simulation, Coordinates 
 
 void write_detector(YamlWriter& out, const DetectorConfig& detector) {
   out.open("detector");
+  out.entry("method", to_string(detector.method));
   if (detector.from_model) {
     out.open("bound");
     out.open("from_model");

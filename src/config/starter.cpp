@@ -39,6 +39,9 @@ Choice as_seen(const MotorTrace& trace, Coordinates coordinates) {
   if (g.verdict == GapVerdict::kBacklash)
     return {StarterModel::kGap,
             fmt::format("gap and free load: the detector reads a gap of {:.3g} {}", g.gap, unit)};
+  if (g.reason.code() == "only_large_gaps")
+    return {StarterModel::kOneBody, "GUESS: one body; no impact shows, but " + g.reason.text(coordinates),
+            false};
   return {StarterModel::kGap,
           "GUESS: gap and free load; the detector is inconclusive (" + g.reason.text(coordinates) + ")",
           false};

@@ -93,21 +93,20 @@ class PanelPainter {
 
   void dimensions() {
     for (const Dimension& dimension : panel_.dimensions) {
-      const double x = frame_.right() + 2 * kSpace, low = y_of(dimension.range.low),
-                   high = y_of(dimension.range.high);
-      const LineStyle ink{kInk, 2.5, {}};
-      for (const double y : {low, high}) canvas_.line({{frame_.right(), y}, {x + kSpace, y}}, ink);
+      const bool inside = !std::isnan(dimension.at);
+      const double x = inside ? x_of(dimension.at) : frame_.right() + 2 * kSpace;
+      const double low = y_of(dimension.range.low), high = y_of(dimension.range.high);
+      const LineStyle ink{kInk, inside ? 4.0 : 2.5, {}};
+      for (const double y : {low, high})
+        canvas_.line({{inside ? x - kSpace : frame_.right(), y}, {x + kSpace, y}}, ink);
       canvas_.line({{x, low}, {x, high}}, ink);
       const double inwards = std::abs(low - high) > 60.0 ? 1.0 : -1.0;  // a small one is held from outside
       arrow({x, std::max(low, high)}, -inwards);
       arrow({x, std::min(low, high)}, inwards);
-      const double half = typesetter_.measure(dimension.label, kTextSize).width / 2;
-      // Beside the frame; a name longer than the frame hangs down from its top.
-      const double middle =
-          std::clamp((low + high) / 2, frame_.y + half, std::max(frame_.y + half, frame_.bottom() - half));
-      const double ascent = typesetter_.measure(dimension.label, kTextSize).ascent;
-      canvas_.text({x + 2 * kSpace + ascent, middle}, dimension.label,
-                   {kTextSize, Align::kCentre, kInk, false, true});
+      if (inside)
+        beside({x + kSpace, (low + high) / 2}, dimension.label);
+      else
+        at_the_right(x, (low + high) / 2, dimension.label);
     }
   }
 
@@ -116,6 +115,24 @@ class PanelPainter {
   bool has_fields() const { return !panel_.tiles.empty() && !panel_.tiles.front().text.empty(); }
   double x_of(double x) const { return frame_.x + plan_.x.fraction(x) * frame_.width; }
   double y_of(double y) const { return frame_.bottom() - plan_.y.fraction(y) * frame_.height; }
+  /// Upright beside the frame; a name longer than the frame hangs down from its top.
+  void at_the_right(double x, double centre, const std::string& label) {
+    const TextMetrics metrics = typesetter_.measure(label, kTextSize);
+    const double half = metrics.width / 2;
+    const double middle =
+        std::clamp(centre, frame_.y + half, std::max(frame_.y + half, frame_.bottom() - half));
+    canvas_.text({x + 2 * kSpace + metrics.ascent, middle}, label,
+                 {kTextSize, Align::kCentre, kInk, false, true});
+  }
+
+  /// On white paper, over what is drawn there.
+  void beside(Point left, const std::string& label) {
+    const TextMetrics metrics = typesetter_.measure(label, kTextSize);
+    const double height = metrics.height() + kSpace;
+    canvas_.fill({left.x, left.y - height / 2, metrics.width + kSpace, height}, {255, 255, 255});
+    canvas_.text({left.x + kSpace / 2, left.y - metrics.height() / 2 + metrics.ascent}, label, {kTextSize});
+  }
+
   void vertical(double x, const LineStyle& style) {
     canvas_.line({{x, frame_.y}, {x, frame_.bottom()}}, style, frame_);
   }

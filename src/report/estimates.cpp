@@ -44,6 +44,15 @@ void add_model_free(const ReportView& view, Panel& panel) {
   if (g.verdict == GapVerdict::kInconclusive) remark = "inconclusive";
   if (g.verdict == GapVerdict::kNone)
     remark = "none above " + quantity(g.smallest_visible_gap, view.length_unit);
+  const LostMotion& m = g.lost_motion;
+  if (!std::isfinite(g.gap) && m.read()) {  // measured, whatever it means
+    const bool levels = m.levels.size() > 1;
+    const Interval range = levels ? m.range() : m.ci95;
+    add_row(panel, "model-free", m.value, range, model_free_style(), Marker::kCircle,
+            "lost motion " + (levels ? interval_text(range, view.length_unit) + " by level"
+                                     : plus_minus(m.value, range, view.length_unit)));
+    return;
+  }
   add_row(panel, "model-free", g.gap, g.ci95, model_free_style(), Marker::kDisc, remark);
 }
 

@@ -36,10 +36,11 @@ struct Band {
   std::string label{};  ///< in the legend
 };
 
-/// A dimension at the right of the frame, as in a drawing.
+/// A dimension as in a drawing: at the right of the frame, or within it where `at` says so.
 struct Dimension {
   Interval range{};
   std::string label{};
+  double at = kNaN;  ///< x of its arrow; NaN: at the right of the frame
 };
 
 /// A named place on an axis.

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "report/drive_signal.h"
@@ -10,13 +12,145 @@
 namespace gapscope::internal::report {
 namespace {
 
-/// Where x1 stands as the input passes zero on its way up or down: a loop with rising x1 starts on the branch
-/// of the rising input.
-std::vector<double> positions_at_zero(const ReportView& view, bool rising) {
-  std::vector<double> positions;
-  for (const GapEvent& e : view.accepted())
-    positions.push_back((e.direction > 0) == rising ? e.x1_t1 : e.x1_t2);
-  return positions;
+constexpr double kAway = 0.1;  ///< of its largest value, that a torque has left zero
+
+constexpr double kWindUp = 1.5;  ///< free runs that a flank may wind up by at its amplitude
+
+/// From one zero of the torque to the next.
+struct HalfCycle {
+  std::size_t from = 0, to = 0;
+  double extreme = 0.0;  ///< its largest value, with its sign
+};
+
+/// Cut where the torque passes zero, after it was away from it on either side.
+std::vector<HalfCycle> half_cycles(const std::vector<double>& torque) {
+  const double away = kAway * largest_magnitude(torque);
+  std::vector<HalfCycle> cycles(1);
+  std::size_t zero = 0;
+  for (std::size_t i = 1; i < torque.size(); ++i) {
+    if (torque[i] * torque[i - 1] <= 0.0 && torque[i] != torque[i - 1]) zero = i;
+    const bool turned = std::abs(torque[i]) > away && torque[i] * cycles.back().extreme < 0.0 &&
+                        std::abs(cycles.back().extreme) > away;
+    if (turned) cycles.back().to = zero, cycles.push_back({zero, 0, 0.0});
+    if (std::abs(torque[i]) > std::abs(cycles.back().extreme)) cycles.back().extreme = torque[i];
+  }
+  cycles.back().to = torque.size();
+  return cycles;
+}
+
+/// The levels of the estimate, in the unit of the axis.
+struct LoopFigure {
+  const ReportView& view;
+  const LostMotion& lost_motion;
+  DriveSignal drive = drive_signal(view);
+  double constant = 1.0;  ///< axis over u
+  std::vector<double> torque = without_noise(view, drive.values);
+  std::vector<HalfCycle> cycles = half_cycles(torque);
+
+  explicit LoopFigure(const ReportView& v) : view(v), lost_motion(v.run.model_free->lost_motion) {
+    if (const FittedParameter* k = parameter(v.run, "torque_constant"); k && std::isfinite(k->value))
+      constant = k->value;
+  }
+  double amplitude(const LostMotionLevel& level) const { return std::abs(constant) * level.amplitude; }
+  /// The level whose amplitude is nearest to that of a half cycle.
+  std::size_t level_of(const HalfCycle& cycle) const {
+    std::size_t nearest = 0;
+    const auto distance = [&](std::size_t i) {
+      return std::abs(std::log(std::abs(cycle.extreme) / amplitude(lost_motion.levels[i])));
+    };
+    for (std::size_t i = 1; i < lost_motion.levels.size(); ++i)
+      if (distance(i) < distance(nearest)) nearest = i;
+    return nearest;
+  }
+};
+
+/// Whether the end of the ramps is a flank: not the free run itself, which winds up farther than that.
+bool has_flank(const LostMotionLevel& level) {
+  return level.flank > 0.0 &&
+         !(level.free_run > 0.0 && level.flank * level.amplitude > kWindUp * level.free_run);
+}
+
+/// Dark and light by turns, so that neighbours differ in a grey print as well.
+LineStyle level_style(std::size_t level) {
+  constexpr std::array kColours{kBlue, Colour{230, 159, 0}, kBlack, Colour{86, 180, 233}};
+  return {kColours[level % kColours.size()], 3.0, {}};
+}
+
+/// "±4.0 N·m: play 34.1 mrad, flank 690 N·m/rad"
+std::string level_name(const LoopFigure& f, const LostMotionLevel& level) {
+  const std::string unit = f.drive.axis.unit;
+  std::string name = fmt::format("±{}: play {}", quantity(f.amplitude(level), unit),
+                                 quantity(level.lost_motion, f.view.length_unit));
+  const double stiffness = std::abs(f.constant) / level.flank;
+  if (has_flank(level)) name += fmt::format(", flank {} {}/{}", rounded(stiffness), unit, f.view.length_unit);
+  return name;
+}
+
+Series loop_of(const LoopFigure& f, std::size_t level) {
+  Series s;
+  s.style = level_style(level);
+  s.label = level_name(f, f.lost_motion.levels[level]);
+  for (const HalfCycle& cycle : f.cycles) {
+    if (f.level_of(cycle) != level) continue;
+    for (std::size_t i = cycle.from; i < std::min(cycle.to + 1, f.torque.size()); ++i) {
+      s.x.push_back(f.torque[i]);
+      s.y.push_back(f.view.recording->x1[i]);
+    }
+    s.x.push_back(kNaN);
+    s.y.push_back(kNaN);
+  }
+  return s;
+}
+
+/// The loaded flank of one side: through the typical place at three quarters of the torque, as stiff as read.
+void add_flank(const LoopFigure& f, std::size_t level, double side, Panel& panel) {
+  const LostMotionLevel& l = f.lost_motion.levels[level];
+  const double slope = l.flank / f.constant, top = f.amplitude(l);
+  if (!has_flank(l)) return;
+  std::vector<double> places;
+  for (const HalfCycle& cycle : f.cycles) {
+    if (f.level_of(cycle) != level || !(side * cycle.extreme > 0.0)) continue;
+    std::size_t i = cycle.from;
+    while (i < cycle.to && side * f.torque[i] < 0.75 * top) ++i;
+    if (i < cycle.to) places.push_back(f.view.recording->x1[i]);
+  }
+  if (places.empty()) return;
+  Series s;
+  s.style = {kVermillion, 6.0, {18, 8}};
+  s.x = {side * 0.5 * top, side * top};
+  for (const double torque : s.x) s.y.push_back(median(places) + slope * (torque - side * 0.75 * top));
+  panel.series.push_back(s);
+}
+
+/// Where x1 stands as the torque comes back to zero from one side.
+double place_at_zero(const LoopFigure& f, std::size_t level, double side) {
+  std::vector<double> places;
+  for (const HalfCycle& cycle : f.cycles)
+    if (f.level_of(cycle) == level && side * cycle.extreme > 0.0 && cycle.to > 0)
+      places.push_back(f.view.recording->x1[std::min(cycle.to, f.torque.size() - 1)]);
+  return median(places);
+}
+
+/// The play of the smallest torque, about the middle of where the branches stand.
+void add_play(const LoopFigure& f, Panel& panel) {
+  const double up = place_at_zero(f, 0, 1.0), down = place_at_zero(f, 0, -1.0);
+  if (!std::isfinite(up) || !std::isfinite(down)) return;
+  const double middle = 0.5 * (up + down), half = 0.5 * std::abs(f.lost_motion.levels.front().lost_motion);
+  panel.dimensions.push_back(
+      {{middle - half, middle + half},
+       "play " + quantity(f.lost_motion.levels.front().lost_motion, f.view.length_unit),
+       0.0});
+  for (const double y : {middle - half, middle + half}) panel.y_marks.push_back({y, guide_style(), ""});
+}
+
+std::string reading_of(const LoopFigure& f) {
+  const std::string unit = f.view.length_unit;
+  std::string text = fmt::format("At zero {} the two branches lie apart by {}", f.drive.name,
+                                 with_interval(f.lost_motion.value, f.lost_motion.ci95, unit));
+  const Interval range = f.lost_motion.range();
+  if (f.lost_motion.levels.size() > 1)
+    text += fmt::format(", by level {} to {}", quantity(range.low, unit), quantity(range.high, unit));
+  return text + ". Dashed: the loaded flanks with their stiffness.";
 }
 
 }  // namespace
@@ -25,33 +159,23 @@ FigureData lost_motion_loop(const ReportView& view) {
   FigureData figure;
   figure.file = "lost_motion_loop.png";
   figure.title = "Displacement against input";
-  if (!view.recording || !view.run.model_free || view.run.model_free->method != GapMethod::kLostMotion) {
-    figure.missing = "the gap was not looked for by the lost-motion method";
+  if (!view.recording || !view.run.model_free || !view.run.model_free->lost_motion.read()) {
+    figure.missing = "there is no quasi-static loop of displacement and input";
     figure.expected = false;
     return figure;
   }
-  const DriveSignal drive = drive_signal(view);
+  const LoopFigure f(view);
   Panel panel;
-  panel.x = drive.axis;
+  panel.x = f.drive.axis;
   panel.y = {"motor $x_1$", view.length_unit, {}, {}, {}};
   panel.height = 760.0;
-  Series loop;
-  loop.style = measured_style();
-  loop.style.width = 3.0;
-  loop.x = without_noise(view, drive.values);
-  loop.y = view.recording->x1;
   panel.x_marks.push_back({0.0, guide_style(), ""});
-  const double up = median(positions_at_zero(view, true)), down = median(positions_at_zero(view, false));
-  const double estimate = view.run.model_free->gap;
-  figure.reading = "There is no one play at zero input: the loops disagree, or are hysteresis alone.";
-  if (std::isfinite(up) && std::isfinite(down) && std::isfinite(estimate)) {
-    const std::string play = quantity(std::abs(down - up), view.length_unit);
-    panel.dimensions.push_back({{std::min(up, down), std::max(up, down)}, "play " + play});
-    for (const double y : {up, down}) panel.y_marks.push_back({y, guide_style(), ""});
-    figure.reading = fmt::format("At zero {} the two branches lie {} apart (medians); the estimate is {}.",
-                                 drive.name, play, quantity(estimate, view.length_unit));
-  }
-  panel.series.push_back(loop);
+  for (std::size_t level = f.lost_motion.levels.size(); level-- > 0;)  // the small ones on top
+    panel.series.push_back(loop_of(f, level));
+  for (std::size_t level = 0; level < f.lost_motion.levels.size(); ++level)
+    for (const double side : {1.0, -1.0}) add_flank(f, level, side, panel);
+  add_play(f, panel);
+  figure.reading = reading_of(f);
   figure.panels.push_back(panel);
   return figure;
 }

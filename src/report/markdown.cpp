@@ -54,6 +54,14 @@ std::string estimate_rows(const RunResult& run) {
     told(play ? "model-free (play at zero torque)" : "model-free", read_gap(g, unit), g.ci95,
          g.method == GapMethod::kLostMotion ? "motor position and torque" : "motor position");
   }
+  if (run.model_free) {
+    const LostMotion& m = run.model_free->lost_motion;
+    if (m.read()) row("lost motion at zero torque", m.value, m.ci95, "motor position and torque");
+    if (m.levels.size() > 1)
+      for (const LostMotionLevel& l : m.levels)
+        row(fmt::format("the same at \\|u\\| = {}, {} ramps", rounded(l.amplitude), l.ramps), l.lost_motion,
+            l.ci95, "");
+  }
   if (const FittedParameter* gap = parameter(run, "gap"))
     row(run.reference->rejected() ? "model-based reference (rejected)" : "model-based reference", gap->value,
         run.reference->shown_interval(*gap), "motor position, input, equations and the given parameters");
@@ -171,6 +179,8 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
   text += "\n## Estimates\n\n" + estimate_rows(run) + comparison_line(run);
   if (run.model_free && !run.model_free->reason.empty())
     text += "\nModel-free verdict: " + sentence(run.model_free->reason.text()) + "\n";
+  if (run.model_free && run.model_free->lost_motion.read())
+    text += "\nLost motion: " + sentence(run.model_free->lost_motion.meaning.text()) + "\n";
   text += bounds_line(run);
   text += timing_line(timing) + parameter_table(run);
   if (run.reference)

@@ -31,6 +31,18 @@ std::string what_was_read(const GapEstimate& g) {
   return g.quantity == GapQuantity::kPlayAtZeroTorque ? "play at zero torque" : "backlash gap";
 }
 
+/// "Without a model: play at zero torque 34.1 to 37.2 mrad, ...": measured, and then what it means.
+std::string lost_motion_sentence(const LostMotion& m, const std::string& unit) {
+  const Interval range = m.range();
+  const bool one = quantity(range.low, unit) == quantity(range.high, unit);
+  std::string text = "play at zero torque ";
+  text += m.levels.size() == 1 || one
+              ? with_interval(m.value, m.ci95, unit)
+              : quantity(range.low, unit) + " to " + quantity(range.high, unit) + ", by torque level";
+  if (std::isfinite(m.gap_limit)) text += ", the gap is at most " + quantity(m.gap_limit, unit);
+  return text + "; " + m.meaning.text() + ".";
+}
+
 std::string model_free_sentence(const RunResult& run) {
   const GapEstimate& g = *run.model_free;
   const std::string unit = position_unit(run);
@@ -40,6 +52,8 @@ std::string model_free_sentence(const RunResult& run) {
     case GapVerdict::kNone:
       return "Without a model: no backlash above " + quantity(g.smallest_visible_gap, unit) + ".";
     default:
+      if (g.lost_motion.read())
+        return "Without a model: " + lost_motion_sentence(g.lost_motion, unit) + " Verdict: inconclusive.";
       return "Without a model: inconclusive, " + g.reason.text() +
              (g.reason.text().ends_with(".") ? "" : ".");
   }

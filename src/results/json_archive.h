@@ -130,6 +130,14 @@ class JsonWriter {
   void part(const char* key, std::optional<Struct>& value) {
     json[key] = value ? written(*value) : Json(nullptr);
   }
+  /// What files of earlier versions do not have, of any kind.
+  template <class Value>
+  void added(const char* key, Value& value) {
+    if constexpr (requires { (*this)(key, value); })
+      (*this)(key, value);
+    else
+      single(key, value);
+  }
 
  private:
   template <class Struct>
@@ -240,6 +248,14 @@ class JsonReader {
   void part(const char* key, std::optional<Struct>& value) {
     value.reset();
     if (!at(key).is_null()) read(at(key), place_of(key), value.emplace());
+  }
+  template <class Value>
+  void added(const char* key, Value& value) {  ///< as it was in files without it
+    if (!json_.contains(key)) return;
+    if constexpr (requires { (*this)(key, value); })
+      (*this)(key, value);
+    else
+      single(key, value);
   }
 
  private:

@@ -78,6 +78,15 @@ class SchemaWriter {
     add(key, {{"anyOf", {schema_of(value), {{"type", "null"}}}}});
   }
 
+  template <class Value>
+  void added(const char* key, Value& value) {
+    if constexpr (requires { (*this)(key, value); })
+      (*this)(key, value);
+    else
+      single(key, value);
+    additions_.insert(key);
+  }
+
   void constant(const char* key, const std::string& value) { add(key, {{"const", value}}); }
   void count(const char* key) { add(key, {{"type", "integer"}, {"minimum", 0}}); }
   void erase(const char* key) { properties_.erase(key); }

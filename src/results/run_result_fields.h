@@ -53,6 +53,29 @@ void fields(Archive& archive, BoundMap& m) {
 }
 
 template <class Archive>
+void fields(Archive& archive, LostMotionLevel& l) {
+  archive("amplitude_u", l.amplitude);
+  archive("lost_motion_rad", l.lost_motion);
+  archive("ci95_rad", l.ci95);
+  archive("ramps", l.ramps);
+  archive("free_run_rad", l.free_run);
+  archive("flank_rad_per_u", l.flank);
+}
+
+/// What the one number beside it is made of and means.
+template <class Archive>
+void fields(Archive& archive, LostMotion& m) {
+  archive.choice("cause", m.cause,
+                 Words<LostMotionCause>{{LostMotionCause::kNotRead, "not_read"},
+                                        {LostMotionCause::kGap, "gap"},
+                                        {LostMotionCause::kFriction, "friction_and_compliance"},
+                                        {LostMotionCause::kOpen, "open"}});
+  archive("meaning", m.meaning);
+  archive("gap_limit_rad", m.gap_limit);
+  archive.list("levels", m.levels);
+}
+
+template <class Archive>
 void fields(Archive& archive, GapEstimate& g) {
   archive.choice("verdict", g.verdict,
                  Words<GapVerdict>{{GapVerdict::kBacklash, "backlash"},
@@ -69,6 +92,9 @@ void fields(Archive& archive, GapEstimate& g) {
   archive("gap_rad", g.gap);
   archive("std_rad", g.std);
   archive("ci95_rad", g.ci95);
+  archive.added("lost_motion_rad", g.lost_motion.value);
+  archive.added("lost_motion_ci95_rad", g.lost_motion.ci95);
+  archive.added("lost_motion", g.lost_motion);
   archive("smallest_visible_gap_rad", g.smallest_visible_gap);
   archive("bound_rad_s2", g.bound);
   archive("bound_t1_rad_s2", g.bound_t1);

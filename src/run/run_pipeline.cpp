@@ -43,6 +43,8 @@ double published_bound(const Configuration& c, const std::vector<MotorTrace>& tr
 DetectorOptions detector_options(const Configuration& c, const std::vector<MotorTrace>& traces,
                                  std::vector<std::string>& notes) {
   DetectorOptions options;
+  options.method = c.detector.method;
+  options.locked = c.model.given && c.model.structure.has_load && c.model.structure.load == LoadKind::kLocked;
   options.frozen = c.detector.frozen;
   if (c.detector.bound) options.bound = *c.detector.bound;
   if (!c.detector.bound && !c.detector.from_model) options.paper_bound = published_bound(c, traces);
@@ -71,7 +73,8 @@ void put_into_words(RunResult& r) {
   const auto put_all = [&](std::vector<Remark>& remarks) {
     std::for_each(remarks.begin(), remarks.end(), put);
   };
-  if (r.model_free) put(r.model_free->reason), put_all(r.model_free->warnings);
+  if (r.model_free)
+    put(r.model_free->reason), put(r.model_free->lost_motion.meaning), put_all(r.model_free->warnings);
   if (r.reference)
     put(r.reference->message), put(r.reference->why), put_all(r.reference->warnings),
         put_all(r.reference->advice);

@@ -90,6 +90,8 @@ TorqueCycles torque_cycles(const MotorTrace& trace) {
   for (std::size_t i = 1; i < rough.size(); ++i)
     lengths.push_back(static_cast<double>(rough[i].from - rough[i - 1].from));
   const auto reach = static_cast<std::size_t>(0.01 * median(lengths));
+  cycles.noise = noise;
+  cycles.reach = reach;
   cycles.u = smoothed(trace.u, reach);
   const auto passages = passages_of_zero(cycles.u, 2.5 * noise);
   std::vector<std::size_t> zeros;

@@ -21,6 +21,8 @@ struct ZeroCrossing {
 struct TorqueCycles {
   std::vector<double> u;  ///< input, its noise smoothed over a fiftieth of a half cycle [unit of u]
   std::vector<ZeroCrossing> crossings;
+  double noise = 0.0;     ///< standard deviation of the noise of one u [unit of u]
+  std::size_t reach = 0;  ///< the smoothing of u goes as far to either side [samples]
   /// Share of the travel of x1 that goes with the change of u: 1 where x1 is a hysteretic function of u
   /// (locked or very heavy load, slow ramps), about one half where a free load moves on while u falls.
   double following = 0.0;

@@ -1,6 +1,7 @@
 #include "gapscope/sliding_mode/detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "signals/folding.h"
@@ -17,6 +18,7 @@ namespace {
 
 using internal::signals::SignalFacts;
 using internal::sliding_mode::ImpactAnalysis;
+using internal::sliding_mode::LoopSearch;
 using internal::sliding_mode::PaperReading;
 namespace words = internal::sliding_mode::words;
 
@@ -175,6 +177,24 @@ std::vector<SignalFacts> facts_of(std::span<const MotorTrace> recordings) {
   return facts;
 }
 
+/// The loop alone.
+GapEstimate by_loop(const LoopSearch& loops) {
+  if (loops.estimate) return *loops.estimate;
+  GapEstimate estimate;
+  estimate.verdict = GapVerdict::kInconclusive;
+  estimate.method = GapMethod::kLostMotion;
+  estimate.quantity = GapQuantity::kPlayAtZeroTorque;
+  estimate.reason = words::no_loop(loops.why_not);
+  return estimate;
+}
+
+/// A load that does not move cannot be told to rest: what is missing is a loop.
+void speak_of_locked_output(const LoopSearch& loops, GapEstimate& estimate) {
+  if (estimate.verdict != GapVerdict::kInconclusive) return;
+  estimate.reason =
+      words::locked_without_loop(loops.why_not.empty() ? words::loop_not_asked_for() : loops.why_not);
+}
+
 /// As a stream would tell it.
 GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const DetectorOptions& options) {
   GapEstimate estimate;
@@ -192,30 +212,52 @@ GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const Detector
   return estimate;
 }
 
+/// One e_x with the bound that was given.
+GapEstimate detect_paper(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
+                         std::span<const SignalFacts> facts, const DetectorOptions& options) {
+  GapEstimate estimate = decide_paper(recordings, analyses, options.bound);
+  if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
+    estimate.reason += bounds_to_try(recordings, analyses);
+  keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
+  keep_map(recordings, facts, options, estimate);
+  return estimate;
+}
+
+/// The bank of bounds, by single periods or by their mean; the loop where that tells no gap.
+GapEstimate detect_auto(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
+                        std::span<const double> intervals, const LoopSearch& loops,
+                        const DetectorOptions& options) {
+  GapEstimate estimate = internal::sliding_mode::decide_gap(analyses, intervals);
+  if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
+  const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.of_all || options.locked);
+  if (estimate.verdict != GapVerdict::kBacklash && loops.estimate && ask_loop) return *loops.estimate;
+  if (options.locked) speak_of_locked_output(loops, estimate);
+  return estimate;
+}
+
 }  // namespace
+
+const char* to_string(DetectorMethod method) {
+  constexpr std::array kWords{"auto", "impact", "lost_motion", "paper"};
+  return kWords[static_cast<std::size_t>(method)];
+}
 
 GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOptions& options) {
   if (options.frozen && !(options.bound > 0.0)) return detect_frozen(recordings, options);
-  GapEstimate estimate;
   const std::vector<SignalFacts> facts = facts_of(recordings);
+  const LoopSearch loops = internal::sliding_mode::read_lost_motion(recordings, facts);
+  if (options.method == DetectorMethod::kLostMotion) return by_loop(loops);
   std::vector<ImpactAnalysis> analyses;
   std::vector<double> intervals;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     analyses.push_back(internal::sliding_mode::analyse(recordings[i], facts[i]));
     intervals.push_back(recordings[i].dt);
   }
-  if (options.bound > 0.0) {
-    estimate = decide_paper(recordings, analyses, options.bound);
-    if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
-      estimate.reason += bounds_to_try(recordings, analyses);
-    keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
-    keep_map(recordings, facts, options, estimate);
-    return estimate;
-  }
-  estimate = internal::sliding_mode::decide_gap(analyses, intervals);
-  if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
-  if (estimate.verdict != GapVerdict::kBacklash)
-    if (auto quasi_static = internal::sliding_mode::read_lost_motion(recordings, facts)) return *quasi_static;
+  const bool paper = options.bound > 0.0;
+  GapEstimate estimate = paper ? detect_paper(recordings, analyses, facts, options)
+                               : detect_auto(recordings, analyses, intervals, loops, options);
+  if (loops.estimate) estimate.lost_motion = loops.estimate->lost_motion;
+  if (paper || estimate.method == GapMethod::kLostMotion) return estimate;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
   estimate.bound_t1 =
       bound_that_shows(recordings, analyses, estimate, typical_bound(analyses, &ImpactAnalysis::sliding));

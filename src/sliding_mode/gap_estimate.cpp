@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gapscope {
 
 const char* to_string(GapVerdict verdict) {
@@ -38,6 +40,27 @@ const char* to_string(GapQuantity quantity) {
       return "play_at_zero_torque";
   }
   return "";
+}
+
+const char* to_string(LostMotionCause cause) {
+  switch (cause) {
+    case LostMotionCause::kNotRead:
+      return "not_read";
+    case LostMotionCause::kGap:
+      return "gap";
+    case LostMotionCause::kFriction:
+      return "friction_and_compliance";
+    case LostMotionCause::kOpen:
+      return "open";
+  }
+  return "";
+}
+
+Interval LostMotion::range() const {
+  if (levels.empty()) return {};
+  const auto [low, high] =
+      std::ranges::minmax_element(levels, {}, [](const LostMotionLevel& l) { return l.lost_motion; });
+  return {low->lost_motion, high->lost_motion};
 }
 
 std::string GapEstimate::brief_report() const {

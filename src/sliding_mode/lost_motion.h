@@ -16,18 +16,23 @@ namespace gapscope::internal::sliding_mode {
 /// (u − Fc)/k, runs free by 2β at u = Fc, and goes on along (u − Fc)/k; the falling branch mirrors it. At
 /// zero torque the branches lie
 ///     P = 2β + 2·Fc/k
-/// apart (for a ≥ 2·Fc; friction that lets less wind up adds less): the play that is read, the median over
-/// the loops. Friction alone gives P = 2·Fc/k, so P is play only where x1 runs free: where it is ten times as
-/// compliant as the loaded flank at the end of the ramp, for most of P. Otherwise there is no gap above the
-/// smaller of P and what would have stood out, a/k at amplitude a.
+/// apart (for a ≥ 2·Fc; friction that lets less wind up adds less): the lost motion. It is measured wherever
+/// there is a loop, at each torque level (loops of one amplitude, of all recordings); levels that disagree
+/// are told, not averaged.
 ///
-/// Read at each torque level (loops of one amplitude, of all recordings). Levels that disagree are told, not
-/// averaged. A drive that sticks and leaps once per ramp looks alike at one level; another level tells it
-/// apart.
-///
-/// Nothing if a recording is not quasi-static, or has fewer than two loops at any level.
+/// What it consists of is a second statement. A gap is passed at once, at one torque: P is mostly a gap where
+/// x1 runs free, ten times as compliant as the loaded flank, for most of P, and nowhere else moves half
+/// as far. Friction and compliance alone give P = 2·Fc/k without a free run, and grow with the torque. A
+/// drive that sticks and leaps once per ramp looks like a gap at one level; another level tells it apart.
+struct LoopSearch {
+  /// Verdict and lost motion; nothing where no recording has a loop.
+  std::optional<GapEstimate> estimate;
+  bool of_all = false;  ///< every recording has one
+  Remark why_not;       ///< what keeps the first recording without one from it
+};
+
 /// @param facts  one per recording
-std::optional<GapEstimate> read_lost_motion(std::span<const MotorTrace> recordings,
-                                            std::span<const signals::SignalFacts> facts);
+LoopSearch read_lost_motion(std::span<const MotorTrace> recordings,
+                            std::span<const signals::SignalFacts> facts);
 
 }  // namespace gapscope::internal::sliding_mode

@@ -7,6 +7,7 @@
 
 #include "gapscope/base/statistics.h"
 #include "signals/encoder.h"
+#include "sliding_mode/informative.h"
 #include "sliding_mode/visible_gap.h"
 #include "sliding_mode/words.h"
 
@@ -14,7 +15,7 @@ namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kVisible =
-    0.4;  ///< largest share of the travel that a statement on smaller gaps may leave open
+    0.4;  ///< share of the travel from which on a gap that would show is none that could have been seen
 
 constexpr double kStriking = 2.5;     ///< contrast from which on a passage is not that of friction
 constexpr double kFewStriking = 0.3;  ///< of the half periods
@@ -40,7 +41,7 @@ struct Pool {
   std::map<int, std::size_t> passages;  // by direction
   std::map<int, std::size_t> mute;      // of them, that say nothing for or against a gap
   double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0,
-         quantum = 0.0;
+         encoder = 0.0, quantum = 0.0;
   std::size_t events = 0;
   bool repeats = false;      // mean periods
   std::size_t striking = 0;  // passages
@@ -72,6 +73,7 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.dt = std::max(pool.dt, intervals[i]);
     pool.visible = std::max(pool.visible, a.smallest_visible_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
+    pool.encoder = std::max(pool.encoder, encoder_visible_gap(a.facts));
     pool.events += a.marks;
     pool.repeats = pool.repeats || a.repeats;
     for (const Transition& t : a.passages) {
@@ -163,11 +165,21 @@ Remark objection(const Pool& pool) {
   return {};
 }
 
-/// No impact stands out, although every stroke left its marks, and the gap whose impacts would be more abrupt
-/// than all of these is a small part of the travel. Friction that turns round may stand out a little.
+/// No impact stands out, although every stroke left its marks, and there are gaps whose impacts would be more
+/// abrupt than all of these. Friction that turns round may stand out a little.
 bool shows_nothing(const Pool& pool) {
   return static_cast<double>(pool.striking) < kFewStriking * pool.half_periods &&
          static_cast<double>(pool.events) >= 0.5 * pool.half_periods && pool.visible < kVisible * pool.travel;
+}
+
+/// No impact, and how far that says something.
+void deny(const Pool& pool, GapEstimate& estimate) {
+  if (!is_informative(pool.visible, pool.travel, pool.encoder)) {
+    estimate.reason = words::only_large_gaps(pool.visible, pool.travel);
+    return;
+  }
+  estimate.verdict = GapVerdict::kNone;
+  estimate.reason = words::no_impact(kSmallestMassRatio, pool.half_periods);
 }
 
 /// Nothing was seen because nothing could have been seen.
@@ -225,8 +237,7 @@ GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const
   if (against.empty()) {
     fill_estimate(pool, estimate);
   } else if (shows_nothing(pool)) {
-    estimate.verdict = GapVerdict::kNone;
-    estimate.reason = words::no_impact(kSmallestMassRatio, pool.half_periods);
+    deny(pool, estimate);
   } else {
     estimate.reason = too_slow(pool) ? words::too_slow(pool.visible) : against;
   }

@@ -54,4 +54,10 @@ double smallest_visible_gap(const MotorTrace& trace, const signals::SignalFacts&
   return gap < 2.0 * facts.amplitude ? gap : kInfinity;
 }
 
+double encoder_visible_gap(const signals::SignalFacts& facts) {
+  const double floor = std::max(1.5 * facts.noise, facts.quantum);
+  const double k2_over_bound = SuperTwistingGains::from_bound(1.0).k2;
+  return std::max(kShare * kShare * 2.0 * floor * k2_over_bound / 0.102, facts.least_way());
+}
+
 }  // namespace gapscope::internal::sliding_mode

@@ -19,4 +19,8 @@ constexpr double kSmallestMassRatio = 0.3;
 double smallest_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts, const BankRun& run,
                             std::size_t hiding);
 
+/// What encoder and noise alone would allow [rad]: the same where nothing of the motion hides an impact, with
+/// a floor of one count or 1.5 σ_n at the bound that the motion needs, so v² = L_acc g.
+double encoder_visible_gap(const signals::SignalFacts& facts);
+
 }  // namespace gapscope::internal::sliding_mode

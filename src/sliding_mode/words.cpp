@@ -5,13 +5,13 @@
 namespace gapscope::internal::sliding_mode::words {
 namespace {
 
-/// "0.01 rad at |u| = 0.2 (3 loops), 0.02 rad at ..."
+/// "0.01 rad at |u| = 0.2 (3 ramps), 0.02 rad at ..."
 Remark listed(std::span<const Play> levels) {
   Remark all;
   for (const Play& level : levels)
     all += Remark(
         "level",
-        all.empty() ? "{:.3g} [rad] at |u| = {:.3g} ({} loops)" : ", {:.3g} [rad] at |u| = {:.3g} ({} loops)",
+        all.empty() ? "{:.3g} [rad] at |u| = {:.3g} ({} ramps)" : ", {:.3g} [rad] at |u| = {:.3g} ({} ramps)",
         {level.play, level.amplitude, level.loops});
   return all;
 }
@@ -131,14 +131,80 @@ Remark no_impact(double mass_ratio, double half_periods) {
           "for a load of at least {:.1f} of the motor's inertia: no impact in {:.0f} half periods",
           {mass_ratio, half_periods}};
 }
+Remark only_large_gaps(double visible, double travel) {
+  return {
+      "only_large_gaps",
+      "this recording could only have shown a gap of {:.2g} [rad], on a travel of {:.2g} [rad]; use a "
+      "faster excitation (higher frequency or amplitude) with the output free to move, a finer encoder or "
+      "faster sampling",
+      {visible, travel}};
+}
 Remark mean_of_periods() { return {"mean_of_periods", " in the mean of the periods"}; }
 
-Remark play_depends_on_level(std::span<const Play> levels) {
+Remark stands_still() { return {"stands_still", "x1 moves by less than its noise"}; }
+Remark few_torque_ramps(long zeros) {
+  return {"few_torque_ramps",
+          "u passes zero {} times, and a loop needs three ramps of one amplitude, to either side",
+          {zeros}};
+}
+Remark does_not_follow(double percent) {
+  return {"does_not_follow",
+          "{:.0f} % of the way of x1 go with the change of u, and a quasi-static loop needs 75 %",
+          {percent}};
+}
+Remark no_loop(const Remark& why) {
+  return Remark("no_loop", "there is no lost-motion loop: ") + why +
+         Remark("advice", "; ramp the torque slowly to and fro beyond the friction, three times or more");
+}
+Remark loop_not_asked_for() {
+  return {"loop_not_asked_for", "the method is impact, and the loop was not asked"};
+}
+Remark locked_without_loop(const Remark& why) {
+  return Remark("locked_without_loop", "the output is locked, and neither an impact nor a loop is read: ") +
+         why +
+         Remark("advice", "; ramp the torque slowly to and fro beyond the friction, three times or more");
+}
+Remark lost_motion_means(LostMotionCause cause, double free_run, double alone, bool levels_differ) {
+  const Remark differ =
+      levels_differ
+          ? Remark("levels_differ", "; it depends on the torque level, as friction and compliance do")
+          : Remark();
+  if (cause == LostMotionCause::kGap)
+    return Remark("mostly_gap",
+                  "mostly a gap: on each ramp x1 runs free over {:.3g} [rad] at one torque, {:.2g} times as "
+                  "far as it moves at any other",
+                  {free_run, alone}) +
+           differ;
+  if (cause == LostMotionCause::kFriction)
+    return Remark("friction_and_compliance",
+                  "friction and compliance: x1 goes along with the torque and runs free nowhere") +
+           differ;
+  return Remark("open", "whether a gap or friction and compliance make it up cannot be told here") + differ;
+}
+Remark hysteresis_hides(std::span<const Play> levels, double visible, double travel) {
+  return Remark("hysteresis_hides",
+                "a loop of friction and compliance, in which this recording could only have shown a gap of "
+                "{:.3g} [rad], on a travel of {:.3g} [rad]: ",
+                {visible, travel}) +
+         listed(levels) + Remark("advice", "; free the output and use the impacts to see smaller gaps");
+}
+Remark play_scatters(std::span<const Play> levels, double half_width) {
+  return Remark("play_scatters",
+                "x1 runs free, but the ramps leave the play uncertain by {:.2g} [rad]: ", {half_width}) +
+         listed(levels) + Remark("advice", "; ramp the torque further beyond the friction, or more often");
+}
+
+Remark play_depends_on_level(std::span<const Play> levels, double limit) {
+  const Remark gap = std::isfinite(limit)
+                         ? Remark("limit",
+                                  "; friction or compliance makes up the difference, and no gap is "
+                                  "larger than {:.3g} [rad]",
+                                  {limit})
+                         : Remark("limit", "; friction or compliance makes up the difference");
   return Remark("play_depends_on_level", "the play at zero torque depends on the torque level: ") +
-         listed(levels) +
+         listed(levels) + gap +
          Remark("advice",
-                "; friction or compliance makes up the difference and no gap is larger than the smallest; "
-                "ramp to small torques just above the friction, or free the output and use the impacts");
+                "; ramp to small torques just above the friction, or free the output and use the impacts");
 }
 Remark play_at_one_level() {
   return {"play_at_one_level",

@@ -4,6 +4,7 @@
 
 #include "gapscope/base/remark.h"
 #include "gapscope/base/statistics.h"
+#include "gapscope/sliding_mode/gap_estimate.h"
 
 /// Everything that the detector says, in one place. Angles and speeds in SI units.
 namespace gapscope::internal::sliding_mode::words {
@@ -33,6 +34,7 @@ Remark too_slow(double visible);  ///< NaN: no gap would show
 Remark passages_used(long used, long seen, int only_direction);
 Remark gap_uncertain(double gap, double percent);
 Remark no_impact(double mass_ratio, double half_periods);
+Remark only_large_gaps(double visible, double travel);
 Remark mean_of_periods();  ///< added to another
 
 // Quasi-static loops.
@@ -40,7 +42,16 @@ struct Play {
   double play, amplitude;  ///< [rad], of u
   long loops;
 };
-Remark play_depends_on_level(std::span<const Play> levels);
+Remark stands_still();                   ///< why there is no loop
+Remark few_torque_ramps(long zeros);     ///< the same
+Remark does_not_follow(double percent);  ///< the same
+Remark no_loop(const Remark& why);
+Remark loop_not_asked_for();  ///< the same
+Remark locked_without_loop(const Remark& why);
+Remark lost_motion_means(LostMotionCause cause, double free_run, double alone, bool levels_differ);
+Remark hysteresis_hides(std::span<const Play> levels, double visible, double travel);
+Remark play_scatters(std::span<const Play> levels, double half_width);
+Remark play_depends_on_level(std::span<const Play> levels, double limit);  ///< NaN: no limit on a gap
 Remark play_at_one_level();
 Remark play_read(std::span<const Play> levels, double free_run);
 Remark no_free_run(std::span<const Play> levels);

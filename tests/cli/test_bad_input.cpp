@@ -99,6 +99,12 @@ const std::vector<BadInput> kRecordings = {
 const std::vector<BadInput> kConfigs = {
     config("frozen_with_a_bound", kSimulated + "detector: {bound: 4, frozen: true}\n",
            "c.yaml:14: detector.bound is '4', expected auto"),
+    config("unknown_method", kSimulated + "detector: {method: loop}\n",
+           "c.yaml:14: detector.method is 'loop'"),
+    config("paper_without_a_bound", kSimulated + "detector: {method: paper}\n",
+           "c.yaml:14: detector.method is paper without a bound"),
+    config("loop_with_a_bound", kSimulated + "detector: {method: lost_motion, bound: 4}\n",
+           "c.yaml:14: detector.method is lost_motion beside a bound"),
     config("empty", "# nothing\n", "c.yaml: is empty"),
     config("syntax", "name: [a\nrecording: {\n", "c.yaml:"),
     config("two_documents", kRecorded + "---\nname: b\n", "c.yaml:12: a second document"),

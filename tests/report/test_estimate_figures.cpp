@@ -98,27 +98,60 @@ TEST(Residuals, OfWhiteNoiseAreCalledWhite) {
   EXPECT_NE(residuals(ReportView(run)).reading.find("looks white"), std::string::npos);
 }
 
-TEST(LostMotionLoop, MeasuresThePlayBetweenTheBranchesAtZeroInput) {
+/// Ramps of two amplitudes with 5 mrad between the branches, about 1 mrad.
+RunResult with_loops() {
   RunResult run = full_run();
-  EXPECT_FALSE(lost_motion_loop(ReportView(run)).missing.empty());
-  run.model_free->method = GapMethod::kLostMotion;
-  run.model_free->quantity = GapQuantity::kPlayAtZeroTorque;
-  run.model_free->events.clear();
-  for (const double t : {1.0, 2.0, 3.0})  // loops of 5 mrad, up and down
-    for (const int direction : {1, -1})
-      run.model_free->events.push_back({run.recordings[0].file, t, t + 0.5, -2.5e-3 * direction + 1e-3,
-                                        2.5e-3 * direction + 1e-3, 5e-3, 5e-3, 1e-5, direction, true, ""});
-  const ReportView view(run);
-  const FigureData figure = lost_motion_loop(view);
-  ASSERT_EQ(figure.panels[0].dimensions.size(), 1u);
-  EXPECT_NEAR(figure.panels[0].dimensions[0].range.low, -1.5e-3, 1e-12);
-  EXPECT_NEAR(figure.panels[0].dimensions[0].range.high, 3.5e-3, 1e-12);
-  EXPECT_FALSE(fig6_one_period(view).missing.empty()) << "a loop has no t1 and t2";
-  EXPECT_EQ(estimates(view).panels[1].title, "Loop by loop");
+  Recording& r = run.recordings[0];
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double phase = std::fmod(4.0 * static_cast<double>(i) / static_cast<double>(r.size()), 1.0);
+    const double triangle = phase < 0.25 ? 4.0 * phase : phase < 0.75 ? 2.0 - 4.0 * phase : 4.0 * phase - 4.0;
+    const bool falls = phase >= 0.25 && phase < 0.75;
+    r.u[i] = (i < r.size() / 2 ? 1.0 : 4.0) * triangle;
+    r.x1[i] = 1e-3 + (falls ? 2.5e-3 : -2.5e-3) + 1e-4 * r.u[i];
+  }
+  LostMotion& m = run.model_free->lost_motion;
+  m.value = 5e-3, m.ci95 = {4.9e-3, 5.1e-3}, m.cause = LostMotionCause::kOpen;
+  m.levels = {{1.0, 5e-3, {4.9e-3, 5.1e-3}, 4, 0.0, 1e-4}, {4.0, 5.2e-3, {5e-3, 5.4e-3}, 4, 0.0, 1e-4}};
+  return run;
+}
+
+TEST(LostMotionLoop, MarksThePlayAtZeroTorqueWhateverTheVerdict) {
+  EXPECT_FALSE(lost_motion_loop(ReportView(full_run())).missing.empty());
+  RunResult run = with_loops();
   run.model_free->verdict = GapVerdict::kInconclusive;
   run.model_free->gap = kNaN;
-  EXPECT_TRUE(lost_motion_loop(ReportView(run)).panels[0].dimensions.empty())
-      << "levels that disagree have no play";
+  const Panel panel = lost_motion_loop(ReportView(run)).panels[0];
+  ASSERT_EQ(panel.dimensions.size(), 1u);
+  EXPECT_DOUBLE_EQ(panel.dimensions[0].at, 0.0);
+  EXPECT_NEAR(panel.dimensions[0].range.low, -1.5e-3, 1e-5);
+  EXPECT_NEAR(panel.dimensions[0].range.high, 3.5e-3, 1e-5);
+  EXPECT_NE(panel.dimensions[0].label.find("5.00 mrad"), std::string::npos) << panel.dimensions[0].label;
+}
+
+TEST(LostMotionLoop, HasAColourAndAFlankForEachTorqueLevel) {
+  const RunResult run = with_loops();
+  const Panel panel = lost_motion_loop(ReportView(run)).panels[0];
+  ASSERT_EQ(panel.series.size(), 6u) << "two loops, and a flank to either side of each";
+  const auto grey = [](const Colour& c) { return 0.299 * c.red + 0.587 * c.green + 0.114 * c.blue; };
+  EXPECT_GT(std::abs(grey(panel.series[0].style.colour) - grey(panel.series[1].style.colour)), 50.0);
+  for (const std::size_t level : {0u, 1u})
+    EXPECT_NE(panel.series[level].label.find("flank"), std::string::npos) << panel.series[level].label;
+  for (std::size_t i = 2; i < 6; ++i) {
+    const Series& flank = panel.series[i];
+    const double constant = flank.x[1] / (i < 4 ? 1.0 : 4.0) * (i % 2 == 0 ? 1.0 : -1.0);  // axis over u
+    EXPECT_NEAR((flank.y[1] - flank.y[0]) / (flank.x[1] - flank.x[0]), 1e-4 / constant, 1e-7);
+  }
+}
+
+TEST(Estimates, ALostMotionIsShownWhereThereIsNoGap) {
+  RunResult run = with_loops();
+  run.model_free->verdict = GapVerdict::kInconclusive;
+  run.model_free->gap = kNaN;
+  run.model_free->ci95 = {};
+  const Panel panel = estimates(ReportView(run)).panels[0];
+  ASSERT_EQ(panel.y.categories.front(), "model-free");
+  EXPECT_NE(panel.y.remarks.front().find("lost motion"), std::string::npos);
+  EXPECT_DOUBLE_EQ(panel.series.front().x.front(), 5e-3);
 }
 
 TEST(BoundTimeMap, ShowsEveryBoundAtItsLogarithmAndMarksThoseThatMatter) {

@@ -36,6 +36,12 @@ inline GapEstimate estimate(const RunResult& run) {
   g.std = 1e-4 * kThird;
   g.ci95 = {0.018 * kThird, 0.019 * kThird};
   g.smallest_visible_gap = 4e-4 * kThird;
+  g.lost_motion = {0.02 * kThird,
+                   {0.019, 0.021},
+                   0.022,
+                   {{1.2, 0.02, {0.019, 0.021}, 9, 0.018 * kThird, 1e-3}},
+                   LostMotionCause::kGap,
+                   Remark::said("mostly a gap")};
   g.bound = 4.1 * kThird;
   g.bound_t1 = 3.7 * kThird;
   g.scale = 50.0;

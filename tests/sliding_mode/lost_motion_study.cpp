@@ -1,13 +1,15 @@
 // Random quasi-static drives for the lost-motion route: how often it answers, how well, and how honest its
-// intervals are. study_lost_motion [first seed] [number of drives]
+// intervals are, and what it says the lost motion consists of. study_lost_motion [first seed] [number of
+// drives] [each]
 //
 // Laws: torque amplitude log-uniform 0.05–0.5 N m, triangle or sine (2 : 1) of 0.1–0.5 Hz, 5 periods at 400
 // Hz, 20 or 16 bit, half with noise of 0.7 quanta; gap log-uniform 5–50 mrad or none; elastic wind-up a/k
 // log-uniform 0.07–6.7 mrad; motor damping ×0.2–2; friction of the motor uniform 2–60 % of the torque
 // (stiction: half of that, 1.2–2.2 times as much at rest); cogging of 10 % on half of the gap-free drives
-// that do not stick.
+// that do not stick; half with noise of the recorded torque of 2–8 % of its amplitude.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -33,6 +35,7 @@ struct Case {
   independent_plant::BlindExcitation excitation;
   independent_plant::BlindSensor sensor;
   independent_plant::BlindOptions options;
+  double torque_noise = 0.0;  ///< of the recorded u, not of the torque that acts [unit of u]
 };
 
 void draw_friction(Case& c, std::mt19937_64& g, double torque) {
@@ -73,6 +76,7 @@ Case draw(std::uint64_t seed) {
                .duration = 5.0 / c.excitation.frequency,
                .seed = seed,
                .tolerance = independent_plant::kFastTolerance};
+  if (uniform(g, 0.0, 1.0) < 0.5) c.torque_noise = c.excitation.amplitude * uniform(g, 0.02, 0.08);
   return c;
 }
 
@@ -89,32 +93,53 @@ double true_play(const Case& c, const independent_plant::BlindRun& run) {
 }
 
 struct Tally {
-  int cases = 0, backlash = 0, none = 0, too_small = 0, covered = 0;
-  std::vector<double> errors;
+  int cases = 0, backlash = 0, none = 0, too_small = 0;
+  int told = 0, covered = 0;             // lost motion
+  int gap = 0, friction = 0, limit = 0;  // what it is said to consist of; the gap is above its limit
+  std::vector<double> errors, widths;    // of the lost motion [%]
 };
 
-void add(Tally& tally, const Case& c, const independent_plant::BlindRun& run) {
+void add_noise(const Case& c, Recording& r) {
+  auto g = random_stream(c.options.seed, "torque noise");
+  if (c.torque_noise > 0.0)
+    for (double& u : r.u) u += c.torque_noise * normal(g);
+}
+
+void add(Tally& tally, const Case& c, independent_plant::BlindRun& run, bool each) {
+  add_noise(c, run.recording);
   const MotorTrace trace = run.recording.motor_trace();
   const GapEstimate e = detect_gap({&trace, 1});
+  const LostMotion& m = e.lost_motion;
   ++tally.cases;
+  tally.backlash += e.verdict == GapVerdict::kBacklash;
   tally.none += e.verdict == GapVerdict::kNone;
   tally.too_small += e.verdict == GapVerdict::kNone && e.smallest_visible_gap < c.drive.gap;
-  if (e.verdict != GapVerdict::kBacklash) return;
-  ++tally.backlash;
-  const double truth = e.method == GapMethod::kLostMotion ? true_play(c, run) : c.drive.gap;
-  tally.errors.push_back(std::abs(e.gap / truth - 1.0));
-  tally.covered += e.ci95.low <= truth && truth <= e.ci95.high;
+  const double truth = true_play(c, run);
+  if (each)
+    fmt::print(
+        "{} {}: gap {:.3f}, lost motion {:.4f}, told {:.4f} [{:.4f}, {:.4f}] mrad, {}; noise {:.2f}; {}\n",
+        c.options.seed, kKinds[c.kind], 1e3 * c.drive.gap, 1e3 * truth, 1e3 * m.value, 1e3 * m.ci95.low,
+        1e3 * m.ci95.high, to_string(m.cause), c.torque_noise / c.excitation.amplitude, e.brief_report());
+  if (!m.read()) return;
+  ++tally.told;
+  tally.covered += m.ci95.low <= truth && truth <= m.ci95.high;
+  tally.errors.push_back(100.0 * std::abs(m.value / truth - 1.0));
+  tally.widths.push_back(100.0 * 0.5 * (m.ci95.high - m.ci95.low) / truth);
+  tally.gap += m.cause == LostMotionCause::kGap;
+  tally.friction += m.cause == LostMotionCause::kFriction;
+  tally.limit += m.gap_limit < c.drive.gap;
 }
 
 void print(const std::string& name, const Tally& t) {
-  const Interval share = wilson(t.backlash, t.cases), covered = wilson(t.covered, t.backlash);
+  const Interval share = wilson(t.backlash, t.cases), covered = wilson(t.covered, t.told);
+  fmt::print("{:22s} n {:4d}  backlash {:3d} [{:.1f}, {:.1f}] %, none {:3d} (limit below the gap: {})\n",
+             name, t.cases, t.backlash, 100.0 * share.low, 100.0 * share.high, t.none, t.too_small);
   fmt::print(
-      "{:22s} n {:4d}  backlash {:3d} [{:.1f}, {:.1f}] %  none {:3d} (limit below the gap: {})  play: error "
-      "median "
-      "{:.2f} 95 % {:.2f} max {:.2f} %, covered {} [{:.2f}, {:.2f}]\n",
-      name, t.cases, t.backlash, 100.0 * share.low, 100.0 * share.high, t.none, t.too_small,
-      100.0 * quantile(t.errors, 0.5), 100.0 * quantile(t.errors, 0.95), 100.0 * quantile(t.errors, 1.0),
-      t.covered, covered.low, covered.high);
+      "  lost motion told {:4d}: error median {:.2f} 95 % {:.2f} max {:.2f} %, half width median {:.2f} %, "
+      "covered {} = {:.1f} [{:.1f}, {:.1f}] %; a gap {}, friction {}, limit below the gap {}\n",
+      t.told, quantile(t.errors, 0.5), quantile(t.errors, 0.95), quantile(t.errors, 1.0),
+      quantile(t.widths, 0.5), t.covered, 100.0 * t.covered / std::max(t.told, 1), 100.0 * covered.low,
+      100.0 * covered.high, t.gap, t.friction, t.limit);
 }
 
 Tally sum(const std::array<Tally, kKinds.size()>& tallies, std::size_t from, std::size_t to) {
@@ -122,8 +147,10 @@ Tally sum(const std::array<Tally, kKinds.size()>& tallies, std::size_t from, std
   for (std::size_t k = from; k < to; ++k) {
     const Tally& t = tallies[k];
     all.cases += t.cases, all.backlash += t.backlash, all.none += t.none;
-    all.too_small += t.too_small, all.covered += t.covered;
+    all.too_small += t.too_small, all.covered += t.covered, all.told += t.told;
+    all.gap += t.gap, all.friction += t.friction, all.limit += t.limit;
     all.errors.insert(all.errors.end(), t.errors.begin(), t.errors.end());
+    all.widths.insert(all.widths.end(), t.widths.begin(), t.widths.end());
   }
   return all;
 }
@@ -134,7 +161,8 @@ int main_study(int argc, char** argv) {
   std::array<Tally, kKinds.size()> tallies;
   for (int i = 0; i < count; ++i) {
     const Case c = draw(first + static_cast<std::uint64_t>(i));
-    add(tallies[c.kind], c, simulate_blind(c.drive, c.excitation, c.sensor, c.options));
+    independent_plant::BlindRun run = simulate_blind(c.drive, c.excitation, c.sensor, c.options);
+    add(tallies[c.kind], c, run, argc > 3 && std::string(argv[3]) == "each");
   }
   for (std::size_t k = 0; k < kKinds.size(); ++k) print(kKinds[k], tallies[k]);
   print("all with a gap", sum(tallies, 0, kWithGap));

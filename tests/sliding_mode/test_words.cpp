@@ -34,7 +34,20 @@ std::vector<Remark> all_remarks() {
           words::passages_used(5, 6, 1),
           words::gap_uncertain(0.01, 40.0),
           words::no_impact(0.3, 12.0),
-          words::play_depends_on_level(plays),
+          words::only_large_gaps(0.019, 0.246),
+          words::stands_still(),
+          words::few_torque_ramps(2),
+          words::does_not_follow(51.0),
+          words::no_loop(words::stands_still()),
+          words::loop_not_asked_for(),
+          words::locked_without_loop(words::does_not_follow(51.0)),
+          words::lost_motion_means(LostMotionCause::kGap, 0.03, 9.0, true),
+          words::lost_motion_means(LostMotionCause::kFriction, 0.0, 1.0, false),
+          words::lost_motion_means(LostMotionCause::kOpen, 0.0, 1.0, true),
+          words::hysteresis_hides(plays, 0.01, 0.05),
+          words::play_scatters(plays, 0.01),
+          words::play_depends_on_level(plays, 0.01),
+          words::play_depends_on_level(plays, kNaN),
           words::play_at_one_level(),
           words::play_read(plays, 0.03),
           words::no_free_run(plays),
@@ -71,7 +84,7 @@ TEST(Words, ListPlaysWithTheirLevels) {
   EXPECT_EQ(
       words::no_free_run(plays).text(Coordinates::kTranslation),
       "quasi-static loop without a free run: hysteresis of friction and compliance, 0.01 m at |u| = 0.2 (3 "
-      "loops), 0.02 m at |u| = 0.4 (5 loops)");
+      "ramps), 0.02 m at |u| = 0.4 (5 ramps)");
 }
 
 }  // namespace

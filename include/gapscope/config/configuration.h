@@ -8,12 +8,14 @@
 #include "gapscope/config/model_config.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/acceleration_bound.h"
+#include "gapscope/sliding_mode/detector.h"
 
 namespace gapscope {
 
-/// `detector:` – where the bound L of the model-free detector comes from; neither of both: from the data
-/// alone.
+/// `detector:` – how the gap is looked for without a model, and where the bound L comes from; neither of
+/// both: from the data alone.
 struct DetectorConfig {
+  DetectorMethod method = DetectorMethod::kAuto;
   std::optional<double> bound;               ///< [rad/s²]
   std::optional<BoundKnowledge> from_model;  ///< L by eq. (13)
   bool frozen = false;                       ///< learns from the first two periods only, as a stream must

@@ -7,8 +7,19 @@
 
 namespace gapscope {
 
+enum class DetectorMethod {
+  kAuto,        ///< impacts; where they tell no gap, the lost-motion loop
+  kImpact,      ///< impacts alone
+  kLostMotion,  ///< the lost-motion loop alone
+  kPaper,       ///< one e_x with a bound that is given
+};
+
+const char* to_string(DetectorMethod method);  ///< "auto", "impact", "lost_motion", "paper": the YAML's words
+
 struct DetectorOptions {
-  double bound = 0.0;  ///< L [rad/s²] for the paper's own S3 and S4 on one e_x; 0: `auto`, a bank of bounds
+  DetectorMethod method = DetectorMethod::kAuto;
+  bool locked = false;  ///< the output is declared not to move, so its load cannot rest or coast
+  double bound = 0.0;   ///< L [rad/s²] for the paper's own S3 and S4 on one e_x; 0: `auto`, a bank of bounds
   double paper_bound =
       0.0;  ///< lower end of (13) where a model gave one, for the warning only [rad/s²]; 0: unknown
   bool frozen = false;  ///< bounds, floors and thresholds from the first two periods only (StreamDetector)

@@ -13,9 +13,18 @@ enum class GapVerdict { kNotRun, kBacklash, kNone, kInconclusive };
 enum class GapMethod { kImpact, kPaper, kLostMotion };
 enum class GapQuantity { kGap, kPlayAtZeroTorque };
 
-const char* to_string(GapVerdict verdict);    ///< "not_run", "backlash", "none", "inconclusive"
-const char* to_string(GapMethod method);      ///< "impact", "paper", "lost_motion"
-const char* to_string(GapQuantity quantity);  ///< "gap", "play_at_zero_torque"
+/// What a lost motion consists of, as far as the loops tell.
+enum class LostMotionCause {
+  kNotRead,
+  kGap,       ///< mostly a gap: x1 runs free on each ramp over most of it
+  kFriction,  ///< friction and compliance: x1 runs free nowhere, or it grows with the torque
+  kOpen,      ///< cannot be told
+};
+
+const char* to_string(GapVerdict verdict);     ///< "not_run", "backlash", "none", "inconclusive"
+const char* to_string(GapMethod method);       ///< "impact", "paper", "lost_motion"
+const char* to_string(GapQuantity quantity);   ///< "gap", "play_at_zero_torque"
+const char* to_string(LostMotionCause cause);  ///< "not_read", "gap", "friction_and_compliance", "open"
 
 /// One passage of the gap: contact lost at t1 (S3), regained at t2 (S4).
 struct GapEvent {
@@ -49,6 +58,28 @@ struct BoundMap {
   std::size_t columns() const { return bounds.empty() ? 0 : levels.size() / bounds.size(); }
 };
 
+/// What the quasi-static loops of one torque level read.
+struct LostMotionLevel {
+  double amplitude = kNaN;    ///< of the ramps [unit of u]
+  double lost_motion = kNaN;  ///< travel of x1 between both branches at zero torque [rad]
+  Interval ci95;              ///< [rad]
+  int ramps = 0;              ///< passages of zero torque that it was read from
+  double free_run = kNaN;     ///< travel over which x1 runs free, median over the branches [rad]
+  double flank = kNaN;        ///< compliance of the loaded flank [rad per unit of u]
+};
+
+/// The lost motion of gear testing: measured wherever x1 is a quasi-static loop of u, whatever it means.
+struct LostMotion {
+  double value = kNaN;                  ///< of all levels where they agree, else of the smallest torque [rad]
+  Interval ci95;                        ///< [rad]
+  double gap_limit = kNaN;              ///< no gap can be larger than this [rad]; NaN: no such limit
+  std::vector<LostMotionLevel> levels;  ///< by rising torque; empty: there is no loop
+  LostMotionCause cause = LostMotionCause::kNotRead;
+  Remark meaning;  ///< what speaks for the cause
+  bool read() const { return !levels.empty(); }
+  Interval range() const;  ///< smallest and largest of the levels [rad]
+};
+
 /// What the model-free detector says. A default-built one says that it was not run.
 struct GapEstimate {
   GapVerdict verdict = GapVerdict::kNotRun;
@@ -63,6 +94,7 @@ struct GapEstimate {
   double bound_t1 = kNaN;              ///< L whose e_x is in `traces`, where it is another one [rad/s²]
   double paper_bound = kNaN;           ///< lower end of (13), where a model gave one [rad/s²]
   double scale = 1.0;                  ///< N of step S2: e_x × N is comparable with x1
+  LostMotion lost_motion;              ///< beside the verdict, whatever that is
   std::vector<GapEvent> events;
   std::vector<ErrorTrace> traces;
   std::optional<BoundMap> map;
