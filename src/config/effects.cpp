@@ -75,6 +75,18 @@ void refuse_both(const Section& section, const EffectEntry& entry) {
     length->fail(fmt::format("stands beside {}, expected only one of both", other));
 }
 
+/// What has no neutral value has to be written; a period that is one turn is settled later.
+void require_the_rest(const Section& section, const ModelEffect& effect) {
+  const EffectEntry& entry = *effect.entry;
+  for (std::size_t i = 0; i < entry.parameters.size(); ++i) {
+    const EffectParameterSpec& spec = entry.parameters[i];
+    const bool period = static_cast<int>(i) == entry.period_at();
+    const bool settled = period && (entry.turns_with != Shaft::kNone || section.find(kPeriodKey));
+    if (std::isnan(effect.parameters[i].value) && !settled && !section.find(spec.key))
+      section.require(spec.key, fmt::format("a number in {}{}", spec.unit, period ? ", or period_rad" : ""));
+  }
+}
+
 void read_effect_parameters(const Value& written, ModelEffect& effect) {
   const EffectEntry& entry = *effect.entry;
   const Section section(written, keys_of(entry));
@@ -88,9 +100,8 @@ void read_effect_parameters(const Value& written, ModelEffect& effect) {
       setting = read_setting(*given, possible(spec));
     else if (const auto length = period ? section.find(kPeriodKey) : std::nullopt)
       setting = from_period(read_setting(*length, kPossiblePeriod));
-    else if (std::isnan(setting.value) && !(period && entry.turns_with != Shaft::kNone))
-      section.require(spec.key, fmt::format("a number in {}{}", spec.unit, period ? ", or period_rad" : ""));
   }
+  require_the_rest(section, effect);
 }
 
 }  // namespace

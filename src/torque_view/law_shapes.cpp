@@ -44,7 +44,7 @@ std::vector<double> powers(const Scales& s) {
   if (!shows_levels(s)) return {};
   return {2.0, 4.0, 8.0};
 }
-std::vector<double> times(const Scales& s) {
+std::vector<double> step_times(const Scales& s) {
   std::vector<double> at;
   for (int i = 1; i <= 5; ++i) at.push_back(s.start + s.duration * i / 6.0);
   return at;

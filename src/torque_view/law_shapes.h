@@ -15,7 +15,7 @@ std::vector<double> low_speeds(const Scales& scales);
 std::vector<double> lengths(const Scales& scales);
 std::vector<double> dead_zones(const Scales& scales);
 std::vector<double> powers(const Scales& scales);
-std::vector<double> times(const Scales& scales);
+std::vector<double> step_times(const Scales& scales);
 std::vector<double> spans(const Scales& scales);
 std::vector<double> resonances(const Scales& scales);
 std::vector<double> found_line(const Scales& scales);

@@ -227,7 +227,7 @@ constexpr Law kLaws[] = {
     {"viscous_drift", "viscous_drift", nullptr, 1, Kind::kFriction, true, false, Sign::kAny, spans, drift,
      drift_values, 1},
     {"load_inertia_variation", "load_inertia_variation", nullptr, 1, Kind::kMotion, true, false, Sign::kAny,
-     times, inertia_step, inertia_step_values, 1},
+     step_times, inertia_step, inertia_step_values, 1},
     {"resonance", "shaft_compliance", nullptr, 1, Kind::kMotion, true, false, Sign::kShareOfInertia,
      resonances, resonance, nullptr, -1},
     {"spring_to_ground", "shaft_compliance", nullptr, 2, Kind::kMotion, false, false, Sign::kPositive,
