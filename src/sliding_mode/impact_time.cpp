@@ -128,6 +128,14 @@ Kink find_kinks(const TransitionContext& context, const BankEvent& impact, const
   return kink;
 }
 
+/// Where the law that leads to the impact begins. The stretch that the noise allows reaches back into the
+/// contact before t1, which bends the law and lets t2 be read early: only what surely lies after t1 is used.
+std::size_t begin_of_law(const FlightLaw& law, std::size_t core, std::size_t grown) {
+  const FreeFlight flight = law.find_release(core);
+  if (!flight.found) return grown;
+  return std::max(grown, static_cast<std::size_t>(std::ceil(std::max(flight.latest.time, 0.0))));
+}
+
 }  // namespace
 
 ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impact, const Reversal& reversal,
@@ -137,7 +145,7 @@ ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impa
   result.core = impact.start - std::max<std::size_t>(2, flight / 10);
   FlightLaw::Fit before_impact;
   if (!law.fit_before(result.core, before_impact)) return result;
-  const Kink kink = find_kinks(context, impact, law, before_impact.first);
+  const Kink kink = find_kinks(context, impact, law, begin_of_law(law, result.core, before_impact.first));
   if (!kink.found) return result;
   const double dt = context.trace.dt;
   const MotorState before = law.state(kink.law, kink.time);
