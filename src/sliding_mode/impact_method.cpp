@@ -58,4 +58,14 @@ ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace&
   return a;
 }
 
+ImpactAnalysis analyse_means(const signals::BlockMeans& means, const MotorTrace& whole, double quantum) {
+  ImpactAnalysis a;
+  const MotorTrace trace = means.trace(whole.file);
+  a.facts = signals::read_facts(trace, means.noise);
+  a.facts.rounding = means.rounding;
+  a.quantum = quantum;
+  search(trace, a);
+  return a;
+}
+
 }  // namespace gapscope::internal::sliding_mode

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/sliding_mode/gap_estimate.h"
+#include "signals/block_means.h"
 #include "signals/folding.h"
 #include "sliding_mode/transition.h"
 
@@ -27,5 +28,6 @@ struct ImpactAnalysis {
 /// @param facts  of this trace
 ImpactAnalysis analyse(const MotorTrace& trace, const signals::SignalFacts& facts);
 ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace& whole);
+ImpactAnalysis analyse_means(const signals::BlockMeans& means, const MotorTrace& whole, double quantum);
 
 }  // namespace gapscope::internal::sliding_mode
