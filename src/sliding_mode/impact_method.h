@@ -22,6 +22,7 @@ struct ImpactAnalysis {
       0.0;                  ///< had there been no impact: hidden by the rest of the motion or not [rad]
   double finest_gap = 0.0;  ///< the same where the main events are impacts, and hide nothing [rad]
   double quantum = 0.0;     ///< of the encoder, also where periods were averaged [rad]
+  bool summed = false;      ///< over samples or periods: what these differ by smears the impacts
   bool repeats = false;     ///< one mean period again and again: its passages are no independent witnesses
 };
 
