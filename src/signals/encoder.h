@@ -12,9 +12,6 @@ constexpr double kFewestGapQuanta = 40.0;
 /// σ of what rounding to whole quanta does to a moving position: q/√12.
 double rounding_noise(double quantum);
 
-/// Variance of noise, over that of rounding, from which on it dithers the counts.
-constexpr double kDithered = 2.0;
-
 /// The quantum that a trace comes with, else the one its samples show; 0 if neither is known [rad].
 double encoder_quantum(const MotorTrace& trace);
 

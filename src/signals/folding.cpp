@@ -11,6 +11,8 @@ namespace gapscope::internal::signals {
 namespace {
 
 constexpr std::size_t kFewestPeriods = 3;
+constexpr double kDithered =
+    2.0;  ///< variance between periods, over that of rounding, from which on noise dithers
 
 /// x1 by period and phase.
 struct PeriodTable {

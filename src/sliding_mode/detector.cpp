@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signals/folding.h"
 #include "sliding_mode/bound_map.h"
 #include "sliding_mode/frozen_search.h"
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
-#include "sliding_mode/summed_readings.h"
 #include "sliding_mode/verdict.h"
 #include "sliding_mode/words.h"
 
@@ -148,6 +148,27 @@ void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const
   estimate.warnings.push_back(words::paper_bound_misses(bound, paper.reason));
 }
 
+/// Where single periods show too little: the mean period of every recording that repeats itself.
+void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
+                       GapEstimate& estimate) {
+  std::vector<ImpactAnalysis> means;
+  std::vector<double> intervals;
+  for (const MotorTrace& recording : recordings) {
+    const internal::signals::FoldedMotion folded = internal::signals::fold(recording);
+    if (folded.periods == 0) continue;
+    means.push_back(internal::sliding_mode::analyse_mean(folded, recording));
+    intervals.push_back(folded.dt);
+  }
+  if (means.empty()) return;
+  GapEstimate reading = internal::sliding_mode::decide_gap(means, intervals);
+  if (reading.verdict != GapVerdict::kBacklash &&
+      (reading.verdict != GapVerdict::kNone || estimate.verdict == GapVerdict::kNone))
+    return;
+  estimate = std::move(reading);
+  estimate.reason += words::mean_of_periods();
+  analyses = std::move(means);
+}
+
 std::vector<SignalFacts> facts_of(std::span<const MotorTrace> recordings) {
   std::vector<SignalFacts> facts;
   for (const MotorTrace& recording : recordings) facts.push_back(internal::signals::read_facts(recording));
@@ -192,8 +213,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
     return estimate;
   }
   estimate = internal::sliding_mode::decide_gap(analyses, intervals);
-  if (estimate.verdict != GapVerdict::kBacklash)
-    internal::sliding_mode::read_sums(recordings, facts, analyses, estimate);
+  if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
   if (estimate.verdict != GapVerdict::kBacklash)
     if (auto quasi_static = internal::sliding_mode::read_lost_motion(recordings, facts)) return *quasi_static;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);

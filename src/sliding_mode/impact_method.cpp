@@ -53,18 +53,7 @@ ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace&
   a.facts = signals::read_facts(trace, mean.noise);
   a.facts.rounding = mean.rounding;
   a.quantum = mean.quantum;
-  a.summed = a.repeats = true;
-  search(trace, a);
-  return a;
-}
-
-ImpactAnalysis analyse_means(const signals::BlockMeans& means, const MotorTrace& whole, double quantum) {
-  ImpactAnalysis a;
-  const MotorTrace trace = means.trace(whole.file);
-  a.facts = signals::read_facts(trace, means.noise);
-  a.facts.rounding = means.rounding;
-  a.summed = true;
-  a.quantum = quantum;
+  a.repeats = true;
   search(trace, a);
   return a;
 }

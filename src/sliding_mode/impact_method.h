@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "gapscope/sliding_mode/gap_estimate.h"
-#include "signals/block_means.h"
 #include "signals/folding.h"
 #include "sliding_mode/transition.h"
 
@@ -22,13 +21,11 @@ struct ImpactAnalysis {
       0.0;                  ///< had there been no impact: hidden by the rest of the motion or not [rad]
   double finest_gap = 0.0;  ///< the same where the main events are impacts, and hide nothing [rad]
   double quantum = 0.0;     ///< of the encoder, also where periods were averaged [rad]
-  bool summed = false;      ///< over samples or periods: what these differ by smears the impacts
   bool repeats = false;     ///< one mean period again and again: its passages are no independent witnesses
 };
 
 /// @param facts  of this trace
 ImpactAnalysis analyse(const MotorTrace& trace, const signals::SignalFacts& facts);
 ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace& whole);
-ImpactAnalysis analyse_means(const signals::BlockMeans& means, const MotorTrace& whole, double quantum);
 
 }  // namespace gapscope::internal::sliding_mode

@@ -20,8 +20,9 @@ constexpr double kStriking = 2.5;     ///< contrast from which on a passage is n
 constexpr double kFewStriking = 0.3;  ///< of the half periods
 
 constexpr double kSystematic = 0.53;  ///< standard deviation, over the half width of a passage: calibrated
-/// Standard deviation of a gap that sums show, over that of one read from samples. Set on study_sliding_mode
-/// 2100001 200 gap sine: with 1 intervals hold 19 of 23, with 1.25 18 of 19 (four are too wide to be told).
+/// Standard deviation of a gap that a mean period shows, over that of one read from samples. Set on
+/// study_sliding_mode 2100001 200 gap sine (with sums of samples): with 1 intervals hold 19 of 23, with 1.25
+/// 18 of 19 (four are too wide to be told).
 constexpr double kSummed = 1.25;
 constexpr double kWidest = 0.095;  ///< of the 95 % interval of a gap that is reported, either way
 
@@ -45,7 +46,6 @@ struct Pool {
   double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0,
          quantum = 0.0;
   std::size_t events = 0;
-  bool summed = false;       // over samples or periods
   bool repeats = false;      // mean periods
   std::size_t striking = 0;  // passages
 };
@@ -77,7 +77,6 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.visible = std::max(pool.visible, a.smallest_visible_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
     pool.events += a.marks;
-    pool.summed = pool.summed || a.summed;
     pool.repeats = pool.repeats || a.repeats;
     for (const Transition& t : a.passages) {
       ++pool.passages[t.event.direction];
@@ -192,7 +191,7 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   estimate.verdict = GapVerdict::kBacklash;
   estimate.smallest_visible_gap = std::isfinite(pool.finest) ? pool.finest : kNaN;
   estimate.gap = gap;
-  estimate.std = (pool.summed ? kSummed : 1.0) *
+  estimate.std = (pool.repeats ? kSummed : 1.0) *
                  std::sqrt(random * random + disagreement * disagreement + systematic * systematic +
                            sampling * sampling + pool.noise * pool.noise);
   estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};

@@ -131,7 +131,6 @@ Remark no_impact(double mass_ratio, double half_periods) {
           "for a load of at least {:.1f} of the motor's inertia: no impact in {:.0f} half periods",
           {mass_ratio, half_periods}};
 }
-Remark means_of_samples(long samples) { return {"means_of_samples", " in means of {} samples", {samples}}; }
 Remark mean_of_periods() { return {"mean_of_periods", " in the mean of the periods"}; }
 
 Remark play_depends_on_level(std::span<const Play> levels) {

@@ -33,8 +33,7 @@ Remark too_slow(double visible);  ///< NaN: no gap would show
 Remark passages_used(long used, long seen, int only_direction);
 Remark gap_uncertain(double gap, double percent);
 Remark no_impact(double mass_ratio, double half_periods);
-Remark mean_of_periods();               ///< added to another
-Remark means_of_samples(long samples);  ///< added to another
+Remark mean_of_periods();  ///< added to another
 
 // Quasi-static loops.
 struct Play {

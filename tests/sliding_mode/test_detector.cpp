@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "gapscope/sliding_mode/detector.h"
-#include "independent_plant/random_drive.h"
 #include "sliding_mode/test_drive.h"
 
 namespace gapscope {
@@ -245,22 +244,6 @@ TEST(Detector, SaysNothingOfAMotionOfTwoCounts) {
     const Recording r = coarsely_read(0.06, 0.06 * amplitude);
     const MotorTrace trace[] = {r.motor_trace()};
     EXPECT_EQ(detect_gap(trace).verdict, GapVerdict::kInconclusive) << amplitude;
-  }
-}
-
-TEST(Detector, AnEncoderThatHidesTheImpactsInItsNoiseShowsThemInMeansOfSamples) {
-  // 14 and 16 bit at 10 kHz, gaps of 64 and 194 counts (development seeds)
-  for (const std::uint64_t seed : {2100116u, 2100175u}) {
-    independent_plant::BlindCase c = independent_plant::random_drive(seed);
-    c.options.tolerance = independent_plant::kFastTolerance;
-    const independent_plant::BlindRun run = independent_plant::simulate_blind(c);
-    MotorTrace trace = run.recording.motor_trace();
-    trace.quantum = c.sensor.quantum;
-    const GapEstimate estimate = detect_gap({&trace, 1});
-    ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
-    EXPECT_THAT(estimate.reason.text(), HasSubstr("in means of"));
-    EXPECT_LE(estimate.ci95.low, c.drive.gap) << estimate.brief_report();
-    EXPECT_GE(estimate.ci95.high, c.drive.gap) << estimate.brief_report();
   }
 }
 

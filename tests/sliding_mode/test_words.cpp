@@ -34,8 +34,6 @@ std::vector<Remark> all_remarks() {
           words::passages_used(5, 6, 1),
           words::gap_uncertain(0.01, 40.0),
           words::no_impact(0.3, 12.0),
-          words::mean_of_periods(),
-          words::means_of_samples(4),
           words::play_depends_on_level(plays),
           words::play_at_one_level(),
           words::play_read(plays, 0.03),
