@@ -22,27 +22,34 @@ auto pick(std::mt19937_64& g, const Array& values) {
 
 double torque_amplitude(const BlindCase& c) { return c.drive.torque_constant * c.excitation.amplitude; }
 
-void draw_excitation(std::mt19937_64& g, Waveform waveform, BlindCase& c) {
+void draw_excitation(std::mt19937_64& g, Waveform waveform, DriveLaws laws, BlindCase& c) {
   c.excitation.waveform = waveform;
   c.excitation.frequency = uniform(g, 0.5, 3.0);
   c.excitation.frequency_end = kHarmonics * c.excitation.frequency;
   c.excitation.lines = kHarmonics;
-  c.excitation.amplitude = log_uniform(g, 0.05, 0.2) / c.drive.torque_constant;
+  const double torque = laws == DriveLaws::kWide ? uniform(g, 0.05, 0.2) : log_uniform(g, 0.05, 0.2);
+  c.excitation.amplitude = torque / c.drive.torque_constant;
 }
 
-void draw_sampling(std::mt19937_64& g, BlindCase& c, std::uint64_t seed) {
+void draw_sampling(std::mt19937_64& g, DriveLaws laws, BlindCase& c, std::uint64_t seed) {
   c.options.rate = pick(g, kRates);
-  c.options.duration = kPeriods / c.excitation.frequency;
+  const double periods = laws == DriveLaws::kWide ? uniform(g, 8.0, 12.0) : kPeriods;
+  c.options.duration = periods / c.excitation.frequency;
   c.options.seed = seed;
   const int bits = pick(g, kBits);
   const bool noisy = uniform(g, 0.0, 1.0) < 0.5;
   c.sensor = BlindSensor::with_bits(bits, noisy ? uniform(g, 0.3, 1.5) : 0.0);
 }
 
-double damping_for_restitution(const BlindDrive& d, double restitution) {
-  const double reduced = d.motor_inertia * d.load_inertia / (d.motor_inertia + d.load_inertia);
+/// ζ of a contact that leaves this share of the speed of a free impact.
+double ratio_for_restitution(double restitution) {
   const double log_e = std::log(restitution);
-  return -2.0 * log_e / std::hypot(kPi, log_e) * std::sqrt(d.contact_stiffness * reduced);
+  return -log_e / std::hypot(kPi, log_e);
+}
+
+double damping_for_ratio(const BlindDrive& d, double zeta) {
+  const double reduced = d.motor_inertia * d.load_inertia / (d.motor_inertia + d.load_inertia);
+  return 2.0 * zeta * std::sqrt(d.contact_stiffness * reduced);
 }
 
 void draw_bodies(std::mt19937_64& g, BlindDrive& d) {
@@ -52,9 +59,11 @@ void draw_bodies(std::mt19937_64& g, BlindDrive& d) {
   d.load_damping = paper.load_damping * log_uniform(g, 0.2, 2.0);
 }
 
-void draw_contact(std::mt19937_64& g, BlindDrive& d, double softest) {
+void draw_contact(std::mt19937_64& g, DriveLaws laws, BlindDrive& d, double softest) {
   d.contact_stiffness = log_uniform(g, softest, 5000.0);
-  d.contact_damping = damping_for_restitution(d, uniform(g, 0.4, 0.9));
+  const double zeta =
+      laws == DriveLaws::kWide ? uniform(g, 0.05, 0.4) : ratio_for_restitution(uniform(g, 0.4, 0.9));
+  d.contact_damping = damping_for_ratio(d, zeta);
 }
 
 /// Peak to peak travel of the motor once the first period is over; within 1 % for any rate.
@@ -94,9 +103,9 @@ void become_one_inertia(BlindDrive& d) {
   d.load_coulomb = 0.0;
 }
 
-void become_compliant(std::mt19937_64& g, BlindCase& c) {
+void become_compliant(std::mt19937_64& g, DriveLaws laws, BlindCase& c) {
   c.drive.contact = ContactKind::kBonded;
-  draw_contact(g, c.drive, 30.0);
+  draw_contact(g, laws, c.drive, 30.0);
 }
 
 void draw_bristle(std::mt19937_64& g, BlindCase& c) {
@@ -106,7 +115,7 @@ void draw_bristle(std::mt19937_64& g, BlindCase& c) {
   b.damping_nms = 0.2 * std::sqrt(b.level_nm / b.length_rad * c.drive.motor_inertia);
 }
 
-void become_kind(std::mt19937_64& g, int kind, BlindCase& c) {
+void become_kind(std::mt19937_64& g, int kind, DriveLaws laws, BlindCase& c) {
   constexpr std::array names{"rigid_coulomb", "compliant", "motor_coulomb",     "stribeck_sticking",
                              "presliding",    "cogging",   "compliant_stribeck"};
   static_assert(names.size() == kGapFreeKinds);
@@ -115,7 +124,7 @@ void become_kind(std::mt19937_64& g, int kind, BlindCase& c) {
   MotorEffects& motor = c.drive.effects.motor;
   const bool compliant = c.kind == "compliant" || c.kind == "compliant_stribeck";
   if (compliant)
-    become_compliant(g, c);
+    become_compliant(g, laws, c);
   else
     become_one_inertia(c.drive);
   if (c.kind == "rigid_coulomb") motor.friction.level_nm = torque * uniform(g, 0.02, 0.6);
@@ -138,7 +147,7 @@ BlindRun simulate_blind(const BlindCase& c) {
   return simulate_blind(c.drive, c.excitation, c.sensor, c.options);
 }
 
-BlindCase random_drive(std::uint64_t seed, Waveform waveform) {
+BlindCase random_drive(std::uint64_t seed, Waveform waveform, DriveLaws laws) {
   std::mt19937_64 g = random_stream(seed, "blind random drive");
   BlindCase c;
   c.kind = "gap";
@@ -146,10 +155,10 @@ BlindCase random_drive(std::uint64_t seed, Waveform waveform) {
   draw_bodies(g, d);
   d.gap = log_uniform(g, 5e-3, 50e-3);
   d.x2 = uniform(g, -0.5, 0.5) * d.gap;
-  draw_contact(g, d, 50.0);
-  draw_excitation(g, waveform, c);
+  draw_contact(g, laws, d, 50.0);
+  draw_excitation(g, waveform, laws, c);
   d.load_coulomb = torque_amplitude(c) * uniform(g, 0.02, 0.6);
-  draw_sampling(g, c, seed);
+  draw_sampling(g, laws, c, seed);
   ensure_travel(c, 1.5 * d.gap);
   return c;
 }
@@ -159,16 +168,16 @@ BlindCase random_gap_free_drive(std::uint64_t seed) {
   return random_gap_free_drive(seed, static_cast<int>(uniform(g, 0.0, kGapFreeKinds)));
 }
 
-BlindCase random_gap_free_drive(std::uint64_t seed, int kind, Waveform waveform) {
+BlindCase random_gap_free_drive(std::uint64_t seed, int kind, Waveform waveform, DriveLaws laws) {
   GAPSCOPE_REQUIRE(kind >= 0 && kind < kGapFreeKinds);
   std::mt19937_64 g = random_stream(seed, "blind gap-free drive");
   BlindCase c;
   draw_bodies(g, c.drive);
   const double gap_it_might_have = log_uniform(g, 5e-3, 50e-3);
-  draw_excitation(g, waveform, c);
-  become_kind(g, kind, c);
+  draw_excitation(g, waveform, laws, c);
+  become_kind(g, kind, laws, c);
   c.drive.gap = 0.0;
-  draw_sampling(g, c, seed);
+  draw_sampling(g, laws, c, seed);
   ensure_travel(c, 1.5 * gap_it_might_have);
   return c;
 }

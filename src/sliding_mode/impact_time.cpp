@@ -19,8 +19,11 @@ constexpr double kLeastReach = 0.5;
 constexpr double kKinkHolds = 3.0;  ///< standard deviations that the mean square error may exceed the noise
 constexpr double kKinkAlmostAsGood = 4.0;  ///< in χ²
 
+constexpr double kFirstKnocks[] = {0.35, 0.7};  ///< ρ: of the speed that a load takes in bounces
+
 /// Contacts to try: their half period from two samples to four times the window after the impact, light and
-/// heavy damping; the rigid impact is the limit of the fast ones.
+/// heavy damping; the rigid impact is the limit of the fast ones. Bounces that fade in the same times: a
+/// light load with friction is hit again and again, and takes speed from the motor long after t2.
 std::vector<KinkShape> contact_shapes(std::size_t after) {
   constexpr int kRates = 9;
   std::vector<KinkShape> shapes{{1}};
@@ -28,6 +31,7 @@ std::vector<KinkShape> contact_shapes(std::size_t after) {
   for (int i = 0; i < kRates; ++i) {
     const double half_period = 2.0 * std::pow(longest / 2.0, i / (kRates - 1.0));
     for (const double damping : {0.05, 0.3}) shapes.push_back({0, kPi / half_period, damping});
+    for (const double first : kFirstKnocks) shapes.push_back({0, 0.0, 0.0, first, 1.0 / half_period});
   }
   return shapes;
 }
@@ -93,10 +97,12 @@ Kink find_kink(const TransitionContext& context, const BankEvent& impact, const 
   kink.holds = left <= sigma2 * (1.0 + kKinkHolds * std::sqrt(2.0 / static_cast<double>(last - from + 1)));
   const double limit = kink.best.sse + kKinkAlmostAsGood * std::max(sigma2, left);
   kink.time = kink.low = kink.high = kink.best.time;
-  for (const KinkFit& fit : fits)
-    if (fit.sse <= limit) scan.widen(fit.shape, begin, end, step, limit, kink.low, kink.high);
-  kink.hidden = hidden_time(kink.best, std::hypot(context.facts.noise, context.facts.rounding),
-                            static_cast<double>(last - from));
+  const double sigma = std::hypot(context.facts.noise, context.facts.rounding);
+  for (const KinkFit& fit : fits) {
+    if (fit.sse > limit) continue;
+    scan.widen(fit.shape, begin, end, step, limit, kink.low, kink.high);
+    kink.hidden = std::max(kink.hidden, hidden_time(fit, sigma, static_cast<double>(last - from)));
+  }
   return kink;
 }
 
@@ -122,6 +128,14 @@ Kink find_kinks(const TransitionContext& context, const BankEvent& impact, const
   return kink;
 }
 
+/// Where the law that leads to the impact begins. The stretch that the noise allows reaches back into the
+/// contact before t1, which bends the law and lets t2 be read early: only what surely lies after t1 is used.
+std::size_t begin_of_law(const FlightLaw& law, std::size_t core, std::size_t grown) {
+  const FreeFlight flight = law.find_release(core);
+  if (!flight.found) return grown;
+  return std::max(grown, static_cast<std::size_t>(std::ceil(std::max(flight.latest.time, 0.0))));
+}
+
 }  // namespace
 
 ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impact, const Reversal& reversal,
@@ -131,7 +145,7 @@ ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impa
   result.core = impact.start - std::max<std::size_t>(2, flight / 10);
   FlightLaw::Fit before_impact;
   if (!law.fit_before(result.core, before_impact)) return result;
-  const Kink kink = find_kinks(context, impact, law, before_impact.first);
+  const Kink kink = find_kinks(context, impact, law, begin_of_law(law, result.core, before_impact.first));
   if (!kink.found) return result;
   const double dt = context.trace.dt;
   const MotorState before = law.state(kink.law, kink.time);

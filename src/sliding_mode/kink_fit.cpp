@@ -13,6 +13,7 @@ double KinkShape::operator()(double x) const {
   if (power == 1) return x;
   if (power == 2) return x * x;
   if (power == 3) return x * x * x;
+  if (first > 0.0) return x + (1.0 - first) * std::expm1(-fading * x) / fading;
   const double damped = omega * std::sqrt(1.0 - damping * damping);
   const double end = std::acos(-1.0) / damped;
   if (x < end) return x - std::exp(-damping * omega * x) * std::sin(damped * x) / damped;
@@ -26,6 +27,11 @@ class ShapeWalk {
  public:
   ShapeWalk(const KinkShape& shape, double x) : shape_(shape), x_(x) {
     if (shape.power != 0) return;
+    if (shape.first > 0.0) {
+      step_ = std::exp(-shape.fading);
+      z_ = std::exp(-shape.fading * x);
+      return;
+    }
     damped_ = shape.omega * std::sqrt(1.0 - shape.damping * shape.damping);
     end_ = kPi / damped_;
     after_ = 1.0 + std::exp(-shape.damping * shape.omega * end_);
@@ -33,9 +39,10 @@ class ShapeWalk {
     z_ = std::polar(std::exp(-shape.damping * shape.omega * x), damped_ * x);
   }
   double next() {
-    const double value = shape_.power != 0 ? shape_(x_)
-                         : x_ < end_       ? x_ - z_.imag() / damped_
-                                           : end_ + after_ * (x_ - end_);
+    const double value = shape_.power != 0    ? shape_(x_)
+                         : shape_.first > 0.0 ? x_ + (1.0 - shape_.first) * (z_.real() - 1.0) / shape_.fading
+                         : x_ < end_          ? x_ - z_.imag() / damped_
+                                              : end_ + after_ * (x_ - end_);
     z_ = {z_.real() * step_.real() - z_.imag() * step_.imag(),
           z_.real() * step_.imag() + z_.imag() * step_.real()};
     x_ += 1.0;

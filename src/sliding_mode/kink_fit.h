@@ -11,11 +11,15 @@ namespace gapscope::internal::sliding_mode {
 /// contact:
 ///   x − e^(−ζωx) sin(ω_d x)/ω_d,  ω_d = ω √(1 − ζ²),  until the rebound at ω_d x = π, a straight line after
 ///   it
-/// (two free bodies that meet; it begins as x³ and x², and tends to the rigid impact x for large ω).
+/// (two free bodies that meet; it begins as x³ and x², and tends to the rigid impact x for large ω). Or an
+/// impact whose first knock takes the share ρ of the speed that is lost, and the bounces after it the rest:
+///   x − (1 − ρ)(1 − e^(−λx))/λ.
 struct KinkShape {
-  int power = 1;         ///< 0: elastic contact
+  int power = 1;         ///< 0: elastic contact, or bounces
   double omega = 0.0;    ///< ω [rad/sample]
   double damping = 0.0;  ///< ζ
+  double first = 0.0;    ///< ρ; 0: no bounces
+  double fading = 0.0;   ///< λ [1/sample]
 
   double operator()(double x) const;
 };

@@ -72,6 +72,23 @@ TEST(RandomDrive, NumbersFollowTheirLaws) {
             limit);
 }
 
+TEST(RandomDrive, WideLawsDrawContactTorqueAndLengthOfTheirOwn) {
+  double least = 1.0, most = 0.0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const BlindCase c = random_drive(seed, Waveform::kSine, DriveLaws::kWide);
+    const BlindDrive& d = c.drive;
+    const double reduced = d.motor_inertia * d.load_inertia / (d.motor_inertia + d.load_inertia);
+    const double ratio = d.contact_damping / (2.0 * std::sqrt(d.contact_stiffness * reduced));
+    EXPECT_GE(ratio, 0.05);
+    EXPECT_LE(ratio, 0.4);
+    least = std::min(least, ratio), most = std::max(most, ratio);
+    EXPECT_GE(c.options.duration * c.excitation.frequency, 8.0);
+    EXPECT_GE(amplitude(c), 0.05);
+  }
+  EXPECT_LT(least, 0.08);  // of 60, uniform: all above with a chance of 0.5 %
+  EXPECT_GT(most, 0.37);
+}
+
 TEST(RandomDrive, EncodersComeInEqualSharesAndHalfOfThemWithNoise) {
   std::map<int, int> bits;
   int noisy = 0;

@@ -1,6 +1,7 @@
 // Random drives of the independent plant for the detector: how often it answers, how well, and how honest its
 // intervals are.  study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]
-// [frozen]: as a stream, which learns from the first two periods
+// [wide] [frozen]: wide: other contacts, torques and lengths; frozen: as a stream, which learns from the
+// first two periods
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,11 +42,11 @@ double median_coasting(const independent_plant::BlindTruth& truth) {
 }
 
 Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform waveform,
-            const DetectorOptions& options) {
+            independent_plant::DriveLaws laws, const DetectorOptions& options) {
   independent_plant::BlindCase c =
-      with_gap ? independent_plant::random_drive(seed, waveform)
+      with_gap ? independent_plant::random_drive(seed, waveform, laws)
                : independent_plant::random_gap_free_drive(
-                     seed, static_cast<int>(seed % independent_plant::kGapFreeKinds), waveform);
+                     seed, static_cast<int>(seed % independent_plant::kGapFreeKinds), waveform, laws);
   c.options.tolerance = independent_plant::kFastTolerance;
   const independent_plant::BlindRun r = independent_plant::simulate_blind(c);
   MotorTrace trace = r.recording.motor_trace();
@@ -120,7 +121,7 @@ int main_study(int argc, char** argv) {
   if (argc < 5) {
     fmt::print(stderr,
                "study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each] "
-               "[frozen]\n");
+               "[wide] [frozen]\n");
     return 2;
   }
   const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
@@ -130,9 +131,11 @@ int main_study(int argc, char** argv) {
   const auto asked = [&](const char* word) {
     return std::find(argv + 5, argv + argc, std::string(word)) != argv + argc;
   };
+  const auto laws =
+      asked("wide") ? independent_plant::DriveLaws::kWide : independent_plant::DriveLaws::kStated;
   std::map<std::string, Tally> tallies;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    const Outcome o = run(seed, with_gap, waveform, {.frozen = asked("frozen")});
+    const Outcome o = run(seed, with_gap, waveform, laws, {.frozen = asked("frozen")});
     if (asked("each")) print_case(o);
     for (const std::string& name : classes(o)) tallies[name].add(o);
   }

@@ -12,7 +12,8 @@ namespace {
 TEST(KinkFit, AnExactKinkIsFoundBetweenTheSamples) {
   const std::size_t first = 100;
   const double time = 131.3;
-  for (const KinkShape& shape : {KinkShape{1}, KinkShape{2}, KinkShape{3}, KinkShape{0, 0.3, 0.1}}) {
+  for (const KinkShape& shape :
+       {KinkShape{1}, KinkShape{2}, KinkShape{3}, KinkShape{0, 0.3, 0.1}, KinkShape{0, 0.0, 0.0, 0.4, 0.2}}) {
     std::vector<double> y(50);
     const double amplitude = -0.05 / shape(15.0);  // the same stroke for all
     for (std::size_t i = 0; i < y.size(); ++i) {
@@ -55,6 +56,13 @@ TEST(KinkFit, TheElasticStrokeBeginsAsACubeAndEndsAsTheReboundOfFreeBodies) {
   EXPECT_NEAR(undamped(21.0) - undamped(20.0), 2.0, 1e-12);
   const KinkShape damped{0, 0.5, 0.3};
   EXPECT_NEAR(damped(31.0) - damped(30.0), 1.0 + std::exp(-std::acos(-1.0) * 0.3 / std::sqrt(0.91)), 1e-12);
+}
+
+TEST(KinkFit, BouncesBeginWithTheFirstKnockAndEndWithTheWholeOfTheSpeedLost) {
+  const KinkShape bounces{0, 0.0, 0.0, 0.4, 0.1};
+  // x − 0.6(1 − e^(−0.1x))/0.1 = 0.4x + 0.03x² − O(x³): relative rest 0.075x.
+  EXPECT_NEAR(bounces(1e-3) / 0.4e-3, 1.0, 1e-4);
+  EXPECT_NEAR(bounces(201.0) - bounces(200.0), 1.0, 1e-8);
 }
 
 }  // namespace
