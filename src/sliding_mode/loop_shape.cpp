@@ -13,13 +13,13 @@ constexpr std::size_t kBins = 20;   ///< of a branch, over twice the amplitude
 constexpr std::size_t kLoaded = 5;  ///< of them, at its end: the loaded flank
 constexpr double kFlank = 0.75;     ///< quantile of the flank's bins that goes with u: in some x1 sticks
 constexpr std::size_t kRun = 4;     ///< of them, within which a free run lies: detents spread it
-constexpr double kReach = 0.98;     ///< of the amplitude that the bins cover
+constexpr double kBinReach = 0.98;  ///< of the amplitude that the bins cover
 constexpr double kFree = 10.0;      ///< compliance where x1 runs free, over that of the rest of a branch
 
 using Steps = std::vector<double>;  ///< travel within each bin, along the branch [rad]
 
 Steps steps_of(const LoopBranch& b, double amplitude) {
-  const auto x = signals::branch_positions(*b.trace, *b.cycles, b.crossing, kReach * amplitude, kBins);
+  const auto x = signals::branch_positions(*b.trace, *b.cycles, b.crossing, kBinReach * amplitude, kBins);
   Steps steps;
   for (std::size_t k = 1; k < x.size(); ++k) steps.push_back(x[k] - x[k - 1]);
   return steps;
@@ -106,7 +106,7 @@ LoopShape read_shape(std::span<const LoopBranch> branches, double amplitude, dou
   const auto least = [&](double stiff) { return kFree * std::max(stiff, 0.0) + 3.0 * resolution; };
   const double run = least(median(rests));  // within a bin
   const double end = least(median(ends));
-  shape.flank = std::max(median(flanks), 0.0) * static_cast<double>(kBins) / (2.0 * kReach * amplitude);
+  shape.flank = std::max(median(flanks), 0.0) * static_cast<double>(kBins) / (2.0 * kBinReach * amplitude);
   shape.free_run = run_beyond(run, all);
   shape.sure_run = run_beyond(std::max(end, least_way), all);
   shape.alone = median(alone);
