@@ -16,7 +16,7 @@ using testing::judged;
 using testing::text_of;
 using testing::Workplace;
 
-const fs::path kSource = GAPSCOPE_SOURCE_DIR;
+const fs::path kCheckout = GAPSCOPE_SOURCE_DIR;
 
 /// What an editor makes of YAML: plain scalars are numbers and truth values where they look like it.
 nlohmann::json as_json(const YAML::Node& node) {
@@ -45,7 +45,7 @@ std::string judged_yaml(const std::string& text) {
 
 TEST(ConfigurationSchemas, TheConfigurationsOfTheRepositoryAreValid) {
   int found = 0;
-  for (const auto& entry : fs::directory_iterator(kSource / "configs")) {
+  for (const auto& entry : fs::directory_iterator(kCheckout / "configs")) {
     const std::string name = entry.path().filename().string(), text = text_of(entry.path());
     if (entry.path().extension() != ".yaml" || name.find("campaign") != name.npos || name == "07_blind.yaml")
       continue;
@@ -59,7 +59,7 @@ TEST(ConfigurationSchemas, TheConfigurationsOfTheRepositoryAreValid) {
 
 TEST(ConfigurationSchemas, WhatTheCommandsWriteIsValid) {
   Workplace place;
-  const std::string recording = (kSource / "configs/03_recording.csv").string();
+  const std::string recording = (kCheckout / "configs/03_recording.csv").string();
   ASSERT_EQ(place.run("init " + recording + " --model gap -o first.yaml").status, 0);
   const std::string said = judged_yaml(text_of(place.folder() / "first.yaml"));
   GAPSCOPE_NEEDS_VALIDATOR(said);
@@ -69,7 +69,7 @@ TEST(ConfigurationSchemas, WhatTheCommandsWriteIsValid) {
 }
 
 TEST(ConfigurationSchemas, MistakesAreNot) {
-  const std::string whole = text_of(kSource / "configs/08_missing_cogging.yaml");
+  const std::string whole = text_of(kCheckout / "configs/08_missing_cogging.yaml");
   GAPSCOPE_NEEDS_VALIDATOR(judged_yaml(whole));
   const std::pair<const char*, const char*> mistakes[] = {
       {"\ncolour: red\n", "colour"},

@@ -13,14 +13,14 @@ using ::testing::HasSubstr;
 using testing::text_of;
 using testing::Workplace;
 
-const std::string kDrive =
+const std::string kExported =
     "name: drive\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 5, noise: 1.0e-5, plant: "
     "independent, excitation: {sine: {amplitude: 0.58, frequency: 1}}}\nfit: {starts: 1}\nmodel: " +
     testing::kPaperModel;
 
 TEST(Export, TakesTheFittedModelOfAReportIntoAFolderOfItsOwn) {
   Workplace place;
-  place.file("drive.yaml", kDrive);
+  place.file("drive.yaml", kExported);
   ASSERT_EQ(place.run("fit drive.yaml -o report").status, 0);
   const auto made = place.run("export report --to mjcf -o mjcf --quiet");
   EXPECT_EQ(made.status, 0) << made.err;
@@ -38,7 +38,7 @@ TEST(Export, TakesTheFittedModelOfAReportIntoAFolderOfItsOwn) {
 
 TEST(Export, LeavesAFolderAloneThatHoldsSomethingElse) {
   Workplace place;
-  place.file("drive.yaml", kDrive);
+  place.file("drive.yaml", kExported);
   place.file("robot/drive.xml", "<mujoco/>");
   const auto refused = place.run("export drive.yaml --to mjcf -o robot");
   EXPECT_EQ(refused.status, 2);

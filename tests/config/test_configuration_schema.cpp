@@ -92,7 +92,7 @@ std::set<std::string> keys_of_refusal(const std::string& message) {
   return keys;
 }
 
-std::string refusal(const std::string& text) {
+std::string refused_with(const std::string& text) {
   try {
     parse_configuration(text, "c.yaml");
   } catch (const ConfigError& error) {
@@ -112,7 +112,7 @@ TEST(ConfigurationSchema, EveryMapHasTheKeysThatTheReaderTakes) {
   int compared = 0;
   for (const MapPlace& map : maps) {
     if (names_an_effect(map)) continue;
-    const std::string text = with_unknown_key(map), message = refusal(text);
+    const std::string text = with_unknown_key(map), message = refused_with(text);
     ASSERT_NE(message.find("unknown key '" + std::string(kUnknown)), std::string::npos) << message << "\n"
                                                                                         << text;
     EXPECT_EQ(keys_of_refusal(message), map.keys) << message;
