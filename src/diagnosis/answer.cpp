@@ -101,6 +101,27 @@ Answer denied(const Findings& f) {
   return a;
 }
 
+/// What was measured of the loop, then what it means; empty where no loop is read.
+std::string lost_motion(const Findings& f) {
+  if (f.model_free == nullptr || !f.model_free->lost_motion.read()) return "";
+  const LostMotion& l = f.model_free->lost_motion;
+  const Interval range = l.range();
+  const bool alike = !(range.high > range.low);
+  std::string text = "The lost motion at zero torque is " +
+                     (alike ? with_interval(l.value, l.ci95, f.coordinates)
+                            : f.coordinates.thousandths(range.low) + " to " +
+                                  f.coordinates.thousandths(range.high) + ", by torque level");
+  if (std::isfinite(l.gap_limit)) text += "; the gap is at most " + f.coordinates.thousandths(l.gap_limit);
+  switch (l.cause) {
+    case LostMotionCause::kGap:
+      return text + ". It is mostly a gap.";
+    case LostMotionCause::kFriction:
+      return text + ". It is friction and compliance.";
+    default:
+      return text + ". Whether a gap or friction and compliance make it up cannot be told here.";
+  }
+}
+
 /// Lost motion is no gap: the reader gets its limit in words.
 Answer play(const Findings& f) {
   Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
@@ -131,7 +152,10 @@ Answer by_model_alone(const Findings& f) {
     a.sentence += ". " + f.reference->why.text();
     return a;
   }
-  if (f.model_free != nullptr)
+  const std::string loop = lost_motion(f);
+  if (!loop.empty())
+    a.sentence = loop;
+  else if (f.model_free != nullptr)
     a.sentence = "The gap is not known: without a model the recording is inconclusive (" +
                  clause(f.model_free->reason) + ").";
   else if (f.reference != nullptr && f.reference->rejected())
@@ -165,13 +189,14 @@ const std::map<std::string, std::string>& remedies() {
 bool coasts_better(const FitSummary& fit) { return fit.innovation_rmse >= fit.coasting_rmse; }
 
 std::string step_without_model(const GapEstimate& g) {
-  if (g.verdict == GapVerdict::kInconclusive)
+  const bool open = g.verdict == GapVerdict::kInconclusive, loop = g.lost_motion.read();
+  if (open && !loop)
     return "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell "
-           "at "
-           "the reversals, the output free.";
-  if (g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kPlayAtZeroTorque)
-    return "Repeat the ramps at half and at twice the torque: the part of the play that grows with it is no "
-           "gap.";
+           "at the reversals, the output free.";
+  if (open || (g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kPlayAtZeroTorque))
+    return "Repeat the ramps at half and at twice the torque: the part of the lost motion that grows with it "
+           "is "
+           "no gap.";
   return "";
 }
 

@@ -110,6 +110,26 @@ TEST(Answer, OfAModelThatCoastingBeatsAsksForTheSignFirst) {
   EXPECT_THAT(of(nullptr, &rejected).next.front(), HasSubstr("sign and the unit of u"));
 }
 
+TEST(Answer, TellsTheLostMotionThatWasMeasuredWhateverItMeans) {
+  GapEstimate open;
+  open.verdict = GapVerdict::kInconclusive;
+  open.lost_motion.value = 0.0338, open.lost_motion.ci95 = {0.0330, 0.0346};
+  open.lost_motion.levels.resize(2);
+  open.lost_motion.levels[0].lost_motion = 0.0338, open.lost_motion.levels[1].lost_motion = 0.0374;
+  open.lost_motion.gap_limit = 0.0353, open.lost_motion.cause = LostMotionCause::kOpen;
+  const Answer a = of(&open, nullptr);
+  EXPECT_TRUE(std::isnan(a.gap));
+  EXPECT_EQ(a.from, AnswerSource::kNone);
+  EXPECT_THAT(a.sentence,
+              HasSubstr("The lost motion at zero torque is 33.8 mrad to 37.4 mrad, by torque level; the "
+                        "gap is at most 35.3 mrad. Whether a gap or friction"));
+  EXPECT_THAT(a.next, ::testing::Contains(HasSubstr("at half and at twice the torque")));
+  open.lost_motion.levels.pop_back();
+  open.lost_motion.cause = LostMotionCause::kFriction, open.lost_motion.gap_limit = kNaN;
+  EXPECT_THAT(of(&open, nullptr).sentence,
+              HasSubstr("is 33.80 mrad (95 %: 33.00 to 34.60). It is friction and compliance."));
+}
+
 TEST(Answer, TakesTheModelWhereTheReadingIsInconclusiveOrWasNotAskedFor) {
   const FitSummary good = fitted(FitTrust::kGood, 0.0191, 1e-5),
                    limited = fitted(FitTrust::kLimited, 0.0191, 1e-5);
