@@ -103,11 +103,19 @@ void set_command(const ExportSource& s, gsd_numbers& n) {
 void set_smooth(const ExportSource& s, gsd_numbers& n) {
   const auto of = [&](const char* effect, const char* key) { return effect_value(s, effect, key); };
   n.cogging = of("cogging_torque", "amplitude_nm"), n.cogging_n = of("cogging_torque", "periods_per_turn");
-  n.cogging_phase = of("cogging_torque", "phase_rad"),
-  n.cogging_second = of("cogging_torque", "second_harmonic");
+  n.cogging_phase = of("cogging_torque", "phase_rad");
+  n.cogging_s2 = of("cogging_torque", "second_harmonic");
+  n.cogging_c2 = of("cogging_torque", "second_harmonic_cos");
+  n.cogging_s3 = of("cogging_torque", "third_harmonic");
+  n.cogging_c3 = of("cogging_torque", "third_harmonic_cos");
   n.ripple = of("torque_ripple", "ratio"), n.ripple_n = of("torque_ripple", "periods_per_turn");
-  n.ripple_phase = of("torque_ripple", "phase_rad"), n.ripple_second = of("torque_ripple", "second_harmonic");
+  n.ripple_phase = of("torque_ripple", "phase_rad");
+  n.ripple_s2 = of("torque_ripple", "second_harmonic"),
+  n.ripple_c2 = of("torque_ripple", "second_harmonic_cos");
+  n.ripple_s3 = of("torque_ripple", "third_harmonic"),
+  n.ripple_c3 = of("torque_ripple", "third_harmonic_cos");
   n.unbalance = of("load_unbalance", "amplitude_nm"), n.unbalance_phase = of("load_unbalance", "phase_rad");
+  n.unbalance_n = of("load_unbalance", "periods_per_turn");
   n.drag = of("quadratic_drag", "coefficient_nms2"), n.drag_exponent = of("quadratic_drag", "exponent");
   n.stribeck_level = of("stribeck_friction", "level_nm");
   n.stiction = n.stribeck_level * of("stribeck_friction", "stiction_ratio");
@@ -152,13 +160,20 @@ std::string initialiser(const gsd_numbers& n) {
                            n.cogging,
                            n.cogging_n,
                            n.cogging_phase,
-                           n.cogging_second,
+                           n.cogging_s2,
+                           n.cogging_c2,
+                           n.cogging_s3,
+                           n.cogging_c3,
                            n.ripple,
                            n.ripple_n,
                            n.ripple_phase,
-                           n.ripple_second,
+                           n.ripple_s2,
+                           n.ripple_c2,
+                           n.ripple_s3,
+                           n.ripple_c3,
                            n.unbalance,
                            n.unbalance_phase,
+                           n.unbalance_n,
                            n.drag,
                            n.drag_exponent,
                            n.stiction,

@@ -1,6 +1,7 @@
 #include "exports/carried.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gapscope::internal::exports {
 namespace {
@@ -28,6 +29,12 @@ double effect_value(const ExportSource& source, std::string_view effect, std::st
   for (const EffectConfig& e : source.drive.effects)
     if (e.effect.entry->name == effect) return value_in(e.effect, parameter);
   return 0.0;
+}
+
+bool hangs_from_the_axis(const ExportSource& source) {
+  constexpr double kRounding = 1e-9;
+  return source.coordinates.rotational() &&
+         std::abs(effect_value(source, "load_unbalance", "periods_per_turn") - 1.0) < kRounding;
 }
 
 std::vector<CarriedPart> carried_parts(const ExportSource& source, std::span<const Carriage> table,

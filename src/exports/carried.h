@@ -26,4 +26,7 @@ std::vector<CarriedPart> carried_parts(const ExportSource& source, std::span<con
 /// the first one.
 double effect_value(const ExportSource& source, std::string_view effect, std::string_view parameter);
 
+/// Whether a load_unbalance of the drive can be a mass beside the axis: once per turn of a rotating one.
+bool hangs_from_the_axis(const ExportSource& source);
+
 }  // namespace gapscope::internal::exports

@@ -16,9 +16,9 @@ typedef struct {
   double delay, lag;            /* of the input [s] */
   double knee, sharpness;       /* of its saturation; knee 0: none */
   double dead_zone;
-  double cogging, cogging_n, cogging_phase, cogging_second;
-  double ripple, ripple_n, ripple_phase, ripple_second;
-  double unbalance, unbalance_phase;
+  double cogging, cogging_n, cogging_phase, cogging_s2, cogging_c2, cogging_s3, cogging_c3;
+  double ripple, ripple_n, ripple_phase, ripple_s2, ripple_c2, ripple_s3, ripple_c3;
+  double unbalance, unbalance_phase, unbalance_n;
   double drag, drag_exponent;
   double stiction, stribeck_speed, stribeck_exponent; /* level times ratio [N m] */
   double stribeck_level;
@@ -84,7 +84,15 @@ static inline double gsd_command(const gsd_numbers *n, double u) {
   return u;
 }
 
-static inline double gsd_two_harmonics(double y, double second) { return sin(y) * (1.0 + 2.0 * second * cos(y)); }
+/* sin y with its second and third harmonics. */
+static inline double gsd_harmonics(double y, double s2, double c2, double s3, double c3) {
+  return sin(y) + s2 * sin(2.0 * y) + c2 * cos(2.0 * y) + s3 * sin(3.0 * y) + c3 * cos(3.0 * y);
+}
+
+/* How much faster than sin y that changes. */
+static inline double gsd_harmonics_rate(double s2, double c2, double s3, double c3) {
+  return 1.0 + fabs(s2) + fabs(c2) + 2.0 * (fabs(s3) + fabs(c3));
+}
 
 /* What the smooth effects add: on the motor, on the load. */
 static inline void gsd_extra(const gsd_numbers *n, const gsd_state *s, double x1, double w1, double x2,
@@ -92,24 +100,28 @@ static inline void gsd_extra(const gsd_numbers *n, const gsd_state *s, double x1
   const int direction = n->motor_sticks ? s->motor : gsd_direction(w1);
   *motor = *load = 0.0;
   if (n->cogging != 0.0)
-    *motor -= n->cogging * gsd_two_harmonics(n->cogging_n * x1 + n->cogging_phase, n->cogging_second);
+    *motor -= n->cogging * gsd_harmonics(n->cogging_n * x1 + n->cogging_phase, n->cogging_s2, n->cogging_c2,
+                                         n->cogging_s3, n->cogging_c3);
   if (n->ripple != 0.0)
-    *motor += s->torque * n->ripple * gsd_two_harmonics(n->ripple_n * x1 + n->ripple_phase, n->ripple_second);
+    *motor += s->torque * n->ripple * gsd_harmonics(n->ripple_n * x1 + n->ripple_phase, n->ripple_s2, n->ripple_c2,
+                                                    n->ripple_s3, n->ripple_c3);
   if (n->drag != 0.0) *motor -= n->drag * w1 * pow(w1 * w1 + 1e-12, 0.5 * (n->drag_exponent - 1.0));
   if (n->stiction != 0.0) {
     const double v = w1 / n->stribeck_speed;
     *motor += direction * n->stiction * (1.0 - exp(-pow(v * v + 1e-12, 0.5 * n->stribeck_exponent)));
   }
-  if (n->unbalance != 0.0) *load -= n->unbalance * sin((n->has_load ? x2 : x1) + n->unbalance_phase);
+  if (n->unbalance != 0.0) *load -= n->unbalance * sin(n->unbalance_n * (n->has_load ? x2 : x1) + n->unbalance_phase);
   if (!n->has_load) *motor += *load;
 }
 
 /* The fastest of their rates [1/s]: pieces are short against it. */
 static inline double gsd_extra_rate(const gsd_numbers *n, const gsd_state *s) {
   double rate = 0.0, other;
-  if (n->cogging != 0.0) rate = fabs(n->cogging_n * s->w1) * (1.0 + fabs(n->cogging_second));
-  other = fabs(n->ripple_n * s->w1) * (1.0 + fabs(n->ripple_second));
+  if (n->cogging != 0.0) rate = fabs(n->cogging_n * s->w1) * gsd_harmonics_rate(n->cogging_s2, n->cogging_c2, n->cogging_s3, n->cogging_c3);
+  other = fabs(n->ripple_n * s->w1) * gsd_harmonics_rate(n->ripple_s2, n->ripple_c2, n->ripple_s3, n->ripple_c3);
   if (n->ripple != 0.0 && other > rate) rate = other;
+  other = fabs(n->unbalance_n * (n->has_load ? s->w2 : s->w1));
+  if (n->unbalance != 0.0 && other > rate) rate = other;
   if (n->stiction != 0.0 && fabs(s->w1) <= 4.0 * n->stribeck_speed) {
     const double excess = 1.0 + n->stiction / n->stribeck_level;
     const double torque = fabs(s->torque) + n->stribeck_level * (excess > 1.0 ? excess : 1.0);

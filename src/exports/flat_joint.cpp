@@ -33,7 +33,7 @@ ExportSource flattened(const ExportSource& s, bool with_unbalance) {
   flat.plant.motor_sticks = joint.friction > 0.0;
   flat.plant.motor_friction_plus = flat.plant.motor_friction_minus = joint.friction;
   if (with_unbalance && joint.unbalance > 0.0) {
-    const double parameters[] = {joint.unbalance, joint.unbalance_phase};
+    const double parameters[] = {joint.unbalance, joint.unbalance_phase, 1.0};
     add_effect<double>(flat.plant, *find_effect("load_unbalance"), parameters);
   }
   return flat;
@@ -59,7 +59,7 @@ FlatJoint flat_joint(const ExportSource& s) {
     joint.damping += p.load_damping;
     joint.friction += p.load_coulomb_friction;
   }
-  if (s.coordinates.rotational()) {
+  if (hangs_from_the_axis(s)) {
     joint.unbalance = of("load_unbalance", "amplitude_nm");
     joint.unbalance_phase = of("load_unbalance", "phase_rad");
   }
@@ -72,6 +72,9 @@ FlatJoint flat_joint(const ExportSource& s) {
 Certificate flat_certificate(const ExportSource& s, std::span<const Carriage> table, bool with_unbalance) {
   Certificate c;
   c.parts = carried_parts(s, table, kNotFlat);
+  for (CarriedPart& part : c.parts)
+    if (part.part == "load_unbalance" && !hangs_from_the_axis(s))
+      part = {"load_unbalance", Fidelity::kLeftOut, kNotFlat};
   std::vector<double> times;
   for (std::size_t i = 0; i <= s.u.size(); ++i) times.push_back(s.dt * static_cast<double>(i));
   const std::vector<double> model = model_motion(s, times);

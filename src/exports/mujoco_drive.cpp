@@ -77,7 +77,7 @@ MujocoDrive mujoco_drive(const ExportSource& s) {
   d.first_input = s.u.front();
   d.half_gap = 0.5 * p.gap, d.stiffness = p.contact_stiffness, d.contact_damping = p.contact_damping;
   d.load_place = s.initial.x2;
-  if (s.coordinates.rotational()) {
+  if (hangs_from_the_axis(s)) {
     d.unbalance = effect_value(s, "load_unbalance", "amplitude_nm");
     d.unbalance_phase = effect_value(s, "load_unbalance", "phase_rad");
   }
@@ -95,7 +95,7 @@ std::vector<CarriedPart> mujoco_parts(const ExportSource& s) {
   for (CarriedPart& part : parts) {
     if (part.part == "gap" && s.drive.structure.contact == ContactLaw::kRigid)
       part = {"gap", kApproximate, "range of the fixed tendon; a stiff contact in place of the impact law"};
-    if (part.part == "load_unbalance" && !s.coordinates.rotational())
+    if (part.part == "load_unbalance" && !hangs_from_the_axis(s))
       part = {"load_unbalance", Fidelity::kLeftOut, kOtherwise};
   }
   return parts;

@@ -103,6 +103,10 @@ TEST(CHeader, MovesAsTheSimulatorDoesWithEveryEffectThatItSaysIsExact) {
         "stribeck_friction: {level_nm: 0.01, stiction_ratio: 0.5, stribeck_speed_rad_s: 0.1}",
         "quadratic_drag: {coefficient_nms2: 0.01}",
         "cogging_torque: {amplitude_nm: 0.01, periods_per_turn: 24, phase_rad: 0.3}",
+        "cogging_torque: {amplitude_nm: 0.01, periods_per_turn: 24, second_harmonic: 0.3, "
+        "second_harmonic_cos: -0.2, "
+        "third_harmonic: 0.1, third_harmonic_cos: 0.2}",
+        "load_unbalance: {amplitude_nm: 0.02, periods_per_turn: 2.5}",
         "torque_ripple: {ratio: 0.1, periods_per_turn: 12, second_harmonic: 0.2}",
         "load_unbalance: {amplitude_nm: 0.02, phase_rad: 0.7}", "constant_load_torque: {torque_nm: 0.01}",
         "torque_saturation: {knee: 0.7, sharpness: 3}", "input_dead_zone: {width: 0.05}",
