@@ -3,60 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/periodic_torque.h"
+#include "diagnosis/law_variants.h"
 #include "diagnosis/step.h"
 #include "gapscope/base/parallel.h"
-#include "signals/one_body.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
 
-/// How far a law goes: which of its parameters are estimated.
-struct Level {
-  std::size_t first = 1, last = 0;  ///< those of [first, last]
-  bool period = false;              ///< and the first one
-};
-
-/// A law and the abscissa that it begins with.
-struct Variant {
-  const EffectEntry* entry = nullptr;
-  double abscissa = kNaN;     ///< peak speed, peak input or period
-  std::vector<Level> levels;  ///< each contains the one before
-};
-
-/// Both directions alike, then each on its own.
-std::vector<Level> by_direction(const EffectEntry& entry) {
-  const std::size_t all = entry.parameters.size() - 1;
-  return {{1, (all - 1) / 2, false}, {1, all, false}};
-}
-
-/// One harmonic, two, four, six.
-std::vector<Level> by_harmonics(bool period) {
-  std::vector<Level> levels;
-  for (const std::size_t harmonics : {1u, 2u, 4u, 6u}) levels.push_back({1, 2 * harmonics, period});
-  return levels;
-}
-
-std::vector<Variant> variants_of(const Study& study, const ScoredModel& model) {
-  const signals::OneBody rough = signals::as_one_body(study.train);
-  const auto played = play_on_train(study, model.fitted.model);
-  const EffectEntry &friction = *find_effect("friction_curve"), &input = *find_effect("input_curve"),
-                    &position = *find_effect("position_torque");
-  std::vector<Variant> variants = {{&friction, rough.peak_speed, by_direction(friction)},
-                                   {&input, rough.peak_input, by_direction(input)},
-                                   {&position, study.effort.past_travel * rough.travel, by_harmonics(false)}};
-  std::vector<double> lines = given_periods(study.options.known);
-  const auto standing = standing_lines(ripples_of(played), study.train);
-  if (!standing.empty()) lines.push_back(standing.front().line.periods);
-  for (const double n : lines) variants.push_back({&position, 2.0 * kPi / n, by_harmonics(true)});
-  const auto& excluded = study.options.excluded;
-  std::erase_if(variants, [&](const Variant& v) {
-    return std::find(excluded.begin(), excluded.end(), v.entry->name) != excluded.end();
-  });
-  return variants;
-}
-
-ReferenceModel with_law(ReferenceModel model, const Variant& v) {
+ReferenceModel with_law(ReferenceModel model, const LawVariant& v) {
   ModelEffect effect;
   effect.entry = v.entry;
   for (std::size_t i = 0; i < v.entry->parameters.size(); ++i) effect.parameters[i].value = 0.0;
@@ -85,10 +39,15 @@ void keep_lower(FittedModel& best, FittedModel other) {
   if (costs_less(other, best)) best = std::move(other);
 }
 
+FittedModel fit_from(const Study& study, const FittedModel& from, const reference::RefineEffort& effort) {
+  const reference::ModelFit fit(study.train, from.model, study.options.fit, study.observer_hz);
+  return fitted_at(fit, fit.refine_with_loads_placed(fit.point_of(from.model, from.starts), effort));
+}
+
 /// A law over a model: its levels, each as far as it has been fitted.
 class LawFit {
  public:
-  LawFit(const Study& study, const ScoredModel& before, const Variant& variant)
+  LawFit(const Study& study, const ScoredModel& before, const LawVariant& variant)
       : study_(&study), variant_(variant), fitted_(variant.levels.size()) {
     origin_ = before.fitted;
     origin_.model = with_law(origin_.model, variant);
@@ -110,13 +69,27 @@ class LawFit {
     }
   }
 
+  /// Level by level on the model's own drive, as long as what is held out asks for more.
+  void climb() {
+    FittedModel from = origin_;
+    double least = kInfinity;
+    for (std::size_t i = 0; i < fitted_.size(); ++i) {
+      FittedModel here = quickly(from, i);
+      if (!(here.mean_cost < kInfinity)) return;
+      const double score = judged(*study_, *variant_.entry, here).score;
+      if (!(score < least)) return;
+      least = score;
+      fitted_[i] = from = std::move(here);
+    }
+  }
+
   /// Level by level to the end, until one explains what was fitted.
   void refine() {
     for (std::size_t i = 0; i < fitted_.size(); ++i) {
       FittedModel& here = fitted_[i];
       if (i > 0 && costs_less(fitted_[i - 1], here)) keep_lower(here, quickly(fitted_[i - 1], i));
       if (!(here.mean_cost < kInfinity)) continue;
-      keep_lower(here, fit_from(here, {}));
+      keep_lower(here, fit_from(*study_, here, {}));
       if (!(here.mean_cost < kExplained) && study_->observer_hz < kMeasure.fast_hz)
         keep_lower(here, led_by_faster_observer(*study_, here));
       if (here.mean_cost < kExplained) break;
@@ -135,21 +108,16 @@ class LawFit {
   }
 
  private:
-  FittedModel fit_from(const FittedModel& from, const reference::RefineEffort& effort) const {
-    const reference::ModelFit fit(study_->train, from.model, study_->options.fit, study_->observer_hz);
-    return fitted_at(fit, fit.refine_with_loads_placed(fit.point_of(from.model, from.starts), effort));
-  }
-
   FittedModel quickly(FittedModel from, std::size_t level) const {
-    const Level& l = variant_.levels[level];
+    const LawLevel& l = variant_.levels[level];
     auto& settings = from.model.effects.back().parameters;
     settings[0].estimate = l.period;
     for (std::size_t i = l.first; i <= l.last; ++i) settings[i].estimate = true;
-    return fit_from(from, study_->effort.quick);
+    return fit_from(*study_, from, study_->effort.quick);
   }
 
   const Study* study_;
-  Variant variant_;
+  LawVariant variant_;
   FittedModel origin_;               ///< the model without the law
   std::vector<FittedModel> fitted_;  ///< of each level
 };
@@ -160,13 +128,42 @@ struct FittedLaws {
   FittedModel closest;              ///< the one that leaves least of what was fitted
 };
 
+/// Every law with the level that serves best, best first.
+std::vector<ScoredModel> ranked(const std::vector<LawFit>& laws) {
+  std::vector<ScoredModel> all;
+  for (const LawFit& law : laws) all.push_back(law.best());
+  std::erase_if(all, [](const ScoredModel& law) { return law.entry == nullptr; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const ScoredModel& a, const ScoredModel& b) { return a.score < b.score; });
+  return all;
+}
+
+std::vector<LawFit> laws_over(const Study& study, const ScoredModel& before) {
+  std::vector<LawFit> laws;
+  for (const LawVariant& v : law_variants(study, before)) laws.emplace_back(study, before, v);
+  return laws;
+}
+
+/// On a drive that is known each law climbs by itself, and the best is refined to the end.
+FittedLaws laws_of_known_drive(const Study& study, const ScoredModel& before) {
+  std::vector<LawFit> laws = laws_over(study, before);
+  parallel_for(laws.size(), study.options.threads, [&](std::size_t i) { laws[i].climb(); });
+  FittedLaws found{ranked(laws), {}};
+  if (found.judged.empty()) return found;
+  ScoredModel& best = found.judged.front();
+  FittedModel refined = fit_from(study, best.fitted, {});
+  if (!costs_less(refined, best.fitted)) return found;
+  if (ScoredModel better = judged(study, *best.entry, std::move(refined)); better.score < best.score)
+    best = std::move(better);
+  return found;
+}
+
 /// All laws race from the fitted drive, which may have drifted to hide what is missing, and from others. The
 /// leader is refined first; the rest then begin on its drive, too, and where it does not explain what was
 /// fitted, they are refined as well.
 FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
                        const std::vector<ReferenceModel>& other_drives) {
-  std::vector<LawFit> laws;
-  for (const Variant& v : variants_of(study, before)) laws.emplace_back(study, before, v);
+  std::vector<LawFit> laws = laws_over(study, before);
   if (laws.empty()) return {};
   parallel_for(laws.size(), study.options.threads, [&](std::size_t i) {
     laws[i].race_on(before.fitted.model);
@@ -182,13 +179,9 @@ FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
     laws[i + 1].race_on(found.closest.model);
     if (!explained) laws[i + 1].refine();
   });
-  for (const LawFit& law : laws) {
+  for (const LawFit& law : laws)
     if (costs_less(law.closest(), found.closest)) found.closest = law.closest();
-    found.judged.push_back(law.best());
-  }
-  std::erase_if(found.judged, [](const ScoredModel& law) { return law.entry == nullptr; });
-  std::stable_sort(found.judged.begin(), found.judged.end(),
-                   [](const ScoredModel& a, const ScoredModel& b) { return a.score < b.score; });
+  found.judged = ranked(laws);
   return found;
 }
 
@@ -238,13 +231,14 @@ double score_beside(const LawSearch& law, const ScoredModel& model) {
   return full_score(law.wider ? fitted_and_judged(*law.wider, model) : model);
 }
 
-std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model) {
+std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model, bool drive_known) {
   if (at_floor(model) || !(model.fitted.mean_cost < kInfinity)) return {};
   LawSearch found;
   found.before = as_base(model);
   study.options.progress("laying free-form laws over what remains");
-  FittedLaws laws = fitted_laws(study, found.before, {study.sheet});
-  if (asks_far_too_little(study, laws)) {
+  FittedLaws laws = drive_known ? laws_of_known_drive(study, found.before)
+                                : fitted_laws(study, found.before, {study.sheet});
+  if (!drive_known && asks_far_too_little(study, laws)) {
     const auto wider = std::make_shared<Study>(study);
     fit_half_of_the_held_out(*wider);
     found.wider = wider;

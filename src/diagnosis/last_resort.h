@@ -27,7 +27,10 @@ std::string variable_of(const EffectEntry& entry);
 /// Every law of last resort on top of a model, with as few nodes or harmonics as what is held out asks for,
 /// refitted by the simulator and judged like an effect. Nothing where the model is at the floor or no law
 /// shrinks the held-out error as a step must.
-std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model);
+/// @param drive_known  the torque balance has found the model's drive: laws race on it alone, and the best is
+///   refined, since far above the floor none explains all that was fitted
+std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model,
+                                            bool drive_known = false);
 
 /// S with all that was estimated of the effects counted: models of several effects and laws side by side.
 double full_score(const ScoredModel& model);

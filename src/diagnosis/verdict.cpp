@@ -65,7 +65,7 @@ Diagnosis verdict_on(const Study& study, const Findings& found, const Additions&
                      const TorqueSearch& ladder, bool explains) {
   if (!ladder.added.empty()) {
     Diagnosis d = report_ladder(study, found, ladder);
-    tell_law(study, search_last_resort(study, ladder.after), d);
+    tell_law(study, search_last_resort(study, ladder.after, true), d);
     return d;
   }
   if (added.accepted) return report_effects(study, found, added);

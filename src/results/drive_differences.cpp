@@ -105,11 +105,12 @@ void add_misfit(const DriveReport& r, Lines& lines) {
   if (!r.reference->converged()) return;
   const double floors = r.reference->innovation_rmse / r.reference->floor;
   if (floors > kUnexplained)
-    lines.push_back(fmt::format(
-        "{}: the model leaves more than the encoder explains (prediction error {:.2g} encoder floors): a change "
-        "of what it lacks "
-        "moves every number of the reference, and their intervals do not hold that",
-        r.folder, floors));
+    lines.push_back(
+        fmt::format("{}: the model leaves more than the encoder explains (prediction error {:.2g} encoder "
+                    "floors): a change "
+                    "of what it lacks "
+                    "moves every number of the reference, and their intervals do not hold that",
+                    r.folder, floors));
 }
 
 }  // namespace

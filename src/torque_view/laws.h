@@ -24,7 +24,7 @@ struct Scales {
   double start = 0.0, duration = 1.0;  ///< [s]
   double speed_std = 1.0, speed_rms = 1.0, top_speed = 1.0;
   double travel = 1.0, torque_rms = 1.0;
-  double hz = 1.0;   ///< top of the band
+  double hz = 1.0;        ///< top of the band
   ShaftTurns turns = {};  ///< along 2π; none of a slide
   bool held_output = false;
   bool one_speed = false;  ///< a recording has one

@@ -211,8 +211,9 @@ TEST(DriveChanges, OtherRecordingsAndPoorModelsAreTold) {
   EXPECT_THAT(c.warnings[0],
               HasSubstr("b: another excitation or another encoder than in a (input rms 0.3 instead of "
                         "0.4 units of u, input frequency 2.5 instead of 1 Hz)"));
-  EXPECT_THAT(c.warnings[1],
-              HasSubstr("c: the model leaves more than the encoder explains (prediction error 5 encoder floors)"));
+  EXPECT_THAT(
+      c.warnings[1],
+      HasSubstr("c: the model leaves more than the encoder explains (prediction error 5 encoder floors)"));
   EXPECT_THAT(c.warnings[2], HasSubstr("d: the recording is the one of a"));
 }
 
