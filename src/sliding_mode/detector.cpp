@@ -229,7 +229,7 @@ GapEstimate detect_auto(std::span<const MotorTrace> recordings, std::vector<Impa
                         const DetectorOptions& options) {
   GapEstimate estimate = internal::sliding_mode::decide_gap(analyses, intervals);
   if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
-  const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.of_all || options.locked);
+  const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.decides || options.locked);
   if (estimate.verdict != GapVerdict::kBacklash && loops.estimate && ask_loop) return *loops.estimate;
   if (options.locked) speak_of_locked_output(loops, estimate);
   return estimate;

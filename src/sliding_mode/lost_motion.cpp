@@ -14,6 +14,7 @@ namespace gapscope::internal::sliding_mode {
 namespace {
 
 constexpr double kFollowing = 0.75;      ///< least share of the travel that goes with the change of u
+constexpr double kQuasiStatic = 0.9;     ///< the same of a motion in which nothing coasts, for a verdict
 constexpr std::size_t kFewestRamps = 3;  ///< of a loop, to either side together
 
 /// A recording that is a loop.
@@ -120,7 +121,9 @@ LoopSearch read_lost_motion(std::span<const MotorTrace> recordings,
     resolution = std::max(resolution, facts[i].noise);
     least_way = std::max(least_way, facts[i].least_way());
   }
-  search.of_all = !loops.empty() && loops.size() == recordings.size();
+  search.decides = !loops.empty() && loops.size() == recordings.size() &&
+                   std::all_of(loops.begin(), loops.end(),
+                               [](const Loop& l) { return l.cycles.following >= kQuasiStatic; });
   const std::vector<TorqueLevel> levels = levels_of(loops, resolution, least_way);
   if (levels.empty()) {
     if (search.why_not.empty()) search.why_not = words::few_torque_ramps(0);

@@ -27,8 +27,8 @@ namespace gapscope::internal::sliding_mode {
 struct LoopSearch {
   /// Verdict and lost motion; nothing where no recording has a loop.
   std::optional<GapEstimate> estimate;
-  bool of_all = false;  ///< every recording has one
-  Remark why_not;       ///< what keeps the first recording without one from it
+  bool decides = false;  ///< every recording has one, so quasi-static that no free load coasts in it
+  Remark why_not;        ///< what keeps the first recording without one from it
 };
 
 /// @param facts  one per recording
