@@ -104,6 +104,20 @@ void rank(std::vector<ScoredModel>& candidates, const DecisionRule& rule) {
     std::rotate(candidates.begin(), found, std::next(found));
 }
 
+namespace {
+
+/// Whether a rival explains what was fitted clearly better than the best on what is held out: the law of the
+/// drive does both best. What contains the best always fits it no worse.
+bool fits_better(const ScoredModel& rival, const ScoredModel& best, const ScoredModel& before,
+                 const DecisionRule& rule) {
+  if (contained_effect(*rival.entry) == best.entry) return false;
+  if (reads_counts(*rival.entry) || reads_counts(*best.entry)) return false;
+  return before.score - rival.score >= rule.indistinct &&
+         rival.fitted.mean_cost < (1.0 - rule.part) * best.fitted.mean_cost;
+}
+
+}  // namespace
+
 Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
                 std::span<const ScoredModel> excluded_parents, const DecisionRule& rule) {
   Decision d;
@@ -141,6 +155,10 @@ Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& befor
 Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
                       std::span<const ScoredModel> excluded_parents, const DecisionRule& rule) {
   Decision d = decide(ranked, before, reach, excluded_parents, rule);
+  for (const ScoredModel& c : ranked)
+    if (std::find(d.group.begin(), d.group.end(), c.entry) == d.group.end() &&
+        fits_better(c, ranked.front(), before, rule))
+      d.accepted = false, d.group.push_back(c.entry);
   d.in_part = d.accepted && reach == Reach::kFloor && leaves_a_part(ranked.front(), before, rule);
   d.accepted = d.accepted && !d.in_part;
   return d;
