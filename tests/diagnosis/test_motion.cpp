@@ -84,8 +84,9 @@ std::string answer_to(const Recording& file) {
   drive.sheet.parameters[place::kMotorInertia].estimate = false;
   drive.sheet.parameters[place::kMotorDamping] = {0.05, true, 0.0, 0.1, {}};  // does not hold it still
   DiagnosisOptions options;
-  for (const EffectEntry* e : effect_table())
-    if (e->name != std::string("motor_coulomb_friction")) options.excluded.emplace_back(e->name);
+  for (const auto table : {effect_table(), last_resort_table()})
+    for (const EffectEntry* e : table)
+      if (e->name != std::string("motor_coulomb_friction")) options.excluded.emplace_back(e->name);
   const MotorTrace trace = file.motor_trace();
   std::string warnings;
   const std::string refused = refusal([&] {
