@@ -189,7 +189,10 @@ FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
 bool asks_far_too_little(const Study& study, const FittedLaws& laws) {
   if (!may_fit_half_of_the_held_out(study) || !(laws.closest.mean_cost < kRule.near_floor)) return false;
   const ScoredModel closest = judge(nullptr, laws.closest, study.held_out, study.observer_hz);
-  return leaves_far_more_held_out(closest, laws.closest.mean_cost);
+  // Its median may lie among windows that move no farther than what was fitted.
+  const double typical = std::exp(0.5 * log_score(closest.windows));
+  return leaves_far_more_held_out(closest, laws.closest.mean_cost) ||
+         typical > kRule.far * std::sqrt(laws.closest.mean_cost);
 }
 
 /// A fitted model once more, by what a study fits and holds out.
@@ -241,10 +244,15 @@ std::optional<LawSearch> search_last_resort(const Study& study, const ScoredMode
   if (!drive_known && asks_far_too_little(study, laws)) {
     const auto wider = std::make_shared<Study>(study);
     fit_half_of_the_held_out(*wider);
-    found.wider = wider;
-    found.before = as_base(fitted_and_judged(*wider, found.before));
-    if (at_floor(found.before) || !(found.before.fitted.mean_cost < kInfinity)) return {};
-    laws = fitted_laws(*wider, found.before, {study.sheet, laws.closest.model});
+    ScoredModel before = as_base(fitted_and_judged(*wider, found.before));
+    if (!(before.fitted.mean_cost < kInfinity)) return {};
+    if (at_floor(before)) {
+      if (before.fitted.mean_cost < kRule.near_floor) return {};
+    } else {  // else what is left to judge asks for nothing, where what was fitted does
+      found.wider = wider;
+      found.before = std::move(before);
+      laws = fitted_laws(*wider, found.before, {study.sheet, laws.closest.model});
+    }
   }
   if (laws.judged.empty()) return {};
   ScoredModel& best = laws.judged.front();

@@ -5,11 +5,13 @@
 #include "diagnosis/last_resort.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/tell_budget.h"
+#include "plant/effects/node_curve.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr int kPositionPoints = 24;  ///< of a table over a period or over the travel
+constexpr int kPointsInPiece = 4;    ///< of a table by nodes, from one to the next
 constexpr int kPictureBins = 40;     ///< of a picture
 
 /// A point of the curve as a sum of the law's parameters: torque = Σ weight · parameter.
@@ -19,25 +21,31 @@ struct WeightedPoint {
   reference::WeightedSum sum;
 };
 
-/// Both halves of a curve by nodes at (k/n)² of the abscissa, from the largest negative value on.
+/// Both halves of a curve by nodes, from the largest negative value on, as densely as lines between the
+/// points follow it.
 /// @param first node that has a parameter
 /// @param unit torque on the motor per unit of the parameter, for a positive abscissa
-std::vector<WeightedPoint> node_points(const ReferenceModel& model, int first, int n, double unit,
-                                       bool friction) {
+template <int N>
+std::vector<WeightedPoint> node_points(const ReferenceModel& model, int first, double unit, bool friction) {
   const int effect = static_cast<int>(model.effects.size()) - 1;
   const double abscissa = model.effects.back().parameters[0].value;
-  const int count = n - first;
+  const int last = kPointsInPiece * N;
   std::vector<WeightedPoint> points;
-  const auto add = [&](int k, int s) {
-    WeightedPoint p{k == 0 ? 0.0 : s * abscissa * k * k / (n * n), friction ? s : 0, {}};
-    const int place = 1 + k - first;
-    p.sum = {{{effect, place + count}, unit}};
-    if (k < n) p.sum.push_back({{effect, place}, s * unit});
+  const auto add = [&](int i, int s) {
+    const double share = static_cast<double>(i * i) / (last * last);
+    WeightedPoint p{i == 0 ? 0.0 : s * abscissa * share, friction ? s : 0, {}};
+    const plant::NodeWeights<N> weights(share);
+    for (int k = first; k <= N; ++k) {
+      const int place = 1 + k - first;
+      p.sum.push_back({{effect, place + N - first}, unit * weights.value(k)});
+      if (k < N) p.sum.push_back({{effect, place}, s * unit * weights.value(k)});
+    }
     points.push_back(p);
   };
-  for (int k = n; k >= first; --k) add(k, -1);
-  if (!friction) points.push_back({0.0, 0, {}});
-  for (int k = first; k <= n; ++k) add(k, 1);
+  for (int i = last; i > 0; --i) add(i, -1);
+  if (friction) add(0, -1);
+  add(0, 1);
+  for (int i = 1; i <= last; ++i) add(i, 1);
   return points;
 }
 
@@ -73,9 +81,9 @@ std::vector<WeightedPoint> position_points(const Study& study, const ReferenceMo
 
 std::vector<WeightedPoint> points_of(const Study& study, const ReferenceModel& model) {
   const std::string variable = variable_of(*model.effects.back().entry);
-  if (variable == "speed") return node_points(model, 0, 6, -1.0, true);
+  if (variable == "speed") return node_points<6>(model, 0, -1.0, true);
   if (variable == "input")
-    return node_points(model, 1, 7, model.parameters[place::kTorqueConstant].value, false);
+    return node_points<7>(model, 1, model.parameters[place::kTorqueConstant].value, false);
   return position_points(study, model);
 }
 

@@ -36,12 +36,12 @@ TEST(LastResort, AFrictionWithAMaximumIsAFunctionOfSpeed) {
   EXPECT_EQ(law.variable, "speed");
   EXPECT_GT(law.shrink, 0.7);
   EXPECT_LT(law.after_torque, law.before_torque);
-  ASSERT_EQ(law.curve.size(), 14u);  // seven nodes in each direction, backward first
+  ASSERT_EQ(law.curve.size(), 50u);  // four points in each of six pieces of each direction, backward first
   EXPECT_LT(law.curve.front().at, 0.0);
-  EXPECT_EQ(law.curve[6].at, 0.0);
-  EXPECT_EQ(law.curve[7].at, 0.0);
-  EXPECT_EQ(law.curve[6].direction, -1);
-  EXPECT_EQ(law.curve[7].direction, 1);
+  EXPECT_EQ(law.curve[24].at, 0.0);
+  EXPECT_EQ(law.curve[25].at, 0.0);
+  EXPECT_EQ(law.curve[24].direction, -1);
+  EXPECT_EQ(law.curve[25].direction, 1);
   for (const CurvePoint& p : law.curve) EXPECT_LE(p.ci95.low, p.torque);
   EXPECT_FALSE(law.residual.empty());
 }
