@@ -89,7 +89,7 @@ class LawFit {
       FittedModel& here = fitted_[i];
       if (i > 0 && costs_less(fitted_[i - 1], here)) keep_lower(here, quickly(fitted_[i - 1], i));
       if (!(here.mean_cost < kInfinity)) continue;
-      keep_lower(here, fit_from(*study_, here, {}));
+      settle(here);
       if (!(here.mean_cost < kExplained) && study_->observer_hz < kMeasure.fast_hz)
         keep_lower(here, led_by_faster_observer(*study_, here));
       if (here.mean_cost < kExplained) break;
@@ -108,6 +108,16 @@ class LawFit {
   }
 
  private:
+  /// Refines as long as a round takes what is worth having: a curve's values act on each other and on the
+  /// drive's numbers, and one round ends before they have settled.
+  void settle(FittedModel& here) const {
+    for (int round = 0; round < study_->effort.law_rounds; ++round) {
+      const double worth = (1.0 - kRule.part) * here.mean_cost;
+      keep_lower(here, fit_from(*study_, here, {}));
+      if (here.mean_cost < kExplained || !(here.mean_cost < worth)) return;
+    }
+  }
+
   FittedModel quickly(FittedModel from, std::size_t level) const {
     const LawLevel& l = variant_.levels[level];
     auto& settings = from.model.effects.back().parameters;

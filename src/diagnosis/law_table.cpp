@@ -152,7 +152,7 @@ LastResortLaw told(const Study& first, const LawSearch& found) {
   for (const ModelEffect& e : found.before.fitted.model.effects) law.on_top_of.emplace_back(e.entry->name);
   law.parameters = effect_values(found.after.fitted.model.effects.back());
   const MismatchSize size = mismatch_size(study, found.before, found.after);
-  law.shrink = size.shrink, law.shrink_ci95 = size.shrink_ci95;
+  law.shrink = size.shrink, law.shrink_ci95 = law_shrink_interval(study, found.before, found.after);
   law.before = size.before, law.after = size.after;
   law.curve = curve_of(study, found.after);
   const auto before = play(found.before.fitted.model, study.held_out, study.observer_hz, true);
