@@ -6,6 +6,7 @@
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/tell_budget.h"
 #include "plant/effects/node_curve.h"
+#include "signals/one_body.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -21,19 +22,31 @@ struct WeightedPoint {
   reference::WeightedSum sum;
 };
 
-/// Both halves of a curve by nodes, from the largest negative value on, as densely as lines between the
-/// points follow it.
+/// Where a curve by nodes is told, in its abscissa: as densely as lines between the points follow it, and
+/// where it has levelled off before the largest value.
+template <int N>
+std::vector<double> shares_told(double largest) {
+  std::vector<double> shares;
+  const int last = kPointsInPiece * N;
+  for (int i = 0; i <= last; ++i) shares.push_back(static_cast<double>(i * i) / (last * last));
+  if (const double level = 1.0 + plant::NodeWeights<N>::kLevelledOver; largest > level)
+    shares.insert(shares.end(), {level, largest});
+  return shares;
+}
+
+/// Both halves of a curve by nodes, from the largest negative value on.
+/// @param largest value that is told
 /// @param first node that has a parameter
 /// @param unit torque on the motor per unit of the parameter, for a positive abscissa
 template <int N>
-std::vector<WeightedPoint> node_points(const ReferenceModel& model, int first, double unit, bool friction) {
+std::vector<WeightedPoint> node_points(const ReferenceModel& model, double largest, int first, double unit,
+                                       bool friction) {
   const int effect = static_cast<int>(model.effects.size()) - 1;
   const double abscissa = model.effects.back().parameters[0].value;
-  const int last = kPointsInPiece * N;
+  const std::vector<double> shares = shares_told<N>(largest / abscissa);
   std::vector<WeightedPoint> points;
-  const auto add = [&](int i, int s) {
-    const double share = static_cast<double>(i * i) / (last * last);
-    WeightedPoint p{i == 0 ? 0.0 : s * abscissa * share, friction ? s : 0, {}};
+  const auto add = [&](double share, int s) {
+    WeightedPoint p{share == 0.0 ? 0.0 : s * abscissa * share, friction ? s : 0, {}};
     const plant::NodeWeights<N> weights(share);
     for (int k = first; k <= N; ++k) {
       const int place = 1 + k - first;
@@ -42,10 +55,9 @@ std::vector<WeightedPoint> node_points(const ReferenceModel& model, int first, d
     }
     points.push_back(p);
   };
-  for (int i = last; i > 0; --i) add(i, -1);
-  if (friction) add(0, -1);
-  add(0, 1);
-  for (int i = 1; i <= last; ++i) add(i, 1);
+  for (std::size_t i = shares.size() - 1; i > 0; --i) add(shares[i], -1);
+  if (friction) add(0.0, -1);
+  for (const double share : shares) add(share, 1);
   return points;
 }
 
@@ -81,9 +93,10 @@ std::vector<WeightedPoint> position_points(const Study& study, const ReferenceMo
 
 std::vector<WeightedPoint> points_of(const Study& study, const ReferenceModel& model) {
   const std::string variable = variable_of(*model.effects.back().entry);
-  if (variable == "speed") return node_points<6>(model, 0, -1.0, true);
+  const signals::OneBody rough = signals::as_one_body(study.train);
+  if (variable == "speed") return node_points<6>(model, rough.peak_speed, 0, -1.0, true);
   if (variable == "input")
-    return node_points<7>(model, 1, model.parameters[place::kTorqueConstant].value, false);
+    return node_points<7>(model, rough.peak_input, 1, model.parameters[place::kTorqueConstant].value, false);
   return position_points(study, model);
 }
 

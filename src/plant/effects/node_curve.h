@@ -49,6 +49,7 @@ template <int N>
 class NodeWeights {
  public:
   using Row = typename Nodes<N>::Row;
+  static constexpr double kLevelledOver = 0.25 * Nodes<N>::width(N - 1);
 
   explicit NodeWeights(double s) {
     const int piece = piece_at<N>(s);
@@ -66,7 +67,6 @@ class NodeWeights {
 
  private:
   static constexpr auto kCurvatures = Nodes<N>::curvatures();
-  static constexpr double kLevelledOver = 0.25 * Nodes<N>::width(N - 1);
 
   void cubic(int piece, double s) {
     const double h = Nodes<N>::width(piece), b = (s - Nodes<N>::at(piece)) / h, a = 1.0 - b;
