@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/law_variants.h"
+#include "diagnosis/motion.h"
 #include "diagnosis/step.h"
 #include "gapscope/base/parallel.h"
 
@@ -218,6 +219,20 @@ ScoredModel as_base(ScoredModel model) {
   return model;
 }
 
+/// Lays the laws over the model with the first half of what is held out among what is fitted, too; not where
+/// the other half shows a drive at rest, which asks for nothing.
+/// @returns whether a law is asked for at all
+bool widen(const Study& study, LawSearch& found, FittedLaws& laws) {
+  const auto wider = std::make_shared<Study>(study);
+  fit_half_of_the_held_out(*wider);
+  if (mostly_rests(wider->held_out)) return true;
+  found.wider = wider;
+  found.before = as_base(fitted_and_judged(*wider, found.before));
+  if (at_floor(found.before) || !(found.before.fitted.mean_cost < kInfinity)) return false;
+  laws = fitted_laws(*wider, found.before, {study.sheet, laws.closest.model});
+  return true;
+}
+
 }  // namespace
 
 std::string variable_of(const EffectEntry& entry) {
@@ -251,19 +266,7 @@ std::optional<LawSearch> search_last_resort(const Study& study, const ScoredMode
   study.options.progress("laying free-form laws over what remains");
   FittedLaws laws = drive_known ? laws_of_known_drive(study, found.before)
                                 : fitted_laws(study, found.before, {study.sheet});
-  if (!drive_known && asks_far_too_little(study, laws)) {
-    const auto wider = std::make_shared<Study>(study);
-    fit_half_of_the_held_out(*wider);
-    ScoredModel before = as_base(fitted_and_judged(*wider, found.before));
-    if (!(before.fitted.mean_cost < kInfinity)) return {};
-    if (at_floor(before)) {
-      if (before.fitted.mean_cost < kRule.near_floor) return {};
-    } else {  // else what is left to judge asks for nothing, where what was fitted does
-      found.wider = wider;
-      found.before = std::move(before);
-      laws = fitted_laws(*wider, found.before, {study.sheet, laws.closest.model});
-    }
-  }
+  if (!drive_known && asks_far_too_little(study, laws) && !widen(study, found, laws)) return {};
   if (laws.judged.empty()) return {};
   ScoredModel& best = laws.judged.front();
   if (!(found.before.score - best.score >= kRule.tells_apart) ||

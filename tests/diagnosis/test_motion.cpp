@@ -70,6 +70,14 @@ TEST(Motion, AModelLeavesOfItWhatItsFreeRunsMiss) {
   EXPECT_EQ(motion_left(held_out, leaving(held_out, 1.0)), "");
 }
 
+TEST(Motion, ADriveThatComesToRestEarlyMostlyRests) {
+  const auto moves_until = [](double end) {
+    return judged_by(recording_of([=](double t) { return 0.1 * std::sin(2.0 * kPi * std::min(t, end)); }));
+  };
+  EXPECT_TRUE(mostly_rests(moves_until(1.3)));
+  EXPECT_FALSE(mostly_rests(moves_until(3.7)));
+}
+
 TEST(Motion, WhereX1StandsStillNothingIsExplained) {
   const Recording start = recording_of([](double t) { return t < 0.4 ? 0.1 * t : 0.04; });
   const HeldOut held_out = judged_by(start);  // the first window is the observer's
