@@ -71,11 +71,12 @@ TEST(Motion, AModelLeavesOfItWhatItsFreeRunsMiss) {
 }
 
 TEST(Motion, ADriveThatComesToRestEarlyMostlyRests) {
-  const auto moves_until = [](double end) {
-    return judged_by(recording_of([=](double t) { return 0.1 * std::sin(2.0 * kPi * std::min(t, end)); }));
+  const auto moving_until = [](double end) {
+    return recording_of([=](double t) { return 0.1 * std::sin(2.0 * kPi * std::min(t, end)); });
   };
-  EXPECT_TRUE(mostly_rests(moves_until(1.3)));
-  EXPECT_FALSE(mostly_rests(moves_until(3.7)));
+  const Recording resting = moving_until(1.3), moving = moving_until(3.7);
+  EXPECT_TRUE(mostly_rests(judged_by(resting)));
+  EXPECT_FALSE(mostly_rests(judged_by(moving)));
 }
 
 TEST(Motion, WhereX1StandsStillNothingIsExplained) {
