@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/law_variants.h"
+#include "diagnosis/motion.h"
 #include "diagnosis/step.h"
 #include "gapscope/base/parallel.h"
 
@@ -89,7 +90,7 @@ class LawFit {
       FittedModel& here = fitted_[i];
       if (i > 0 && costs_less(fitted_[i - 1], here)) keep_lower(here, quickly(fitted_[i - 1], i));
       if (!(here.mean_cost < kInfinity)) continue;
-      keep_lower(here, fit_from(*study_, here, {}));
+      settle(here);
       if (!(here.mean_cost < kExplained) && study_->observer_hz < kMeasure.fast_hz)
         keep_lower(here, led_by_faster_observer(*study_, here));
       if (here.mean_cost < kExplained) break;
@@ -108,6 +109,16 @@ class LawFit {
   }
 
  private:
+  /// Refines as long as a round takes what is worth having: a curve's values act on each other and on the
+  /// drive's numbers, and one round ends before they have settled.
+  void settle(FittedModel& here) const {
+    for (int round = 0; round < study_->effort.law_rounds; ++round) {
+      const double worth = (1.0 - kRule.part) * here.mean_cost;
+      keep_lower(here, fit_from(*study_, here, {}));
+      if (here.mean_cost < kExplained || !(here.mean_cost < worth)) return;
+    }
+  }
+
   FittedModel quickly(FittedModel from, std::size_t level) const {
     const LawLevel& l = variant_.levels[level];
     auto& settings = from.model.effects.back().parameters;
@@ -189,7 +200,10 @@ FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
 bool asks_far_too_little(const Study& study, const FittedLaws& laws) {
   if (!may_fit_half_of_the_held_out(study) || !(laws.closest.mean_cost < kRule.near_floor)) return false;
   const ScoredModel closest = judge(nullptr, laws.closest, study.held_out, study.observer_hz);
-  return leaves_far_more_held_out(closest, laws.closest.mean_cost);
+  // Its median may lie among windows that move no farther than what was fitted.
+  const double typical = std::exp(0.5 * log_score(closest.windows));
+  return leaves_far_more_held_out(closest, laws.closest.mean_cost) ||
+         typical > kRule.far * std::sqrt(laws.closest.mean_cost);
 }
 
 /// A fitted model once more, by what a study fits and holds out.
@@ -203,6 +217,20 @@ ScoredModel as_base(ScoredModel model) {
   model.entry = nullptr;
   model.score = log_score(model.windows);
   return model;
+}
+
+/// Lays the laws over the model with the first half of what is held out among what is fitted, too; not where
+/// the other half shows a drive at rest, which asks for nothing.
+/// @returns whether a law is asked for at all
+bool widen(const Study& study, LawSearch& found, FittedLaws& laws) {
+  const auto wider = std::make_shared<Study>(study);
+  fit_half_of_the_held_out(*wider);
+  if (mostly_rests(wider->held_out)) return true;
+  found.wider = wider;
+  found.before = as_base(fitted_and_judged(*wider, found.before));
+  if (at_floor(found.before) || !(found.before.fitted.mean_cost < kInfinity)) return false;
+  laws = fitted_laws(*wider, found.before, {study.sheet, laws.closest.model});
+  return true;
 }
 
 }  // namespace
@@ -238,14 +266,7 @@ std::optional<LawSearch> search_last_resort(const Study& study, const ScoredMode
   study.options.progress("laying free-form laws over what remains");
   FittedLaws laws = drive_known ? laws_of_known_drive(study, found.before)
                                 : fitted_laws(study, found.before, {study.sheet});
-  if (!drive_known && asks_far_too_little(study, laws)) {
-    const auto wider = std::make_shared<Study>(study);
-    fit_half_of_the_held_out(*wider);
-    found.wider = wider;
-    found.before = as_base(fitted_and_judged(*wider, found.before));
-    if (at_floor(found.before) || !(found.before.fitted.mean_cost < kInfinity)) return {};
-    laws = fitted_laws(*wider, found.before, {study.sheet, laws.closest.model});
-  }
+  if (!drive_known && asks_far_too_little(study, laws) && !widen(study, found, laws)) return {};
   if (laws.judged.empty()) return {};
   ScoredModel& best = laws.judged.front();
   if (!(found.before.score - best.score >= kRule.tells_apart) ||

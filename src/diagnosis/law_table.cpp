@@ -5,11 +5,14 @@
 #include "diagnosis/last_resort.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/tell_budget.h"
+#include "plant/effects/node_curve.h"
+#include "signals/one_body.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
 
 constexpr int kPositionPoints = 24;  ///< of a table over a period or over the travel
+constexpr int kPointsInPiece = 4;    ///< of a table by nodes, from one to the next
 constexpr int kPictureBins = 40;     ///< of a picture
 
 /// A point of the curve as a sum of the law's parameters: torque = Σ weight · parameter.
@@ -19,25 +22,42 @@ struct WeightedPoint {
   reference::WeightedSum sum;
 };
 
-/// Both halves of a curve by nodes at (k/n)² of the abscissa, from the largest negative value on.
+/// Where a curve by nodes is told, in its abscissa: as densely as lines between the points follow it, and
+/// where it has levelled off before the largest value.
+template <int N>
+std::vector<double> shares_told(double largest) {
+  std::vector<double> shares;
+  const int last = kPointsInPiece * N;
+  for (int i = 0; i <= last; ++i) shares.push_back(static_cast<double>(i * i) / (last * last));
+  if (const double level = 1.0 + plant::NodeWeights<N>::kLevelledOver; largest > level)
+    shares.insert(shares.end(), {level, largest});
+  return shares;
+}
+
+/// Both halves of a curve by nodes, from the largest negative value on.
+/// @param largest value that is told
 /// @param first node that has a parameter
 /// @param unit torque on the motor per unit of the parameter, for a positive abscissa
-std::vector<WeightedPoint> node_points(const ReferenceModel& model, int first, int n, double unit,
+template <int N>
+std::vector<WeightedPoint> node_points(const ReferenceModel& model, double largest, int first, double unit,
                                        bool friction) {
   const int effect = static_cast<int>(model.effects.size()) - 1;
   const double abscissa = model.effects.back().parameters[0].value;
-  const int count = n - first;
+  const std::vector<double> shares = shares_told<N>(largest / abscissa);
   std::vector<WeightedPoint> points;
-  const auto add = [&](int k, int s) {
-    WeightedPoint p{k == 0 ? 0.0 : s * abscissa * k * k / (n * n), friction ? s : 0, {}};
-    const int place = 1 + k - first;
-    p.sum = {{{effect, place + count}, unit}};
-    if (k < n) p.sum.push_back({{effect, place}, s * unit});
+  const auto add = [&](double share, int s) {
+    WeightedPoint p{share == 0.0 ? 0.0 : s * abscissa * share, friction ? s : 0, {}};
+    const plant::NodeWeights<N> weights(share);
+    for (int k = first; k <= N; ++k) {
+      const int place = 1 + k - first;
+      p.sum.push_back({{effect, place + N - first}, unit * weights.value(k)});
+      if (k < N) p.sum.push_back({{effect, place}, s * unit * weights.value(k)});
+    }
     points.push_back(p);
   };
-  for (int k = n; k >= first; --k) add(k, -1);
-  if (!friction) points.push_back({0.0, 0, {}});
-  for (int k = first; k <= n; ++k) add(k, 1);
+  for (std::size_t i = shares.size() - 1; i > 0; --i) add(shares[i], -1);
+  if (friction) add(0.0, -1);
+  for (const double share : shares) add(share, 1);
   return points;
 }
 
@@ -73,9 +93,10 @@ std::vector<WeightedPoint> position_points(const Study& study, const ReferenceMo
 
 std::vector<WeightedPoint> points_of(const Study& study, const ReferenceModel& model) {
   const std::string variable = variable_of(*model.effects.back().entry);
-  if (variable == "speed") return node_points(model, 0, 6, -1.0, true);
+  const signals::OneBody rough = signals::as_one_body(study.train);
+  if (variable == "speed") return node_points<6>(model, rough.peak_speed, 0, -1.0, true);
   if (variable == "input")
-    return node_points(model, 1, 7, model.parameters[place::kTorqueConstant].value, false);
+    return node_points<7>(model, rough.peak_input, 1, model.parameters[place::kTorqueConstant].value, false);
   return position_points(study, model);
 }
 
@@ -144,7 +165,7 @@ LastResortLaw told(const Study& first, const LawSearch& found) {
   for (const ModelEffect& e : found.before.fitted.model.effects) law.on_top_of.emplace_back(e.entry->name);
   law.parameters = effect_values(found.after.fitted.model.effects.back());
   const MismatchSize size = mismatch_size(study, found.before, found.after);
-  law.shrink = size.shrink, law.shrink_ci95 = size.shrink_ci95;
+  law.shrink = size.shrink, law.shrink_ci95 = law_shrink_interval(study, found.before, found.after);
   law.before = size.before, law.after = size.after;
   law.curve = curve_of(study, found.after);
   const auto before = play(found.before.fitted.model, study.held_out, study.observer_hz, true);

@@ -30,9 +30,10 @@ std::vector<LawVariant> law_variants(const Study& study, const ScoredModel& mode
   const EffectEntry &friction = *find_effect("friction_curve"), &input = *find_effect("input_curve"),
                     &position = *find_effect("position_torque");
   std::vector<LawVariant> variants = {
-      {&friction, rough.peak_speed, by_direction(friction)},
       {&input, rough.peak_input, by_direction(input)},
       {&position, study.effort.past_travel * rough.travel, by_harmonics(false)}};
+  for (const double share : kSpeedShares)
+    variants.push_back({&friction, share * rough.peak_speed, by_direction(friction)});
   std::vector<double> lines = given_periods(study.options.known);
   const auto standing = standing_lines(ripples_of(played), study.train);
   if (!standing.empty()) lines.push_back(standing.front().line.periods);

@@ -26,13 +26,19 @@ double noise_gain(double hz, double dt) {
 
 /// Where the shrink of the next recording of the same drive lies, by its size in floors. Another excitation
 /// shows more or less of what is missing and of what remains, and near the floor recordings differ anyway.
+/// @param least, most  shares that a model may leave
+Interval shrink_interval(double before, double least, double most) {
+  const double room = std::max(before / kTelling.other_recording, std::min(before, 2.0)) - 1.0;
+  const double spread = kTelling.floor_spread / room;
+  return {1.0 - kTelling.other_recording * most - spread, 1.0 - least / kTelling.other_recording + spread};
+}
+
+/// The same of what leaves one share.
 Interval shrink_interval(double before, double shrink) {
   if (!std::isfinite(shrink)) return {};
-  const double room = std::max(before / kTelling.other_recording, std::min(before, 2.0)) - 1.0;
-  const double remaining = std::max(0.0, 1.0 - shrink), spread = kTelling.floor_spread / room;
-  const double low = 1.0 - kTelling.other_recording * remaining - spread;
-  const double high = 1.0 - remaining / kTelling.other_recording + spread;
-  return {std::min(low, shrink), std::max(high, shrink)};
+  const double remaining = std::max(0.0, 1.0 - shrink);
+  const Interval i = shrink_interval(before, remaining, remaining);
+  return {std::min(i.low, shrink), std::max(i.high, shrink)};
 }
 
 /// What a floor was read from.
@@ -89,6 +95,21 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
   if (&after != &before) size.shrink_ci95 = shrink_interval(b, size.shrink);
   size.remains = a;
   return size;
+}
+
+Interval law_shrink_interval(const Study& study, const ScoredModel& before, const ScoredModel& after) {
+  const auto windows = judged_windows(study);
+  const std::vector<double>&b = before.windows.*windows, &a = after.windows.*windows;
+  const double size = median_size(b), shrink = shrink_of(size, median_size(a));
+  if (!std::isfinite(shrink)) return {};
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < b.size(); ++i)
+    if (b[i] > kRule.floor_ratio * kRule.floor_ratio) shares.push_back(std::sqrt(a[i] / b[i]));
+  const double remaining = std::max(0.0, 1.0 - shrink);
+  const double most = std::max(remaining, std::sqrt(mean(a) / mean(b)));
+  const double least =
+      shares.empty() ? remaining : std::min(remaining, quantile(shares, kTelling.best_windows));
+  return shrink_interval(size, least, most);
 }
 
 std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<Playback>& before,

@@ -16,6 +16,12 @@ double judged_floor(const Study& study);
 
 MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const ScoredModel& after);
 
+/// Where the shrink of a free-form law lies on the next recording. Unlike a named law it holds no farther
+/// than it was fitted: the median may lie among windows where it does, while the next recording is one of
+/// those where it does not. So the share that it leaves lies between that of the best windows and that of the
+/// mean square, in which the worst ones count, and beyond them as far as that of any effect.
+Interval law_shrink_interval(const Study& study, const ScoredModel& before, const ScoredModel& after);
+
 /// Restarted free runs, innovations at both gains and the residual torque, side by side.
 std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<Playback>& before,
                                          const std::vector<Playback>& after);

@@ -32,6 +32,11 @@ void require_motion(const HeldOut& held_out) {
                     "x1 does not move where the model is judged, expected the recording of a motion");
 }
 
+bool mostly_rests(const HeldOut& held_out) {
+  const std::vector<double> still = still_windows(held_out);
+  return 2 * std::count_if(still.begin(), still.end(), moves) < std::ssize(still);
+}
+
 double unexplained_motion(const HeldOut& held_out, const ScoredModel& model) {
   const std::vector<double> still = still_windows(held_out);
   const std::vector<double>& left = model.windows.free;

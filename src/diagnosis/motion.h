@@ -13,6 +13,9 @@ void require_motion(const MotorTrace& recording);
 /// @throws ConfigError naming the first of the recordings that judge, where none of them moves in any window
 void require_motion(const HeldOut& held_out);
 
+/// Whether x1 stands still in most of the windows that judge: those ask for nothing.
+bool mostly_rests(const HeldOut& held_out);
+
 /// Share of the motion that a model leaves: error of its free runs over x1 about its mean, rms over a window,
 /// median over the windows in which x1 moves. A drive that stands still leaves 1. NaN: x1 moves in no window.
 double unexplained_motion(const HeldOut& held_out, const ScoredModel& model);

@@ -70,6 +70,15 @@ TEST(Motion, AModelLeavesOfItWhatItsFreeRunsMiss) {
   EXPECT_EQ(motion_left(held_out, leaving(held_out, 1.0)), "");
 }
 
+TEST(Motion, ADriveThatComesToRestEarlyMostlyRests) {
+  const auto moving_until = [](double end) {
+    return recording_of([=](double t) { return 0.1 * std::sin(2.0 * kPi * std::min(t, end)); });
+  };
+  const Recording resting = moving_until(1.3), moving = moving_until(3.7);
+  EXPECT_TRUE(mostly_rests(judged_by(resting)));
+  EXPECT_FALSE(mostly_rests(judged_by(moving)));
+}
+
 TEST(Motion, WhereX1StandsStillNothingIsExplained) {
   const Recording start = recording_of([](double t) { return t < 0.4 ? 0.1 * t : 0.04; });
   const HeldOut held_out = judged_by(start);  // the first window is the observer's

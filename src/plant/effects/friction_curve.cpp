@@ -13,8 +13,8 @@ namespace {
 struct FrictionCurve {
   static constexpr EffectSide side = EffectSide::kMotor;
   static constexpr const char* law =
-      "motor torque -s F(|w1|), s = sign(w1), set-valued at rest; F joins torque_k + s skew_k at "
-      "(k/6)^2 peak_speed, torque_6 = 0, and stays from there on";
+      "motor torque -s F(|w1|), s = sign(w1), set-valued at rest; F is the natural cubic spline through "
+      "torque_k + s skew_k at (k/6)^2 peak_speed, torque_6 = 0, and levels off from there on";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"peak_speed_rad_s", "rad/s", 1.0, 1.0, 1.0, Scale::kPeakSpeed},
@@ -63,11 +63,11 @@ struct FrictionCurve {
   template <class T>
   static double rate(const EffectPoint<T>& at, const T* p) {
     const double peak = value_of(p[0]);
-    const NodePlace<kNodes> place(std::abs(value_of(at.state.w1)) / peak);
-    if (place.piece == kNodes) return 0.0;
-    const double slope = std::abs(value_of(p[1 + place.piece])) + std::abs(value_of(p[7 + place.piece]));
+    const int piece = piece_at<kNodes>(std::abs(value_of(at.state.w1)) / peak);
+    if (piece == kNodes) return 0.0;
+    const double slope = std::abs(value_of(p[1 + piece])) + std::abs(value_of(p[7 + piece]));
     return 2.0 * (std::abs(value_of(at.drive_torque)) + slope) /
-           (value_of(at.plant.drive.motor_inertia) * peak * place.width);
+           (value_of(at.plant.drive.motor_inertia) * peak * Nodes<kNodes>::width(piece));
   }
 };
 

@@ -13,8 +13,8 @@ namespace {
 struct InputCurve {
   static constexpr EffectSide side = EffectSide::kCommand;
   static constexpr const char* law =
-      "u + s G(|u|) in place of u, s = sign(u); G joins change_k + s skew_k at (k/7)^2 peak_input, 0 at "
-      "rest, change_7 = 0, and stays from there on";
+      "u + s G(|u|) in place of u, s = sign(u); G is the natural cubic spline through change_k + s skew_k "
+      "at (k/7)^2 peak_input, 0 at rest, change_7 = 0, and levels off from there on";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"peak_input", "unit of u", 1.0, 1.0, 1.0, Scale::kPeakInput},

@@ -1,57 +1,109 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
-#include "gapscope/base/statistics.h"
 #include "gapscope/plant/scalar.h"
 
 namespace gapscope::internal::plant {
 
-/// Where a curve over [0, 1] with nodes at (k/N)², k = 0 ... N, is evaluated: closer nodes where most laws of
-/// friction and of inputs bend.
+/// Nodes at (k/N)², k = 0 ... N: closer where most laws of friction and of inputs bend.
 template <int N>
-struct NodePlace {
-  int piece = N;       ///< from node `piece` to the next; N: at the last node or beyond
-  double along = 0.0;  ///< in the piece, from 0 to 1
-  double width = 1.0;  ///< of the piece
+struct Nodes {
+  using Row = std::array<double, N + 1>;  ///< a number for the value at each node
 
-  explicit NodePlace(double s) {
-    if (!(s < 1.0)) return;
-    piece = std::clamp(static_cast<int>(N * std::sqrt(std::max(s, 0.0))), 0, N - 1);
-    width = node(piece + 1) - node(piece);
-    along = (s - node(piece)) / width;
+  static constexpr double at(int k) { return static_cast<double>(k * k) / (N * N); }
+  static constexpr double width(int piece) { return at(piece + 1) - at(piece); }
+
+  /// What the value at each node adds to the second derivative at each node of the natural cubic spline,
+  /// whose slope and curvature are continuous: M_0 = M_N = 0 and in between
+  /// h_{k-1} M_{k-1} + 2 (h_{k-1} + h_k) M_k + h_k M_{k+1} = 6 (slope of chord k − slope of chord k − 1).
+  static constexpr std::array<Row, N + 1> curvatures() {
+    std::array<Row, N + 1> m{};
+    Row upper{};  // of the eliminated system
+    for (int k = 1; k < N; ++k) {
+      const double before = width(k - 1), after = width(k),
+                   pivot = 2.0 * (before + after) - before * upper[k - 1];
+      upper[k] = after / pivot;
+      Row chords{};
+      chords[k - 1] = 6.0 / before, chords[k] = -6.0 / before - 6.0 / after, chords[k + 1] = 6.0 / after;
+      for (int j = 0; j <= N; ++j) m[k][j] = (chords[j] - before * m[k - 1][j]) / pivot;
+    }
+    for (int k = N - 1; k > 0; --k)
+      for (int j = 0; j <= N; ++j) m[k][j] -= upper[k] * m[k + 1][j];
+    return m;
   }
-
-  static constexpr double node(int k) { return static_cast<double>(k * k) / (N * N); }
 };
 
-/// Lines from node to node, constant from the last one on; a parabola rounds each corner over a quarter of
-/// the shorter piece beside it, so that the slope is continuous and each piece rises or falls throughout.
+/// The piece of a curve by nodes in which a place lies.
+template <int N>
+int piece_at(double s) {
+  return s < 1.0 ? std::clamp(static_cast<int>(N * std::sqrt(std::max(s, 0.0))), 0, N - 1) : N;
+}
+
+/// A natural cubic spline through the nodes over [0, 1]. Beyond the last one a parabola takes its slope to
+/// zero within a quarter of the last piece; from there on it is constant.
+template <int N>
+class NodeWeights {
+ public:
+  using Row = typename Nodes<N>::Row;
+  static constexpr double kLevelledOver = 0.25 * Nodes<N>::width(N - 1);
+
+  explicit NodeWeights(double s) {
+    const int piece = piece_at<N>(s);
+    if (piece < N) {
+      cubic(piece, s);
+    } else {
+      cubic(N - 1, 1.0);
+      level_off(s - 1.0);
+    }
+  }
+
+  /// What the value at a node adds to that of the curve, and to its slope.
+  double value(int k) const { return value_[static_cast<std::size_t>(k)]; }
+  double slope(int k) const { return slope_[static_cast<std::size_t>(k)]; }
+
+ private:
+  static constexpr auto kCurvatures = Nodes<N>::curvatures();
+
+  void cubic(int piece, double s) {
+    const double h = Nodes<N>::width(piece), b = (s - Nodes<N>::at(piece)) / h, a = 1.0 - b;
+    const auto i = static_cast<std::size_t>(piece);
+    const Row &left = kCurvatures[i], &right = kCurvatures[i + 1];
+    for (std::size_t j = 0; j <= N; ++j) {
+      value_[j] = h * h / 6.0 * (a * (a * a - 1.0) * left[j] + b * (b * b - 1.0) * right[j]);
+      slope_[j] = h / 6.0 * ((1.0 - 3.0 * a * a) * left[j] + (3.0 * b * b - 1.0) * right[j]);
+    }
+    value_[i] += a, value_[i + 1] += b;
+    slope_[i] -= 1.0 / h, slope_[i + 1] += 1.0 / h;
+  }
+
+  void level_off(double beyond) {
+    const double x = std::min(beyond, kLevelledOver), left = 1.0 - x / kLevelledOver;
+    for (std::size_t j = 0; j <= N; ++j) {
+      value_[j] += slope_[j] * x * (1.0 - 0.5 * x / kLevelledOver);
+      slope_[j] *= left;
+    }
+  }
+
+  Row value_{}, slope_{};
+};
+
+/// The curve through the nodes at a place.
 /// @param value (int node) -> T
 template <int N, class T, class Value>
 T along_nodes(const T& s, const Value& value) {
-  constexpr double kRounded = 0.25;
-  const NodePlace<N> at(value_of(s));
-  if (at.piece == N && value_of(s) >= 1.0 + kRounded * (1.0 - NodePlace<N>::node(N - 1))) return value(N);
-  const auto slope = [&](int piece) {
-    if (piece < 0 || piece >= N) return T(0.0);
-    return T((value(piece + 1) - value(piece)) / (NodePlace<N>::node(piece + 1) - NodePlace<N>::node(piece)));
-  };
-  const auto width = [](int piece) {
-    return piece >= N ? kInfinity : NodePlace<N>::node(piece + 1) - NodePlace<N>::node(piece);
-  };
-  const T own = slope(at.piece);
-  T found = value(at.piece) + own * (s - NodePlace<N>::node(at.piece));
-  for (const int corner : {at.piece, at.piece + 1}) {  // the one before and the one after
-    if (corner == 0 || corner > N) continue;
-    const double reach = kRounded * std::min(width(corner - 1), width(corner));
-    const T beyond = s - NodePlace<N>::node(corner);
-    const T into = corner == at.piece ? T(reach - beyond) : T(reach + beyond);
-    if (!(value_of(into) > 0.0)) continue;
-    const T bend = slope(corner) - slope(corner - 1);
-    found += bend * into * into * (0.25 / reach);
+  const NodeWeights<N> weights(value_of(s));
+  T found(0.0);
+  double slope = 0.0;
+  for (int k = 0; k <= N; ++k) {
+    const T here = value(k);
+    found += weights.value(k) * here;
+    slope += weights.slope(k) * value_of(here);
   }
+  if constexpr (kIsJet<T>) found.v += slope * s.v;
   return found;
 }
 
