@@ -12,8 +12,10 @@
 namespace gapscope::cli {
 
 EncoderConfig RecordingArguments::encoder() const {
-  if (bits == 0) return {};
-  return {bits, EncoderConfig::quantum_of(bits)};
+  EncoderConfig encoder;
+  if (bits > 0) encoder.bits = bits, encoder.quantum = EncoderConfig::quantum_of(bits);
+  if (side == "load") encoder.sides = EncoderSides::kLoad;
+  return encoder;
 }
 
 RecordingConfig RecordingArguments::configuration() const {
@@ -30,7 +32,9 @@ RecordingConfig RecordingArguments::configuration() const {
   ReadOptions& o = c.reading;
   o.columns.time = time;
   o.columns.input = input;
-  o.columns.position = position;
+  o.encoder = encoder().side();
+  o.columns.position = !position.empty() ? position : o.encoder == EncoderSide::kLoad ? "x2" : "x1";
+  o.columns.position_named = true;
   o.columns.voltage = voltage;
   require_three_columns(o.columns);
   o.columns.scales = declared_scales(
@@ -82,7 +86,11 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command.add_option("FILE", a.file, "recording (CSV or .mat)").required();
   command.add_option("--time", a.time, "column (or variable) of the time (default: t)").value("NAME");
   command.add_option("--input", a.input, "column of the input (default: u)").value("NAME");
-  command.add_option("--position", a.position, "column of the position (default: x1)").value("NAME");
+  command.add_option("--position", a.position, "column of the position (default: x1, of the load x2)")
+      .value("NAME");
+  command.add_option("--encoder-side", a.side, "body that the position is of: motor or load (default: motor)")
+      .value("SIDE")
+      .one_of({"motor", "load"});
   command
       .add_option("--voltage", a.voltage, "column of the supply's voltage: u is the input, a duty, times it")
       .value("NAME");

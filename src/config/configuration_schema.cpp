@@ -90,8 +90,8 @@ Json recording_schema() {
   const auto column = [&](const char* key, const char* doc) { columns.add(key, text_schema(doc)); };
   column("time", "default: t");
   column("input", "default: u");
-  column("position", "of the motor's side; default: x1");
-  column("load_position", "default: x2, where there is one");
+  column("position", "of the motor's side; default: x1. Named alone with encoder: side: load: of the load");
+  column("load_position", "default: x2, where there is one; what encoder: side: load reads");
   column("voltage", "of the supply: u is the input, a duty, times it");
   resample.add("rate", number_schema({1e-3, 1e7, "Hz"}, "that the recording is brought to"));
   resample.add("for",
@@ -140,8 +140,11 @@ Json encoder_schema() {
   encoder.add("bits",
               described({{"type", "integer"}, {"minimum", 1}, {"maximum", 40}}, "counts per turn = 2^bits"));
   encoder.add("quantum", number_schema({1e-15, 10.0, "rad; m of a slide"}, "size of one count"));
-  Json one = encoder.schema("what its sheet says: exactly one of both");
-  one["minProperties"] = 1, one["maxProperties"] = 1;
+  encoder.add("side", words_schema({"motor", "load", "both"},
+                                   "whose position is estimated from; both: the load's validates"));
+  Json one = encoder.schema("what its sheet says, one of bits and quantum, and the body that it is on");
+  one["minProperties"] = 1;
+  one["not"] = {{"required", {"bits", "quantum"}}};
   return one;
 }
 

@@ -47,9 +47,14 @@ Choice as_seen(const MotorTrace& trace, Coordinates coordinates) {
           false};
 }
 
-Choice choose(StarterModel model, const MotorTrace& trace, Coordinates coordinates) {
+Choice choose(StarterModel model, const MotorTrace& trace, EncoderSide encoder, Coordinates coordinates) {
   switch (model) {
     case StarterModel::kAsSeen:
+      if (encoder == EncoderSide::kLoad)
+        return {
+            StarterModel::kOneBody,
+            "GUESS: one body; whether there is a gap an encoder on the load does not tell without a model",
+            false};
       return as_seen(trace, coordinates);
     case StarterModel::kGap:
       return {model, "gap and free load, as asked for"};
@@ -62,9 +67,11 @@ Choice choose(StarterModel model, const MotorTrace& trace, Coordinates coordinat
 }
 
 /// The model's structure, unless it knows of no gap and the detector does.
-Choice as_modelled(const JointNumbers& n, const MotorTrace& trace, Coordinates coordinates) {
+Choice as_modelled(const JointNumbers& n, const MotorTrace& trace, EncoderSide encoder,
+                   Coordinates coordinates) {
   const std::string where = "joint " + printable(n.joint, 40) + " of " + printable(n.model, 80);
   if (n.gap > 0.0) return {StarterModel::kGap, "gap and free load, as " + where + " has them"};
+  if (encoder == EncoderSide::kLoad) return {StarterModel::kOneBody, "one body, as " + where + " has it"};
   Choice seen = as_seen(trace, coordinates);
   if (!seen.seen || seen.structure == StarterModel::kOneBody)
     return {StarterModel::kOneBody, "one body, as " + where + " has it"};
@@ -116,8 +123,10 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
 /// @param gear  between the encoder and x1
 void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f, double gear,
                    Coordinates coordinates) {
-  if (known.bits) return out.entry("encoder", fmt::format("{{bits: {}}}", *known.bits), "as told");
+  const char* const side = known.sides == EncoderSides::kLoad ? ", side: load" : "";
+  if (known.bits) return out.entry("encoder", fmt::format("{{bits: {}{}}}", *known.bits, side), "as told");
   f.quantum *= std::abs(gear);
+  if (std::isnan(f.quantum) && *side != '\0') return out.entry("encoder", "{side: load}", "no step is seen");
   if (std::isnan(f.quantum))
     return out.comment(coordinates.rotational()
                            ? "encoder: {bits: 20}   # GUESS: no step is seen in x1; what the sheet says"
@@ -125,7 +134,8 @@ void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f
   const double bits = std::log2(2.0 * std::numbers::pi / f.quantum);
   const bool binary = coordinates.rotational() && std::abs(bits - std::round(bits)) < 1e-3;
   out.entry("encoder",
-            binary ? fmt::format("{{bits: {:.0f}}}", bits) : fmt::format("{{quantum: {:.5g}}}", f.quantum),
+            binary ? fmt::format("{{bits: {:.0f}{}}}", bits, side)
+                   : fmt::format("{{quantum: {:.5g}{}}}", f.quantum, side),
             fmt::format("read: {} steps by {:.5g} {}", gear == 1.0 ? "x1" : "the encoder", f.quantum,
                         coordinates.position_unit()));
 }
@@ -227,8 +237,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
   const Choice choice = nominal && model == StarterModel::kAsSeen
-                            ? as_modelled(*nominal, r.motor_trace(), coordinates)
-                            : choose(model, r.motor_trace(), coordinates);
+                            ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
+                            : choose(model, r.motor_trace(), r.encoder, coordinates);
   Starter starter;
   starter.model = choice.why;
   YamlWriter out(coordinates);

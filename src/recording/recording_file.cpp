@@ -127,6 +127,18 @@ Recording uniform_recording(RecordedRows&& table) {
 
 }  // namespace internal::recording
 
+RecordingColumns RecordingColumns::read_from_load() const {
+  RecordingColumns c = *this;
+  if (!load_reads_load_position()) {
+    c.load_position = position == "x1" ? "x2" : "x1";
+    return c;
+  }
+  std::swap(c.position, c.load_position);
+  std::swap(c.scales.position, c.scales.load_position);
+  std::swap(c.position_named, c.load_position_required);
+  return c;
+}
+
 Recording read_recording(const std::string& path, const ReadOptions& options) {
   RecordedRows table = internal::recording::read_window(path, options);
   const bool open_end = table.open_end;
@@ -137,6 +149,8 @@ Recording read_recording(const std::string& path, const ReadOptions& options) {
   r.file = std::filesystem::path(path).filename().string();
   r.open_end = open_end;
   r.quantum = quantum;
+  r.encoder = options.encoder;
+  if (r.encoder == EncoderSide::kLoad) std::swap(r.x1, r.x2);
   return r;
 }
 

@@ -145,6 +145,10 @@ Recording simulated_recording(const Configuration& c) {
   const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
   stop_point();
   Recording r = s.independent ? independent_recording(c, u) : simulate(s.plant.plant_model(), u, options);
+  const bool load = c.encoder.sides == EncoderSides::kLoad && !r.x2.empty();
+  if (c.encoder.sides == EncoderSides::kBoth || (load && s.independent))
+    r.x2 = encoder_reads(r.x2, options.encoder, s.seed);
+  if (load) r.encoder = EncoderSide::kLoad;
   r.file = c.name;
   return r;
 }
