@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "config/configuration_reader.h"
+#include "config/controller_reader.h"
 #include "config/data_reader.h"
 #include "config/field_reader.h"
 #include "config/model_reader.h"
@@ -176,7 +177,7 @@ std::string read_name(const Section& root, const std::string& file) {
 
 Configuration read_configuration(const Value& document) {
   const Section root(document, {"name", "recording", "simulation", "encoder", "coordinates", "model",
-                                "detector", "fit", "next_experiment", "diagnosis", "implant"});
+                                "controller", "detector", "fit", "next_experiment", "diagnosis", "implant"});
   Configuration c;
   c.file = document.file();
   c.name = read_name(root, c.file);
@@ -190,6 +191,7 @@ Configuration read_configuration(const Value& document) {
   c.model = resolved_model(model);
   require_bound_from_model(c);
   read_data(root, model, c);
+  read_controller(root, c);
   settle_periods(c.model.effects, c.turns(), c.file);
   if (c.simulation) settle_periods(c.simulation->plant.effects, c.turns(), c.file);
   place_encoder(c);

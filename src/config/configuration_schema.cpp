@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "config/controller_reader.h"
 #include "config/model_reader.h"
 #include "config/schema_parts.h"
 #include "gapscope/config/configuration.h"
@@ -93,6 +94,7 @@ Json recording_schema() {
   column("position", "of the motor's side; default: x1. Named alone with encoder: side: load: of the load");
   column("load_position", "default: x2, where there is one; what encoder: side: load reads");
   column("voltage", "of the supply: u is the input, a duty, times it");
+  column("target", "commanded position, in the unit of the position; controller: makes the input of it");
   resample.add("rate", number_schema({1e-3, 1e7, "Hz"}, "that the recording is brought to"));
   resample.add("for",
                words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
@@ -177,6 +179,7 @@ std::string configuration_schema() {
   root.add("encoder", encoder_schema());
   root.add("coordinates", words_schema({"rotation", "translation"}, "translation: rad and N m mean m and N"));
   root.add("model", model_schema());
+  root.add("controller", controller_schema());
   root.add("detector", detector_schema());
   root.add("fit", fields_schema(FitOptions{}).schema("how the reference is found"));
   root.add("next_experiment", fields_schema(ExperimentLimits{}).schema("what the diagnosis may propose"));

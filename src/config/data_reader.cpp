@@ -63,7 +63,7 @@ void read_column(const Section& section, const char* key, std::string& name, std
 }
 
 RecordingColumns read_columns(const Value& value) {
-  const Section section(value, {"time", "input", "position", "load_position", "voltage"});
+  const Section section(value, {"time", "input", "position", "load_position", "voltage", "target"});
   RecordingColumns columns;
   std::set<std::string> taken;
   read_column(section, "time", columns.time, taken);
@@ -73,6 +73,8 @@ RecordingColumns read_columns(const Value& value) {
   columns.load_position_required = section.find("load_position").has_value();
   columns.position_named = section.find("position").has_value();
   if (section.find("voltage")) read_column(section, "voltage", columns.voltage, taken);
+  if (section.find("target")) read_column(section, "target", columns.target, taken);
+  columns.input_read = columns.target.empty() || section.find("input").has_value();
   return columns;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "config/controller_reader.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/config/configuration.h"
@@ -37,7 +38,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   out.open("columns");
   const RecordingColumns& columns = recording.reading.columns;
   out.entry("time", yaml_text(columns.time));
-  out.entry("input", yaml_text(columns.input));
+  if (columns.input_read) out.entry("input", yaml_text(columns.input));
   if (recording.reading.encoder == EncoderSide::kLoad && !columns.position_named)
     out.comment("position: " + yaml_text(columns.position) + " of the motor, not read");
   else
@@ -48,6 +49,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
     out.comment("load_position: " + yaml_text(columns.load_position) + " where there is one");
   }
   if (!columns.voltage.empty()) out.entry("voltage", yaml_text(columns.voltage));
+  if (!columns.target.empty()) out.entry("target", yaml_text(columns.target));
   out.close();
   internal::config::write_units(out, recording);
   if (const auto& window = recording.reading.window)
@@ -193,6 +195,7 @@ void write_reading(YamlWriter& out, const Configuration& c) {
   if (c.recording) write_recording(out, *c.recording);
   if (c.simulation) write_simulation(out, *c.simulation, c.coordinates);
   write_encoder(out, c.encoder);
+  if (c.recording) internal::config::write_controller(out, *c.recording);
   out.entry("coordinates", c.coordinates.name());
 }
 

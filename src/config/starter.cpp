@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "config/controller_reader.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/base/plain_name.h"
@@ -107,9 +108,11 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
   out.comment(
       "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
   const RecordingColumns& c = options.columns;
-  out.entry("columns", fmt::format("{{time: {}, input: {}, position: {}{}}}", yaml_text(c.time),
-                                   yaml_text(c.input), yaml_text(c.position),
-                                   c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)));
+  const std::string further = (c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)) +
+                              (c.target.empty() ? "" : ", target: " + yaml_text(c.target));
+  const std::string input = c.input_read ? ", input: " + yaml_text(c.input) : "";
+  out.entry("columns", fmt::format("{{time: {}{}, position: {}{}}}", yaml_text(c.time), input,
+                                   yaml_text(c.position), further));
   internal::config::write_units(out, recording);
   if (options.window)
     out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second), "s");
@@ -256,6 +259,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
   write_recording(out, named_from(folder, recording), config, irregular);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
+  internal::config::write_controller(out, config);
   out.entry("coordinates", coordinates.name());
   const bool one_body = choice.structure == StarterModel::kOneBody;
   write_model(out, choice, begin_of(seen.facts, one_body, nominal), coordinates);

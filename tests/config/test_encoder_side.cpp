@@ -27,7 +27,7 @@ TEST(EncoderSide, IsThatOfTheMotorUnlessSaid) {
   const Configuration c = parse_configuration(kRecorded, "c.yaml");
   EXPECT_EQ(c.encoder.sides, EncoderSides::kMotor);
   EXPECT_EQ(c.model.structure.encoder, EncoderSide::kMotor);
-  EXPECT_EQ(resolved_yaml(c).find("side"), std::string::npos);
+  EXPECT_EQ(resolved_yaml(c).find("side:"), std::string::npos);
 }
 
 TEST(EncoderSide, OfTheLoadReadsX2) {
@@ -69,7 +69,7 @@ TEST(EncoderSide, NeedsNoStepBesideIt) {
   EXPECT_THAT(refusal([] { with_encoder("{bits: 4, quantum: 1, side: load}", "{file: a.csv}"); }),
               HasSubstr("c.yaml:1: encoder has both of bits and quantum"));
   EXPECT_THAT(refusal([] { with_encoder("{side: output}", "{file: a.csv}"); }),
-              HasSubstr("c.yaml:1: encoder.side is output, expected motor, load or both"));
+              HasSubstr("c.yaml:1: encoder.side is 'output', expected motor or load or both"));
 }
 
 TEST(EncoderSide, TellsNothingOfAnOutputThatDoesNotMove) {

@@ -65,6 +65,10 @@ constexpr std::size_t kFewestSamples = 50;
 ///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.
 Recording read_recording(const std::string& path, const ReadOptions& options = {});
 
+/// Of a recording that has input and target both: what its controller, as declared, makes of the target
+/// beside the input that was recorded. Nothing where there is no controller, or no input.
+std::optional<InputComparison> compare_with_controller(const std::string& path, const ReadOptions& options);
+
 /// Writes t, u, x1 and, where known, x2 and mode, so that read_recording() returns the same numbers.
 /// @throws std::runtime_error if the file cannot be written.
 void write_csv(const std::string& path, const Recording& recording, const Replaceable& found = {});
