@@ -134,6 +134,10 @@ void make_implanted_check(const Configuration& c, const std::string& folder, con
   const std::string resolved = resolved_yaml(c);
   blind::require_own_labels(labels, c.name, resolved);
   if (!c.recording) throw ConfigError(c.file, "simulates, expected recording: {file, held_out}");
+  if (c.encoder.sides != EncoderSides::kMotor)
+    throw ConfigError(c.file, c.encoder.line,
+                      std::string("encoder.side is ") + to_string(c.encoder.sides) +
+                          ", expected motor: effects are put into a motor's position");
   require_reference_model(c);
   ReportFolder handed_out(folder, FolderKind::kCases);
   const Undisturbed undisturbed = diagnosed(c, threads, progress);

@@ -34,7 +34,8 @@ void check_recording(const CheckArguments& a) {
   const auto look = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
   if (!a.output.empty()) look();  // before the work
   const Configuration c = reading_of(r);
-  const Inspection inspection = inspect(r.file, c.recording->reading, c.coordinates);
+  const Inspection inspection =
+      inspect(r.file, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, look());
   fmt::print("{}", a.json ? json : inspection.report());

@@ -48,15 +48,20 @@ std::string require_file_name(const std::string& file, const std::vector<std::st
 /// A recording that is named on the command line, and how it is to be read.
 struct RecordingArguments {
   std::string file;
-  std::string time = "t", input = "u", position = "x1";
+  std::string time = "t";
+  std::string input;           ///< empty: u, or with a target none
+  std::string position;        ///< empty: x1, of an encoder on the load x2
   std::vector<double> window;  ///< empty or two [s]
   double resample = 0.0;       ///< 0: as it stands [Hz]
   bool translation = false;
   std::string voltage;  ///< empty: none
+  std::string target;   ///< empty: none; else the input is what the controller makes of it
+  PositionController controller;
   DeclaredUnits units;
   RegisterBits registers;
   GearRatios gear;
-  int bits = 0;  ///< of the encoder; 0: not given
+  int bits = 0;      ///< of the encoder; 0: not given
+  std::string side;  ///< of the encoder: motor or load; empty: motor
 
   EncoderConfig encoder() const;
   Coordinates coordinates() const { return translation ? Coordinates::kTranslation : Coordinates::kRotation; }

@@ -85,6 +85,14 @@ std::string comparison_line(const Comparison& c, Coordinates coordinates) {
                      coordinates.thousandths(c.joint_std));
 }
 
+/// The encoder on the load, which was not fitted.
+std::string validation_line(const RunResult& r) {
+  const SecondEncoder& s = *r.second_encoder;
+  return fmt::format("{:<17} rms error of x2, which was not fitted (x1: {}; its encoder leaves {})",
+                     r.coordinates.thousandths(s.rmse), r.coordinates.thousandths(s.motor_rmse),
+                     r.coordinates.thousandths(s.floor));
+}
+
 }  // namespace
 
 Progress progress_on_terminal(bool quiet) {
@@ -112,6 +120,7 @@ void print_headline(const std::string& folder, const RunResult& r) {
   if (r.comparison && !std::isnan(r.comparison->map_width))
     line("load side",
          fmt::format("{:<17} width of the x1-x2 map", r.coordinates.thousandths(r.comparison->map_width)));
+  if (r.second_encoder && !std::isnan(r.second_encoder->rmse)) line("validation", validation_line(r));
   if (!std::isnan(r.simulated_gap)) line("simulated", r.coordinates.thousandths(r.simulated_gap));
 }
 

@@ -12,8 +12,10 @@
 namespace gapscope::cli {
 
 EncoderConfig RecordingArguments::encoder() const {
-  if (bits == 0) return {};
-  return {bits, EncoderConfig::quantum_of(bits)};
+  EncoderConfig encoder;
+  if (bits > 0) encoder.bits = bits, encoder.quantum = EncoderConfig::quantum_of(bits);
+  if (side == "load") encoder.sides = EncoderSides::kLoad;
+  return encoder;
 }
 
 RecordingConfig RecordingArguments::configuration() const {
@@ -29,9 +31,16 @@ RecordingConfig RecordingArguments::configuration() const {
   c.gear = gear;
   ReadOptions& o = c.reading;
   o.columns.time = time;
-  o.columns.input = input;
-  o.columns.position = position;
+  o.columns.input = input.empty() ? "u" : input;
+  o.encoder = encoder().side();
+  o.columns.position = !position.empty() ? position : o.encoder == EncoderSide::kLoad ? "x2" : "x1";
+  o.columns.position_named = true;
   o.columns.voltage = voltage;
+  o.columns.target = target;
+  o.columns.input_read = target.empty() || !input.empty();
+  if (target.empty() != std::isnan(controller.gain))
+    throw ConfigError("gapscope: --target and --controller-gain go together, expected both or neither");
+  if (!target.empty()) o.controller = controller;
   require_three_columns(o.columns);
   o.columns.scales = declared_scales(
       units, registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
@@ -76,13 +85,39 @@ void add_unit_options(CommandLine& command, RecordingArguments& a) {
       });
 }
 
+void add_controller_options(CommandLine& command, RecordingArguments& a) {
+  command
+      .add_option("--target", a.target,
+                  "column of the commanded position, of which the controller below makes the input")
+      .value("NAME");
+  command.add_option("--controller-gain", a.controller.gain, "input unit per rad of position error")
+      .value("GAIN")
+      .within(-1e12, 1e12);
+  command.add_option("--controller-derivative", a.controller.derivative, "input unit per rad/s of it")
+      .value("GAIN")
+      .within(-1e12, 1e12);
+  command.add_option("--controller-rate", a.controller.rate, "of its updates (default: one at each row) [Hz]")
+      .value("RATE")
+      .within(0.0, 1e5);
+  command.add_option("--controller-delay", a.controller.delay, "from reading to acting [s]")
+      .value("TIME")
+      .within(0.0, 1.0);
+  command.add_option("--controller-saturation", a.controller.saturation, "limit of its output [input unit]")
+      .value("LIMIT")
+      .within(1e-12, 1e12);
+}
+
 }  // namespace
 
 void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command.add_option("FILE", a.file, "recording (CSV or .mat)").required();
   command.add_option("--time", a.time, "column (or variable) of the time (default: t)").value("NAME");
   command.add_option("--input", a.input, "column of the input (default: u)").value("NAME");
-  command.add_option("--position", a.position, "column of the position (default: x1)").value("NAME");
+  command.add_option("--position", a.position, "column of the position (default: x1, of the load x2)")
+      .value("NAME");
+  command.add_option("--encoder-side", a.side, "body that the position is of: motor or load (default: motor)")
+      .value("SIDE")
+      .one_of({"motor", "load"});
   command
       .add_option("--voltage", a.voltage, "column of the supply's voltage: u is the input, a duty, times it")
       .value("NAME");
@@ -94,11 +129,13 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
       .value("RATE")
       .within(1e-3, 1e7);
   add_unit_options(command, a);
+  add_controller_options(command, a);
   command.add_flag("--translation", a.translation, "positions in m and forces in N instead of rad and N m");
 }
 
 void require_three_columns(const RecordingColumns& c) {
-  if (c.time == c.input || c.time == c.position || c.input == c.position)
+  const std::string& input = c.input_read ? c.input : c.target;
+  if (c.time == input || c.time == c.position || input == c.position)
     throw ConfigError(
         "gapscope: --time, --input and --position name one column twice, expected three columns");
 }

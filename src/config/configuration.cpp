@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "config/configuration_reader.h"
+#include "config/controller_reader.h"
 #include "config/data_reader.h"
 #include "config/field_reader.h"
 #include "config/model_reader.h"
@@ -123,6 +124,21 @@ ImplantConfig read_implant(const Value& value) {
   return implant;
 }
 
+/// Which body is read is a property of the model.
+void place_encoder(Configuration& c) {
+  if (c.encoder.sides == EncoderSides::kMotor) return;
+  const bool locked = c.model.structure.has_load && c.model.structure.load == LoadKind::kLocked;
+  const bool plant_locked = c.simulation && c.simulation->plant.structure.has_load &&
+                            c.simulation->plant.structure.load == LoadKind::kLocked;
+  if (locked || plant_locked)
+    throw ConfigError(c.file, c.encoder.line,
+                      fmt::format("encoder.side is {} and model.load locked, expected side: motor: what does "
+                                  "not move tells its encoder nothing",
+                                  to_string(c.encoder.sides)));
+  c.model.structure.encoder = c.encoder.side();
+  if (c.simulation) c.simulation->plant.structure.encoder = c.encoder.side();
+}
+
 void read_data(const Section& root, const WrittenModel& model, Configuration& c) {
   const auto recording = root.find("recording"), simulation = root.find("simulation");
   if (recording && simulation)
@@ -161,7 +177,7 @@ std::string read_name(const Section& root, const std::string& file) {
 
 Configuration read_configuration(const Value& document) {
   const Section root(document, {"name", "recording", "simulation", "encoder", "coordinates", "model",
-                                "detector", "fit", "next_experiment", "diagnosis", "implant"});
+                                "controller", "detector", "fit", "next_experiment", "diagnosis", "implant"});
   Configuration c;
   c.file = document.file();
   c.name = read_name(root, c.file);
@@ -175,8 +191,10 @@ Configuration read_configuration(const Value& document) {
   c.model = resolved_model(model);
   require_bound_from_model(c);
   read_data(root, model, c);
+  read_controller(root, c);
   settle_periods(c.model.effects, c.turns(), c.file);
   if (c.simulation) settle_periods(c.simulation->plant.effects, c.turns(), c.file);
+  place_encoder(c);
   if (c.simulation) c.fit.seed = c.simulation->seed;
   if (const auto fit = root.find("fit")) read_fields(*fit, c.fit);
   if (const auto diagnosis = root.find("diagnosis")) read_diagnosis(*diagnosis, c);
@@ -193,7 +211,14 @@ Configuration read_configuration(const Value& document) {
 }  // namespace internal::config
 
 double Configuration::position_quantum() const {
-  return encoder.quantum / (recording ? std::abs(recording->gear.position) : 1.0);
+  if (!recording) return encoder.quantum;
+  const bool load =
+      encoder.sides == EncoderSides::kLoad && recording->reading.columns.load_reads_load_position();
+  return encoder.quantum / std::abs(load ? recording->gear.load_position : recording->gear.position);
+}
+
+const char* to_string(EncoderSides sides) {
+  return sides == EncoderSides::kLoad ? "load" : sides == EncoderSides::kBoth ? "both" : "motor";
 }
 
 ShaftTurns Configuration::turns() const {

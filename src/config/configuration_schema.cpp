@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "config/controller_reader.h"
 #include "config/model_reader.h"
 #include "config/schema_parts.h"
 #include "gapscope/config/configuration.h"
@@ -90,9 +91,10 @@ Json recording_schema() {
   const auto column = [&](const char* key, const char* doc) { columns.add(key, text_schema(doc)); };
   column("time", "default: t");
   column("input", "default: u");
-  column("position", "of the motor's side; default: x1");
-  column("load_position", "default: x2, where there is one");
+  column("position", "of the motor's side; default: x1. Named alone with encoder: side: load: of the load");
+  column("load_position", "default: x2, where there is one; what encoder: side: load reads");
   column("voltage", "of the supply: u is the input, a duty, times it");
+  column("target", "commanded position, in the unit of the position; controller: makes the input of it");
   resample.add("rate", number_schema({1e-3, 1e7, "Hz"}, "that the recording is brought to"));
   resample.add("for",
                words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
@@ -140,8 +142,11 @@ Json encoder_schema() {
   encoder.add("bits",
               described({{"type", "integer"}, {"minimum", 1}, {"maximum", 40}}, "counts per turn = 2^bits"));
   encoder.add("quantum", number_schema({1e-15, 10.0, "rad; m of a slide"}, "size of one count"));
-  Json one = encoder.schema("what its sheet says: exactly one of both");
-  one["minProperties"] = 1, one["maxProperties"] = 1;
+  encoder.add("side", words_schema({"motor", "load", "both"},
+                                   "whose position is estimated from; both: the load's validates"));
+  Json one = encoder.schema("what its sheet says, one of bits and quantum, and the body that it is on");
+  one["minProperties"] = 1;
+  one["not"] = {{"required", {"bits", "quantum"}}};
   return one;
 }
 
@@ -174,6 +179,7 @@ std::string configuration_schema() {
   root.add("encoder", encoder_schema());
   root.add("coordinates", words_schema({"rotation", "translation"}, "translation: rad and N m mean m and N"));
   root.add("model", model_schema());
+  root.add("controller", controller_schema());
   root.add("detector", detector_schema());
   root.add("fit", fields_schema(FitOptions{}).schema("how the reference is found"));
   root.add("next_experiment", fields_schema(ExperimentLimits{}).schema("what the diagnosis may propose"));

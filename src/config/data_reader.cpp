@@ -23,6 +23,7 @@ void InitialState::fields(FieldVisitor& v) {
 ReadOptions RecordingConfig::reading_for(UnevenRows uneven) const {
   ReadOptions options = reading;
   options.uneven = uneven;
+  if (options.encoder == EncoderSide::kLoad) options.columns = reading.columns.read_from_load();
   if (resample_for_detector && uneven == UnevenRows::kStamped) options.resample_rate.reset();
   return options;
 }
@@ -62,7 +63,7 @@ void read_column(const Section& section, const char* key, std::string& name, std
 }
 
 RecordingColumns read_columns(const Value& value) {
-  const Section section(value, {"time", "input", "position", "load_position", "voltage"});
+  const Section section(value, {"time", "input", "position", "load_position", "voltage", "target"});
   RecordingColumns columns;
   std::set<std::string> taken;
   read_column(section, "time", columns.time, taken);
@@ -70,7 +71,10 @@ RecordingColumns read_columns(const Value& value) {
   read_column(section, "position", columns.position, taken);
   read_column(section, "load_position", columns.load_position, taken);
   columns.load_position_required = section.find("load_position").has_value();
+  columns.position_named = section.find("position").has_value();
   if (section.find("voltage")) read_column(section, "voltage", columns.voltage, taken);
+  if (section.find("target")) read_column(section, "target", columns.target, taken);
+  columns.input_read = columns.target.empty() || section.find("input").has_value();
   return columns;
 }
 
@@ -120,7 +124,9 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
   recording.files = read_files(section.require("file", "a file or a list of files"), folder, seen);
   if (const auto held_out = section.find("held_out"))
     recording.held_out = read_files(*held_out, folder, seen);
+  recording.reading.encoder = encoder.side();
   if (const auto columns = section.find("columns")) recording.reading.columns = read_columns(*columns);
+  if (encoder.sides == EncoderSides::kBoth) recording.reading.columns.load_position_required = true;
   read_units(section, encoder, coordinates, recording);
   if (const auto window = section.find("window"))
     recording.reading.window = window->rising_pair({-kInfinity, kInfinity, "s"});
@@ -129,9 +135,12 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
 }
 
 EncoderConfig read_encoder(const Value& value, Coordinates coordinates) {
-  const Section section(value, {"bits", "quantum"});
-  const auto bits = section.find("bits"), quantum = section.find("quantum");
+  const Section section(value, {"bits", "quantum", "side"});
+  const auto bits = section.find("bits"), quantum = section.find("quantum"), side = section.find("side");
   EncoderConfig encoder;
+  encoder.line = side ? side->line() : value.line();
+  if (side) encoder.sides = static_cast<EncoderSides>(side->word({"motor", "load", "both"}));
+  if (side && !bits && !quantum) return encoder;
   if (bits.has_value() == quantum.has_value())
     value.fail(fmt::format("has {} of bits and quantum, expected exactly one", bits ? "both" : "neither"));
   if (quantum) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "config/controller_reader.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/config/configuration.h"
@@ -37,14 +38,18 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   out.open("columns");
   const RecordingColumns& columns = recording.reading.columns;
   out.entry("time", yaml_text(columns.time));
-  out.entry("input", yaml_text(columns.input));
-  out.entry("position", yaml_text(columns.position));
+  if (columns.input_read) out.entry("input", yaml_text(columns.input));
+  if (recording.reading.encoder == EncoderSide::kLoad && !columns.position_named)
+    out.comment("position: " + yaml_text(columns.position) + " of the motor, not read");
+  else
+    out.entry("position", yaml_text(columns.position));
   if (columns.load_position_required) {
     out.entry("load_position", yaml_text(columns.load_position));
   } else {
     out.comment("load_position: " + yaml_text(columns.load_position) + " where there is one");
   }
   if (!columns.voltage.empty()) out.entry("voltage", yaml_text(columns.voltage));
+  if (!columns.target.empty()) out.entry("target", yaml_text(columns.target));
   out.close();
   internal::config::write_units(out, recording);
   if (const auto& window = recording.reading.window)
@@ -171,14 +176,26 @@ void write_detector(YamlWriter& out, const DetectorConfig& detector) {
   out.close();
 }
 
+void write_encoder(YamlWriter& out, const EncoderConfig& encoder) {
+  std::vector<std::string> parts;
+  if (encoder.bits)
+    parts.push_back(fmt::format("bits: {}", *encoder.bits));
+  else if (encoder.quantum > 0.0)
+    parts.push_back(fmt::format("quantum: {}", encoder.quantum));
+  if (encoder.sides != EncoderSides::kMotor)
+    parts.push_back(fmt::format("side: {}", to_string(encoder.sides)));
+  if (parts.empty()) return;
+  if (encoder.bits)
+    out.entry("encoder", "{" + joined(parts) + "}");
+  else
+    out.quantity("encoder", "{" + joined(parts) + "}", encoder.quantum > 0.0 ? "rad" : "");
+}
+
 void write_reading(YamlWriter& out, const Configuration& c) {
   if (c.recording) write_recording(out, *c.recording);
   if (c.simulation) write_simulation(out, *c.simulation, c.coordinates);
-  if (c.encoder.bits) {
-    out.entry("encoder", fmt::format("{{bits: {}}}", *c.encoder.bits));
-  } else if (c.encoder.quantum > 0.0) {
-    out.quantity("encoder", fmt::format("{{quantum: {}}}", c.encoder.quantum), "rad");
-  }
+  write_encoder(out, c.encoder);
+  if (c.recording) internal::config::write_controller(out, *c.recording);
   out.entry("coordinates", c.coordinates.name());
 }
 

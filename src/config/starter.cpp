@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "config/controller_reader.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/base/plain_name.h"
@@ -47,9 +48,14 @@ Choice as_seen(const MotorTrace& trace, Coordinates coordinates) {
           false};
 }
 
-Choice choose(StarterModel model, const MotorTrace& trace, Coordinates coordinates) {
+Choice choose(StarterModel model, const MotorTrace& trace, EncoderSide encoder, Coordinates coordinates) {
   switch (model) {
     case StarterModel::kAsSeen:
+      if (encoder == EncoderSide::kLoad)
+        return {
+            StarterModel::kOneBody,
+            "GUESS: one body; whether there is a gap an encoder on the load does not tell without a model",
+            false};
       return as_seen(trace, coordinates);
     case StarterModel::kGap:
       return {model, "gap and free load, as asked for"};
@@ -62,9 +68,11 @@ Choice choose(StarterModel model, const MotorTrace& trace, Coordinates coordinat
 }
 
 /// The model's structure, unless it knows of no gap and the detector does.
-Choice as_modelled(const JointNumbers& n, const MotorTrace& trace, Coordinates coordinates) {
+Choice as_modelled(const JointNumbers& n, const MotorTrace& trace, EncoderSide encoder,
+                   Coordinates coordinates) {
   const std::string where = "joint " + printable(n.joint, 40) + " of " + printable(n.model, 80);
   if (n.gap > 0.0) return {StarterModel::kGap, "gap and free load, as " + where + " has them"};
+  if (encoder == EncoderSide::kLoad) return {StarterModel::kOneBody, "one body, as " + where + " has it"};
   Choice seen = as_seen(trace, coordinates);
   if (!seen.seen || seen.structure == StarterModel::kOneBody)
     return {StarterModel::kOneBody, "one body, as " + where + " has it"};
@@ -100,9 +108,11 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
   out.comment(
       "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
   const RecordingColumns& c = options.columns;
-  out.entry("columns", fmt::format("{{time: {}, input: {}, position: {}{}}}", yaml_text(c.time),
-                                   yaml_text(c.input), yaml_text(c.position),
-                                   c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)));
+  const std::string further = (c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)) +
+                              (c.target.empty() ? "" : ", target: " + yaml_text(c.target));
+  const std::string input = c.input_read ? ", input: " + yaml_text(c.input) : "";
+  out.entry("columns", fmt::format("{{time: {}{}, position: {}{}}}", yaml_text(c.time), input,
+                                   yaml_text(c.position), further));
   internal::config::write_units(out, recording);
   if (options.window)
     out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second), "s");
@@ -116,8 +126,10 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
 /// @param gear  between the encoder and x1
 void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f, double gear,
                    Coordinates coordinates) {
-  if (known.bits) return out.entry("encoder", fmt::format("{{bits: {}}}", *known.bits), "as told");
+  const char* const side = known.sides == EncoderSides::kLoad ? ", side: load" : "";
+  if (known.bits) return out.entry("encoder", fmt::format("{{bits: {}{}}}", *known.bits, side), "as told");
   f.quantum *= std::abs(gear);
+  if (std::isnan(f.quantum) && *side != '\0') return out.entry("encoder", "{side: load}", "no step is seen");
   if (std::isnan(f.quantum))
     return out.comment(coordinates.rotational()
                            ? "encoder: {bits: 20}   # GUESS: no step is seen in x1; what the sheet says"
@@ -125,7 +137,8 @@ void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f
   const double bits = std::log2(2.0 * std::numbers::pi / f.quantum);
   const bool binary = coordinates.rotational() && std::abs(bits - std::round(bits)) < 1e-3;
   out.entry("encoder",
-            binary ? fmt::format("{{bits: {:.0f}}}", bits) : fmt::format("{{quantum: {:.5g}}}", f.quantum),
+            binary ? fmt::format("{{bits: {:.0f}{}}}", bits, side)
+                   : fmt::format("{{quantum: {:.5g}{}}}", f.quantum, side),
             fmt::format("read: {} steps by {:.5g} {}", gear == 1.0 ? "x1" : "the encoder", f.quantum,
                         coordinates.position_unit()));
 }
@@ -227,8 +240,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
   const Choice choice = nominal && model == StarterModel::kAsSeen
-                            ? as_modelled(*nominal, r.motor_trace(), coordinates)
-                            : choose(model, r.motor_trace(), coordinates);
+                            ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
+                            : choose(model, r.motor_trace(), r.encoder, coordinates);
   Starter starter;
   starter.model = choice.why;
   YamlWriter out(coordinates);
@@ -246,6 +259,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
   write_recording(out, named_from(folder, recording), config, irregular);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
+  internal::config::write_controller(out, config);
   out.entry("coordinates", coordinates.name());
   const bool one_body = choice.structure == StarterModel::kOneBody;
   write_model(out, choice, begin_of(seen.facts, one_body, nominal), coordinates);

@@ -51,15 +51,18 @@ ColumnScales declared_scales(
   };
   const auto geared = [](UnitScale s, double ratio) { return UnitScale{s.factor, s.divisor * ratio, 0}; };
   const Quantity travel = coordinates.rotational() ? Quantity::kAngle : Quantity::kLength;
-  const bool counts = units.position == kCounts;
-  if (counts && !(encoder.quantum > 0.0))
-    refuse("position", "encoder: {bits: ...} or {quantum: ...} beside it, which says what one count is");
+  const bool load = encoder.sides == EncoderSides::kLoad;
+  const auto travelled = [&](const char* key, const std::string& unit, bool by_encoder) {
+    if (unit != kCounts || !by_encoder) return scale(key, unit, travel);
+    if (!(encoder.quantum > 0.0))
+      refuse(key, "encoder: {bits: ...} or {quantum: ...} beside it, which says what one count is");
+    return UnitScale{encoder.quantum, 1.0, 0};
+  };
   ColumnScales scales;
   scales.time = scale("time", units.time, Quantity::kTime);
   scales.input = scale("input", units.input, coordinates.rotational() ? Quantity::kTorque : Quantity::kForce);
-  scales.position = geared(
-      counts ? UnitScale{encoder.quantum, 1.0, 0} : scale("position", units.position, travel), gear.position);
-  scales.load_position = geared(scale("load_position", units.load_position, travel), gear.load_position);
+  scales.position = geared(travelled("position", units.position, true), gear.position);
+  scales.load_position = geared(travelled("load_position", units.load_position, load), gear.load_position);
   scales.voltage = scale("voltage", units.voltage, Quantity::kVoltage);
   scales.input.register_bits = registers.input;
   scales.position.register_bits = registers.position;

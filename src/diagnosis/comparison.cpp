@@ -1,5 +1,6 @@
 #include "gapscope/diagnosis/comparison.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gapscope {
@@ -20,7 +21,7 @@ Comparison compare(const GapEstimate& model_free, const FitSummary& reference) {
 double map_width(std::span<const Recording> recordings) {
   std::vector<double> delta;
   for (const Recording& r : recordings)
-    for (std::size_t i = 0; i < r.x2.size(); ++i) delta.push_back(r.x1[i] - r.x2[i]);
+    for (std::size_t i = 0; i < std::min(r.x1.size(), r.x2.size()); ++i) delta.push_back(r.x1[i] - r.x2[i]);
   if (delta.empty()) return kNaN;
   // Both flanks are visited for long: their densest places, not the extremes, which impacts wind up.
   const double low = quantile(delta, 0.02), high = quantile(delta, 0.98);

@@ -65,7 +65,7 @@ struct Bench {
 
   Separation separate(const Rival& truth, const Rival& rival, const Recording& recorded, bool confirm) const {
     Separation s{truth.effect, rival.effect, kNaN, contains_law(rival.effect, truth.effect)};
-    if (recorded.x1.empty() || s.contained) return s;
+    if (recorded.position().empty() || s.contained) return s;
     const MotorTrace seen = recorded.motor_trace();
     double left = left_by(rival, seen, nullptr);
     if (confirm) left = std::min(left, left_by(rival, seen, &truth.model));
@@ -83,7 +83,7 @@ struct Bench {
       tried.travel = 0.0;
       for (const Rival& truth : rivals) {
         recordings.push_back(play(truth, tried.excitation));
-        const std::vector<double>& x1 = recordings.back().x1;
+        const std::vector<double>& x1 = recordings.back().position();
         if (x1.empty()) return tried;
         const auto [low, high] = std::minmax_element(x1.begin(), x1.end());
         tried.travel = std::max(tried.travel, *high - *low);

@@ -71,6 +71,7 @@ std::vector<MismatchTrace> traces_of(const Study& study, const std::vector<Playb
                         {},
                         before[r].mode,
                         {t.stamps.begin(), t.stamps.end()}};
+    trace.encoder = study.sheet.structure.reads_load() ? EncoderSide::kLoad : EncoderSide::kMotor;
     if (r < after.size()) trace.error_after = after[r].free, trace.torque_after = after[r].torque;
     traces.push_back(std::move(trace));
   }

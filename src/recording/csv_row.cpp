@@ -70,7 +70,8 @@ void CsvRow::require_header() const {
 void CsvRow::fail(const std::string& what) const { throw ConfigError(name_, line_, what); }
 
 std::string CsvRow::wanted() const {
-  return fmt::format("the columns {}, {}, {}", columns_.time, columns_.input, columns_.position);
+  return fmt::format("the columns {}, {}, {}", columns_.time,
+                     columns_.input_read ? columns_.input : columns_.target, columns_.position);
 }
 
 /// The header as it is, its first columns.
@@ -96,7 +97,9 @@ int CsvRow::place(const std::string& name, bool required) const {
 }
 
 std::string CsvRow::wanted_with(const std::string& name) const {
-  return name == columns_.load_position || name == columns_.voltage ? wanted() + ", " + name : wanted();
+  const bool further = name == columns_.load_position || name == columns_.voltage ||
+                       (name == columns_.target && columns_.input_read);
+  return further ? wanted() + ", " + name : wanted();
 }
 
 /// The separator is the one with which most of the columns that are looked for are there; the comma before
@@ -108,7 +111,8 @@ void CsvRow::header(std::string_view line) {
     std::vector<std::string_view> fields;
     split(line, separator, fields);
     const auto found = std::count_if(fields.begin(), fields.end(), [&](std::string_view name) {
-      return name == columns_.time || name == columns_.input || name == columns_.position;
+      return name == columns_.time || name == (columns_.input_read ? columns_.input : columns_.target) ||
+             name == columns_.position;
     });
     const std::pair<std::ptrdiff_t, bool> rank = {found, fields.size() > 1};
     if (rank > most) most = rank, separator_ = separator, fields_ = std::move(fields);
@@ -116,10 +120,11 @@ void CsvRow::header(std::string_view line) {
   while (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
   width_ = fields_.size();
   t_ = place(columns_.time, true);
-  u_ = place(columns_.input, true);
+  if (columns_.input_read) u_ = place(columns_.input, true);
   x1_ = place(columns_.position, true);
   x2_ = place(columns_.load_position, columns_.load_position_required);
   if (!columns_.voltage.empty()) voltage_ = place(columns_.voltage, true);
+  if (!columns_.target.empty()) target_ = place(columns_.target, true);
 }
 
 /// More fields than the header are fine while they are empty (a trailing comma); decimal commas are not,
@@ -150,7 +155,11 @@ std::string_view CsvRow::with_decimal_point(std::string_view text, const std::st
 
 double CsvRow::input() {
   const double u = number(u_, columns_.input, columns_.scales.input);
-  return voltage_ < 0 ? u : u * number(voltage_, columns_.voltage, columns_.scales.voltage);
+  return voltage_ < 0 ? u : u * supply();
+}
+
+double CsvRow::supply() {
+  return voltage_ < 0 ? 1.0 : number(voltage_, columns_.voltage, columns_.scales.voltage);
 }
 
 double CsvRow::number(int place, const std::string& column, const UnitScale& scale) {

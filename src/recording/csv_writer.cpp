@@ -12,6 +12,7 @@ namespace {
 
 void check_lengths(const Recording& r) {
   GAPSCOPE_REQUIRE(r.u.size() == r.size());
+  GAPSCOPE_REQUIRE(r.x1.empty() || r.x1.size() == r.size());
   GAPSCOPE_REQUIRE(r.x2.empty() || r.x2.size() == r.size());
   GAPSCOPE_REQUIRE(r.mode.empty() || r.mode.size() == r.size());
 }
@@ -20,9 +21,11 @@ void check_lengths(const Recording& r) {
 void write_rows(std::ostream& out, const Recording& r) {
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);
-  fmt::format_to(to, "t,u,x1{}{}\n", r.x2.empty() ? "" : ",x2", r.mode.empty() ? "" : ",mode");
+  fmt::format_to(to, "t,u{}{}{}\n", r.x1.empty() ? "" : ",x1", r.x2.empty() ? "" : ",x2",
+                 r.mode.empty() ? "" : ",mode");
   for (std::size_t i = 0; i < r.size(); ++i) {
-    fmt::format_to(to, "{},{},{}", r.time(i), r.u[i], r.x1[i]);
+    fmt::format_to(to, "{},{}", r.time(i), r.u[i]);
+    if (!r.x1.empty()) fmt::format_to(to, ",{}", r.x1[i]);
     if (!r.x2.empty()) fmt::format_to(to, ",{}", r.x2[i]);
     if (!r.mode.empty()) fmt::format_to(to, ",{}", to_string(r.mode[i]));
     text.push_back('\n');

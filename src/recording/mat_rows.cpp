@@ -48,7 +48,11 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   };
   const ColumnScales& scales = columns.scales;
   const Column t = column(columns.time, scales.time);
-  Column u = column(columns.input, scales.input);
+  Column u = columns.input_read ? column(columns.input, scales.input)
+                                : Column{columns.target, std::vector<double>(t.values.size(), 0.0)};
+  const bool has_target = !columns.target.empty();
+  const Column target = has_target ? column(columns.target, scales.position) : Column{};
+  Column supply{"supply", std::vector<double>(t.values.size(), 1.0)};
   const Column x1 = column(columns.position, scales.position);
   const std::string& load = columns.load_position;
   const bool has_load = !load.empty() && (columns.load_position_required || content->find(load));
@@ -57,10 +61,11 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   require_length(path, x1, t);
   if (has_load) require_length(path, x2, t);
   if (!columns.voltage.empty()) {
-    const Column voltage = column(columns.voltage, scales.voltage);
-    require_length(path, voltage, t);
-    for (std::size_t i = 0; i < u.values.size(); ++i) u.values[i] *= voltage.values[i];
+    supply = column(columns.voltage, scales.voltage);
+    require_length(path, supply, t);
+    for (std::size_t i = 0; i < u.values.size(); ++i) u.values[i] *= supply.values[i];
   }
+  if (has_target) require_length(path, target, t);
   RecordedRows rows;
   rows.path = path;
   rows.is_text = false;
@@ -71,6 +76,7 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
     append(rows.u, u, i, rows);
     append(rows.x1, x1, i, rows);
     if (has_load) append(rows.x2, x2, i, rows);
+    if (has_target) append(rows.target, target, i, rows), append(rows.supply, supply, i, rows);
     rows.line.push_back(sample);
   }
   return rows;

@@ -29,7 +29,7 @@ bool is_mat(const std::string& path) {
 }  // namespace
 
 void RecordedRows::keep(std::size_t first, std::size_t count) {
-  for (auto* column : {&t, &u, &x1, &x2}) keep_part(*column, first, count);
+  for (auto* column : {&t, &u, &x1, &x2, &target, &supply}) keep_part(*column, first, count);
   keep_part(line, first, count);
 }
 

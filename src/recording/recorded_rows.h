@@ -14,11 +14,13 @@ enum class EarlierRow { kRefused, kSkipped };
 /// The rows of a recording as they stand in its file, in SI, with the place of each.
 struct RecordedRows {
   std::string path;
-  bool is_text = true;     ///< whether `line` counts the lines of a text, else the samples of variables
-  std::vector<double> t;   ///< [s], strictly increasing
-  std::vector<double> u;   ///< [unit of u]
-  std::vector<double> x1;  ///< [rad]
-  std::vector<double> x2;  ///< [rad]; empty if the file has none
+  bool is_text = true;         ///< whether `line` counts the lines of a text, else the samples of variables
+  std::vector<double> t;       ///< [s], strictly increasing
+  std::vector<double> u;       ///< [unit of u]
+  std::vector<double> x1;      ///< [rad]
+  std::vector<double> x2;      ///< [rad]; empty if the file has none
+  std::vector<double> target;  ///< [rad]; empty where none is read
+  std::vector<double> supply;  ///< beside the target: what an input is multiplied by [V]; 1 without
   std::vector<std::int64_t> line;     ///< of each row, from 1
   std::vector<std::int64_t> skipped;  ///< lines of rows that were left out: not later than the row before
   bool open_end = false;              ///< the last line has no end: its last number may be cut off

@@ -80,10 +80,21 @@ double sampling_interval(const RecordedRows& table) {
 }  // namespace
 
 namespace internal::recording {
+namespace {
+
+/// What the controller made of the target, times the supply's voltage.
+std::vector<double> commanded_by(const PositionController& controller, const RecordedRows& table) {
+  std::vector<double> u = commanded_input(controller, table.t, table.target, table.x1);
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] *= table.supply[i];
+  return u;
+}
+
+}  // namespace
 
 RecordedRows read_window(const std::string& path, const ReadOptions& options, EarlierRow earlier) {
   RecordedRows table = read_rows(path, options.columns, earlier);
   require_samples(table, table.size(), "");
+  if (options.controller && !options.columns.input_read) table.u = commanded_by(*options.controller, table);
   if (options.window) cut_to_window(table, *options.window);
   return table;
 }
@@ -127,6 +138,24 @@ Recording uniform_recording(RecordedRows&& table) {
 
 }  // namespace internal::recording
 
+RecordingColumns RecordingColumns::read_from_load() const {
+  RecordingColumns c = *this;
+  if (!load_reads_load_position()) {
+    c.load_position = position == "x1" ? "x2" : "x1";
+    return c;
+  }
+  std::swap(c.position, c.load_position);
+  std::swap(c.scales.position, c.scales.load_position);
+  std::swap(c.position_named, c.load_position_required);
+  return c;
+}
+
+std::optional<InputComparison> compare_with_controller(const std::string& path, const ReadOptions& options) {
+  if (!options.controller || !options.columns.input_read) return {};
+  const RecordedRows table = internal::recording::read_window(path, options);
+  return compare_inputs(table.u, internal::recording::commanded_by(*options.controller, table));
+}
+
 Recording read_recording(const std::string& path, const ReadOptions& options) {
   RecordedRows table = internal::recording::read_window(path, options);
   const bool open_end = table.open_end;
@@ -137,6 +166,8 @@ Recording read_recording(const std::string& path, const ReadOptions& options) {
   r.file = std::filesystem::path(path).filename().string();
   r.open_end = open_end;
   r.quantum = quantum;
+  r.encoder = options.encoder;
+  if (r.encoder == EncoderSide::kLoad) std::swap(r.x1, r.x2);
   return r;
 }
 

@@ -190,9 +190,10 @@ bool Parameter::at_bound(double q) const {
 std::vector<int> FitProblem::free_states(const RecordingStart& start, bool free_run) const {
   std::vector<int> states;
   if (free_run) states.push_back(0);  // an observer has corrected it after a few samples
-  if (start.moves || !motor_may_stick) states.push_back(1);  // a body that sticks has no other speed than 0
+  if (start.moves || !recorded_may_stick())
+    states.push_back(1);  // a body that sticks has no other speed than 0
   if (structure.has_load) states.push_back(2);
-  if (structure.has_load && !locked() && start.variant.load_moves) states.push_back(3);
+  if (structure.has_load && !locked() && start.variant.other_moves) states.push_back(3);
   return states;
 }
 
@@ -208,6 +209,7 @@ double FitProblem::stiffness(const ModelNumbers<double>& n) const {
 FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceModel& given,
                         const FitOptions& options) {
   GAPSCOPE_REQUIRE(!recordings.empty());
+  GAPSCOPE_REQUIRE(!given.structure.reads_load() || given.structure.load == LoadKind::kFree);
   for (const MotorTrace& r : recordings) {
     GAPSCOPE_REQUIRE(r.size() >= 20);
     GAPSCOPE_REQUIRE(r.u.size() == r.size());

@@ -69,6 +69,8 @@ struct FitProblem {
   const Parameter& free_parameter(std::size_t i) const {
     return parameters[static_cast<std::size_t>(free[i])];
   }
+  /// Whether the recorded body has friction that can hold it.
+  bool recorded_may_stick() const { return structure.reads_load() ? load_may_stick : motor_may_stick; }
   bool locked() const { return structure.has_load && structure.load == LoadKind::kLocked; }
 
   /// The initial numbers of a recording that are searched. Under an observer the motor's own do not matter.
@@ -108,9 +110,15 @@ struct FitProblem {
     z.w1 = start.w1 + start.scale[1] * q[1];
     z.x2 = z.x1, z.w2 = z.w1;  // an effect may divide the one inertia
     if (!structure.has_load) return z;
+    if (structure.reads_load()) {
+      z.w1 = T(0.0);
+      z.x1 = z.x2 + static_cast<double>(start.variant.side) * half_gap + start.scale[2] * q[2];
+      if (start.variant.other_moves) z.w1 = z.w2 + start.scale[3] * q[3];
+      return z;
+    }
     z.w2 = T(0.0);
     z.x2 = z.x1 - static_cast<double>(start.variant.side) * half_gap - start.scale[2] * q[2];
-    if (start.variant.load_moves && !locked()) z.w2 = z.w1 + start.scale[3] * q[3];
+    if (start.variant.other_moves && !locked()) z.w2 = z.w1 + start.scale[3] * q[3];
     return z;
   }
 };

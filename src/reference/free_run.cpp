@@ -12,10 +12,10 @@ namespace {
 constexpr std::size_t kParts = 100;  ///< of a recording, in which the way is compared
 
 double error(const FitProblem& problem, const std::vector<FitTrace>& traces,
-             std::vector<double> FitTrace::*column) {
+             const std::vector<double>& (*column)(const FitTrace&)) {
   double sum = 0.0, count = 0.0;
   for (std::size_t r = 0; r < traces.size(); ++r) {
-    const std::vector<double>& x = traces[r].*column;
+    const std::vector<double>& x = column(traces[r]);
     for (std::size_t i = 0; i < x.size(); ++i) sum += std::pow(problem.recordings[r].x1[i] - x[i], 2);
     count += static_cast<double>(x.size());
   }
@@ -36,33 +36,35 @@ FitTrace trace_of(const FitProblem& problem, const FitPoint& at, std::size_t r, 
   const bool has_load = problem.structure.has_load;
   FitTrace t;
   t.file = recording.file;
+  t.encoder = problem.structure.reads_load() ? EncoderSide::kLoad : EncoderSide::kMotor;
   if (!roll_out(model, start, recording, {}, [&](std::size_t, const DriveStepper<double>& stepper) {
-        t.x1.push_back(stepper.measured());
-        if (has_load) t.x2.push_back(stepper.state().x2);
+        const bool load = t.encoder == EncoderSide::kLoad;
+        t.x1.push_back(load ? stepper.state().x1 : stepper.measured());
+        if (has_load) t.x2.push_back(load ? stepper.measured() : stepper.state().x2);
         t.mode.push_back(mode_of(stepper));
       })) {
     t.x1.clear(), t.x2.clear(), t.mode.clear();
   }
   const ObserverGains gains(observer_hz, recording);
   if (!roll_out(model, start, recording, gains, [&](std::size_t, const DriveStepper<double>& stepper) {
-        t.predicted_x1.push_back(stepper.measured());
+        t.predicted.push_back(stepper.measured());
       }))
-    t.predicted_x1.clear();
+    t.predicted.clear();
   return t;
 }
 
 double free_run_error(const FitProblem& problem, const std::vector<FitTrace>& traces) {
-  return error(problem, traces, &FitTrace::x1);
+  return error(problem, traces, [](const FitTrace& t) -> const std::vector<double>& { return t.position(); });
 }
 double prediction_error(const FitProblem& problem, const std::vector<FitTrace>& traces) {
-  return error(problem, traces, &FitTrace::predicted_x1);
+  return error(problem, traces, [](const FitTrace& t) -> const std::vector<double>& { return t.predicted; });
 }
 
 double error_over_stillness(const FitProblem& problem, const std::vector<FitTrace>& traces) {
   double missed = 0.0, moved = 0.0, missed_ways = 0.0, ways = 0.0;
   for (std::size_t r = 0; r < traces.size(); ++r) {
     const std::span<const double> x = problem.recordings[r].x1;
-    const std::vector<double>& run = traces[r].x1;
+    const std::vector<double>& run = traces[r].position();
     const double center = mean(x);
     const std::size_t part = std::max<std::size_t>(1, x.size() / kParts);
     for (std::size_t i = 0; i < run.size(); ++i)
@@ -82,9 +84,9 @@ std::vector<ModeError> errors_by_mode(const FitProblem& problem, const std::vect
     double sum = 0.0;
     int count = 0;
     for (std::size_t r = 0; r < traces.size(); ++r)
-      for (std::size_t i = 0; i < traces[r].x1.size(); ++i)
+      for (std::size_t i = 0; i < traces[r].position().size(); ++i)
         if (traces[r].mode[i] == mode)
-          sum += std::pow(problem.recordings[r].x1[i] - traces[r].x1[i], 2), ++count;
+          sum += std::pow(problem.recordings[r].x1[i] - traces[r].position()[i], 2), ++count;
     if (count > 0) errors.push_back({mode, count, std::sqrt(sum / count)});
   }
   return errors;

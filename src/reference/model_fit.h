@@ -24,17 +24,18 @@ struct ParameterId {
 constexpr ParameterId drive_number(int place) { return {ParameterId::kDrive, place}; }
 ParameterSetting& setting_of(ReferenceModel& model, ParameterId id);
 
-/// Where the load may be at the first sample, relative to the motor.
+/// Where the other body, the one without the encoder, may be at the first sample.
 struct InitialVariant {
-  int side = 0;             ///< −1, +1: at that edge of the gap, 0: in its middle
-  bool load_moves = false;  ///< with the speed of the motor; else at rest
+  int side = 0;              ///< −1, +1: motor and load touch at that edge of the gap, 0: in its middle
+  bool other_moves = false;  ///< with the speed of the one that is recorded; else at rest
 };
 
 /// Initial state of one recording in solver units, all linear:
 ///   x1(0) = x̄1 + s0 q0,  w1(0) = w̄1 + s1 q1,  x2(0) = x1(0) − side β − s2 q2,  w2(0) = w1(0) + s3 q3 (or 0)
+/// With the encoder on the load 1 and 2 change places, and x1(0) = x2(0) + side β + s2 q2.
 inline constexpr int kStates = 4;
 struct RecordingStart {
-  double x1 = 0.0, w1 = 0.0;  ///< x̄1, w̄1 from a local polynomial
+  double x1 = 0.0, w1 = 0.0;  ///< x̄1, w̄1 of the recorded body, from a local polynomial
   bool moves = false;         ///< w̄1 is clearly not zero
   InitialVariant variant;
   std::array<double, kStates> scale{};

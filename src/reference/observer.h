@@ -10,8 +10,9 @@
 
 namespace gapscope::internal::reference {
 
-/// Output injection of the model run as an observer: x1 += l1 e, w1 += l2 e/dt.
-/// Both poles of the position error of a free mass lie at exp(−2π f dt), dt the interval before the sample.
+/// Output injection of the model run as an observer, into the body with the encoder: x1 += l1 e, w1 += l2
+/// e/dt. Both poles of the position error of a free mass lie at exp(−2π f dt), dt the interval before the
+/// sample.
 struct ObserverGain {
   double position = 0.0;  ///< l1 [-]
   double speed = 0.0;     ///< l2/dt [1/s]
@@ -63,12 +64,13 @@ void play_step(DriveStepper<T>& stepper, const MotorTrace& recording, std::size_
     stepper.step(recording.u[i], recording.step(i));
 }
 
-/// The drive's state where the sensor reads start.x1: what the sensor adds to the motor's angle shifts the
-/// drive, not the first sample.
+/// The drive's state where the sensor reads the position that the recorded body starts at: what the sensor
+/// adds to it shifts the drive, not the first sample.
 template <class T>
-DriveState<T> behind_the_sensor(DriveStepper<T>& stepper, const DriveState<T>& start) {
+DriveState<T> behind_the_sensor(const PlantModel<T>& model, DriveStepper<T>& stepper,
+                                const DriveState<T>& start) {
   stepper.reset(start);
-  const T added = stepper.measured() - start.x1;
+  const T added = stepper.measured() - (model.structure.reads_load() ? start.x2 : start.x1);
   DriveState<T> drive = start;
   drive.x1 -= added, drive.x2 -= added;
   return drive;
@@ -82,7 +84,7 @@ template <class T, class Visit>
 bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const MotorTrace& recording,
               const ObserverGains& gains, Visit&& visit) {
   DriveStepper<T> stepper = stepper_for(model, recording);
-  stepper.reset(behind_the_sensor(stepper, start));
+  stepper.reset(behind_the_sensor(model, stepper, start));
   for (std::size_t i = 0; i < recording.size(); ++i) {
     visit(i, stepper);
     if (gains.corrects()) {

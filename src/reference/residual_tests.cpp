@@ -26,7 +26,7 @@ std::vector<Pair> pairs_of(const FitProblem& problem, bool free_run, const FitSu
   std::vector<Pair> pairs;
   for (std::size_t r = 0; r < summary.traces.size(); ++r) {
     const MotorTrace& recording = problem.recordings[r];
-    const std::vector<double>& x1 = free_run ? summary.traces[r].x1 : summary.traces[r].predicted_x1;
+    const std::vector<double>& x1 = free_run ? summary.traces[r].position() : summary.traces[r].predicted;
     if (x1.empty()) continue;
     std::vector<double> e(x1.size());
     for (std::size_t i = 0; i < e.size(); ++i) e[i] = recording.x1[i] - x1[i];

@@ -48,10 +48,18 @@ std::vector<double> given_values(const FitProblem& problem) {
   return q;
 }
 
+/// A motor behind a resting load need not rest: without friction of its own its speed is open.
+std::vector<InitialVariant> variants_of_motor(const FitProblem& problem) {
+  std::vector<InitialVariant> variants{{0, true}, {-1, true}, {1, true}};
+  if (problem.motor_may_stick) variants.push_back({0, false});
+  return variants;
+}
+
 }  // namespace
 
 std::vector<InitialVariant> initial_variants(const FitProblem& problem, const RecordingStart& start) {
   if (!problem.structure.has_load) return {{0, false}};
+  if (problem.structure.reads_load()) return variants_of_motor(problem);
   if (problem.locked() || !start.moves) return {{0, false}, {-1, false}, {1, false}};
   return {{0, false}, {0, true}, {-1, true}, {1, true}};
 }

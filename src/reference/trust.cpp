@@ -86,7 +86,7 @@ double fit_percent(const FitProblem& problem, const std::vector<FitTrace>& trace
   double worst = kInfinity;
   for (std::size_t r = 0; r < traces.size(); ++r) {
     const std::span<const double> x = problem.recordings[r].x1;
-    const std::vector<double>& run = traces[r].x1;
+    const std::vector<double>& run = traces[r].position();
     if (run.size() != x.size()) return kNaN;
     const double center = mean(x);
     double missed = 0.0, moved = 0.0;

@@ -86,7 +86,7 @@ Panel displacement_panel(const ReportView& view, const BoundMap& map) {
   panel.y = {"$x_1$", view.length_unit, {}, {}, {}, {}};
   panel.height = 260.0;
   panel.x_labels = false;
-  panel.series.push_back(view.over_time("", measured_style(), view.recording->x1, panel.x.range));
+  panel.series.push_back(view.over_time("", measured_style(), view.recording->position(), panel.x.range));
   return panel;
 }
 

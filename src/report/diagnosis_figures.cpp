@@ -30,9 +30,15 @@ const MismatchTrace* shown_trace(const DiagnosisResult& r) {
 std::string length_unit(const DiagnosisResult& r) { return r.coordinates.position_unit(); }
 std::string torque_unit_of(const DiagnosisResult& r) { return r.coordinates.shown_unit("N m"); }
 std::string torque_word(const DiagnosisResult& r) { return r.coordinates.torque_word(); }
-std::string angle_word(const DiagnosisResult& r) {
-  return r.coordinates.rotational() ? "motor angle" : "displacement";
+bool reads_load(const DiagnosisResult& r) {
+  const auto& traces = r.diagnosis.traces;
+  return !traces.empty() && traces.front().encoder == EncoderSide::kLoad;
 }
+std::string angle_word(const DiagnosisResult& r) {
+  if (!r.coordinates.rotational()) return "displacement";
+  return reads_load(r) ? "load angle" : "motor angle";
+}
+const char* position_name(const DiagnosisResult& r) { return reads_load(r) ? "$x_2$" : "$x_1$"; }
 bool added(const DiagnosisResult& r) { return !r.diagnosis.effects.empty(); }
 
 /// What the model has been given: its one effect, or all of them.
@@ -136,11 +142,13 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   figure.title = "Errors on held-out data";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
-  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs", "$x_1$ − free run",
-                                     length_unit(r), t->error_before, t->error_after));
+  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs",
+                                     std::string(position_name(r)) + " − free run", length_unit(r),
+                                     t->error_before, t->error_after));
   figure.panels.push_back(pair_panel(r, *t, "Residual " + torque_word(r), "residual " + torque_word(r),
                                      torque_unit_of(r), t->torque_before, t->torque_after));
-  Panel input = time_panel("Held-out recording", "displacement $x_1$", length_unit(r), *t);
+  Panel input =
+      time_panel("Held-out recording", std::string("displacement ") + position_name(r), length_unit(r), *t);
   input.series.push_back(over_time("", measured_style(), *t, t->x1));
   figure.panels.push_back(input);
   const MismatchSize& g = r.diagnosis.mismatch;
@@ -234,7 +242,7 @@ FigureData diagnosis_torque_map(const DiagnosisResult& r) {
       if (!s.x.empty()) panel.series.push_back(s);
     return panel;
   };
-  const Axis position{angle_word(r) + " $x_1$", length_unit(r), {}, {}, {}};
+  const Axis position{angle_word(r) + " " + position_name(r), length_unit(r), {}, {}, {}};
   const Axis input{"input $u$", "units of $u$", {}, {}, {}};
   const bool both = added(r) && t->torque_after.size() == t->x1.size();
   const auto row = [&](const std::string& over, const Axis& x, const std::vector<double>& of) {

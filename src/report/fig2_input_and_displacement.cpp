@@ -26,7 +26,7 @@ Panel state_and_error(const ReportView& view) {
   panel.y = {"displacement", view.length_unit, {}, {}, {}};
   panel.height = 480.0;
   panel.title = view.state.empty() ? "Estimation error" : "Backlash state";
-  double target = view.recording ? 0.5 * peak_to_peak(view.recording->x1) : kNaN;
+  double target = view.recording ? 0.5 * peak_to_peak(view.recording->position()) : kNaN;
   if (!view.state.empty()) {
     const bool fitted = view.source == StateSource::kFitted;
     panel.series.push_back(view.over_time(view.state_name(), fitted ? reference_style() : measured_style(),
@@ -42,8 +42,9 @@ Panel state_and_error(const ReportView& view) {
 }
 
 std::string reading(const ReportView& view) {
-  const double travel = peak_to_peak(view.recording->x1);
-  std::string text = "x1 travels " + quantity(travel, view.length_unit) + " from end to end";
+  const double travel = peak_to_peak(view.recording->position());
+  std::string text = (view.reads_load() ? "x2 travels " : "x1 travels ") +
+                     quantity(travel, view.length_unit) + " from end to end";
   if (view.run.model_free && std::isfinite(view.run.model_free->gap))
     text += ", " + plain_number(travel / view.run.model_free->gap) + " times the gap found";
   if (!view.state.empty())
@@ -67,8 +68,9 @@ FigureData fig2_input_and_displacement(const ReportView& view) {
   if (!view.recording) return missing_figure(figure.file, figure.title, "no recording is stored");
   figure.panels.push_back(
       over_time(view, "Input", {"input $u$", "units of $u$", {}, {}, {}}, input_style(), view.recording->u));
-  figure.panels.push_back(over_time(view, "Motor displacement", {"$x_1$", view.length_unit, {}, {}, {}},
-                                    measured_style(), view.recording->x1));
+  figure.panels.push_back(over_time(view, view.reads_load() ? "Load displacement" : "Motor displacement",
+                                    {view.position_name(), view.length_unit, {}, {}, {}}, measured_style(),
+                                    view.recording->position()));
   if (!view.state.empty() || view.error) figure.panels.push_back(state_and_error(view));
   figure.panels.back().x_labels = true;
   figure.reading = reading(view);

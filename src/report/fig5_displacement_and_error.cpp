@@ -69,8 +69,8 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
     return missing_figure(figure.file, figure.title,
                           view.run.model_free ? "the detector left no error trace of the recording"
                                               : "the model-free detector was not asked for");
-  const double offset = offset_of(view.recording->x1);
-  std::vector<double> x1 = view.recording->x1;
+  const double offset = offset_of(view.recording->position());
+  std::vector<double> x1 = view.recording->position();
   for (double& x : x1) x -= offset;
   Panel panel;
   panel.x = view.time_axis(view.window);

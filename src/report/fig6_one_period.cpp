@@ -37,7 +37,7 @@ Panel displacement_panel(const ReportView& view, const OnePassage& p) {
   panel.height = 520.0;
   panel.title = "Motor displacement";
   panel.x_labels = false;
-  panel.series.push_back(view.over_time("", measured_style(), view.recording->x1, p.window));
+  panel.series.push_back(view.over_time("", measured_style(), view.recording->position(), p.window));
   for (const double y : {p.event.x1_t1, p.event.x1_t2}) panel.y_marks.push_back({y, guide_style(), ""});
   const double s5 = std::abs(p.event.x1_t2 - p.event.x1_t1);
   const std::string name = uncorrected(p.event) ? "$2\\hat{β}$" : "$|x_1(t_2) − x_1(t_1)|$";

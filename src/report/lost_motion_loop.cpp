@@ -94,7 +94,7 @@ Series loop_of(const LoopFigure& f, std::size_t level) {
     if (f.level_of(cycle) != level) continue;
     for (std::size_t i = cycle.from; i < std::min(cycle.to + 1, f.torque.size()); ++i) {
       s.x.push_back(f.torque[i]);
-      s.y.push_back(f.view.recording->x1[i]);
+      s.y.push_back(f.view.recording->position()[i]);
     }
     s.x.push_back(kNaN);
     s.y.push_back(kNaN);
@@ -112,7 +112,7 @@ void add_flank(const LoopFigure& f, std::size_t level, double side, Panel& panel
     if (f.level_of(cycle) != level || !(side * cycle.extreme > 0.0)) continue;
     std::size_t i = cycle.from;
     while (i < cycle.to && side * f.torque[i] < 0.75 * top) ++i;
-    if (i < cycle.to) places.push_back(f.view.recording->x1[i]);
+    if (i < cycle.to) places.push_back(f.view.recording->position()[i]);
   }
   if (places.empty()) return;
   Series s;
@@ -127,7 +127,7 @@ double place_at_zero(const LoopFigure& f, std::size_t level, double side) {
   std::vector<double> places;
   for (const HalfCycle& cycle : f.cycles)
     if (f.level_of(cycle) == level && side * cycle.extreme > 0.0 && cycle.to > 0)
-      places.push_back(f.view.recording->x1[std::min(cycle.to, f.torque.size() - 1)]);
+      places.push_back(f.view.recording->position()[std::min(cycle.to, f.torque.size() - 1)]);
   return median(places);
 }
 

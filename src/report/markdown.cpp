@@ -111,6 +111,30 @@ std::string parameter_table(const RunResult& run) {
   return text + ".\n";
 }
 
+/// What the encoder on the load says of the model, which did not read it.
+std::string second_encoder_table(const RunResult& run) {
+  if (!run.second_encoder) return "";
+  const SecondEncoder& s = *run.second_encoder;
+  const std::string unit = position_unit(run);
+  std::string text =
+      "\n## Validation by the encoder on the load\n\nThe fit read the motor's alone. The mean difference of "
+      "each "
+      "recording is taken out: the two have no common zero.\n\n| quantity | value |\n|---|---|\n";
+  const auto row = [&](const char* name, const std::string& value) {
+    text += fmt::format("| {} | {} |\n", name, value);
+  };
+  if (std::isfinite(s.rmse)) {
+    row("free run − recorded x2, rms", quantity(s.rmse, unit));
+    row("the same of x1, which was fitted", quantity(s.motor_rmse, unit));
+    row("fit of x2, worst recording", rounded(s.fit_percent, 4) + " %");
+  }
+  if (std::isfinite(s.floor)) row("what this encoder alone leaves", quantity(s.floor, unit));
+  if (std::isfinite(s.gap))
+    row("gap by the difference of both, wind-up of the contact included", quantity(s.gap, unit));
+  if (std::isfinite(s.difference)) row("the reference's gap less that", quantity(s.difference, unit));
+  return text;
+}
+
 std::string timing_line(const Timing& timing) {
   std::string text;
   if (std::isfinite(timing.model_free_s)) text += "model-free " + quantity(timing.model_free_s, "s");
@@ -182,7 +206,7 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
   if (run.model_free && run.model_free->lost_motion.read())
     text += "\nLost motion: " + sentence(run.model_free->lost_motion.meaning.text()) + "\n";
   text += bounds_line(run);
-  text += timing_line(timing) + parameter_table(run);
+  text += timing_line(timing) + parameter_table(run) + second_encoder_table(run);
   if (run.reference)
     text += bullet_section("What would sharpen the reference", texts_of(run.reference->advice));
   text += figure_section(figures);

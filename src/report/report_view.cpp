@@ -48,7 +48,7 @@ void find_traces(ReportView& view) {
 }
 
 void find_state(ReportView& view) {
-  if (!view.recording->x2.empty()) {
+  if (!view.recording->x1.empty() && !view.recording->x2.empty()) {
     view.source = StateSource::kRecorded;
     view.state = difference_of(view.recording->x1, view.recording->x2);
   } else if (view.fit && !view.fit->x2.empty()) {
@@ -64,7 +64,7 @@ void find_state(ReportView& view) {
 }
 
 void find_window(ReportView& view) {
-  const std::vector<std::size_t> crossings = middle_crossings(view.recording->x1);
+  const std::vector<std::size_t> crossings = middle_crossings(view.recording->position());
   std::vector<double> halves;
   for (std::size_t i = 1; i < crossings.size(); ++i)
     halves.push_back(view.recording->dt *

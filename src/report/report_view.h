@@ -38,6 +38,8 @@ struct ReportView {
   Series over_time(const std::string& label, const LineStyle& style, const std::vector<double>& values,
                    const Interval& interval) const;
   Axis time_axis(const Interval& interval) const;
+  bool reads_load() const { return recording && recording->encoder == EncoderSide::kLoad; }
+  std::string position_name() const { return reads_load() ? "$x_2$" : "$x_1$"; }  ///< that estimators read
   std::string state_name() const;  ///< "backlash state $x_1 − x_2$", fitted where it is
 };
 

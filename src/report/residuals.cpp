@@ -32,13 +32,29 @@ Panel over_time(const ReportView& view, const std::vector<double>& residual, con
   panel.title = view.whole || shaded ? (view.fit->x2.empty() ? "Residual" : "Residual by mode")
                                      : "Residual of the whole recording";
   panel.x = view.time_axis(interval);
-  panel.y = {"$x_1$ − fitted $x_1$", view.length_unit, {}, {}, {}};
+  panel.y = {view.position_name() + " − fitted " + view.position_name(), view.length_unit, {}, {}, {}};
   panel.height = 400.0;
   LineStyle style = measured_style();
   style.width = 2.5;
   panel.series.push_back(view.over_time("", style, residual, interval));
   if (shaded) panel.x_bands = gap_bands(view, interval);
   return panel;
+}
+
+/// Of the load, whose encoder the fit did not read; the two have no common zero.
+Panel load_panel(const ReportView& view) {
+  std::vector<double> error = difference_of(view.recording->x2, view.fit->x2);
+  const double offset = mean(error);
+  for (double& e : error) e -= offset;
+  Panel panel = over_time(view, error, {view.time.front(), view.time.back()}, false);
+  panel.title = "Validation by the encoder on the load, which was not fitted";
+  panel.y.name = "$x_2$ − fitted $x_2$";
+  return panel;
+}
+
+std::string load_reading(const SecondEncoder& second, const std::string& unit) {
+  return fmt::format(" The load's encoder, which was not fitted, is missed by {} rms, {} times its floor.",
+                     quantity(second.rmse, unit), plain_number(second.rmse / second.floor));
 }
 
 std::size_t lags_of(const ReportView& view, std::size_t samples) {
@@ -83,7 +99,8 @@ std::string reading(const ReportView& view, const std::vector<double>& residual,
   const FitSummary& fit = *view.run.reference;
   const double size = rms(residual);
   std::string text =
-      "The free run of the fitted model misses x1 by " + quantity(size, view.length_unit) + " rms";
+      fmt::format("The free run of the fitted model misses {} by ", view.reads_load() ? "x2" : "x1") +
+      quantity(size, view.length_unit) + " rms";
   if (std::isfinite(fit.floor) && fit.floor > 0.0)
     text += fmt::format(", {} times the encoder floor", plain_number(size / fit.floor));
   if (std::isfinite(fit.innovation_rmse))
@@ -114,13 +131,18 @@ FigureData residuals(const ReportView& view) {
     return missing_figure(figure.file, figure.title,
                           view.run.reference ? "the fit left no free run of the recording"
                                              : "the model-based reference was not asked for");
-  const std::vector<double> residual = difference_of(view.recording->x1, view.fit->x1);
+  const std::vector<double> residual = difference_of(view.recording->position(), view.fit->position());
   const std::vector<double> r = autocorrelation(residual, lags_of(view, residual.size()));
   const Interval all{view.time.front(), view.time.back()};
   if (!view.whole) figure.panels.push_back(over_time(view, residual, all, false));
   figure.panels.push_back(over_time(view, residual, view.window, true));
   figure.panels.push_back(autocorrelation_panel(view, r, residual.size()));
   figure.reading = reading(view, residual, r);
+  const auto& second = view.run.second_encoder;
+  if (second && std::isfinite(second->rmse) && view.recording->x2.size() == view.fit->x2.size()) {
+    figure.panels.push_back(load_panel(view));
+    figure.reading += load_reading(*second, view.length_unit);
+  }
   return figure;
 }
 

@@ -30,7 +30,8 @@ void require_consistent(const Diagnosis& d) {
 }
 
 TraceSet set_of(const MismatchTrace& m) {
-  Recording r{m.file, m.start, m.dt, m.u, m.x1, {}, m.mode, 0.0, "", false, m.stamps};
+  Recording r{m.file, m.start, m.dt, m.u, m.x1, {}, m.mode, 0.0, "", false, m.stamps, m.encoder};
+  if (m.encoder == EncoderSide::kLoad) std::swap(r.x1, r.x2);
   return {std::move(r), {}, {}, m.error_before, m.error_after, m.torque_before, m.torque_after};
 }
 
@@ -48,12 +49,14 @@ MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
   const std::string path = internal::results::trace_path(folder, stored.trace);
   TraceSet set;
   set.recording.start = stored.mismatch.start, set.recording.dt = stored.mismatch.dt;
+  set.recording.encoder = stored.mismatch.encoder;
   internal::results::read_trace(path, set);
   if (static_cast<int>(set.recording.size()) != stored.samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
                                 std::to_string(stored.samples));
   MismatchTrace m = stored.mismatch;
   m.scored_from = static_cast<std::size_t>(stored.scored_from);
+  if (m.encoder == EncoderSide::kLoad) std::swap(set.recording.x1, set.recording.x2);
   m.u = std::move(set.recording.u), m.x1 = std::move(set.recording.x1),
   m.mode = std::move(set.recording.mode), m.stamps = std::move(set.recording.stamps);
   m.error_before = std::move(set.error_before), m.error_after = std::move(set.error_after);

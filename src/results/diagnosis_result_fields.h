@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/results/diagnosis_result.h"
+#include "results/encoder_side_field.h"
 #include "results/file_hash_fields.h"
 #include "results/json_archive.h"
 #include "results/last_resort_fields.h"
@@ -219,6 +220,7 @@ void fields(Archive& archive, StoredMismatch& s) {
   archive("start_s", s.mismatch.start);
   archive("dt_s", s.mismatch.dt);
   archive("scored_from", s.scored_from);
+  encoder_side_field(archive, s.mismatch.encoder);
 }
 
 template <class Archive>

@@ -95,6 +95,11 @@ class JsonWriter {
     if (value) single(key, *value);
   }
 
+  template <class Enum>
+  void seldom_choice(const char* key, Enum& value, Words<Enum> words, Enum without) {
+    if (value != without) choice(key, value, words);
+  }
+
   /// The configuration that a result was made from, as resolved text with its SHA-256; null where there is
   /// none.
   void configuration(std::string& resolved);
@@ -215,6 +220,10 @@ class JsonReader {
   void added_choice(const char* key, Enum& value, Words<Enum> words, Enum without) {  ///< in files without it
     value = without;
     if (json_.contains(key)) choice(key, value, words);
+  }
+  template <class Enum>
+  void seldom_choice(const char* key, Enum& value, Words<Enum> words, Enum without) {
+    added_choice(key, value, words, without);
   }
   template <class Struct>
   void named(const char* key, std::vector<Struct>& values, std::string Struct::*name) {

@@ -59,6 +59,10 @@ class SchemaWriter {
     choice(key, value, words);
     additions_.insert(key);
   }
+  template <class Enum>
+  void seldom_choice(const char* key, Enum& value, Words<Enum> words, Enum without) {
+    added_choice(key, value, words, without);
+  }
   template <class Struct>
   void named(const char* key, std::vector<Struct>&, std::string Struct::*) {
     Struct item{};

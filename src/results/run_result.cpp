@@ -64,6 +64,7 @@ StoredRecording store_recording(const std::string& folder, std::size_t index, co
   stored.has_fit = fit != nullptr;
   stored.recording = {recording.file,    recording.start,     recording.dt, {}, {}, {}, {},
                       recording.quantum, recording.resampling};
+  stored.recording.encoder = recording.encoder;
   internal::results::write_trace(folder + "/" + stored.trace, recording, error, fit);
   return stored;
 }
@@ -73,6 +74,7 @@ void load_recording(const std::string& folder, const StoredRecording& stored, Ru
   internal::results::TraceSet set;
   set.recording = stored.recording;
   set.error.file = set.fit.file = stored.recording.file;
+  set.fit.encoder = stored.recording.encoder;
   internal::results::read_trace(path, set);
   if (static_cast<int>(set.recording.size()) != stored.samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +

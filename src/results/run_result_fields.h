@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/results/run_result.h"
+#include "results/encoder_side_field.h"
 #include "results/file_hash_fields.h"
 #include "results/json_archive.h"
 
@@ -193,6 +194,16 @@ void fields(Archive& archive, Comparison& c) {
 }
 
 template <class Archive>
+void fields(Archive& archive, SecondEncoder& s) {
+  archive("x2_rmse_rad", s.rmse);
+  archive("x1_rmse_rad", s.motor_rmse);
+  archive("fit_percent", s.fit_percent);
+  archive("floor_rad", s.floor);
+  archive("map_gap_rad", s.gap);
+  archive("gap_difference_rad", s.difference);
+}
+
+template <class Archive>
 void fields(Archive& archive, Answer& a) {
   archive("gap_rad", a.gap);
   archive("ci95_rad", a.ci95);
@@ -219,6 +230,7 @@ void fields(Archive& archive, StoredRecording& r) {
   archive("resampling", r.recording.resampling);
   archive("error_trace", r.has_error);
   archive("fit_trace", r.has_fit);
+  encoder_side_field(archive, r.recording.encoder);
 }
 
 template <class Archive>
@@ -231,6 +243,7 @@ void fields(Archive& archive, Document& d) {
   archive.part("model_free", d.run.model_free);
   archive.part("reference", d.run.reference);
   archive.part("comparison", d.run.comparison);
+  archive.seldom("second_encoder", d.run.second_encoder);
   archive("simulated_gap_rad", d.run.simulated_gap);
   archive("notes", d.run.notes);
   archive.configuration(d.run.configuration);

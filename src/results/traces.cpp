@@ -45,6 +45,9 @@ constexpr TraceColumn<Value> column(const char* name, Place) {
           [](TraceSet& s) -> std::vector<Value>& { return Place()(s); }};
 }
 
+constexpr const char* kPredictedMotor = "fit_predicted_x1_rad";
+constexpr const char* kPredictedLoad = "fit_predicted_x2_rad";
+
 /// The numbers of a set in their order in the file, after t_s.
 constexpr NumberColumn kNumbers[] = {
     column<double>(
@@ -60,7 +63,9 @@ constexpr NumberColumn kNumbers[] = {
     column<double>(
         "fit_x1_rad", [](auto& s) -> auto& { return s.fit.x1; }),
     column<double>(
-        "fit_predicted_x1_rad", [](auto& s) -> auto& { return s.fit.predicted_x1; }),
+        kPredictedMotor, [](auto& s) -> auto& { return s.fit.predicted; }),
+    column<double>(
+        kPredictedLoad, [](auto& s) -> auto& { return s.fit.predicted; }),
     column<double>(
         "fit_x2_rad", [](auto& s) -> auto& { return s.fit.x2; }),
     column<double>(
@@ -95,7 +100,10 @@ struct Columns {
 Columns filled_columns(const TraceSet& set) {
   const std::size_t n = set.recording.size();
   Columns filled;
+  const bool load = set.recording.encoder == EncoderSide::kLoad;
+  const char* const of_other_side = load ? kPredictedMotor : kPredictedLoad;
   const auto keep = [&](const auto& column, auto& into) {
+    if (column.name == of_other_side) return;
     const std::size_t length = column.of(set).size();
     if (length != 0 && length != n)
       throw std::logic_error(set.recording.file + ": column " + column.name + " has another length than x1");
@@ -149,7 +157,7 @@ bool holds(const std::vector<Column>& columns, std::string_view name) {
   return std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return name == c.name; });
 }
 
-Columns columns_of_header(std::string_view header) {
+Columns columns_of_header(std::string_view header, EncoderSide encoder) {
   Columns columns;
   if (next_field(header) != "t_s")
     throw std::invalid_argument("the first column is not t_s, expected a stored trace");
@@ -164,7 +172,7 @@ Columns columns_of_header(std::string_view header) {
       throw std::invalid_argument("there is a column " + shown(name) +
                                   ", expected only those of a stored trace, each once");
   }
-  for (const char* needed : {"u", "x1_rad"})
+  for (const char* needed : {"u", encoder == EncoderSide::kLoad ? "x2_rad" : "x1_rad"})
     if (!holds(columns.numbers, needed))
       throw std::invalid_argument(std::string("there is no column ") + needed +
                                   ", expected one in every trace");
@@ -245,7 +253,7 @@ void read_trace(const std::string& path, TraceSet& set) {
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
     try {
       if (line == 1)
-        columns = columns_of_header(row);
+        columns = columns_of_header(row, set.recording.encoder);
       else
         read_row(row, columns, set);
     } catch (const std::invalid_argument& error) {

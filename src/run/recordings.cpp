@@ -86,6 +86,23 @@ void note_time(const Recording& r, std::vector<std::string>& notes) {
   if (!r.even()) notes.push_back(r.file + ": uneven steps, each taken with its own length");
 }
 
+/// Where input and target both were recorded, the first is taken and the second tells of the controller.
+void note_controller(const RecordedFile& file, const Configuration& c, UnevenRows uneven,
+                     std::vector<std::string>& notes) {
+  const ReadOptions options = c.recording->reading_for(uneven);
+  const auto compared = compare_with_controller(file.path, options);
+  if (!options.controller) return;
+  if (!compared)
+    notes.push_back(file.given +
+                    ": the input is what the controller makes of the recorded target and position");
+  else
+    notes.push_back(
+        fmt::format("{}: the input is the recorded one; what the controller makes of the target leaves "
+                    "{:.2g} % of it, at {:.4g} "
+                    "times its own size",
+                    file.given, 100.0 * compared->left, compared->scale));
+}
+
 LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile>& files, UnevenRows uneven,
                           const Progress& progress) {
   LoadedRecordings loaded;
@@ -96,6 +113,7 @@ LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile
     r.file = name_of(file, files);
     apply_sheet(r, c, loaded.warnings);
     note_time(r, loaded.notes);
+    note_controller(file, c, uneven, loaded.notes);
     if (r.open_end)
       loaded.notes.push_back(r.file + ": its last line has no end, so the last number may be cut off");
     loaded.recordings.push_back(std::move(r));
@@ -145,6 +163,10 @@ Recording simulated_recording(const Configuration& c) {
   const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
   stop_point();
   Recording r = s.independent ? independent_recording(c, u) : simulate(s.plant.plant_model(), u, options);
+  const bool load = c.encoder.sides == EncoderSides::kLoad && !r.x2.empty();
+  if (c.encoder.sides == EncoderSides::kBoth || (load && s.independent))
+    r.x2 = encoder_reads(r.x2, options.encoder, s.seed);
+  if (load) r.encoder = EncoderSide::kLoad;
   r.file = c.name;
   return r;
 }

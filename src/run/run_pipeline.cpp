@@ -44,6 +44,7 @@ DetectorOptions detector_options(const Configuration& c, const std::vector<Motor
                                  std::vector<std::string>& notes) {
   DetectorOptions options;
   options.method = c.detector.method;
+  options.encoder = c.model.given && !c.model.structure.has_load ? EncoderSide::kMotor : c.encoder.side();
   options.locked = c.model.given && c.model.structure.has_load && c.model.structure.load == LoadKind::kLocked;
   options.frozen = c.detector.frozen;
   if (c.detector.bound) options.bound = *c.detector.bound;
@@ -158,6 +159,8 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
     r.reference = timed(out.timing.reference_s,
                         [&] { return fit(traces_of(r.recordings), c.model.reference_model(), c.fit); });
   }
+  if (c.encoder.sides == EncoderSides::kBoth)
+    r.second_encoder = validate_by_load(r.recordings, r.reference ? &*r.reference : nullptr);
   put_into_words(r);
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
   if (r.reference) append(out.warnings, texts_of(r.reference->warnings));

@@ -21,6 +21,17 @@ double real_quantum(const PlantModel<double>& model, double quantum) {
 
 }  // namespace
 
+std::vector<double> encoder_reads(std::span<const double> position, const Encoder& encoder,
+                                  std::uint64_t seed) {
+  auto noise = random_stream(seed, "second encoder noise");
+  std::vector<double> read(position.begin(), position.end());
+  for (double& x : read) {
+    if (encoder.noise > 0.0) x += encoder.noise * normal(noise);
+    if (encoder.quantum > 0.0) x = encoder.quantum * std::nearbyint(x / encoder.quantum);
+  }
+  return read;
+}
+
 Recording simulate(const PlantModel<double>& model, std::span<const double> u,
                    const SimulationOptions& options) {
   GAPSCOPE_REQUIRE(options.rate > 0.0);
@@ -30,17 +41,19 @@ Recording simulate(const PlantModel<double>& model, std::span<const double> u,
   r.u.assign(u.begin(), u.end());
   r.x1.reserve(u.size());
   r.mode.reserve(u.size());
+  const bool load = model.structure.reads_load();
+  r.encoder = load ? EncoderSide::kLoad : EncoderSide::kMotor;
   auto noise = random_stream(options.seed, "encoder noise");
   const double quantum = real_quantum(model, options.encoder.quantum);
   DriveStepper<double> stepper(model, r.dt);
   stepper.reset(options.initial);
   for (const double input : u) {
     stop_point();  // a stiff drive takes its time for a single sample
-    double x1 = stepper.measured();
-    if (options.encoder.noise > 0.0) x1 += options.encoder.noise * normal(noise);
-    if (quantum > 0.0) x1 = quantum * std::nearbyint(x1 / quantum);
-    r.x1.push_back(x1);
-    if (model.structure.has_load) r.x2.push_back(stepper.state().x2);
+    double position = stepper.measured();
+    if (options.encoder.noise > 0.0) position += options.encoder.noise * normal(noise);
+    if (quantum > 0.0) position = quantum * std::nearbyint(position / quantum);
+    r.x1.push_back(load ? stepper.state().x1 : position);
+    if (model.structure.has_load) r.x2.push_back(load ? position : stepper.state().x2);
     r.mode.push_back(mode_of(stepper));
     stepper.step(input);
     if (!stepper.healthy())

@@ -39,8 +39,8 @@ void DriveStepper<T>::step(double u, double dt) {
   impl_->step(u, dt);
 }
 template <class T>
-void DriveStepper<T>::inject(const T& dx1, const T& dw1) {
-  impl_->inject(dx1, dw1);
+void DriveStepper<T>::inject(const T& dx, const T& dw) {
+  impl_->inject(dx, dw);
 }
 template <class T>
 const DriveState<T>& DriveStepper<T>::state() const {

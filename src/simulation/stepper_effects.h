@@ -124,8 +124,9 @@ template <class T>
 void StepperImpl<T>::remember_start() {
   for (std::size_t i = 0; i < model.effects.size(); ++i) {
     const ActiveEffect<T>& e = model.effects[i];
-    if (e.hooks->remember != nullptr)
-      e.hooks->remember(point(z, now, i), memory.data() + i * kMostEffectMemory, e.parameters);
+    if (e.hooks->remember == nullptr) continue;
+    const DriveState<T> seen = seen_by(e, z);
+    e.hooks->remember(point(seen, now, i), memory.data() + i * kMostEffectMemory, e.parameters);
   }
 }
 
@@ -133,9 +134,10 @@ template <class T>
 void StepperImpl<T>::advance_memory(const DriveState<T>& to, const T& end_time) {
   for (std::size_t i = 0; i < model.effects.size(); ++i) {
     const ActiveEffect<T>& e = model.effects[i];
-    if (e.hooks->advance != nullptr)
-      e.hooks->advance(point(z, now, i), point(to, end_time, i), memory.data() + i * kMostEffectMemory,
-                       e.parameters);
+    if (e.hooks->advance == nullptr) continue;
+    const DriveState<T> from = seen_by(e, z), next = seen_by(e, to);
+    e.hooks->advance(point(from, now, i), point(next, end_time, i), memory.data() + i * kMostEffectMemory,
+                     e.parameters);
   }
 }
 

@@ -54,6 +54,7 @@ struct StepperImpl {
   FlowConstants<T> f;
   double dt = 0.0;
   bool has_load = true, locked = false, load_friction = true, motor_friction = false;
+  bool reads_load = false;                      ///< the encoder is on the load
   bool smooth = false;                          ///< an effect adds torque or gap
   bool adds_torque = false, moves_gap = false;  ///< which of both
   bool remembers = false;                       ///< an effect has memory
@@ -92,8 +93,9 @@ struct StepperImpl {
   // --- where things stand: stepper_state.h
   void set_decay();
   void reset(const DriveState<T>& state);
-  void inject(const T& dx1, const T& dw1);
+  void inject(const T& dx, const T& dw);
   T measured() const;
+  DriveState<T> seen_by(const ActiveEffect<T>& effect, const DriveState<T>& state) const;
   double side_distance(int side) const;  ///< s δ − β [rad]
   T contact_torque(int side) const;      ///< of a closed rigid contact the holding torque
   T acting_torque() const { return mode.contact != 0 ? contact_torque(mode.contact) : T(0.0); }

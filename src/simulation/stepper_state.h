@@ -8,6 +8,7 @@ template <class T>
 StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step, double shortest) : model(m), dt(step) {
   const DriveParameters<T>& p = m.drive;
   has_load = m.structure.has_load;
+  reads_load = m.structure.reads_load();
   locked = has_load && m.structure.load == LoadKind::kLocked;
   load_friction = has_load && !locked && m.load_sticks;
   motor_friction = m.motor_sticks;
@@ -87,12 +88,14 @@ void StepperImpl<T>::reset(const DriveState<T>& state) {
 }
 
 template <class T>
-void StepperImpl<T>::inject(const T& dx1, const T& dw1) {
-  z.x1 += dx1;
-  if (mode.motor != 0) z.w1 += dw1;
-  if (mode.contact != 0) {
-    if (!locked) z.x2 += dx1;
-    if (mode.load != 0) z.w2 += dw1;
+void StepperImpl<T>::inject(const T& dx, const T& dw) {
+  if (!reads_load || mode.contact != 0) {
+    z.x1 += dx;
+    if (mode.motor != 0) z.w1 += dw;
+  }
+  if (reads_load || mode.contact != 0) {
+    if (!locked) z.x2 += dx;
+    if (mode.load != 0) z.w2 += dw;
   }
   if (motor_friction && mode.motor != 0 && mode.motor * value_of(z.w1) < 0.0) mode.motor = -mode.motor;
   if (load_friction && mode.load != 0 && mode.load * value_of(z.w2) < 0.0) mode.load = -mode.load;
@@ -102,11 +105,21 @@ void StepperImpl<T>::inject(const T& dx1, const T& dw1) {
 
 template <class T>
 T StepperImpl<T>::measured() const {
-  T x1 = z.x1;
-  for (std::size_t i = 0; i < model.effects.size(); ++i)
-    if (const auto& e = model.effects[i]; e.hooks->sense != nullptr)
-      x1 += e.hooks->sense(point(z, now, i), e.parameters);
-  return x1;
+  T position = reads_load ? z.x2 : z.x1;
+  for (std::size_t i = 0; i < model.effects.size(); ++i) {
+    const ActiveEffect<T>& e = model.effects[i];
+    if (e.hooks->sense == nullptr) continue;
+    const DriveState<T> seen = seen_by(e, z);
+    position += e.hooks->sense(point(seen, now, i), e.parameters);
+  }
+  return position;
+}
+
+/// A sensor sees the body that it is on: laws of sensors call that one x1.
+template <class T>
+DriveState<T> StepperImpl<T>::seen_by(const ActiveEffect<T>& effect, const DriveState<T>& state) const {
+  if (!reads_load || effect.hooks->sense == nullptr) return state;
+  return {state.x2, state.w2, state.x1, state.w1};
 }
 
 template <class T>

@@ -235,6 +235,17 @@ GapEstimate detect_auto(std::span<const MotorTrace> recordings, std::vector<Impa
   return estimate;
 }
 
+/// Both readings are of the motor's way through the gap, in which the load takes no part.
+GapEstimate nothing_from_load(const DetectorOptions& options) {
+  GapEstimate estimate;
+  estimate.verdict = GapVerdict::kInconclusive;
+  if (options.method == DetectorMethod::kLostMotion)
+    estimate.method = GapMethod::kLostMotion, estimate.quantity = GapQuantity::kPlayAtZeroTorque;
+  if (options.bound > 0.0) estimate.method = GapMethod::kPaper;
+  estimate.reason = words::encoder_on_load();
+  return estimate;
+}
+
 }  // namespace
 
 const char* to_string(DetectorMethod method) {
@@ -243,6 +254,7 @@ const char* to_string(DetectorMethod method) {
 }
 
 GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOptions& options) {
+  if (options.encoder == EncoderSide::kLoad) return nothing_from_load(options);
   if (options.frozen && !(options.bound > 0.0)) return detect_frozen(recordings, options);
   const std::vector<SignalFacts> facts = facts_of(recordings);
   const LoopSearch loops = internal::sliding_mode::read_lost_motion(recordings, facts);

@@ -10,6 +10,7 @@
 namespace gapscope::internal::sliding_mode::words {
 
 Remark no_recording();
+Remark encoder_on_load();
 Remark no_steady_motion_yet();
 Remark within_first_samples(long samples);  ///< behind why nothing could be learnt
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/reference/fit.h"
+#include "gapscope/simulation/simulate.h"
 #include "independent_plant/simulate.h"
 
 namespace gapscope::test {
@@ -48,6 +49,14 @@ struct BlindRig {
     return independent_plant::simulate_blind(drive, excitation, sensor, options).recording;
   }
 };
+
+/// The same motion as an encoder of this kind on the load records it.
+inline Recording read_on_load(Recording r, const independent_plant::BlindSensor& sensor, std::uint64_t seed) {
+  r.x2 = encoder_reads(r.x2, {sensor.quantum, sensor.noise}, seed);
+  r.encoder = EncoderSide::kLoad;
+  r.x1.clear();
+  return r;
+}
 
 /// The part of a recording from one time on.
 inline Recording window(const Recording& whole, double from) {

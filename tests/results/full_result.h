@@ -80,7 +80,7 @@ inline FitSummary summary(const RunResult& run) {
   FitTrace& trace = f.traces.emplace_back();
   trace.file = "b.csv";
   trace.x1 = run.recordings[1].u;
-  trace.predicted_x1 = run.recordings[1].x1;
+  trace.predicted = run.recordings[1].x1;
   f.mode_errors = {{Mode::kGap, 12, kThird}, {Mode::kEngagementMinus, 0, kNaN}};
   f.start_costs = {kThird, 2.0, kNaN};
   f.warnings = {Remark::said("advice")};

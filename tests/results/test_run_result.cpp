@@ -186,7 +186,7 @@ TEST(RunResult, TheReferenceComesBackExactly) {
   ASSERT_EQ(b.traces.size(), 1u);
   EXPECT_EQ(a.traces[0].file, b.traces[0].file);
   EXPECT_EQ(a.traces[0].x1, b.traces[0].x1);
-  EXPECT_EQ(a.traces[0].predicted_x1, b.traces[0].predicted_x1);
+  EXPECT_EQ(a.traces[0].predicted, b.traces[0].predicted);
   EXPECT_EQ(a.traces[0].x2, b.traces[0].x2);
   EXPECT_EQ(a.traces[0].mode, b.traces[0].mode);
 }

@@ -11,10 +11,21 @@
 
 namespace gapscope {
 
+/// `encoder: side:` – which bodies have one. With both, that of the motor estimates and that of the load
+/// validates.
+enum class EncoderSides { kMotor, kLoad, kBoth };
+
+const char* to_string(EncoderSides sides);  ///< "motor", "load", "both"
+
 /// `encoder:` – what its sheet says, on its own side of a gear.
 struct EncoderConfig {
   std::optional<int> bits;  ///< counts per revolution = 2^bits
   double quantum = 0.0;     ///< [rad], from either key; 0: not given
+  EncoderSides sides = EncoderSides::kMotor;
+  int line = 0;  ///< of `side:`
+
+  /// Whose position the estimators read.
+  EncoderSide side() const { return sides == EncoderSides::kLoad ? EncoderSide::kLoad : EncoderSide::kMotor; }
 
   static double quantum_of(int bits) { return 2.0 * std::numbers::pi / static_cast<double>(1ull << bits); }
 };

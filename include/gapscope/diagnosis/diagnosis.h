@@ -142,6 +142,7 @@ struct MismatchTrace {
   std::vector<double> torque_before, torque_after;  ///< residual torque [N m]
   std::vector<Mode> mode;                           ///< of the nominal model
   std::vector<double> stamps = {};                  ///< time of each sample [s]; empty: evenly sampled
+  EncoderSide encoder = EncoderSide::kMotor;        ///< of the load: x1 is that of the load
 
   double time(std::size_t i) const {
     return stamps.empty() ? start + dt * static_cast<double>(i) : stamps[i];

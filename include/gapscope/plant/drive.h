@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "gapscope/base/encoder_side.h"
+
 namespace gapscope {
 
 /// What the fields of DriveParameters are called in YAML and JSON, in their order there.
@@ -84,9 +86,12 @@ enum class LoadKind { kFree, kLocked };
 /// What a drive is made of, beside its numbers.
 struct DriveStructure {
   ContactLaw contact = ContactLaw::kCompliant;
-  double restitution = 1.0;         ///< of the rigid contact, in [0, 1]; 1 is eq. (3) itself
-  LoadKind load = LoadKind::kFree;  ///< locked: the output does not move
-  bool has_load = true;             ///< false: mass_ratio 0, one inertia without a gap
+  double restitution = 1.0;                   ///< of the rigid contact, in [0, 1]; 1 is eq. (3) itself
+  LoadKind load = LoadKind::kFree;            ///< locked: the output does not move
+  bool has_load = true;                       ///< false: mass_ratio 0, one inertia without a gap
+  EncoderSide encoder = EncoderSide::kMotor;  ///< the body whose position is recorded
+
+  bool reads_load() const { return has_load && encoder == EncoderSide::kLoad; }
 };
 
 /// Whether a drive of this structure has the parameter with the given place in kDriveParameters: without a

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/encoder_side.h"
+
 namespace gapscope {
 
 /// What the coupling did during a sample (the paper's words). Impact: a contact closed within the sample.
@@ -13,13 +15,14 @@ enum class Mode : signed char { kEngagementMinus = -1, kGap = 0, kEngagementPlus
 /// "gap", "engagement+", "engagement-" or "impact": the words of the mode column of a simulated recording.
 const char* to_string(Mode mode);
 
-/// The view that estimators take: one motor encoder and the input, nothing of the load.
+/// The view that estimators take: one encoder and the input, nothing of the other body.
 struct MotorTrace {
   std::string file;                  ///< name of the recording, for events and messages
   double start = 0.0;                ///< time of the first sample [s]
   double dt = 0.0;                   ///< sampling interval, of uneven sampling the mean one [s]
   std::span<const double> u;         ///< input, held from its own sample to the next [unit of u]
-  std::span<const double> x1;        ///< motor position, read before u acts [rad]
+  std::span<const double> x1;        ///< position that the encoder reads, before u acts [rad]: the motor's,
+                                     ///< or the load's where the structure of the drive says so
   double quantum = 0.0;              ///< encoder quantum [rad]; 0 = unknown
   std::span<const double> stamps{};  ///< time of each sample [s]; empty: evenly sampled
 
@@ -40,19 +43,23 @@ struct Recording {
   double start = 0.0;      ///< time of the first sample [s]
   double dt = 0.0;         ///< sampling interval, of uneven sampling the mean one [s]
   std::vector<double> u;   ///< [unit of u]
-  std::vector<double> x1;  ///< [rad]
-  std::vector<double> x2;  ///< load position [rad]; empty if unknown. Never read by an estimator.
+  std::vector<double> x1;  ///< motor position [rad]; empty if unknown
+  std::vector<double> x2;  ///< load position [rad]; empty if unknown
   std::vector<Mode> mode;  ///< empty unless simulated
   double quantum = 0.0;    ///< encoder quantum of the sheet, else the one seen in the raw samples [rad]
   std::string resampling;  ///< what was done to make the sampling uniform; empty if nothing was
   bool open_end = false;   ///< the last line of its file has no end: the last number may be cut off
-  std::vector<double> stamps = {};  ///< time of each sample [s]; empty: evenly sampled
+  std::vector<double> stamps = {};            ///< time of each sample [s]; empty: evenly sampled
+  EncoderSide encoder = EncoderSide::kMotor;  ///< whose position estimators read; never the other one
+  std::vector<double> target = {};  ///< position that was commanded [rad]; empty where it was not recorded
 
-  std::size_t size() const { return x1.size(); }
+  /// What estimators read [rad].
+  const std::vector<double>& position() const { return encoder == EncoderSide::kLoad ? x2 : x1; }
+  std::size_t size() const { return position().size(); }
   bool even() const { return stamps.empty(); }
   double time(std::size_t i) const { return even() ? start + dt * static_cast<double>(i) : stamps[i]; }
   double duration() const { return dt * static_cast<double>(size()); }
-  MotorTrace motor_trace() const { return {file, start, dt, u, x1, quantum, stamps}; }
+  MotorTrace motor_trace() const { return {file, start, dt, u, position(), quantum, stamps}; }
 };
 
 /// `count` samples from `first` on, with their own start time; dt stays that of the whole. The view must not

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gapscope/base/whole_file.h"
+#include "gapscope/recording/controller.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/recording/units.h"
 
@@ -22,8 +23,17 @@ struct RecordingColumns {
   std::string position = "x1";
   std::string load_position = "x2";
   bool load_position_required = false;  ///< true when the user named the column
+  bool position_named = false;          ///< the same for the position
   ColumnScales scales;
   std::string voltage = {};  ///< of the supply: u is the input, a duty, times it; empty: there is none
+  std::string target = {};   ///< of the commanded position, in units of the position; empty: there is none
+  bool input_read = true;    ///< false: there is no input, only the target
+
+  /// Whether an encoder on the load is read from the column load_position; else it is from the one that alone
+  /// was named, position.
+  bool load_reads_load_position() const { return load_position_required || !position_named; }
+  /// The columns with that of an encoder on the load in the place of the position.
+  RecordingColumns read_from_load() const;
 };
 
 /// What becomes of rows that are not uniform in time.
@@ -37,6 +47,8 @@ struct ReadOptions {
   std::optional<std::pair<double, double>> window;  ///< part of the file that is used [s]
   std::optional<double> resample_rate;              ///< [Hz]; makes any sampling uniform
   UnevenRows uneven = UnevenRows::kRefused;         ///< where they are not resampled
+  EncoderSide encoder = EncoderSide::kMotor;        ///< whose position the column `position` is
+  std::optional<PositionController> controller;  ///< makes the input of the target, where that was recorded
 };
 
 /// Fewer samples than this are no recording.
@@ -52,6 +64,10 @@ constexpr std::size_t kFewestSamples = 50;
 ///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
 ///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.
 Recording read_recording(const std::string& path, const ReadOptions& options = {});
+
+/// Of a recording that has input and target both: what its controller, as declared, makes of the target
+/// beside the input that was recorded. Nothing where there is no controller, or no input.
+std::optional<InputComparison> compare_with_controller(const std::string& path, const ReadOptions& options);
 
 /// Writes t, u, x1 and, where known, x2 and mode, so that read_recording() returns the same numbers.
 /// @throws std::runtime_error if the file cannot be written.

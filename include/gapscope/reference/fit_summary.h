@@ -39,10 +39,15 @@ struct FittedParameter {
 /// Free run of the fitted model beside one recording.
 struct FitTrace {
   std::string file;
-  std::vector<double> x1;            ///< [rad]
-  std::vector<double> predicted_x1;  ///< of the model run as an observer, one step ahead [rad]
-  std::vector<double> x2;            ///< [rad]; empty for a drive without a load behind a gap
+  std::vector<double> x1;  ///< [rad]
+  std::vector<double>
+      predicted;           ///< position of the encoder by the model run as an observer, one step ahead [rad]
+  std::vector<double> x2;  ///< [rad]; empty for a drive without a load behind a gap
   std::vector<Mode> mode;
+  EncoderSide encoder = EncoderSide::kMotor;
+
+  /// What the encoder would read [rad].
+  const std::vector<double>& position() const { return encoder == EncoderSide::kLoad ? x2 : x1; }
 };
 
 /// Where the fitted model starts beside one recording.
@@ -73,7 +78,7 @@ struct FitSummary {
   FitTrust trust = FitTrust::kRejected;
   Remark why = Remark("not_run", "fit() was not called.");  ///< what the trust rests on, one sentence
   double fit_percent = kNaN;  ///< 100 (1 − |x1 − x̂1|/|x1 − mean|) of the free run, worst recording
-  double rmse = kNaN;         ///< free-run x1 − recorded x1, all recordings [rad]
+  double rmse = kNaN;         ///< free-run − recorded position of the encoder, all recordings [rad]
   double floor = kNaN;        ///< what the encoder alone leaves [rad]
   double innovation_rmse = kNaN;    ///< one-step prediction error of the model run as an observer [rad]
   double observer_hz = kNaN;        ///< poles of that observer [Hz]

@@ -8,6 +8,7 @@
 #include "gapscope/base/file_hash.h"
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/comparison.h"
+#include "gapscope/diagnosis/second_encoder.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit_summary.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
@@ -16,18 +17,19 @@ namespace gapscope {
 
 /// All that `run`, `detect` and `fit` leave behind, and all that a report is drawn from.
 struct RunResult {
-  std::string name;                       ///< of the configuration
-  std::string version;                    ///< of gapscope
-  std::string configuration;              ///< resolved_yaml(), which is stored with its SHA-256
-  std::vector<FileHash> sources;          ///< the configuration and every recording that it names
-  Coordinates coordinates;                ///< of a translation: rad and N·m mean m and N
-  std::optional<Answer> answer;           ///< absent in files that were written before it was stored
-  std::optional<GapEstimate> model_free;  ///< absent: not asked for (`fit`)
-  std::optional<FitSummary> reference;    ///< absent: not asked for (`detect`)
-  std::optional<Comparison> comparison;   ///< absent unless both were asked for
-  double simulated_gap = kNaN;            ///< 2β of the simulated plant [rad]; NaN for recorded data
-  std::vector<Recording> recordings;      ///< stored as traces, not in the JSON
-  std::vector<std::string> notes;         ///< what was done to the data, readings of the configuration
+  std::string name;                             ///< of the configuration
+  std::string version;                          ///< of gapscope
+  std::string configuration;                    ///< resolved_yaml(), which is stored with its SHA-256
+  std::vector<FileHash> sources;                ///< the configuration and every recording that it names
+  Coordinates coordinates;                      ///< of a translation: rad and N·m mean m and N
+  std::optional<Answer> answer;                 ///< absent in files that were written before it was stored
+  std::optional<GapEstimate> model_free;        ///< absent: not asked for (`fit`)
+  std::optional<FitSummary> reference;          ///< absent: not asked for (`detect`)
+  std::optional<Comparison> comparison;         ///< absent unless both were asked for
+  std::optional<SecondEncoder> second_encoder;  ///< absent unless one on the load validates
+  double simulated_gap = kNaN;                  ///< 2β of the simulated plant [rad]; NaN for recorded data
+  std::vector<Recording> recordings;            ///< stored as traces, not in the JSON
+  std::vector<std::string> notes;               ///< what was done to the data, readings of the configuration
 };
 
 /// Wall times; the only stored result that is not a function of input, seed and version.
@@ -41,8 +43,9 @@ std::string trace_name(std::size_t index, const std::string& recording_file);
 
 /// Writes result.json, traces/<n>_<file>.csv and, where a bank of bounds was run, traces/bound_map.csv (a row
 /// for each column of time, a field for each bound: |e_x| over its floor) into an existing folder. The
-/// columns of a trace are t_s, u, x1_rad, x2_rad, e_x_rad, w1_hat_rad_s, fit_x1_rad, fit_predicted_x1_rad,
-/// fit_x2_rad, mode, fit_mode, those that are filled. Numbers come out shortest and read back the same.
+/// columns of a trace are t_s, u, x1_rad, x2_rad, e_x_rad, w1_hat_rad_s, fit_x1_rad, fit_predicted_x1_rad
+/// (where the encoder is on the load fit_predicted_x2_rad), fit_x2_rad, mode, fit_mode, those that are
+/// filled. Numbers come out shortest and read back the same.
 /// @throws std::runtime_error naming what cannot be written.
 void write_run_result(const std::string& folder, const RunResult& result);
 void write_timing(const std::string& folder, const Timing& timing);

@@ -8,7 +8,7 @@
 
 namespace gapscope {
 
-/// The encoder on the motor: noise first, then the nearest count.
+/// The encoder that estimators read: noise first, then the nearest count.
 struct Encoder {
   double quantum = 0.0;  ///< [rad]; 0: continuous
   double noise = 0.0;    ///< rms, before quantisation [rad]
@@ -22,11 +22,15 @@ struct SimulationOptions {
 };
 
 /// Plays the input u (held from sample to sample) on a drive and records it like a real one: x1 through the
-/// encoder, x2 exactly, and the mode of each sample (impact: a contact closed in the interval that ends
-/// there).
+/// encoder, x2 exactly (the other way round where the encoder is on the load), and the mode of each sample
+/// (impact: a contact closed in the interval that ends there).
 /// @throws std::runtime_error when the motion diverges.
 Recording simulate(const PlantModel<double>& model, std::span<const double> u,
                    const SimulationOptions& options);
+
+/// What another encoder on the drive reads of an exact position [rad], with a noise of its own.
+std::vector<double> encoder_reads(std::span<const double> position, const Encoder& encoder,
+                                  std::uint64_t seed);
 
 /// The model of a drive without effects.
 PlantModel<double> plant_model(const DriveParameters<double>& drive, const DriveStructure& structure);

@@ -53,12 +53,12 @@ class DriveStepper {
   /// these, and no others.
   void step(double u, double dt);
 
-  /// Moves position and speed of the motor, the load with it while in contact (output injection of an
-  /// observer). A body that sticks keeps its speed of zero.
-  void inject(const T& dx1, const T& dw1);
+  /// Moves position and speed of the body with the encoder, the other one with it while in contact (output
+  /// injection of an observer). A body that sticks keeps its speed of zero.
+  void inject(const T& dx, const T& dw);
 
   const DriveState<T>& state() const;
-  /// x1 as the encoder would read it without noise and resolution: with the sensing effects [rad].
+  /// The position that the encoder would read without noise and resolution: with the sensing effects [rad].
   T measured() const;
   const ContactMode& mode() const;
   bool closed_in_last_step() const;  ///< a contact closed within the last sample

@@ -18,6 +18,7 @@ const char* to_string(DetectorMethod method);  ///< "auto", "impact", "lost_moti
 
 struct DetectorOptions {
   DetectorMethod method = DetectorMethod::kAuto;
+  EncoderSide encoder = EncoderSide::kMotor;
   bool locked = false;  ///< the output is declared not to move, so its load cannot rest or coast
   double bound = 0.0;   ///< L [rad/s²] for the paper's own S3 and S4 on one e_x; 0: `auto`, a bank of bounds
   double paper_bound =
@@ -26,8 +27,8 @@ struct DetectorOptions {
 };
 
 /// The model-free estimate of the backlash gap (Sections II-B to III-C, steps S1–S6), from the motor encoder
-/// alone. Several recordings are never concatenated: the detector runs on each, their events are combined.
-/// Bad data is a verdict with a reason, never an exception.
+/// alone; from that of the load it reads nothing and says why. Several recordings are never concatenated: the
+/// detector runs on each, their events are combined. Bad data is a verdict with a reason, never an exception.
 GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOptions& options = {});
 
 }  // namespace gapscope
