@@ -93,6 +93,11 @@ std::string validation_line(const RunResult& r) {
                      r.coordinates.thousandths(s.floor));
 }
 
+/// What everybody wants to know, last: it is what stays in view.
+void print_card(const Card& card) {
+  for (const CardLine& l : card.lines()) line(l.name, l.text);
+}
+
 }  // namespace
 
 Progress progress_on_terminal(bool quiet) {
@@ -108,9 +113,6 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 void print_headline(const std::string& folder, const RunResult& r) {
   line("report", folder);
-  if (r.answer) line("answer", fmt::format("{} (trust: {})", r.answer->sentence, to_string(r.answer->trust)));
-  if (r.answer)
-    for (const std::string& step : r.answer->next) line("next", step);
   if (r.model_free) line("model-free", model_free_line(*r.model_free, r.coordinates));
   if (r.model_free && r.model_free->lost_motion.read())
     line("lost motion", lost_motion_line(r.model_free->lost_motion, r.coordinates));
@@ -122,6 +124,7 @@ void print_headline(const std::string& folder, const RunResult& r) {
          fmt::format("{:<17} width of the x1-x2 map", r.coordinates.thousandths(r.comparison->map_width)));
   if (r.second_encoder && !std::isnan(r.second_encoder->rmse)) line("validation", validation_line(r));
   if (!std::isnan(r.simulated_gap)) line("simulated", r.coordinates.thousandths(r.simulated_gap));
+  if (r.answer) print_card(r.answer->card);
 }
 
 void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {
@@ -129,9 +132,7 @@ void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {
   line("report", folder);
   line("verdict", to_string(d.verdict));
   for (const std::string& effect : d.effects) line("effect", effect);
-  line("answer", d.sentence);
-  if (d.verdict != DiagnosisVerdict::kNone) line("place", d.where.headline);
-  if (!d.next_experiment.sentence.empty()) line("next", d.next_experiment.sentence);
+  if (r.answer) print_card(r.answer->card);
 }
 
 }  // namespace gapscope::cli

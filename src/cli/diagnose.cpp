@@ -10,6 +10,7 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/diagnosis_result.h"
+#include "gapscope/results/drive_card.h"
 #include "gapscope/results/report_folder.h"
 #include "gapscope/run/run_diagnosis.h"
 
@@ -41,8 +42,9 @@ std::string fitted_model(const Configuration& c, const Diagnosis& d, const Refer
                     {t.file, t.start, t.dt, t.u, t.x1, recording.quantum, t.stamps});
 }
 
-void write_outcome(ReportFolder& report, const Configuration& c, const DiagnosisResult& result,
+void write_outcome(ReportFolder& report, const Configuration& c, DiagnosisResult& result,
                    const MotorTrace& recording) {
+  add_card(report.path(), result);
   write_diagnosis_result(report.path(), result);
   write_text(report.path() + "/resolved.yaml", result.configuration);
   write_text(report.path() + "/fitted.yaml",

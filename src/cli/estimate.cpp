@@ -11,6 +11,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/report/report.h"
+#include "gapscope/results/drive_card.h"
 #include "gapscope/results/report_folder.h"
 #include "gapscope/run/run_pipeline.h"
 
@@ -38,6 +39,7 @@ void write_fitted_model(const std::string& folder, const Configuration& c, const
 void write_outcome(ReportFolder& report, const Configuration& c, RunOutcome& outcome) {
   report.keep_diagnosis(outcome.result.version, outcome.result.sources);
   if (!report.dropped().empty()) outcome.warnings.push_back(report.dropped());
+  add_card(report.path(), outcome.result);
   write_run_result(report.path(), outcome.result);
   write_timing(report.path(), outcome.timing);
   write_text(report.path() + "/resolved.yaml", outcome.result.configuration);

@@ -176,8 +176,9 @@ std::string read_name(const Section& root, const std::string& file) {
 }
 
 Configuration read_configuration(const Value& document) {
-  const Section root(document, {"name", "recording", "simulation", "encoder", "coordinates", "model",
-                                "controller", "detector", "fit", "next_experiment", "diagnosis", "implant"});
+  const Section root(document,
+                     {"name", "recording", "simulation", "encoder", "coordinates", "model", "controller",
+                      "detector", "fit", "next_experiment", "diagnosis", "tolerance", "implant"});
   Configuration c;
   c.file = document.file();
   c.name = read_name(root, c.file);
@@ -198,6 +199,7 @@ Configuration read_configuration(const Value& document) {
   if (c.simulation) c.fit.seed = c.simulation->seed;
   if (const auto fit = root.find("fit")) read_fields(*fit, c.fit);
   if (const auto diagnosis = root.find("diagnosis")) read_diagnosis(*diagnosis, c);
+  if (const auto tolerance = root.find("tolerance")) read_fields(*tolerance, c.tolerance);
   if (const auto implant = root.find("implant")) c.implant = read_implant(*implant);
   if (const auto next = root.find("next_experiment")) {
     read_fields(*next, c.next_experiment);

@@ -187,6 +187,7 @@ std::string configuration_schema() {
   diagnosis.add("exclude", effect_names_schema("effects that are no candidates"));
   implant.add("effects", effect_names_schema("that may be drawn; default: all"));
   root.add("diagnosis", diagnosis.schema("what the diagnosis is told beforehand"));
+  root.add("tolerance", fields_schema(Tolerance{}).schema("what is good enough: the card judges it"));
   root.add("implant", implant.schema("what gapscope blind implant puts into the recordings"));
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}};
   schema["title"] = "Configuration of gapscope";

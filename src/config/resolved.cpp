@@ -241,6 +241,12 @@ std::string yaml_of(const Configuration& c, const std::string& heading) {
   known.fields(fields);
   if (!c.excluded.empty()) out.entry("exclude", "[" + joined(c.excluded) + "]");
   out.close();
+  Tolerance tolerance = c.tolerance;
+  if (tolerance.stated()) {
+    out.open("tolerance");
+    tolerance.fields(fields);
+    out.close();
+  }
   if (c.implant) write_implant(out, *c.implant);
   return out.text();
 }

@@ -21,13 +21,6 @@ struct Turned {
 constexpr Turned kTurned[] = {{"stribeck_friction", "stiction_ratio",
                                "friction that is lower at low speed (stribeck friction, negative ratio)"}};
 
-std::string name_as_added(const AddedEffect& added) {
-  for (const Turned& t : kTurned)
-    for (const NamedValue& p : added.parameters)
-      if (added.effect == t.effect && p.key == t.parameter && p.value < 0.0) return t.words;
-  return readable(added.effect);
-}
-
 /// Where a recording cannot tell an effect from others.
 std::string likeness(std::vector<std::string> group) {
   if (group.size() < 2) return "";
@@ -91,7 +84,7 @@ std::string error_fall(const Diagnosis& d) {
 std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
   std::vector<std::string> causes, open;
   for (const AddedEffect& a : d.added) {
-    const std::string name = name_as_added(a);
+    const std::string name = name_of(a);
     a.established ? causes.push_back(name) : open.push_back(name + likeness(a.group));
   }
   const std::string fall = d.budget.exists() ? torque_fall(d, coordinates) : error_fall(d);
@@ -152,6 +145,13 @@ std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
 }
 
 }  // namespace
+
+std::string name_of(const AddedEffect& added) {
+  for (const Turned& t : kTurned)
+    for (const NamedValue& p : added.parameters)
+      if (added.effect == t.effect && p.key == t.parameter && p.value < 0.0) return t.words;
+  return readable(added.effect);
+}
 
 std::string sentence_of(const Diagnosis& d, Coordinates coordinates) {
   return verdict_sentence(d, coordinates) + law_sentence(d);

@@ -16,7 +16,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& result);  ///< held-out scor
 FigureData diagnosis_where(const DiagnosisResult& result);    ///< the seven maps
 FigureData diagnosis_torque_map(const DiagnosisResult& result);  ///< residual torque over angle and input
 
-/// Heading, sentence, tables and figures of a diagnosis.
-std::string diagnosis_text(const DiagnosisResult& result, const std::vector<FigureData>& figures);
+/// What a report tells of a diagnosis: its sentence and its tables.
+std::string diagnosis_text(const DiagnosisResult& result);
 
 }  // namespace gapscope::internal::report

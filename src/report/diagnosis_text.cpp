@@ -171,13 +171,11 @@ std::string experiment_table(const DiagnosisResult& r) {
 
 }  // namespace
 
-std::string diagnosis_text(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
-  std::string text = fmt::format("# {}: what the simulation lacks\n\n**{}**\n", r.name, r.diagnosis.sentence);
-  text += bullet_section("Warnings", r.diagnosis.warnings);
-  text += budget_table(r) + measures_table(r) + ranking_table(r) + steps_table(r) + periodic_table(r) +
-          blame_table(r) + law_table(r) + detectable_table(r) + experiment_table(r) + figure_section(figures);
-  text += "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
-  return text + fmt::format("\ngapscope {}\n", r.version);
+std::string diagnosis_text(const DiagnosisResult& r) {
+  return fmt::format("\n## What the simulation lacks\n\n**{}**\n", r.diagnosis.sentence) + budget_table(r) +
+         measures_table(r) + ranking_table(r) + steps_table(r) + periodic_table(r) + blame_table(r) +
+         law_table(r) + detectable_table(r) + experiment_table(r) +
+         "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
 }
 
 }  // namespace gapscope::internal::report

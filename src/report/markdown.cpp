@@ -143,26 +143,6 @@ std::string timing_line(const Timing& timing) {
   return text.empty() ? "" : "\nRun times are in `timing.json`.\n";
 }
 
-std::vector<std::string> notes_of(const RunResult& run) {
-  std::vector<std::string> notes = run.notes;
-  for (const Recording& r : run.recordings) {
-    notes.push_back(fmt::format("`{}`: {} samples, {} at {:g} Hz, encoder quantum {}.", r.file, r.size(),
-                                quantity(r.duration(), "s"), 1.0 / r.dt,
-                                r.quantum > 0.0 ? quantity(r.quantum, position_unit(run)) : "unknown"));
-  }
-  return notes;
-}
-
-std::vector<std::string> warnings_of(const RunResult& run) {
-  std::vector<std::string> warnings;
-  if (run.model_free) warnings = texts_of(run.model_free->warnings);
-  if (!run.reference) return warnings;
-  if (!run.reference->converged())
-    warnings.push_back("The fit did not converge: " + run.reference->message.text());
-  for (const Remark& warning : run.reference->warnings) warnings.push_back(warning.text());
-  return warnings;
-}
-
 }  // namespace
 
 std::string figure_section(const std::vector<FigureData>& figures) {
@@ -187,20 +167,29 @@ std::string bullet_section(const char* title, const std::vector<std::string>& li
   return text;
 }
 
-/// What heads the report: the answer, what to do next, and what it was made of.
-std::string answer_section(const RunResult& run) {
-  std::string text = fmt::format("# {}\n\n**{}**\n", run.name, headline(run));
-  if (!run.answer) return text;
-  text += fmt::format("\nTrust: {}.\n", to_string(run.answer->trust));
-  for (const std::string& step : run.answer->next)
-    text += (&step == &run.answer->next.front() ? "\nNext:\n\n- " : "- ") + step + "\n";
-  return text + "\n" + estimates_text(run) + "\n";
+std::vector<std::string> notes_of(const RunResult& run) {
+  std::vector<std::string> notes = run.notes;
+  for (const Recording& r : run.recordings) {
+    notes.push_back(fmt::format("`{}`: {} samples, {} at {:g} Hz, encoder quantum {}.", r.file, r.size(),
+                                quantity(r.duration(), "s"), 1.0 / r.dt,
+                                r.quantum > 0.0 ? quantity(r.quantum, position_unit(run)) : "unknown"));
+  }
+  return notes;
 }
 
-std::string report_text(const RunResult& run, const Timing& timing, const std::vector<FigureData>& figures) {
-  std::string text = answer_section(run);
-  if (const auto lines = warnings_of(run); !lines.empty()) text += bullet_section("Warnings", lines);
-  text += "\n## Estimates\n\n" + estimate_rows(run) + comparison_line(run);
+std::vector<std::string> warnings_of(const RunResult& run) {
+  std::vector<std::string> warnings;
+  if (run.model_free) warnings = texts_of(run.model_free->warnings);
+  if (!run.reference) return warnings;
+  if (!run.reference->converged())
+    warnings.push_back("The fit did not converge: " + run.reference->message.text());
+  for (const Remark& warning : run.reference->warnings) warnings.push_back(warning.text());
+  return warnings;
+}
+
+std::string estimate_text(const RunResult& run, const Timing& timing) {
+  std::string text = "\n## Estimates of the gap\n\n" + estimates_text(run) + "\n\n" + estimate_rows(run) +
+                     comparison_line(run);
   if (run.model_free && !run.model_free->reason.empty())
     text += "\nModel-free verdict: " + sentence(run.model_free->reason.text()) + "\n";
   if (run.model_free && run.model_free->lost_motion.read())
@@ -209,9 +198,9 @@ std::string report_text(const RunResult& run, const Timing& timing, const std::v
   text += timing_line(timing) + parameter_table(run) + second_encoder_table(run);
   if (run.reference)
     text += bullet_section("What would sharpen the reference", texts_of(run.reference->advice));
-  text += figure_section(figures);
-  text += bullet_section("Notes", notes_of(run));
-  return text + fmt::format("\ngapscope {}\n", run.version);
+  if (run.answer && run.answer->next.size() > 1)
+    text += bullet_section("What would make the gap sure", run.answer->next);
+  return text;
 }
 
 }  // namespace gapscope::internal::report

@@ -14,8 +14,10 @@ std::string figure_section(const std::vector<FigureData>& figures);
 /// A heading and a list; nothing for no lines.
 std::string bullet_section(const char* title, const std::vector<std::string>& lines);
 
-/// The text of report.md: findings, table of estimates, figures in order with their readings, notes,
-/// warnings.
-std::string report_text(const RunResult& run, const Timing& timing, const std::vector<FigureData>& figures);
+std::vector<std::string> warnings_of(const RunResult& run);
+std::vector<std::string> notes_of(const RunResult& run);  ///< on the data, and what was done to them
+
+/// What a report tells of an estimate: the estimators in sentences and as a table, parameters, advice.
+std::string estimate_text(const RunResult& run, const Timing& timing);
 
 }  // namespace gapscope::internal::report

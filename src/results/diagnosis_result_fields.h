@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/results/diagnosis_result.h"
+#include "results/answer_fields.h"
 #include "results/encoder_side_field.h"
 #include "results/file_hash_fields.h"
 #include "results/json_archive.h"
@@ -232,6 +233,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
                                          {DiagnosisVerdict::kHelps, "helps"},
                                          {DiagnosisVerdict::kNone, "none"},
                                          {DiagnosisVerdict::kUnknown, "unknown"}});
+  archive.seldom("answer", d.result.answer);
   archive("effects", g.effects);
   archive("group", g.group);
   archive.list("added", g.added);

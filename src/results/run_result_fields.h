@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/results/run_result.h"
+#include "results/answer_fields.h"
 #include "results/encoder_side_field.h"
 #include "results/file_hash_fields.h"
 #include "results/json_archive.h"
@@ -201,22 +202,6 @@ void fields(Archive& archive, SecondEncoder& s) {
   archive("floor_rad", s.floor);
   archive("map_gap_rad", s.gap);
   archive("gap_difference_rad", s.difference);
-}
-
-template <class Archive>
-void fields(Archive& archive, Answer& a) {
-  archive("gap_rad", a.gap);
-  archive("ci95_rad", a.ci95);
-  archive.choice("from", a.from,
-                 Words<AnswerSource>{{AnswerSource::kModelFree, "model_free"},
-                                     {AnswerSource::kReference, "reference"},
-                                     {AnswerSource::kNone, "none"}});
-  archive.choice(
-      "trust", a.trust,
-      Words<AnswerTrust>{
-          {AnswerTrust::kGood, "good"}, {AnswerTrust::kLimited, "limited"}, {AnswerTrust::kNone, "none"}});
-  archive("sentence", a.sentence);
-  archive("next", a.next);
 }
 
 template <class Archive>

@@ -136,7 +136,7 @@ std::vector<std::string> source_paths(const Configuration& c) {
 
 std::vector<FileHash> sources_of(const Configuration& c) {
   Configuration asked_of_all = c;
-  asked_of_all.excluded.clear();  // a question of the diagnosis, no other drive
+  asked_of_all.excluded.clear(), asked_of_all.tolerance = {};  // other questions, no other drive
   std::vector<FileHash> sources = {{"configuration", sha256(resolved_yaml(asked_of_all))}};
   for (const std::string& path : source_paths(c)) {
     if (path == c.file) continue;

@@ -65,6 +65,7 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   DiagnosisResult result{c.name, version(), resolved_yaml(c), c.coordinates,
                          diagnose_recordings(c, recordings, options)};
   result.sources = sources;
+  result.answer.emplace().tolerance = c.tolerance;
   Diagnosis& d = result.diagnosis;
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
   ask_further(c, recordings.train.recordings.front().motor_trace(), options, d);

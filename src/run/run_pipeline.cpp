@@ -168,6 +168,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);
   r.answer = answer_of({r.model_free ? &*r.model_free : nullptr, r.reference ? &*r.reference : nullptr,
                         r.comparison ? r.comparison->agree : std::nullopt, r.coordinates});
+  r.answer->tolerance = c.tolerance;
   stop_point();
   return out;
 }

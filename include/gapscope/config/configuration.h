@@ -6,6 +6,7 @@
 #include "gapscope/config/data_config.h"
 #include "gapscope/config/implant_config.h"
 #include "gapscope/config/model_config.h"
+#include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/acceleration_bound.h"
 #include "gapscope/sliding_mode/detector.h"
@@ -38,6 +39,7 @@ struct Configuration {
   int next_experiment_line = 0;
   DiagnosisKnowledge diagnosis;               ///< `diagnosis:` – what it is told beforehand; optional
   std::vector<std::string> excluded;          ///< `diagnosis: exclude:` – effects that are no candidates
+  Tolerance tolerance = {};                   ///< `tolerance:` – what is good enough; optional
   std::optional<ImplantConfig> implant = {};  ///< `implant:` – only read by `blind implant`
 
   double position_quantum() const;  ///< of the encoder, seen on the axis of x1 [rad]; 0: not given

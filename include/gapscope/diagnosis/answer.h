@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
+#include "gapscope/diagnosis/card.h"
 #include "gapscope/reference/fit_summary.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 
@@ -24,6 +25,8 @@ struct Answer {
   AnswerTrust trust = AnswerTrust::kNone;
   std::string sentence;
   std::vector<std::string> next;  ///< at most three steps
+  Tolerance tolerance = {};       ///< that was stated
+  Card card = {};                 ///< the same and the mismatch, in six lines
 };
 
 /// What was found. A part that was not asked for is null.

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "gapscope/base/coordinates.h"
+#include "gapscope/base/fields.h"
+#include "gapscope/base/statistics.h"
+
+namespace gapscope {
+
+struct Answer;
+struct Diagnosis;
+struct FitSummary;
+
+/// `tolerance:` – what the user calls good enough. What is absent is not judged.
+struct Tolerance {
+  std::optional<double> torque_percent;  ///< rms of the residual torque [% of what the input brings]
+  std::optional<double> gap;             ///< backlash gap 2β [rad]
+
+  bool stated() const { return torque_percent || gap; }
+  void fields(FieldVisitor& visitor);
+};
+
+/// One line of the card: "mismatch" and what is to be said of it.
+struct CardLine {
+  const char* name;
+  const std::string& text;
+};
+
+/// What everybody wants to know of a drive, in six lines. Terminal, report and JSON show the same text. A
+/// default-built one has nothing to say.
+struct Card {
+  std::string gap;                  ///< the gap, and whether to believe it
+  std::string mismatch;             ///< between model and drive, in torque and per cent of the input's
+  std::string place;                ///< where it is
+  std::string cause;                ///< what it comes from, and how sure that is
+  std::string helps;                ///< what takes how much of it
+  std::string next;                 ///< the next step
+  double torque = kNaN;             ///< rms of the residual torque of the model as it is, held-out [N m]
+  double percent = kNaN;            ///< the same, of what the input brings [%]
+  double torque_after = kNaN;       ///< with all that helps [N m]
+  double percent_after = kNaN;      ///< the same [%]
+  std::optional<bool> good_enough;  ///< by the tolerance; nothing: none is stated, or it cannot be told
+
+  std::array<CardLine, 6> lines() const;
+};
+
+/// What a card is made of. What was not asked for is null, and the card says how to get it.
+struct CardFacts {
+  const Answer* answer = nullptr;
+  const FitSummary* reference = nullptr;
+  const Diagnosis* diagnosis = nullptr;
+  Coordinates coordinates;
+  Tolerance tolerance;
+};
+
+Card card_of(const CardFacts& facts);
+
+}  // namespace gapscope

@@ -1,0 +1,269 @@
+#include "gapscope/diagnosis/card.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/card_words.h"
+#include "diagnosis/words.h"
+#include "gapscope/base/text.h"
+#include "gapscope/diagnosis/answer.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope {
+namespace {
+
+using internal::diagnosis::as_sentence;
+using internal::diagnosis::enumerated;
+using internal::diagnosis::percent_text;
+using internal::diagnosis::SharedUnit;
+
+constexpr const char* kToldByDiagnose = "Told by `gapscope diagnose CONFIG`.";
+
+bool is_added(const Diagnosis& d) { return !d.added.empty(); }
+
+/// Whether the gap is within its tolerance; nothing where its interval does not decide.
+std::optional<bool> gap_good_enough(const CardFacts& f) {
+  if (f.answer == nullptr || std::isnan(f.answer->gap)) return {};
+  const Interval& ci = f.answer->ci95;
+  const double low = std::isfinite(ci.low) ? ci.low : f.answer->gap;
+  const double high = std::isfinite(ci.high) ? ci.high : f.answer->gap;
+  if (high <= *f.tolerance.gap) return true;
+  if (low > *f.tolerance.gap) return false;
+  return {};
+}
+
+std::optional<bool> torque_good_enough(const CardFacts& f, const Card& card) {
+  if (std::isnan(card.percent)) return {};
+  return card.percent <= *f.tolerance.torque_percent;
+}
+
+/// Of all that is stated: one that is missed decides, one that cannot be told leaves it open.
+std::optional<bool> good_enough(const CardFacts& f, const Card& card) {
+  std::optional<bool> all;
+  bool open = false;
+  const auto judge = [&](const std::optional<bool>& one) {
+    open = open || !one;
+    if (one) all = all.value_or(true) && *one;
+  };
+  if (f.tolerance.torque_percent) judge(torque_good_enough(f, card));
+  if (f.tolerance.gap) judge(gap_good_enough(f));
+  return open && all.value_or(true) ? std::nullopt : all;
+}
+
+std::string gap_verdict(const CardFacts& f) {
+  if (!f.tolerance.gap) return "";
+  const std::string limit = f.coordinates.thousandths(*f.tolerance.gap);
+  const std::optional<bool> good = gap_good_enough(f);
+  if (!good) return " Your tolerance of " + limit + " cannot be judged.";
+  return (*good ? " Within your tolerance of " : " Outside your tolerance of ") + limit + ".";
+}
+
+std::string gap_line(const CardFacts& f) {
+  if (f.answer == nullptr) return "Not estimated here; told by `gapscope run CONFIG`.";
+  return as_sentence(f.answer->sentence) + fmt::format(" Trust: {}.", to_string(f.answer->trust)) +
+         gap_verdict(f);
+}
+
+std::string torque_verdict(const CardFacts& f, const Card& card) {
+  if (!f.tolerance.torque_percent) return "";
+  const std::string limit = percent_text(*f.tolerance.torque_percent);
+  const std::optional<bool> good = torque_good_enough(f, card);
+  if (!good)
+    return " Your tolerance of " + limit + " of the " + f.coordinates.torque_word() + " cannot be judged.";
+  if (*good) return " Within your tolerance of " + limit + ".";
+  const bool then = card.percent_after <= *f.tolerance.torque_percent;
+  return fmt::format(" Outside your tolerance of {}{}.", limit, then ? ", within it with what helps" : "");
+}
+
+/// What is left of the motion that the fit follows, where nobody has diagnosed it.
+std::string fitted_line(const CardFacts& f) {
+  if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
+    return "Not measured, as no model was fitted; told by `gapscope diagnose CONFIG`.";
+  return fmt::format(
+      "The fitted model follows {:.4g} % of the motion (free run); in {} told by `gapscope diagnose "
+      "CONFIG`.",
+      f.reference->fit_percent, f.coordinates.torque_word());
+}
+
+/// "9.66 N rms on held-out data, 17.1 % of the 56.5 N that the input brings"
+std::string torque_size(const CardFacts& f, const Card& card) {
+  const MismatchSize& m = f.diagnosis->mismatch;
+  const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
+  std::string text = fmt::format("The model misses {} of {} on held-out data", torque(card.torque),
+                                 f.coordinates.torque_word());
+  if (std::isfinite(card.percent))
+    text += fmt::format(", {} of the {} that the input brings", percent_text(card.percent),
+                        SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque));
+  return text;
+}
+
+std::string error_size(const CardFacts& f) {
+  const MismatchSize& m = f.diagnosis->mismatch;
+  if (!std::isfinite(m.before)) return "The model misses the held-out motion altogether";
+  return "The model misses " + SharedUnit(m.before, f.coordinates.position_unit())(m.before) +
+         " of the held-out motion (" + m.measure + ")";
+}
+
+std::string floor_words(const CardFacts& f) {
+  const MismatchSize& m = f.diagnosis->mismatch;
+  if (!(m.before > 0.0 && m.floor > 0.0)) return "";
+  const double ratio = m.before / m.floor;
+  const char* const floor = floor_name(m.floor_from);
+  if (f.diagnosis->verdict == DiagnosisVerdict::kNone)
+    return fmt::format("; that is noise: the error is {} times the {}", SharedUnit(1.0, "").number(ratio),
+                       floor);
+  return fmt::format("; the error is {} times the {}", SharedUnit(1.0, "").number(ratio), floor);
+}
+
+std::string mismatch_line(const CardFacts& f, const Card& card) {
+  if (f.diagnosis == nullptr) return fitted_line(f) + torque_verdict(f, card);
+  return (std::isfinite(card.torque) ? torque_size(f, card) : error_size(f)) + floor_words(f) + "." +
+         torque_verdict(f, card);
+}
+
+std::string place_line(const CardFacts& f) {
+  if (f.diagnosis == nullptr) return kToldByDiagnose;
+  if (f.diagnosis->verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no order.";
+  return as_sentence(f.diagnosis->where.headline);
+}
+
+std::vector<std::string> names(const Diagnosis& d, bool established) {
+  std::vector<std::string> all;
+  for (const AddedEffect& a : d.added)
+    if (a.established == established) all.push_back(internal::diagnosis::name_of(a));
+  return all;
+}
+
+/// Rivals of what was added with an open cause.
+std::vector<std::string> rivals(const Diagnosis& d) {
+  std::vector<std::string> all;
+  for (const AddedEffect& a : d.added)
+    for (const std::string& rival : a.group)
+      if (!a.established && rival != a.effect && !contains(d.effects, rival) &&
+          !contains(all, readable(rival)))
+        all.push_back(readable(rival));
+  return all;
+}
+
+std::string open_causes(const Diagnosis& d) {
+  const std::vector<std::string> open = names(d, false), others = rivals(d);
+  if (open.empty()) return "";
+  return enumerated(open) + (open.size() > 1 ? " help too, their cause" : " helps, its cause") + " is open" +
+         (others.empty() ? "" : ": it may as well be " + enumerated(others, "or"));
+}
+
+std::string cause_line(const CardFacts& f) {
+  if (f.diagnosis == nullptr) return kToldByDiagnose;
+  const Diagnosis& d = *f.diagnosis;
+  if (d.verdict == DiagnosisVerdict::kNone) return "Nothing is missing that this recording could show.";
+  const std::vector<std::string> causes = names(d, true);
+  std::string text = causes.empty() ? "" : enumerated(causes) + " (established)";
+  const std::string open = open_causes(d);
+  text += (text.empty() || open.empty() ? "" : "; ") + open;
+  return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text);
+}
+
+/// "cogging torque takes 64 % of the error above the floor"
+std::string share_of(const AddedEffect& a) {
+  const std::string name = internal::diagnosis::name_of(a);
+  return std::isfinite(a.shrink) ? fmt::format("{} ({:.0f} %)", name, 100.0 * a.shrink) : name;
+}
+
+std::string law_words(const LastResortLaw& law) {
+  return fmt::format("a free curve over the {} takes {:.0f} % of {} (compensation_{}.csv)", law.variable,
+                     100.0 * law.shrink, law.on_top_of.empty() ? "the error" : "what is left", law.law);
+}
+
+/// "in the model they bring it down from 9.66 to 1.22 N (17.1 % to 2.16 %)"
+std::string fall(const CardFacts& f, const Card& card) {
+  const MismatchSize& m = f.diagnosis->mismatch;
+  if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
+    const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
+    return fmt::format("from {} to {} ({} to {})", torque.number(card.torque), torque(card.torque_after),
+                       percent_text(card.percent), percent_text(card.percent_after));
+  }
+  const SharedUnit error(m.before, f.coordinates.position_unit());
+  return fmt::format("from {} to {}", error.number(m.before), error(m.after));
+}
+
+std::string helps_line(const CardFacts& f, const Card& card) {
+  if (f.diagnosis == nullptr) return kToldByDiagnose;
+  const Diagnosis& d = *f.diagnosis;
+  if (d.verdict == DiagnosisVerdict::kNone) return "Nothing has to: the model is as good as the recording.";
+  std::vector<std::string> parts;
+  if (is_added(d)) {
+    std::vector<std::string> shares;
+    for (const AddedEffect& a : d.added) shares.push_back(share_of(a));
+    parts.push_back(enumerated(shares) + (shares.size() > 1 ? " bring it down " : " brings it down ") +
+                    fall(f, card) + "; `fitted.yaml` has " + (shares.size() > 1 ? "them" : "it"));
+  }
+  for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law));
+  if (parts.empty()) return "Nothing of the catalogue does.";
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : " ") + as_sentence(part);
+  return text;
+}
+
+/// The step that the estimate asks for; what a diagnosis would say is known where there is one.
+std::string step_of_the_answer(const CardFacts& f) {
+  if (f.answer == nullptr) return "";
+  for (const std::string& step : f.answer->next)
+    if (f.diagnosis == nullptr || step.find("gapscope diagnose") == step.npos) return step;
+  return "";
+}
+
+std::string next_line(const CardFacts& f, const Card& card) {
+  if (card.good_enough && *card.good_enough) return "None: this is within your tolerance.";
+  const std::string step = step_of_the_answer(f);
+  if (!step.empty()) return step;
+  if (f.diagnosis == nullptr)
+    return "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why.";
+  const Diagnosis& d = *f.diagnosis;
+  if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
+  if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
+  if (d.verdict == DiagnosisVerdict::kNone) return "None.";
+  return "Record the drive in another motion (other speeds, other loads) and diagnose that.";
+}
+
+void measure(const CardFacts& f, Card& card) {
+  if (f.diagnosis == nullptr) return;
+  const MismatchSize& m = f.diagnosis->mismatch;
+  card.torque = m.before_torque, card.torque_after = m.after_torque;
+  card.percent = 100.0 * card.torque / m.input_torque;
+  card.percent_after = 100.0 * card.torque_after / m.input_torque;
+}
+
+}  // namespace
+
+void Tolerance::fields(FieldVisitor& v) {
+  v.field(
+      {"torque_percent", "%", "rms of the torque that the model misses, of what the input brings", 1e-6, 1e3},
+      torque_percent);
+  v.field({"gap", "rad", "largest backlash gap", 1e-12, 10.0}, gap);
+}
+
+std::array<CardLine, 6> Card::lines() const {
+  return {{{"gap", gap},
+           {"mismatch", mismatch},
+           {"place", place},
+           {"cause", cause},
+           {"helps", helps},
+           {"next", next}}};
+}
+
+Card card_of(const CardFacts& f) {
+  Card card;
+  measure(f, card);
+  card.good_enough = good_enough(f, card);
+  card.gap = gap_line(f);
+  card.mismatch = mismatch_line(f, card);
+  card.place = place_line(f);
+  card.cause = cause_line(f);
+  card.helps = helps_line(f, card);
+  card.next = next_line(f, card);
+  return card;
+}
+
+}  // namespace gapscope

@@ -1,0 +1,43 @@
+#include "diagnosis/card_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+namespace gapscope::internal::diagnosis {
+
+SharedUnit::SharedUnit(double first, const std::string& unit) : unit_(unit) {
+  static constexpr std::array kPrefixes = {"", "m", "µ", "n"};
+  const double size = std::abs(first);
+  if (!(size > 0.0) || !std::isfinite(size)) return;
+  const double thousands = std::clamp(std::ceil(-std::log10(size) / 3.0 - 1e-12), 0.0, 3.0);
+  factor_ = std::pow(10.0, 3.0 * thousands);
+  unit_ = kPrefixes[static_cast<std::size_t>(thousands)] + unit;
+}
+
+std::string SharedUnit::number(double value) const {
+  const double shown = value * factor_;
+  const bool whole = std::abs(shown) >= 999.5;  // never "1.2e+03"
+  return whole ? fmt::format("{:.0f}", shown) : fmt::format("{:.3g}", shown);
+}
+
+std::string percent_text(double percent) { return fmt::format("{} %", SharedUnit(1.0, "").number(percent)); }
+
+std::string enumerated(const std::vector<std::string>& items, const char* last) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < items.size() ? ", " : fmt::format(" {} ", last)) + items[i];
+  return text;
+}
+
+std::string as_sentence(std::string text) {
+  if (text.empty()) return text;
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  if (!text.ends_with('.')) text += '.';
+  return text;
+}
+
+}  // namespace gapscope::internal::diagnosis

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/base/coordinates.h"
+
+/// How a card writes numbers and lists.
+namespace gapscope::internal::diagnosis {
+
+/// A size with the prefix that keeps the first of several between 1 and 1000; all of them in that unit.
+class SharedUnit {
+ public:
+  /// @param first  size that chooses the prefix   @param unit  "N·m", "N", "rad" or "m"
+  SharedUnit(double first, const std::string& unit);
+  std::string number(double value) const;                                             ///< "9.66"
+  std::string operator()(double value) const { return number(value) + " " + unit_; }  ///< "9.66 N"
+
+ private:
+  double factor_ = 1.0;
+  std::string unit_;
+};
+
+/// "17.1 %", "0.21 %"
+std::string percent_text(double percent);
+
+/// "a, b and c"
+std::string enumerated(const std::vector<std::string>& items, const char* last = "and");
+
+/// The same with a capital letter, and a full stop at its end.
+std::string as_sentence(std::string text);
+
+}  // namespace gapscope::internal::diagnosis

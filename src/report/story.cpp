@@ -1,0 +1,55 @@
+#include "report/story.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "gapscope/results/drive_card.h"
+#include "report/diagnosis_figures.h"
+#include "report/glossary.h"
+#include "report/markdown.h"
+#include "report/wording.h"
+
+namespace gapscope::internal::report {
+namespace {
+
+const std::string& name_of(const DriveStory& s) { return s.run ? s.run->name : s.diagnosis->name; }
+
+/// Of both, each once.
+std::vector<std::string> all_warnings(const DriveStory& s) {
+  std::vector<std::string> all;
+  if (s.run) all = warnings_of(*s.run);
+  if (!s.diagnosis) return all;
+  for (const std::string& warning : s.diagnosis->diagnosis.warnings)
+    if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
+  return all;
+}
+
+}  // namespace
+
+std::string card_text(const Card& card) {
+  static constexpr std::array kTitles = {"Gap", "Mismatch", "Place", "Cause", "What helps", "Next step"};
+  std::string text = "\n";
+  std::size_t i = 0;
+  for (const CardLine& line : card.lines())
+    text += fmt::format("- **{}:** {}\n", kTitles[i++], typeset(line.text));
+  return text;
+}
+
+std::string story_text(const DriveStory& s) {
+  std::string text = "# " + name_of(s) + "\n";
+  if (!s.note.empty()) text += "\n> " + s.note + "\n";
+  text += card_text(drive_card(s.run, s.diagnosis));
+  std::string detail = bullet_section("Warnings", all_warnings(s));
+  if (s.run) detail += estimate_text(*s.run, s.timing);
+  if (s.diagnosis) detail += diagnosis_text(*s.diagnosis);
+  detail += figure_section(s.figures);
+  if (s.run) detail += bullet_section("Notes", notes_of(*s.run));
+  const std::string words = glossary_section(text + detail);
+  if (!words.empty()) text += "\nTerms are explained under [Words](#words).\n";
+  return text + detail + words +
+         fmt::format("\ngapscope {}\n", (s.run ? s.run->version : s.diagnosis->version));
+}
+
+}  // namespace gapscope::internal::report

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/results/diagnosis_result.h"
+#include "gapscope/results/run_result.h"
+#include "report/figure_data.h"
+
+namespace gapscope::internal::report {
+
+/// What the report of a drive tells: an estimate, a diagnosis, or both as one story.
+struct DriveStory {
+  const RunResult* run = nullptr;              ///< nullptr: not there
+  const DiagnosisResult* diagnosis = nullptr;  ///< nullptr: not there
+  Timing timing;
+  std::string note;                 ///< below the title; empty: none
+  std::vector<FigureData> figures;  ///< of both
+};
+
+/// The six lines that everybody wants to know.
+std::string card_text(const Card& card);
+
+/// The text of report.md: the title, the card, then the detail, and what its words mean.
+std::string story_text(const DriveStory& story);
+
+}  // namespace gapscope::internal::report

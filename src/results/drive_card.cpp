@@ -1,0 +1,43 @@
+#include "gapscope/results/drive_card.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace gapscope {
+
+Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
+  CardFacts facts;
+  if (run != nullptr) {
+    facts.answer = run->answer ? &*run->answer : nullptr;
+    facts.reference = run->reference ? &*run->reference : nullptr;
+    facts.coordinates = run->coordinates;
+    if (run->answer) facts.tolerance = run->answer->tolerance;
+  }
+  if (diagnosis != nullptr) {
+    facts.diagnosis = &diagnosis->diagnosis;
+    facts.coordinates = diagnosis->coordinates;
+    if (run == nullptr && diagnosis->answer) facts.tolerance = diagnosis->answer->tolerance;
+  }
+  return card_of(facts);
+}
+
+void add_card(const std::string& folder, RunResult& run) {
+  if (!run.answer) return;
+  std::optional<DiagnosisResult> beside;
+  if (std::filesystem::exists(folder + "/diagnosis.json")) beside = read_diagnosis_result(folder);
+  run.answer->card = drive_card(&run, beside ? &*beside : nullptr);
+}
+
+void add_card(const std::string& folder, DiagnosisResult& diagnosis) {
+  std::optional<RunResult> beside;
+  if (std::filesystem::exists(folder + "/result.json")) beside = read_run_result(folder);
+  Answer answer;
+  answer.sentence = "The gap was not estimated.";
+  if (beside && beside->answer) answer = *beside->answer;
+  if (diagnosis.answer) answer.tolerance = diagnosis.answer->tolerance;
+  diagnosis.answer = answer;
+  if (beside && beside->answer) beside->answer->tolerance = answer.tolerance;
+  diagnosis.answer->card = drive_card(beside ? &*beside : nullptr, &diagnosis);
+}
+
+}  // namespace gapscope
