@@ -122,6 +122,7 @@ void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {
   for (const std::string& effect : d.effects) line("effect", effect);
   line("answer", d.sentence);
   if (d.verdict != DiagnosisVerdict::kNone) line("place", d.where.headline);
+  if (r.simulated) line("simulator", r.simulated->sentence);
   if (!d.next_experiment.sentence.empty()) line("next", d.next_experiment.sentence);
 }
 

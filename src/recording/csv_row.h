@@ -23,7 +23,7 @@ class CsvRow {
 
   // Of the row that was taken last, in SI.  @throws ConfigError where it is no finite number
   double time() { return number(t_, columns_.time, columns_.scales.time); }
-  double input();  ///< times the supply's voltage where there is one
+  double input();  ///< times the supply's voltage where there is one; NaN where there need be no input
   double position() { return number(x1_, columns_.position, columns_.scales.position); }
   double load_position() { return number(x2_, columns_.load_position, columns_.scales.load_position); }
 

@@ -9,6 +9,7 @@
 #include "report/error_budget.h"
 #include "report/last_resort.h"
 #include "report/markdown.h"
+#include "report/simulator.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -174,8 +175,9 @@ std::string experiment_table(const DiagnosisResult& r) {
 std::string diagnosis_text(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
   std::string text = fmt::format("# {}: what the simulation lacks\n\n**{}**\n", r.name, r.diagnosis.sentence);
   text += bullet_section("Warnings", r.diagnosis.warnings);
-  text += budget_table(r) + measures_table(r) + ranking_table(r) + steps_table(r) + periodic_table(r) +
-          blame_table(r) + law_table(r) + detectable_table(r) + experiment_table(r) + figure_section(figures);
+  text += simulator_table(r) + budget_table(r) + measures_table(r) + ranking_table(r) + steps_table(r) +
+          periodic_table(r) + blame_table(r) + law_table(r) + detectable_table(r) + experiment_table(r) +
+          figure_section(figures);
   text += "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
   return text + fmt::format("\ngapscope {}\n", r.version);
 }

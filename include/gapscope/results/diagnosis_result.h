@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/file_hash.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/diagnosis/simulator.h"
 
 namespace gapscope {
 
@@ -16,6 +18,7 @@ struct DiagnosisResult {
   Coordinates coordinates;             ///< of a translation: rad and N·m mean m and N
   Diagnosis diagnosis;                 ///< the fitted model is not stored here but in fitted.yaml
   std::vector<FileHash> sources = {};  ///< the configuration and every recording that it names
+  std::optional<SimulatorComparison> simulated = {};  ///< the user's simulator, where its answer was given
 };
 
 /// Writes diagnosis.json and traces/held_out_<n>_<file>.csv into an existing folder. The columns of a trace
