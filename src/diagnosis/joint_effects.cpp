@@ -16,18 +16,18 @@ const EffectEntry* root_of(const EffectEntry* entry) {
   return simpler == nullptr ? entry : simpler;
 }
 
-std::vector<std::string> group_of(const Diagnosis& d, const EffectEntry* entry) {
+std::vector<std::string> not_told_from(const Diagnosis& d, const EffectEntry* entry) {
   for (const AddedEffect& a : d.added)
     if (a.effect == entry->name) return a.group;
   return {entry->name};
 }
 
 bool are_kin(const EffectEntry* a, const Diagnosis& of_a, const EffectEntry* b, const Diagnosis& of_b) {
-  return root_of(a) == root_of(b) || contains(group_of(of_a, a), b->name) ||
-         contains(group_of(of_b, b), a->name);
+  return root_of(a) == root_of(b) || contains(not_told_from(of_a, a), b->name) ||
+         contains(not_told_from(of_b, b), a->name);
 }
 
-bool is_phase(const EffectParameterSpec& spec) {
+bool names_phase(const EffectParameterSpec& spec) {
   return std::string(spec.key).find("phase") != std::string::npos;
 }
 
@@ -41,7 +41,7 @@ ModelEffect not_there(const ModelEffect& other, const ModelEffect* relative, con
     return e;
   }
   for (std::size_t i = 1; i < entry.parameters.size(); ++i)
-    if (!is_phase(entry.parameters[i])) e.parameters[i].estimate = false;
+    if (!names_phase(entry.parameters[i])) e.parameters[i].estimate = false;
   if (entry.stands_for >= 0)
     size.value = model.parameters[static_cast<std::size_t>(entry.stands_for)].value;
   else if (entry.parameters[0].absent == 0.0)
@@ -49,7 +49,7 @@ ModelEffect not_there(const ModelEffect& other, const ModelEffect* relative, con
   return e;
 }
 
-const ModelEffect* named(const ReferenceModel& model, const EffectEntry* entry) {
+const ModelEffect* model_effect(const ReferenceModel& model, const EffectEntry* entry) {
   for (const ModelEffect& e : model.effects)
     if (e.entry == entry) return &e;
   return nullptr;
@@ -62,14 +62,14 @@ const ModelEffect* relative_in(const Diagnosis& there, const EffectEntry* entry,
 }
 
 JointEffect joint(const ModelEffect& e, const Diagnosis& owner, const Diagnosis& other, bool of_drive) {
-  const ModelEffect* same = named(other.fitted, e.entry);
+  const ModelEffect* same = model_effect(other.fitted, e.entry);
   const ModelEffect* relative = same != nullptr ? same : relative_in(other, e.entry, owner);
   const ModelEffect begun = same != nullptr ? *same : not_there(e, relative, other.fitted);
   JointEffect j;
   j.drive = of_drive ? e : begun, j.simulator = of_drive ? begun : e;
   j.in_drive = of_drive || relative != nullptr;
   j.in_simulator = !of_drive || relative != nullptr;
-  j.group = group_of(owner, e.entry);
+  j.group = not_told_from(owner, e.entry);
   return j;
 }
 
@@ -78,12 +78,12 @@ std::vector<JointEffect> preferring(const Diagnosis& first, const Diagnosis& sec
   std::vector<JointEffect> all;
   for (const ModelEffect& e : first.fitted.effects) all.push_back(joint(e, first, second, first_is_drive));
   for (const ModelEffect& e : second.fitted.effects)
-    if (named(first.fitted, e.entry) == nullptr && relative_in(first, e.entry, second) == nullptr)
+    if (model_effect(first.fitted, e.entry) == nullptr && relative_in(first, e.entry, second) == nullptr)
       all.push_back(joint(e, second, first, !first_is_drive));
   return all;
 }
 
-std::vector<std::string> names_of(const std::vector<JointEffect>& effects) {
+std::vector<std::string> joint_names(const std::vector<JointEffect>& effects) {
   std::vector<std::string> names;
   for (const JointEffect& e : effects) names.emplace_back(e.drive.entry->name);
   std::sort(names.begin(), names.end());
@@ -95,7 +95,7 @@ std::vector<std::string> names_of(const std::vector<JointEffect>& effects) {
 std::vector<std::vector<JointEffect>> joint_effects(const Diagnosis& drive, const Diagnosis& simulator) {
   std::vector<std::vector<JointEffect>> sets = {preferring(drive, simulator, true)};
   std::vector<JointEffect> other = preferring(simulator, drive, false);
-  if (names_of(other) != names_of(sets.front())) sets.push_back(std::move(other));
+  if (joint_names(other) != joint_names(sets.front())) sets.push_back(std::move(other));
   return sets;
 }
 

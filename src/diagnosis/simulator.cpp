@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/simulator_rows.h"
 #include "diagnosis/simulator_words.h"
 #include "diagnosis/stand_in.h"
 #include "gapscope/base/interrupt.h"
@@ -12,34 +13,6 @@
 namespace gapscope {
 namespace internal::diagnosis {
 namespace {
-
-using reference::ParameterId;
-
-/// When a row is one. Set before any pair was looked at: two floors are what the contract asks for, the rest
-/// is the usual 95 %.
-struct RowRule {
-  double floors = 2.0;       ///< least size of a row [floor]
-  double deviations = 1.96;  ///< least distance of both numbers [joint standard deviations]
-};
-constexpr RowRule kRowRule;
-
-/// Drive and simulator with one set of joint effects.
-struct JointFit {
-  std::vector<JointEffect> effects;
-  SideFit drive, simulator;
-
-  bool usable() const { return std::isfinite(drive.error) && std::isfinite(simulator.error); }
-  double log_error(double floor) const {
-    return std::log(std::hypot(drive.error, floor)) + std::log(std::hypot(simulator.error, floor));
-  }
-};
-
-/// A row, and the numbers of the model that it stands for.
-struct PlannedRow {
-  SimulatorRow row;
-  std::vector<ParameterId> ids;
-  int effect = ParameterId::kDrive;
-};
 
 class Comparer {
  public:
@@ -56,15 +29,6 @@ class Comparer {
  private:
   JointFit joint_fit(std::vector<JointEffect> effects) const;
   JointFit best_joint_fit() const;
-  std::vector<PlannedRow> planned(const JointFit& fit) const;
-  PlannedRow effect_row(const JointFit& fit, std::size_t effect) const;
-  void fill_numbers(const JointFit& fit, PlannedRow& row) const;
-  void measure(const JointFit& fit, PlannedRow& row) const;
-  bool is_there(const Side& side, const SideFit& fit, const PlannedRow& row, bool in_diagnosis) const;
-  /// An excess in floors, or in what the model leaves anyway where that is more.
-  double in_floors(double excess, const SideFit& fit) const {
-    return excess / std::max(floor_, std::isfinite(fit.error) ? fit.error : 0.0);
-  }
   std::vector<Stretch> stretches(bool judged) const;
   void order(const JointFit& fit, std::vector<PlannedRow>& rows) const;
   void mend(const JointFit& fit, const std::vector<PlannedRow>& rows, SimulatorComparison& c) const;
@@ -106,105 +70,6 @@ JointFit Comparer::best_joint_fit() const {
       best = std::move(fit);
   }
   return best;
-}
-
-bool is_free(const ReferenceModel& model, ParameterId id) {
-  ReferenceModel copy = model;
-  return setting_of(copy, id).estimate;
-}
-
-PlannedRow Comparer::effect_row(const JointFit& fit, std::size_t effect) const {
-  const JointEffect& e = fit.effects[effect];
-  PlannedRow planned;
-  planned.effect = static_cast<int>(effect);
-  planned.row.name = e.drive.entry->name;
-  planned.row.is_effect = true;
-  planned.row.group = e.group;
-  for (int i = 0; i < std::ssize(e.drive.entry->parameters); ++i)
-    if (const ParameterId id{planned.effect, i};
-        is_free(fit.drive.model, id) || is_free(fit.simulator.model, id))
-      planned.ids.push_back(id);
-  return planned;
-}
-
-std::vector<PlannedRow> Comparer::planned(const JointFit& fit) const {
-  std::vector<PlannedRow> rows;
-  for (std::size_t e = 0; e < fit.effects.size(); ++e) rows.push_back(effect_row(fit, e));
-  for (int i = 0; i < kDriveParameterCount; ++i) {
-    if (!fit.drive.model.parameters[static_cast<std::size_t>(i)].estimate ||
-        !has_parameter(fit.drive.model.structure, i))
-      continue;
-    PlannedRow& planned = rows.emplace_back();
-    planned.row.name = kDriveParameters[i].key;
-    planned.ids = {reference::drive_number(i)};
-  }
-  std::erase_if(rows, [](const PlannedRow& planned) { return planned.ids.empty(); });
-  return rows;
-}
-
-Interval around(double value, double std) {
-  if (std::isnan(std)) return {};
-  return {value - kRowRule.deviations * std, value + kRowRule.deviations * std};
-}
-
-void Comparer::fill_numbers(const JointFit& fit, PlannedRow& planned) const {
-  const std::vector<double> drive = spreads_of(drive_, fit.drive, planned.ids);
-  const std::vector<double> simulator = spreads_of(simulator_, fit.simulator, planned.ids);
-  ReferenceModel of_drive = fit.drive.model, of_simulator = fit.simulator.model;
-  for (std::size_t i = 0; i < planned.ids.size(); ++i) {
-    const ParameterId id = planned.ids[i];
-    ComparedNumber n;
-    if (planned.row.is_effect) {
-      const EffectParameterSpec& spec = fit.effects[static_cast<std::size_t>(id.effect)]
-                                            .drive.entry->parameters[static_cast<std::size_t>(id.index)];
-      n.key = spec.key, n.unit = spec.unit;
-    } else {
-      n.key = kDriveParameters[id.index].key, n.unit = kDriveParameters[id.index].unit;
-    }
-    n.drive = setting_of(of_drive, id).value, n.simulator = setting_of(of_simulator, id).value;
-    n.drive_ci95 = around(n.drive, drive[i]), n.simulator_ci95 = around(n.simulator, simulator[i]);
-    planned.row.numbers.push_back(std::move(n));
-  }
-}
-
-/// Whether the intervals of any number are apart; where there are none, nothing speaks against it.
-bool intervals_apart(const SimulatorRow& row) {
-  bool asked = false;
-  for (const ComparedNumber& n : row.numbers) {
-    const double d = (n.drive_ci95.high - n.drive_ci95.low) / 2.0;
-    const double s = (n.simulator_ci95.high - n.simulator_ci95.low) / 2.0;
-    if (std::isnan(d) || std::isnan(s)) continue;
-    asked = true;
-    if (std::abs(n.drive - n.simulator) > std::hypot(d, s)) return true;
-  }
-  return !asked;
-}
-
-/// Named by the diagnosis of that side, or a model without it, refitted, leaves two floors more.
-bool Comparer::is_there(const Side& side, const SideFit& fit, const PlannedRow& planned,
-                        bool in_diagnosis) const {
-  if (in_diagnosis) return true;
-  ReferenceModel without = fit.model;
-  without.effects.erase(without.effects.begin() + planned.effect);
-  return in_floors(excess(fit_side(side, without), fit), fit) > kRowRule.floors;
-}
-
-void Comparer::measure(const JointFit& fit, PlannedRow& planned) const {
-  stop_point();
-  SimulatorRow& row = planned.row;
-  fill_numbers(fit, planned);
-  const SideFit drive = fit_side(drive_, pinned(fit.drive.model, fit.simulator.model, planned.ids));
-  const SideFit simulator = fit_side(simulator_, pinned(fit.simulator.model, fit.drive.model, planned.ids));
-  const double of_drive = excess(drive, fit.drive), of_simulator = excess(simulator, fit.simulator);
-  row.size = std::min(of_drive, of_simulator);
-  row.floors = std::min(in_floors(of_drive, fit.drive), in_floors(of_simulator, fit.simulator));
-  row.differs = row.floors > kRowRule.floors && intervals_apart(row);
-  if (!row.is_effect) return;
-  const JointEffect& e = fit.effects[static_cast<std::size_t>(planned.effect)];
-  const bool in_drive = is_there(drive_, fit.drive, planned, e.in_drive);
-  const bool in_simulator = is_there(simulator_, fit.simulator, planned, e.in_simulator);
-  row.found_in = in_drive ? (in_simulator ? FoundIn::kBoth : FoundIn::kDrive)
-                          : (in_simulator ? FoundIn::kSimulator : FoundIn::kNeither);
 }
 
 /// What judges, or what was fitted.
@@ -294,8 +159,11 @@ SimulatorComparison Comparer::answer() {
     c.sentence = "The model that has all effects of both could not be fitted to drive and simulator alike.";
     return c;
   }
-  std::vector<PlannedRow> rows = planned(fit);
-  parallel_for(rows.size(), options_.threads, [&](std::size_t i) { measure(fit, rows[i]); });
+  std::vector<PlannedRow> rows = planned_rows(fit);
+  parallel_for(rows.size(), options_.threads, [&](std::size_t i) {
+    stop_point();
+    measure({drive_, simulator_, floor_}, fit, rows[i]);
+  });
   order(fit, rows);
   mend(fit, rows, c);
   const double dt = drive_.train.front().dt;

@@ -20,7 +20,7 @@ std::string amount(double value, const std::string& unit, Coordinates coordinate
 }
 
 /// What the size is called where it is no amount of the effect: "length", "knee".
-std::string named(const ComparedNumber& n, double value, Coordinates coordinates) {
+std::string with_name(const ComparedNumber& n, double value, Coordinates coordinates) {
   return readable(n.key.substr(0, n.key.rfind(n.unit == "-" ? "" : "_"))) + " " +
          amount(value, n.unit, coordinates);
 }
@@ -37,7 +37,7 @@ std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates
   for (const ComparedNumber& n : row.numbers) {
     const double value = drive ? n.drive : n.simulator;
     parts.push_back(parts.empty() && is_size(n) ? amount(value, n.unit, coordinates)
-                                                : named(n, value, coordinates));
+                                                : with_name(n, value, coordinates));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -65,7 +65,7 @@ std::string creeping(const SimulatorRow& row) {
   return "";
 }
 
-std::string effect_sentence(const SimulatorRow& row, Coordinates coordinates) {
+std::string effect_row_sentence(const SimulatorRow& row, Coordinates coordinates) {
   const std::string name = readable(row.name);
   const std::string drive = of_side(row, true, coordinates), simulator = of_side(row, false, coordinates);
   switch (row.found_in) {
@@ -78,7 +78,7 @@ std::string effect_sentence(const SimulatorRow& row, Coordinates coordinates) {
   }
 }
 
-std::string shares(const SimulatorComparison& c, Coordinates coordinates) {
+std::string mended_words(const SimulatorComparison& c, Coordinates coordinates) {
   std::string text = fmt::format(
       " Over the held-out input it is {} rms off the drive. A model fitted to it stands in for it (it misses "
       "it by {}): with {} mended that one's error falls from {} to {}, by {:.0f} %",
@@ -96,7 +96,7 @@ std::string shares(const SimulatorComparison& c, Coordinates coordinates) {
 
 std::string row_sentence(const SimulatorRow& row, double dt, Coordinates coordinates) {
   if (row.is_effect) {
-    std::string text = effect_sentence(row, coordinates) + in_steps(row, dt) + creeping(row);
+    std::string text = effect_row_sentence(row, coordinates) + in_steps(row, dt) + creeping(row);
     std::vector<std::string> others;
     for (const std::string& other : row.group)
       if (other != row.name) others.push_back(readable(other));
@@ -118,7 +118,7 @@ std::string comparison_sentence(const SimulatorComparison& c, Coordinates coordi
         "input it is {} rms off the drive.",
         coordinates.thousandths(c.errors.simulator));
   return fmt::format("Your simulator differs from the drive: {}.", fmt::join(parts, "; ")) +
-         shares(c, coordinates);
+         mended_words(c, coordinates);
 }
 
 }  // namespace gapscope::internal::diagnosis

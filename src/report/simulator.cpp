@@ -16,7 +16,7 @@ namespace {
 LineStyle simulator_style() { return {kVermillion, 4.0, {}}; }
 
 /// "20.0 ± 0.4 mN·m", with the name of the number where a row has several.
-std::string number_text(const DiagnosisResult& r, const ComparedNumber& n, bool drive, bool named) {
+std::string side_number(const DiagnosisResult& r, const ComparedNumber& n, bool drive, bool named) {
   const bool phase = n.key.find("phase") != std::string::npos;  // an angle along a slide, too
   const std::string unit = (phase ? Coordinates() : r.coordinates).shown_unit(n.unit);
   const std::string value =
@@ -29,7 +29,7 @@ std::string side_text(const DiagnosisResult& r, const SimulatorRow& row, bool dr
       row.found_in == FoundIn::kNeither || row.found_in == (drive ? FoundIn::kSimulator : FoundIn::kDrive);
   std::vector<std::string> parts;
   for (const ComparedNumber& n : row.numbers)
-    parts.push_back(number_text(r, n, drive, row.numbers.size() > 1));
+    parts.push_back(side_number(r, n, drive, row.numbers.size() > 1));
   if (absent) parts.resize(std::min<std::size_t>(1, parts.size()));
   return fmt::format("{}{}", absent ? "none: " : "", fmt::join(parts, ", "));
 }
@@ -41,14 +41,19 @@ const char* found_words(const SimulatorRow& row) {
   return row.found_in == FoundIn::kNeither ? "in neither" : "not told apart";
 }
 
+std::string row_size(const DiagnosisResult& r, const SimulatorRow& row) {
+  if (!(row.floors > 0.01)) return "–";
+  return fmt::format("{} ({} floors)", quantity(row.size, r.coordinates.position_unit()),
+                     rounded(row.floors, 2));
+}
+
 std::string rows_table(const DiagnosisResult& r, const SimulatorComparison& c) {
   std::string text =
       "\n| | in the drive | in the simulator | | size | error shrinks by, if mended alone |\n"
       "|---|---|---|---|---|---|\n";
   for (const SimulatorRow& row : c.rows)
-    text += fmt::format("| `{}` | {} | {} | {} | {} ({} floors) | {} |\n", row.name, side_text(r, row, true),
-                        side_text(r, row, false), found_words(row),
-                        quantity(row.size, r.coordinates.position_unit()), rounded(row.floors, 2),
+    text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, side_text(r, row, true),
+                        side_text(r, row, false), found_words(row), row_size(r, row),
                         row.differs ? fmt::format("{:.0f} %", 100.0 * row.shrink) : "–");
   return text;
 }
@@ -69,22 +74,22 @@ std::string errors_text(const DiagnosisResult& r, const SimulatorComparison& c) 
   return text + "\n";
 }
 
-Series over_time(const std::string& label, const LineStyle& style, const SimulatorTrace& t,
-                 const std::vector<double>& values) {
+Series simulator_line(const std::string& label, const LineStyle& style, const SimulatorTrace& t,
+                      const std::vector<double>& values) {
   Series s{label, style, {}, {}};
   for (std::size_t i = t.scored_from; i < values.size(); ++i)
     s.x.push_back(t.time(i)), s.y.push_back(values[i]);
   return s;
 }
 
-std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+std::vector<double> off_by(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> d(std::min(a.size(), b.size()));
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = a[i] - b[i];
   return d;
 }
 
-Panel time_panel(const DiagnosisResult& r, const SimulatorTrace& t, const std::string& title,
-                 const std::string& name) {
+Panel simulator_panel(const DiagnosisResult& r, const SimulatorTrace& t, const std::string& title,
+                      const std::string& name) {
   Panel panel;
   panel.title = title;
   panel.x = {"time $t$", "s", {t.time(t.scored_from), t.time(t.x1.size() - 1)}, {}, {}};
@@ -105,17 +110,17 @@ FigureData diagnosis_simulator(const DiagnosisResult& r) {
     return figure;
   }
   const SimulatorTrace& t = r.simulated->traces.front();
-  Panel motion = time_panel(r, t, "Held-out input", "displacement $x_1$");
-  motion.series.push_back(over_time("drive", measured_style(), t, t.x1));
-  motion.series.push_back(over_time("your simulator", simulator_style(), t, t.simulator));
+  Panel motion = simulator_panel(r, t, "Held-out input", "displacement $x_1$");
+  motion.series.push_back(simulator_line("drive", measured_style(), t, t.x1));
+  motion.series.push_back(simulator_line("your simulator", simulator_style(), t, t.simulator));
   if (!t.fitted.empty())
-    motion.series.push_back(over_time("model fitted to the drive", reference_style(), t, t.fitted));
+    motion.series.push_back(simulator_line("model fitted to the drive", reference_style(), t, t.fitted));
   motion.x_labels = false;
-  Panel errors = time_panel(r, t, "What they are off the drive by", "$x_1$ − drive");
-  errors.series.push_back(over_time("your simulator", simulator_style(), t, difference(t.simulator, t.x1)));
+  Panel errors = simulator_panel(r, t, "What they are off the drive by", "$x_1$ − drive");
+  errors.series.push_back(simulator_line("your simulator", simulator_style(), t, off_by(t.simulator, t.x1)));
   if (!t.fitted.empty())
     errors.series.push_back(
-        over_time("model fitted to the drive", reference_style(), t, difference(t.fitted, t.x1)));
+        simulator_line("model fitted to the drive", reference_style(), t, off_by(t.fitted, t.x1)));
   figure.panels = {std::move(motion), std::move(errors)};
   const std::string unit = r.coordinates.position_unit();
   figure.reading = fmt::format("On {} your simulator is {} rms off the drive.", t.file,

@@ -42,20 +42,14 @@ void require_there(const Configuration& c, const RecordedFile& file) {
   throw ConfigError("gapscope: --simulated: " + what);
 }
 
-Recording read_one(const Configuration& c, const RecordedFile& file, const Recording& drive,
-                   SimulatedRecordings& all) {
+Recording read_answer(const Configuration& c, const RecordedFile& file, const Recording& drive,
+                      SimulatedRecordings& all) {
   require_there(c, file);
   Recording r = read_simulated(file.path, c.recording->reading.columns, drive);
   note_start(r, drive, c.coordinates, all.warnings);
   read_by_encoder(r, drive.quantum);
   all.files.push_back({r.file, sha256_of_file(file.path)});
   return r;
-}
-
-std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
-  std::vector<MotorTrace> traces;
-  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
-  return traces;
 }
 
 }  // namespace
@@ -71,9 +65,9 @@ SimulatedRecordings load_simulated(const Configuration& c, const DiagnosisRecord
     progress("reading " + files[i].given);
     const bool held = i >= train.size();
     const Recording& drive = held ? recordings.held_out.recordings[i - train.size()] : train[i];
-    (held ? all.held_out : all.train).push_back(read_one(c, files[i], drive, all));
+    (held ? all.held_out : all.train).recordings.push_back(read_answer(c, files[i], drive, all));
   }
-  if (!all.empty() && all.held_out.empty() && !recordings.held_out.recordings.empty())
+  if (!all.empty() && all.held_out.recordings.empty() && !recordings.held_out.recordings.empty())
     all.warnings.push_back(
         "the simulator was not run on what is held out: it is judged on the last third of each recording");
   return all;
@@ -84,9 +78,9 @@ SimulatorComparison compare_simulated(const Configuration& c, const DiagnosisRec
                                       const DiagnosisOptions& options) {
   const std::vector<MotorTrace> train = recordings.train.motor_traces();
   const std::vector<MotorTrace> held_out =
-      simulated.held_out.empty() ? std::vector<MotorTrace>{} : recordings.held_out.motor_traces();
-  const std::vector<MotorTrace> simulated_train = traces_of(simulated.train);
-  const std::vector<MotorTrace> simulated_held_out = traces_of(simulated.held_out);
+      simulated.held_out.recordings.empty() ? std::vector<MotorTrace>{} : recordings.held_out.motor_traces();
+  const std::vector<MotorTrace> simulated_train = simulated.train.motor_traces();
+  const std::vector<MotorTrace> simulated_held_out = simulated.held_out.motor_traces();
   DiagnosisOptions asked = options;
   asked.known.detectable = false;
   asked.progress = [&](const std::string& what) { options.progress("simulator: " + what); };

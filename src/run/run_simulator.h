@@ -9,11 +9,11 @@ namespace gapscope::internal::run {
 
 /// What the user's simulator answers to what was recorded.
 struct SimulatedRecordings {
-  std::vector<Recording> train, held_out;  ///< each as long as the drive's; nothing held out: none was given
+  LoadedRecordings train, held_out;  ///< each as long as the drive's; nothing held out: none was given
   std::vector<FileHash> files;
   std::vector<std::string> warnings;
 
-  bool empty() const { return train.empty(); }
+  bool empty() const { return train.recordings.empty(); }
 };
 
 /// Reads `recording: simulated:`, each as the drive's encoder would have read it.

@@ -46,13 +46,15 @@ TEST(SimulatedFile, IsReadAtTheTimesOfTheRecordingWithItsInput) {
 }
 
 TEST(SimulatedFile, OfAnotherInputIsRefusedWhereTheInputsPart) {
-  EXPECT_THAT(testing::refusal([] { answered(finer_rows(1.01)); }),
-              HasSubstr(":4: the input is 1.01 at 0.001 s where drive.csv has 1, expected the simulator's answer"));
+  EXPECT_THAT(
+      testing::refusal([] { answered(finer_rows(1.01)); }),
+      HasSubstr(":4: the input is 1.01 at 0.001 s where drive.csv has 1, expected the simulator's answer"));
 }
 
 TEST(SimulatedFile, MustHaveARowAtEveryTimeOfTheRecording) {
   EXPECT_THAT(testing::refusal([] { answered(finer_rows(1.0, 100)); }),
-              HasSubstr(":101: there is no row at 0.05 s, the next one is at 0.0495 s, expected one at every time of drive.csv"));
+              HasSubstr(":101: there is no row at 0.05 s, the next one is at 0.0495 s, expected one at every "
+                        "time of drive.csv"));
 }
 
 }  // namespace

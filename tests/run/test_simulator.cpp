@@ -18,8 +18,9 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string simulation_of(const std::string& gap, const std::string& noise, const std::string& amplitude) {
-  return "encoder: {bits: 18}\nsimulation: {rate: 500, duration: 3, excitation: {sine: {amplitude: " + amplitude +
-         ", frequency: 1}}, noise: " + noise + "}\nmodel: " + replaced(testing::kPaperModel, "0.019,", gap + ",");
+  return "encoder: {bits: 18}\nsimulation: {rate: 500, duration: 3, excitation: {sine: {amplitude: " +
+         amplitude + ", frequency: 1}}, noise: " + noise +
+         "}\nmodel: " + replaced(testing::kPaperModel, "0.019,", gap + ",");
 }
 
 /// A drive with a gap of 19 mrad and a simulator of it, each in its file.
@@ -28,8 +29,9 @@ class DriveAndSimulator {
   explicit DriveAndSimulator(const std::string& simulated_gap, const std::string& simulated_input = "0.58") {
     record("drive.csv", simulation_of("0.019", "1.0e-5", "0.58"));
     record("sim.csv", simulation_of(simulated_gap, "0", simulated_input));
-    std::ofstream(at("drive.yaml")) << "recording: {file: drive.csv, simulated: sim.csv}\nencoder: {bits: 18}\nmodel: "
-                                    << testing::kPaperModel;
+    std::ofstream(at("drive.yaml"))
+        << "recording: {file: drive.csv, simulated: sim.csv}\nencoder: {bits: 18}\nmodel: "
+        << testing::kPaperModel;
   }
   /// Of the parameters alone: no effect is a candidate.
   SimulatorComparison compared() const {
