@@ -132,6 +132,7 @@ void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {
   line("report", folder);
   line("verdict", to_string(d.verdict));
   for (const std::string& effect : d.effects) line("effect", effect);
+  if (r.simulated) line("simulator", r.simulated->sentence);
   if (r.answer) print_card(r.answer->card);
 }
 

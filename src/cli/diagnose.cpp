@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
@@ -21,6 +22,7 @@ struct DiagnoseArguments {
   std::string config;
   std::string folder;
   std::vector<std::string> excluded;
+  std::vector<std::string> simulated;
   int threads = 0;
   bool quiet = false;
 };
@@ -64,12 +66,26 @@ void write_outcome(ReportFolder& report, const Configuration& c, DiagnosisResult
   report.commit();
 }
 
+/// In place of `recording: simulated:`. The paths are the shell's, not the configuration's.
+void take_simulated(const std::vector<std::string>& files, Configuration& c) {
+  if (files.empty()) return;
+  if (!c.recording)
+    throw ConfigError(c.file,
+                      "has no recording: beside --simulated, expected that of the drive that is simulated");
+  c.recording->simulated.clear();
+  for (const std::string& file : files)
+    c.recording->simulated.push_back({file, std::filesystem::absolute(file).lexically_normal().string(), 0});
+  if (const std::string problem = c.recording->simulated_problem(); !problem.empty())
+    throw ConfigError("gapscope: --simulated " + problem);
+}
+
 void diagnose_configuration(const DiagnoseArguments& a) {
   require_known(a.excluded);
   Configuration c = load_configuration(a.config);
   c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
   std::sort(c.excluded.begin(), c.excluded.end());  // the same question, however it is asked
   c.excluded.erase(std::unique(c.excluded.begin(), c.excluded.end()), c.excluded.end());
+  take_simulated(a.simulated, c);
   require_reference_model(c);
   const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
@@ -83,6 +99,7 @@ void diagnose_configuration(const DiagnoseArguments& a) {
   write_outcome(report, c, result, outcome.first.motor_trace());
   if (!report.dropped().empty()) result.diagnosis.warnings.push_back(report.dropped());
   print_warnings(result.diagnosis.warnings);
+  if (result.simulated) print_warnings(result.simulated->warnings);
   print_diagnosis(folder, result);
 }
 
@@ -97,6 +114,11 @@ void add_diagnose(CommandLine& app) {
       .value("DIR");
   command.add_option("--exclude", arguments->excluded, "an effect that is no candidate; may be repeated")
       .value("EFFECT")
+      .one_value_each();
+  command
+      .add_option("--simulated", arguments->simulated,
+                  "CSV with what your simulator answers to the recorded input; one for each recording")
+      .value("SIM.csv")
       .one_value_each();
   add_work_options(command, arguments->threads, arguments->quiet);
   command.footer(
@@ -118,10 +140,22 @@ void add_diagnose(CommandLine& app) {
       "amount "
       "of each\n"
       "effect that would have been named on these recordings; of none and unknown it is always told.\n"
+      "--simulated lays your simulator (MuJoCo, Isaac, Drake, Gazebo, C code) beside the drive: run it under "
+      "the\n"
+      "recorded u, from where the drive began, write t, u, x1 (columns and units as in the recording; u may "
+      "be "
+      "left\n"
+      "out, a finer step does no harm), and give one file for each file: of the configuration, then for each "
+      "held_out.\n"
+      "The same model is fitted to both; the report has a table of what is in the drive, in the simulator or "
+      "in both\n"
+      "with other amounts, and how far the error shrinks if the first line is mended. In the configuration:\n"
+      "recording: {file: drive.csv, simulated: sim.csv}.\n"
       "The verdict is effect, none (the model is at the floor: that of the encoder or, where the drive "
       "repeats its\n"
       "motion far worse, that of its repeatability) or unknown (nothing in the catalogue explains it).\n\n"
-      "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance");
+      "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance\n"
+      "Example: gapscope diagnose drive.yaml -o reports/drive --simulated mujoco.csv");
   command.action([arguments] { diagnose_configuration(*arguments); });
 }
 

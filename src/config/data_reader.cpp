@@ -28,6 +28,16 @@ ReadOptions RecordingConfig::reading_for(UnevenRows uneven) const {
   return options;
 }
 
+std::string RecordingConfig::simulated_problem() const {
+  if (simulated.empty() || simulated.size() == files.size() ||
+      (!held_out.empty() && simulated.size() == files.size() + held_out.size()))
+    return "";
+  return fmt::format(
+      "names {} file{}, expected one for each of recording: file ({}){}", simulated.size(),
+      simulated.size() == 1 ? "" : "s", files.size(),
+      held_out.empty() ? "" : fmt::format(", and for each of held_out ({}) behind them", held_out.size()));
+}
+
 std::size_t SimulationConfig::samples() const {
   return static_cast<std::size_t>(std::llround(rate * duration));
 }
@@ -117,14 +127,18 @@ void read_resampling(const Value& value, RecordingConfig& recording) {
 
 RecordingConfig read_recording_block(const Value& value, const std::string& folder,
                                      const EncoderConfig& encoder, Coordinates coordinates) {
-  const Section section(
-      value, {"file", "held_out", "columns", "units", "registers", "gear_ratio", "window", "resample"});
+  const Section section(value, {"file", "held_out", "simulated", "columns", "units", "registers",
+                                "gear_ratio", "window", "resample"});
   RecordingConfig recording;
   std::set<std::string> seen;
   recording.files = read_files(section.require("file", "a file or a list of files"), folder, seen);
   if (const auto held_out = section.find("held_out"))
     recording.held_out = read_files(*held_out, folder, seen);
   recording.reading.encoder = encoder.side();
+  if (const auto simulated = section.find("simulated")) {
+    recording.simulated = read_files(*simulated, folder, seen);
+    if (const std::string problem = recording.simulated_problem(); !problem.empty()) simulated->fail(problem);
+  }
   if (const auto columns = section.find("columns")) recording.reading.columns = read_columns(*columns);
   if (encoder.sides == EncoderSides::kBoth) recording.reading.columns.load_position_required = true;
   read_units(section, encoder, coordinates, recording);

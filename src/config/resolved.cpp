@@ -35,6 +35,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   out.open("recording");
   write_files(out, "file", recording.files);
   write_files(out, "held_out", recording.held_out);
+  write_files(out, "simulated", recording.simulated);
   out.open("columns");
   const RecordingColumns& columns = recording.reading.columns;
   out.entry("time", yaml_text(columns.time));

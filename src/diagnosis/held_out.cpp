@@ -94,14 +94,6 @@ bool play_ripple(const PlantModel<double>& model, const DriveState<double>& star
                              });
 }
 
-/// Every number given, nothing estimated.
-ReferenceModel all_fixed(ReferenceModel model) {
-  for (ParameterSetting& p : model.parameters) p.estimate = false;
-  for (ModelEffect& e : model.effects)
-    for (ParameterSetting& p : e.parameters) p.estimate = false;
-  return model;
-}
-
 /// Mean squares over windows of `length` samples of the scored part, over `floor`².
 void append_windows(const std::vector<double>& errors, std::size_t from, std::size_t length, double floor,
                     std::vector<double>& squares) {
@@ -120,6 +112,13 @@ std::size_t first_window(const HeldOut& held_out, std::size_t r) {
 }
 
 }  // namespace
+
+ReferenceModel all_fixed(ReferenceModel model) {
+  for (ParameterSetting& p : model.parameters) p.estimate = false;
+  for (ModelEffect& e : model.effects)
+    for (ParameterSetting& p : e.parameters) p.estimate = false;
+  return model;
+}
 
 std::size_t HeldOut::restart(std::size_t r) const {
   const double scored = traces[r].dt * static_cast<double>(traces[r].size() - scored_from[r]);

@@ -44,6 +44,9 @@ struct Windows {
   std::vector<double> torque;      ///< the same [(N m)²]
 };
 
+/// Every number given, nothing estimated.
+ReferenceModel all_fixed(ReferenceModel model);
+
 /// Initial states of recordings that suit a model whose numbers are all known.
 std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
                                                       const ReferenceModel& model, double observer_hz);

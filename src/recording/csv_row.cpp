@@ -11,6 +11,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/base/statistics.h"
 #include "recording/limits.h"
 
 namespace gapscope::internal::recording {
@@ -120,10 +121,11 @@ void CsvRow::header(std::string_view line) {
   while (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
   width_ = fields_.size();
   t_ = place(columns_.time, true);
-  if (columns_.input_read) u_ = place(columns_.input, true);
+  if (columns_.input_read) u_ = place(columns_.input, columns_.input_required);
   x1_ = place(columns_.position, true);
   x2_ = place(columns_.load_position, columns_.load_position_required);
-  if (!columns_.voltage.empty()) voltage_ = place(columns_.voltage, true);
+  if (!columns_.voltage.empty() && (u_ >= 0 || !columns_.target.empty()))
+    voltage_ = place(columns_.voltage, true);
   if (!columns_.target.empty()) target_ = place(columns_.target, true);
 }
 
@@ -154,6 +156,7 @@ std::string_view CsvRow::with_decimal_point(std::string_view text, const std::st
 }
 
 double CsvRow::input() {
+  if (u_ < 0) return kNaN;
   const double u = number(u_, columns_.input, columns_.scales.input);
   return voltage_ < 0 ? u : u * supply();
 }

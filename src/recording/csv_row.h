@@ -23,14 +23,13 @@ class CsvRow {
 
   // Of the row that was taken last, in SI.  @throws ConfigError where it is no finite number
   double time() { return number(t_, columns_.time, columns_.scales.time); }
-  double input();   ///< times the supply's voltage where there is one
+  double input();   ///< times the supply's voltage where there is one; NaN where there is no input
   double supply();  ///< that voltage; 1 without
   double target() { return number(target_, columns_.target, columns_.scales.position); }
   double position() { return number(x1_, columns_.position, columns_.scales.position); }
   double load_position() { return number(x2_, columns_.load_position, columns_.scales.load_position); }
 
   bool has_load_position() const { return x2_ >= 0; }
-  bool has_input() const { return u_ >= 0; }
   bool has_target() const { return target_ >= 0; }
   std::int64_t line() const { return line_; }  ///< of the file, from 1
   const RecordingColumns& columns() const { return columns_; }

@@ -27,7 +27,7 @@ void add_row(CsvRow& row, EarlierRow earlier, RecordedRows& table) {
   const double t = row.time();
   if (!table.admits(t, row.line(), earlier, row.columns().time)) return;
   table.t.push_back(t);
-  table.u.push_back(row.has_input() ? row.input() : 0.0);
+  table.u.push_back(row.input());
   table.x1.push_back(row.position());
   if (row.has_load_position()) table.x2.push_back(row.load_position());
   if (row.has_target()) table.target.push_back(row.target()), table.supply.push_back(row.supply());

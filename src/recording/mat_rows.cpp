@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/statistics.h"
 #include "recording/limits.h"
 #include "recording/mat_file.h"
 #include "recording/recorded_rows.h"
@@ -48,8 +49,8 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   };
   const ColumnScales& scales = columns.scales;
   const Column t = column(columns.time, scales.time);
-  Column u = columns.input_read ? column(columns.input, scales.input)
-                                : Column{columns.target, std::vector<double>(t.values.size(), 0.0)};
+  const bool has_input = columns.input_read && (columns.input_required || content->find(columns.input));
+  Column u = has_input ? column(columns.input, scales.input) : Column{};
   const bool has_target = !columns.target.empty();
   const Column target = has_target ? column(columns.target, scales.position) : Column{};
   Column supply{"supply", std::vector<double>(t.values.size(), 1.0)};
@@ -57,10 +58,10 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   const std::string& load = columns.load_position;
   const bool has_load = !load.empty() && (columns.load_position_required || content->find(load));
   const Column x2 = has_load ? column(load, scales.load_position) : Column{};
-  require_length(path, u, t);
+  if (has_input) require_length(path, u, t);
   require_length(path, x1, t);
   if (has_load) require_length(path, x2, t);
-  if (!columns.voltage.empty()) {
+  if (!columns.voltage.empty() && (has_input || has_target)) {
     supply = column(columns.voltage, scales.voltage);
     require_length(path, supply, t);
     for (std::size_t i = 0; i < u.values.size(); ++i) u.values[i] *= supply.values[i];
@@ -73,7 +74,10 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
     const auto sample = static_cast<std::int64_t>(i) + 1;
     if (!std::isnan(t.values[i]) && !rows.admits(t.values[i], sample, earlier, t.name)) continue;
     append(rows.t, t, i, rows);
-    append(rows.u, u, i, rows);
+    if (has_input)
+      append(rows.u, u, i, rows);
+    else
+      rows.u.push_back(kNaN);
     append(rows.x1, x1, i, rows);
     if (has_load) append(rows.x2, x2, i, rows);
     if (has_target) append(rows.target, target, i, rows), append(rows.supply, supply, i, rows);

@@ -11,6 +11,7 @@
 #include "report/error_budget.h"
 #include "report/last_resort.h"
 #include "report/rich_text.h"
+#include "report/simulator.h"
 #include "report/ticks.h"
 #include "report/wording.h"
 
@@ -292,9 +293,9 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
 }  // namespace
 
 std::vector<FigureData> diagnosis_figures(const DiagnosisResult& r) {
-  std::vector<FigureData> figures = {diagnosis_budget(r),    diagnosis_traces(r),     diagnosis_ranking(r),
-                                     diagnosis_where(r),     diagnosis_torque_map(r), diagnosis_law(r),
-                                     diagnosis_detectable(r)};
+  std::vector<FigureData> figures = {diagnosis_budget(r),     diagnosis_traces(r),     diagnosis_ranking(r),
+                                     diagnosis_where(r),      diagnosis_torque_map(r), diagnosis_law(r),
+                                     diagnosis_detectable(r), diagnosis_simulator(r)};
   figures.insert(figures.begin(), sheet(r, figures));
   return figures;
 }

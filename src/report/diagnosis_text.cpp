@@ -9,6 +9,7 @@
 #include "report/error_budget.h"
 #include "report/last_resort.h"
 #include "report/markdown.h"
+#include "report/simulator.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -172,9 +173,9 @@ std::string experiment_table(const DiagnosisResult& r) {
 }  // namespace
 
 std::string diagnosis_text(const DiagnosisResult& r) {
-  return fmt::format("\n## What the simulation lacks\n\n**{}**\n", r.diagnosis.sentence) + budget_table(r) +
-         measures_table(r) + ranking_table(r) + steps_table(r) + periodic_table(r) + blame_table(r) +
-         law_table(r) + detectable_table(r) + experiment_table(r) +
+  return fmt::format("\n## What the simulation lacks\n\n**{}**\n", r.diagnosis.sentence) +
+         simulator_table(r) + budget_table(r) + measures_table(r) + ranking_table(r) + steps_table(r) +
+         periodic_table(r) + blame_table(r) + law_table(r) + detectable_table(r) + experiment_table(r) +
          "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
 }
 

@@ -18,7 +18,9 @@ namespace {
 using internal::results::DiagnosisDocument;
 using internal::results::JsonReader;
 using internal::results::JsonWriter;
+using internal::results::SimulatorDocument;
 using internal::results::StoredMismatch;
+using internal::results::StoredSimulatorTrace;
 using internal::results::TraceSet;
 
 /// What the contract of the file promises; another state is a bug of the caller.
@@ -45,16 +47,21 @@ StoredMismatch store(const std::string& folder, std::size_t index, const Mismatc
   return stored;
 }
 
-MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
-  const std::string path = internal::results::trace_path(folder, stored.trace);
+TraceSet read_set(const std::string& folder, const std::string& trace, int samples, double start, double dt,
+                  EncoderSide encoder = EncoderSide::kMotor) {
+  const std::string path = internal::results::trace_path(folder, trace);
   TraceSet set;
-  set.recording.start = stored.mismatch.start, set.recording.dt = stored.mismatch.dt;
-  set.recording.encoder = stored.mismatch.encoder;
+  set.recording.start = start, set.recording.dt = dt, set.recording.encoder = encoder;
   internal::results::read_trace(path, set);
-  if (static_cast<int>(set.recording.size()) != stored.samples)
+  if (static_cast<int>(set.recording.size()) != samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
-                                std::to_string(stored.samples));
+                                std::to_string(samples));
+  return set;
+}
+
+MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
   MismatchTrace m = stored.mismatch;
+  TraceSet set = read_set(folder, stored.trace, stored.samples, m.start, m.dt, m.encoder);
   m.scored_from = static_cast<std::size_t>(stored.scored_from);
   if (m.encoder == EncoderSide::kLoad) std::swap(set.recording.x1, set.recording.x2);
   m.u = std::move(set.recording.u), m.x1 = std::move(set.recording.x1),
@@ -62,6 +69,39 @@ MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
   m.error_before = std::move(set.error_before), m.error_after = std::move(set.error_after);
   m.torque_before = std::move(set.torque_before), m.torque_after = std::move(set.torque_after);
   return m;
+}
+
+SimulatorDocument store(const std::string& folder, const SimulatorComparison& comparison) {
+  SimulatorDocument document{comparison, {}};
+  for (const SimulatorTrace& t : comparison.traces) {
+    StoredSimulatorTrace stored;
+    stored.trace = trace_name(document.traces.size(), t.file).insert(7, "held_out_simulator_");
+    stored.samples = static_cast<int>(t.x1.size());
+    stored.scored_from = static_cast<int>(t.scored_from);
+    stored.of.file = t.file, stored.of.simulated = t.simulated, stored.of.start = t.start,
+    stored.of.dt = t.dt;
+    TraceSet set;
+    set.recording = {t.file, t.start, t.dt, t.u, t.x1, {}, {}, 0.0, "", false, t.stamps};
+    set.fit.x1 = t.fitted, set.simulator = t.simulator, set.stand_in = t.stand_in, set.mended = t.mended;
+    internal::results::write_trace(folder + "/" + stored.trace, set);
+    document.traces.push_back(std::move(stored));
+  }
+  return document;
+}
+
+SimulatorComparison load(const std::string& folder, SimulatorDocument& document) {
+  SimulatorComparison comparison = std::move(document.comparison);
+  for (const StoredSimulatorTrace& stored : document.traces) {
+    SimulatorTrace t = stored.of;
+    TraceSet set = read_set(folder, stored.trace, stored.samples, t.start, t.dt);
+    t.scored_from = static_cast<std::size_t>(stored.scored_from);
+    t.u = std::move(set.recording.u), t.x1 = std::move(set.recording.x1);
+    t.stamps = std::move(set.recording.stamps), t.fitted = std::move(set.fit.x1);
+    t.simulator = std::move(set.simulator), t.stand_in = std::move(set.stand_in),
+    t.mended = std::move(set.mended);
+    comparison.traces.push_back(std::move(t));
+  }
+  return comparison;
 }
 
 }  // namespace
@@ -83,6 +123,7 @@ void write_diagnosis_result(const std::string& folder, const DiagnosisResult& re
   document.result = result;
   for (std::size_t i = 0; i < result.diagnosis.traces.size(); ++i)
     document.held_out.push_back(store(folder, i, result.diagnosis.traces[i]));
+  if (result.simulated) document.simulated = store(folder, *result.simulated);
   JsonWriter writer;
   fields(writer, document);
   internal::results::save_json(folder + "/diagnosis.json", writer.json);
@@ -97,6 +138,7 @@ DiagnosisResult read_diagnosis_result(const std::string& folder) {
   fields(reader, document);
   for (const StoredMismatch& stored : document.held_out)
     document.result.diagnosis.traces.push_back(load(folder, stored));
+  if (document.simulated) document.result.simulated = load(folder, *document.simulated);
   return std::move(document.result);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "results/file_hash_fields.h"
 #include "results/json_archive.h"
 #include "results/last_resort_fields.h"
+#include "results/simulator_fields.h"
 
 /// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
 namespace gapscope::internal::results {
@@ -27,6 +29,7 @@ struct DiagnosisDocument {
   std::string schema = kDiagnosisSchema;
   DiagnosisResult result;
   std::vector<StoredMismatch> held_out;
+  std::optional<SimulatorDocument> simulated = {};
 };
 
 template <class Archive>
@@ -228,11 +231,7 @@ template <class Archive>
 void fields(Archive& archive, DiagnosisDocument& d) {
   Diagnosis& g = d.result.diagnosis;
   archive("schema", d.schema);
-  archive.choice("verdict", g.verdict,
-                 Words<DiagnosisVerdict>{{DiagnosisVerdict::kEffect, "effect"},
-                                         {DiagnosisVerdict::kHelps, "helps"},
-                                         {DiagnosisVerdict::kNone, "none"},
-                                         {DiagnosisVerdict::kUnknown, "unknown"}});
+  verdict_field(archive, g.verdict);
   archive.seldom("answer", d.result.answer);
   archive("effects", g.effects);
   archive("group", g.group);
@@ -260,6 +259,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.configuration(d.result.configuration);
   archive.added_list("sources", d.result.sources);
   archive.list("held_out", d.held_out);
+  archive.seldom("simulated", d.simulated);
 }
 
 }  // namespace gapscope::internal::results

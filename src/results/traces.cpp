@@ -76,6 +76,12 @@ constexpr NumberColumn kNumbers[] = {
         "torque_before_nm", [](auto& s) -> auto& { return s.torque_before; }),
     column<double>(
         "torque_after_nm", [](auto& s) -> auto& { return s.torque_after; }),
+    column<double>(
+        "simulator_x1_rad", [](auto& s) -> auto& { return s.simulator; }),
+    column<double>(
+        "stand_in_x1_rad", [](auto& s) -> auto& { return s.stand_in; }),
+    column<double>(
+        "mended_x1_rad", [](auto& s) -> auto& { return s.mended; }),
 };
 constexpr ModeColumn kModeColumns[] = {
     column<Mode>(

@@ -15,6 +15,9 @@ struct TraceSet {
   FitTrace fit;
   /// Of a diagnosis: errors of restarted free runs [rad] and residual torques [N m].
   std::vector<double> error_before, error_after, torque_before, torque_after;
+  /// Of a user's simulator, of the model that stands in for it, and of that one with its first row mended
+  /// [rad].
+  std::vector<double> simulator = {}, stand_in = {}, mended = {};
 };
 
 /// Writes the filled columns only; an undefined number is an empty field.  @throws std::runtime_error

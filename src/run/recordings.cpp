@@ -126,7 +126,7 @@ LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile
 std::vector<std::string> source_paths(const Configuration& c) {
   std::vector<std::string> paths = {c.file};
   if (c.recording)
-    for (const auto* files : {&c.recording->files, &c.recording->held_out})
+    for (const auto* files : {&c.recording->files, &c.recording->held_out, &c.recording->simulated})
       for (const RecordedFile& f : *files) paths.push_back(f.path);
   if (c.simulation && !c.simulation->excitation.file.empty())
     paths.push_back(
@@ -137,8 +137,9 @@ std::vector<std::string> source_paths(const Configuration& c) {
 std::vector<FileHash> sources_of(const Configuration& c) {
   Configuration asked_of_all = c;
   asked_of_all.excluded.clear(), asked_of_all.tolerance = {};  // other questions, no other drive
+  if (c.recording) asked_of_all.recording->simulated.clear();
   std::vector<FileHash> sources = {{"configuration", sha256(resolved_yaml(asked_of_all))}};
-  for (const std::string& path : source_paths(c)) {
+  for (const std::string& path : source_paths(asked_of_all)) {
     if (path == c.file) continue;
     const std::string name = std::filesystem::path(path).filename().string();
     std::error_code unreachable;  // what is held out need not be there for an estimate

@@ -7,6 +7,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/inspection.h"
+#include "run/run_simulator.h"
 
 namespace gapscope {
 namespace {
@@ -58,6 +59,8 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
 DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& options) {
   const std::vector<FileHash> sources = sources_of(c);
   DiagnosisRecordings recordings = load_for_diagnosis(c, options.progress);
+  const internal::run::SimulatedRecordings simulated =
+      internal::run::load_simulated(c, recordings, options.progress);
   require_unchanged(c, sources);
   std::vector<std::string> warnings = std::move(recordings.train.warnings);
   for (const auto& more : {recordings.held_out.warnings, checked(c, options.progress)})
@@ -68,6 +71,8 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   result.answer.emplace().tolerance = c.tolerance;
   Diagnosis& d = result.diagnosis;
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
+  if (!simulated.empty())
+    result.simulated = internal::run::compare_simulated(c, recordings, simulated, d, options);
   ask_further(c, recordings.train.recordings.front().motor_trace(), options, d);
   return {std::move(result), std::move(recordings.train.recordings.front())};
 }

@@ -27,11 +27,17 @@ struct RecordedFile {
 struct RecordingConfig {
   std::vector<RecordedFile> files;
   std::vector<RecordedFile> held_out;  ///< only read by the diagnosis
+  /// What a simulator of the user's answers to the same inputs: one for each of `files`, then, if any is held
+  /// out, one for each of `held_out` or none. Empty: there is none.
+  std::vector<RecordedFile> simulated = {};
   ReadOptions reading;                 ///< columns with what units and gears make of them, window, resampling
   bool resample_for_detector = false;  ///< fit and diagnose take the rows as they are
   DeclaredUnits units;
   RegisterBits registers;
   GearRatios gear;
+
+  /// @returns what is wrong with the number of simulated recordings; empty: nothing
+  std::string simulated_problem() const;
 
   /// For an estimator that needs a grid (kRefused), or for one that takes uneven rows as they are (kStamped).
   ReadOptions reading_for(UnevenRows uneven) const;

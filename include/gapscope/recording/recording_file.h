@@ -24,6 +24,7 @@ struct RecordingColumns {
   std::string load_position = "x2";
   bool load_position_required = false;  ///< true when the user named the column
   bool position_named = false;          ///< the same for the position
+  bool input_required = true;           ///< false: where there is none, every u is NaN
   ColumnScales scales;
   std::string voltage = {};  ///< of the supply: u is the input, a duty, times it; empty: there is none
   std::string target = {};   ///< of the commanded position, in units of the position; empty: there is none
@@ -68,6 +69,15 @@ Recording read_recording(const std::string& path, const ReadOptions& options = {
 /// Of a recording that has input and target both: what its controller, as declared, makes of the target
 /// beside the input that was recorded. Nothing where there is no controller, or no input.
 std::optional<InputComparison> compare_with_controller(const std::string& path, const ReadOptions& options);
+
+/// The answer of a user's simulator to the input of a recording: its x1 at that recording's times, with that
+/// recording's u. The file may have rows between these times. Its input, where it has that column, must be
+/// the recorded one.
+/// @param columns  as those of the recording, whose units its numbers are in
+/// @throws ConfigError with file and line, as read_recording() does; for a time of the recording without a
+/// row
+///   (within a tenth of a step), and for another input (by 0.1 % of its peak)
+Recording read_simulated(const std::string& path, const RecordingColumns& columns, const Recording& like);
 
 /// Writes t, u, x1 and, where known, x2 and mode, so that read_recording() returns the same numbers.
 /// @throws std::runtime_error if the file cannot be written.

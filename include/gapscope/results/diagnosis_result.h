@@ -7,6 +7,7 @@
 #include "gapscope/base/file_hash.h"
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/diagnosis/simulator.h"
 
 namespace gapscope {
 
@@ -19,6 +20,7 @@ struct DiagnosisResult {
   Diagnosis diagnosis;                 ///< the fitted model is not stored here but in fitted.yaml
   std::vector<FileHash> sources = {};  ///< the configuration and every recording that it names
   std::optional<Answer> answer = {};   ///< with the gap of the estimate in the same folder, if there is one
+  std::optional<SimulatorComparison> simulated = {};  ///< the user's simulator, where its answer was given
 };
 
 /// Writes diagnosis.json and traces/held_out_<n>_<file>.csv into an existing folder. The columns of a trace

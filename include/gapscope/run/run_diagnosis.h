@@ -24,7 +24,8 @@ struct DiagnosisOutcome {
 };
 
 /// Everything of `diagnose` but the writing: the recordings are read, looked at as `check` does and
-/// diagnosed; where they do not decide, the experiment that would is looked for.
+/// diagnosed; where they do not decide, the experiment that would is looked for. The answer of the user's
+/// simulator is laid beside them where the configuration names it.
 /// @throws ConfigError, also where a source changes meanwhile; Interrupted
 DiagnosisOutcome run_diagnosis(const Configuration& configuration, const DiagnosisOptions& options);
 

@@ -1,0 +1,124 @@
+#include "diagnosis/simulator_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/text.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+/// A number as people read it: lengths and times in thousandths.
+std::string amount(double value, const std::string& unit, Coordinates coordinates) {
+  if (unit == "rad") return coordinates.thousandths(value);
+  if (unit == "s") return fmt::format("{:.3g} ms", 1e3 * value);
+  const std::string shown = coordinates.shown_unit(unit);
+  return shown.empty() ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, shown);
+}
+
+/// What the size is called where it is no amount of the effect: "length", "knee".
+std::string with_name(const ComparedNumber& n, double value, Coordinates coordinates) {
+  return readable(n.key.substr(0, n.key.rfind(n.unit == "-" ? "" : "_"))) + " " +
+         amount(value, n.unit, coordinates);
+}
+
+bool is_size(const ComparedNumber& n) {
+  for (const char* size : {"level_nm", "amplitude_nm", "torque_nm", "delay_s", "time_constant_s", "gap_rad",
+                           "amplitude_rad", "coefficient_nms2"})
+    if (n.key == size) return true;
+  return false;
+}
+
+std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates) {
+  std::vector<std::string> parts;
+  for (const ComparedNumber& n : row.numbers) {
+    const double value = drive ? n.drive : n.simulator;
+    parts.push_back(parts.empty() && is_size(n) ? amount(value, n.unit, coordinates)
+                                                : with_name(n, value, coordinates));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// How many samples a delay is, where it is about a whole number of half ones: what a fixed step leaves.
+std::string in_steps(const SimulatorRow& row, double dt) {
+  if (row.name != "input_delay" || row.numbers.empty()) return "";
+  const double steps = (row.numbers.front().simulator - row.numbers.front().drive) / dt;
+  const double halves = std::round(2.0 * steps);
+  const bool whole = halves != 0.0 && std::abs(2.0 * steps - halves) < 0.2;
+  return fmt::format(" ({} {:.2g} {} {}{})", whole ? "about" : "that is", std::abs(steps),
+                     std::abs(std::abs(steps) - 1.0) < 0.05 ? "sample" : "samples",
+                     steps > 0.0 ? "too much" : "too little",
+                     whole && std::abs(halves) <= 2.0
+                         ? ", as an input that acts a step late or an integrator of fixed step leave it"
+                         : "");
+}
+
+/// A simulator whose dry friction is a soft constraint, or smoothed, slides where the drive holds.
+std::string creeping(const SimulatorRow& row) {
+  if (row.name != "presliding_friction") return "";
+  for (const ComparedNumber& n : row.numbers)
+    if (n.key == "length_rad" && n.simulator > 2.0 * n.drive)
+      return ": its friction creeps, as that of a smoothed law or of a soft constraint does";
+  return "";
+}
+
+std::string effect_row_sentence(const SimulatorRow& row, Coordinates coordinates) {
+  const std::string name = readable(row.name);
+  const std::string drive = of_side(row, true, coordinates), simulator = of_side(row, false, coordinates);
+  switch (row.found_in) {
+    case FoundIn::kDrive:
+      return fmt::format("it has no {}, the drive has ({})", name, drive);
+    case FoundIn::kSimulator:
+      return fmt::format("it has {} ({}), the drive has none", name, simulator);
+    default:
+      return fmt::format("its {} is {} where the drive's is {}", name, simulator, drive);
+  }
+}
+
+std::string mended_words(const SimulatorComparison& c, Coordinates coordinates) {
+  std::string text = fmt::format(
+      " Over the held-out input it is {} rms off the drive. A model fitted to it stands in for it (it misses "
+      "it by {}): with {} mended that one's error falls from {} to {}, by {:.0f} %",
+      coordinates.thousandths(c.errors.simulator), coordinates.thousandths(c.errors.stand_in_miss),
+      readable(c.rows.front().name), coordinates.thousandths(c.errors.stand_in),
+      coordinates.thousandths(c.errors.mended), 100.0 * c.shrink);
+  const auto differing =
+      std::count_if(c.rows.begin(), c.rows.end(), [](const SimulatorRow& r) { return r.differs; });
+  if (differing > 1)
+    text += fmt::format("; with all {} rows, to {}", differing, coordinates.thousandths(c.errors.all_mended));
+  return text + ".";
+}
+
+}  // namespace
+
+std::string row_sentence(const SimulatorRow& row, double dt, Coordinates coordinates) {
+  if (row.is_effect) {
+    std::string text = effect_row_sentence(row, coordinates) + in_steps(row, dt) + creeping(row);
+    std::vector<std::string> others;
+    for (const std::string& other : row.group)
+      if (other != row.name) others.push_back(readable(other));
+    if (!others.empty()) text += fmt::format(" (or {})", fmt::join(others, " or "));
+    return text;
+  }
+  const ComparedNumber& n = row.numbers.front();
+  return fmt::format("its {} is {} where the drive's is {}", readable(row.name),
+                     amount(n.simulator, n.unit, coordinates), amount(n.drive, n.unit, coordinates));
+}
+
+std::string comparison_sentence(const SimulatorComparison& c, Coordinates coordinates) {
+  std::vector<std::string> parts;
+  for (const SimulatorRow& row : c.rows)
+    if (row.differs) parts.push_back(row.sentence);
+  if (parts.empty())
+    return fmt::format(
+        "Your simulator lacks nothing that these recordings would show above two floors. Over the held-out "
+        "input it is {} rms off the drive.",
+        coordinates.thousandths(c.errors.simulator));
+  return fmt::format("Your simulator differs from the drive: {}.", fmt::join(parts, "; ")) +
+         mended_words(c, coordinates);
+}
+
+}  // namespace gapscope::internal::diagnosis

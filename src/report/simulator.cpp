@@ -1,0 +1,146 @@
+#include "report/simulator.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/text.h"
+#include "report/markdown.h"
+#include "report/wording.h"
+
+namespace gapscope::internal::report {
+namespace {
+
+LineStyle simulator_style() { return {kVermillion, 4.0, {}}; }
+
+/// "20.0 ± 0.4 mN·m", with the name of the number where a row has several.
+std::string side_number(const DiagnosisResult& r, const ComparedNumber& n, bool drive, bool named) {
+  const bool phase = n.key.find("phase") != std::string::npos;  // an angle along a slide, too
+  const std::string unit = (phase ? Coordinates() : r.coordinates).shown_unit(n.unit);
+  const std::string value =
+      plus_minus(drive ? n.drive : n.simulator, drive ? n.drive_ci95 : n.simulator_ci95, unit);
+  return named ? n.key + " " + value : value;
+}
+
+std::string side_text(const DiagnosisResult& r, const SimulatorRow& row, bool drive) {
+  const bool absent =
+      row.found_in == FoundIn::kNeither || row.found_in == (drive ? FoundIn::kSimulator : FoundIn::kDrive);
+  std::vector<std::string> parts;
+  for (const ComparedNumber& n : row.numbers)
+    parts.push_back(side_number(r, n, drive, row.numbers.size() > 1));
+  if (absent) parts.resize(std::min<std::size_t>(1, parts.size()));
+  return fmt::format("{}{}", absent ? "none: " : "", fmt::join(parts, ", "));
+}
+
+const char* found_words(const SimulatorRow& row) {
+  if (row.differs && row.found_in == FoundIn::kDrive) return "only in the drive";
+  if (row.differs && row.found_in == FoundIn::kSimulator) return "only in the simulator";
+  if (row.differs) return "in both, with other amounts";
+  return row.found_in == FoundIn::kNeither ? "in neither" : "not told apart";
+}
+
+std::string row_size(const DiagnosisResult& r, const SimulatorRow& row) {
+  if (!(row.floors > 0.01)) return "–";
+  return fmt::format("{} ({} floors)", quantity(row.size, r.coordinates.position_unit()),
+                     rounded(row.floors, 2));
+}
+
+std::string rows_table(const DiagnosisResult& r, const SimulatorComparison& c) {
+  std::string text =
+      "\n| | in the drive | in the simulator | | size | error shrinks by, if mended alone |\n"
+      "|---|---|---|---|---|---|\n";
+  for (const SimulatorRow& row : c.rows)
+    text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, side_text(r, row, true),
+                        side_text(r, row, false), found_words(row), row_size(r, row),
+                        row.differs ? fmt::format("{:.0f} %", 100.0 * row.shrink) : "–");
+  return text;
+}
+
+std::string errors_text(const DiagnosisResult& r, const SimulatorComparison& c) {
+  const std::string unit = r.coordinates.position_unit();
+  std::string text = fmt::format(
+      "\nOver the held-out input your simulator is {} rms off the drive. It cannot be run here, so the model "
+      "fitted "
+      "to its recording stands in for it: that one is {} off the drive and misses your simulator by {}, "
+      "which is "
+      "what the last column is worth.",
+      quantity(c.errors.simulator, unit), quantity(c.errors.stand_in, unit),
+      quantity(c.errors.stand_in_miss, unit));
+  if (std::isfinite(c.errors.mended))
+    text += fmt::format(" With the first row mended it is {} off, with all that differ {}.",
+                        quantity(c.errors.mended, unit), quantity(c.errors.all_mended, unit));
+  return text + "\n";
+}
+
+Series simulator_line(const std::string& label, const LineStyle& style, const SimulatorTrace& t,
+                      const std::vector<double>& values) {
+  Series s{label, style, {}, {}};
+  for (std::size_t i = t.scored_from; i < values.size(); ++i)
+    s.x.push_back(t.time(i)), s.y.push_back(values[i]);
+  return s;
+}
+
+std::vector<double> off_by(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> d(std::min(a.size(), b.size()));
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] = a[i] - b[i];
+  return d;
+}
+
+Panel simulator_panel(const DiagnosisResult& r, const SimulatorTrace& t, const std::string& title,
+                      const std::string& name) {
+  Panel panel;
+  panel.title = title;
+  panel.x = {"time $t$", "s", {t.time(t.scored_from), t.time(t.x1.size() - 1)}, {}, {}};
+  panel.y = {name, r.coordinates.position_unit(), {}, {}, {}};
+  panel.height = 420.0;
+  return panel;
+}
+
+}  // namespace
+
+FigureData diagnosis_simulator(const DiagnosisResult& r) {
+  FigureData figure;
+  figure.file = "diagnosis_simulator.png";
+  figure.title = "Drive, your simulator and the fitted model";
+  if (!r.simulated || r.simulated->traces.empty()) {
+    figure = missing_figure(figure.file, figure.title, "no simulator was given");
+    figure.expected = false;
+    return figure;
+  }
+  const SimulatorTrace& t = r.simulated->traces.front();
+  Panel motion = simulator_panel(r, t, "Held-out input", "displacement $x_1$");
+  motion.series.push_back(simulator_line("drive", measured_style(), t, t.x1));
+  motion.series.push_back(simulator_line("your simulator", simulator_style(), t, t.simulator));
+  if (!t.fitted.empty())
+    motion.series.push_back(simulator_line("model fitted to the drive", reference_style(), t, t.fitted));
+  motion.x_labels = false;
+  Panel errors = simulator_panel(r, t, "What they are off the drive by", "$x_1$ − drive");
+  errors.series.push_back(simulator_line("your simulator", simulator_style(), t, off_by(t.simulator, t.x1)));
+  if (!t.fitted.empty())
+    errors.series.push_back(
+        simulator_line("model fitted to the drive", reference_style(), t, off_by(t.fitted, t.x1)));
+  figure.panels = {std::move(motion), std::move(errors)};
+  const std::string unit = r.coordinates.position_unit();
+  figure.reading = fmt::format("On {} your simulator is {} rms off the drive.", t.file,
+                               quantity(r.simulated->errors.simulator, unit));
+  return figure;
+}
+
+std::string simulator_table(const DiagnosisResult& r) {
+  if (!r.simulated) return "";
+  const SimulatorComparison& c = *r.simulated;
+  std::string text = "\n## Your simulator beside the drive\n\n**" + c.sentence + "**\n";
+  if (c.rows.empty()) return text;
+  text += rows_table(r, c) + errors_text(r, c);
+  text += fmt::format(
+      "\nOne model with the effects of both was fitted to both, ± is 95 %. *Size* is the motion that neither "
+      "recording takes over from the other's numbers, everything else refitted; a row counts from two floors "
+      "on, one of which is {}.\n",
+      quantity(c.floor, r.coordinates.position_unit()));
+  for (const std::string& warning : c.warnings) text += "\n- " + warning;
+  return c.warnings.empty() ? text : text + "\n";
+}
+
+}  // namespace gapscope::internal::report

@@ -1,0 +1,96 @@
+#include "run/run_simulator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/results/sha256.h"
+
+namespace gapscope::internal::run {
+namespace {
+
+constexpr double kFiner = 1.5;      // times: a simulator that reads finer than the encoder is rounded
+constexpr double kFarStart = 0.05;  // of the travel: another start than the drive's
+
+/// One instrument looks at both: nothing is told of the simulator that the drive's encoder could not show.
+void read_by_encoder(Recording& simulated, double quantum) {
+  if (quantum > 0.0 && kFiner * simulated.quantum < quantum)
+    for (double& x : simulated.x1) x = quantum * std::round(x / quantum);
+  simulated.quantum = std::max(quantum, simulated.quantum);
+}
+
+void note_start(const Recording& simulated, const Recording& drive, Coordinates coordinates,
+                std::vector<std::string>& warnings) {
+  const auto [low, high] = std::minmax_element(drive.x1.begin(), drive.x1.end());
+  if (std::abs(simulated.x1.front() - drive.x1.front()) <= kFarStart * (*high - *low)) return;
+  warnings.push_back(fmt::format(
+      "{} begins at x1 = {}, the drive at {}: what is told of its error holds that, begin it where {} does",
+      simulated.file, coordinates.thousandths(simulated.x1.front()),
+      coordinates.thousandths(drive.x1.front()), drive.file));
+}
+
+void require_there(const Configuration& c, const RecordedFile& file) {
+  if (std::error_code unreachable; std::filesystem::exists(file.path, unreachable)) return;
+  const std::string what = fmt::format(
+      "there is no simulated recording {}, expected a CSV or .mat file with what the simulator answers",
+      file.given);
+  if (file.line > 0) throw ConfigError(c.file, file.line, what);
+  throw ConfigError("gapscope: --simulated: " + what);
+}
+
+Recording read_answer(const Configuration& c, const RecordedFile& file, const Recording& drive,
+                      SimulatedRecordings& all) {
+  require_there(c, file);
+  Recording r = read_simulated(file.path, c.recording->reading.columns, drive);
+  note_start(r, drive, c.coordinates, all.warnings);
+  read_by_encoder(r, drive.quantum);
+  all.files.push_back({r.file, sha256_of_file(file.path)});
+  return r;
+}
+
+}  // namespace
+
+SimulatedRecordings load_simulated(const Configuration& c, const DiagnosisRecordings& recordings,
+                                   const Progress& progress) {
+  SimulatedRecordings all;
+  if (!c.recording) return all;
+  const std::vector<RecordedFile>& files = c.recording->simulated;
+  const std::vector<Recording>& train = recordings.train.recordings;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    stop_point();
+    progress("reading " + files[i].given);
+    const bool held = i >= train.size();
+    const Recording& drive = held ? recordings.held_out.recordings[i - train.size()] : train[i];
+    (held ? all.held_out : all.train).recordings.push_back(read_answer(c, files[i], drive, all));
+  }
+  if (!all.empty() && all.held_out.recordings.empty() && !recordings.held_out.recordings.empty())
+    all.warnings.push_back(
+        "the simulator was not run on what is held out: it is judged on the last third of each recording");
+  return all;
+}
+
+SimulatorComparison compare_simulated(const Configuration& c, const DiagnosisRecordings& recordings,
+                                      const SimulatedRecordings& simulated, const Diagnosis& drive,
+                                      const DiagnosisOptions& options) {
+  const std::vector<MotorTrace> train = recordings.train.motor_traces();
+  const std::vector<MotorTrace> held_out =
+      simulated.held_out.recordings.empty() ? std::vector<MotorTrace>{} : recordings.held_out.motor_traces();
+  const std::vector<MotorTrace> simulated_train = simulated.train.motor_traces();
+  const std::vector<MotorTrace> simulated_held_out = simulated.held_out.motor_traces();
+  DiagnosisOptions asked = options;
+  asked.known.detectable = false;
+  asked.progress = [&](const std::string& what) { options.progress("simulator: " + what); };
+  const Diagnosis of_simulator =
+      diagnose(simulated_train, simulated_held_out, c.model.reference_model(), asked);
+  SimulatorComparison compared = compare_with_simulator(
+      {train, held_out, simulated_train, simulated_held_out, drive, of_simulator}, options);
+  compared.files = simulated.files;
+  compared.warnings.insert(compared.warnings.begin(), simulated.warnings.begin(), simulated.warnings.end());
+  return compared;
+}
+
+}  // namespace gapscope::internal::run

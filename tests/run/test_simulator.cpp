@@ -1,0 +1,86 @@
+// A user's simulator beside the drive, from files to sentences.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "gapscope/base/text.h"
+#include "gapscope/recording/recording_file.h"
+#include "gapscope/run/run_diagnosis.h"
+#include "results/scratch_folder.h"
+#include "support/paper_model.h"
+#include "support/reading.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string simulation_of(const std::string& gap, const std::string& noise, const std::string& amplitude) {
+  return "encoder: {bits: 18}\nsimulation: {rate: 500, duration: 3, excitation: {sine: {amplitude: " +
+         amplitude + ", frequency: 1}}, noise: " + noise +
+         "}\nmodel: " + replaced(testing::kPaperModel, "0.019,", gap + ",");
+}
+
+/// A drive with a gap of 19 mrad and a simulator of it, each in its file.
+class DriveAndSimulator {
+ public:
+  explicit DriveAndSimulator(const std::string& simulated_gap, const std::string& simulated_input = "0.58") {
+    record("drive.csv", simulation_of("0.019", "1.0e-5", "0.58"));
+    record("sim.csv", simulation_of(simulated_gap, "0", simulated_input));
+    std::ofstream(at("drive.yaml"))
+        << "recording: {file: drive.csv, simulated: sim.csv}\nencoder: {bits: 18}\nmodel: "
+        << testing::kPaperModel;
+  }
+  /// Of the parameters alone: no effect is a candidate.
+  SimulatorComparison compared() const {
+    const Configuration c = load_configuration(at("drive.yaml"));
+    DiagnosisOptions options = diagnosis_options(c);
+    for (const EffectEntry* e : effect_table()) options.excluded.emplace_back(e->name);
+    return *run_diagnosis(c, options).result.simulated;
+  }
+
+ private:
+  std::string at(const char* name) const { return (folder_.path / name).string(); }
+  void record(const char* name, const std::string& configuration) const {
+    write_csv(at(name), simulated_recording(parse_configuration(configuration, "s.yaml")));
+  }
+  ScratchFolder folder_;
+};
+
+const SimulatorRow& row_of(const SimulatorComparison& c, const std::string& name) {
+  return *std::find_if(c.rows.begin(), c.rows.end(), [&](const SimulatorRow& r) { return r.name == name; });
+}
+
+TEST(Simulator, OfTheSamePhysicsLacksNothing) {
+  const SimulatorComparison c = DriveAndSimulator("0.019").compared();
+  EXPECT_EQ(c.rows.size(), 2u);
+  for (const SimulatorRow& row : c.rows) EXPECT_FALSE(row.differs) << row.name << " by " << row.floors;
+  EXPECT_THAT(c.sentence, HasSubstr("lacks nothing"));
+  EXPECT_TRUE(std::isnan(c.shrink));
+}
+
+TEST(Simulator, WithAnotherGapIsToldSoAndWhatMendingItTakes) {
+  const SimulatorComparison c = DriveAndSimulator("0.016").compared();
+  ASSERT_EQ(c.rows.front().name, "gap");
+  EXPECT_TRUE(c.rows.front().differs);
+  EXPECT_FALSE(row_of(c, "motor_damping").differs);
+  const ComparedNumber& gap = c.rows.front().numbers.front();
+  EXPECT_NEAR(gap.drive, 0.019, 5e-5);
+  EXPECT_NEAR(gap.simulator, 0.016, 5e-5);
+  EXPECT_LT(gap.simulator_ci95.high, gap.drive_ci95.low);
+  EXPECT_THAT(c.sentence, HasSubstr("its gap is 16"));
+  EXPECT_GT(c.shrink, 0.8);
+  EXPECT_LT(c.errors.stand_in_miss, 0.1 * c.errors.simulator) << "the stand-in is the simulator";
+  ASSERT_EQ(c.traces.size(), 1u);
+  EXPECT_EQ(c.traces[0].simulator.size(), c.traces[0].stand_in.size());
+}
+
+TEST(Simulator, OfAnotherInputIsRefusedByFileAndLine) {
+  EXPECT_THAT(testing::refusal([] { DriveAndSimulator("0.019", "0.7").compared(); }),
+              HasSubstr("sim.csv:6: the input is"));
+}
+
+}  // namespace
+}  // namespace gapscope
