@@ -176,6 +176,7 @@ FreeFlight FlightLaw::find_release(std::size_t core) const {
   const auto begin = [&](const Trial& t) { return FlightBegin{t.onset, state(t.fit, t.onset)}; };
   flight.found = true;
   flight.begin = flight.earliest = flight.latest = begin(chosen);
+  flight.push = window_.direction * chosen.fit.coefficients[kColumns];
   for (const Trial& t : trials) {
     if (t.fit.error > chosen.fit.error * (1.0 + kAlmostAsGood / chosen.fit.freedom)) continue;
     if (t.onset < flight.earliest.time) flight.earliest = begin(t);

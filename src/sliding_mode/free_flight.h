@@ -33,6 +33,8 @@ struct FlightBegin {
 struct FreeFlight {
   bool found = false;
   FlightBegin begin, earliest, latest;
+  double push =
+      0.0;  ///< what x1 shows beyond the law before t1, along the passage; its sign is the contact's
 };
 
 /// Step S3 read backwards. Between t1 and t2 nothing but the input and its own friction acts on the motor:

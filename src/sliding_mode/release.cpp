@@ -60,6 +60,7 @@ Release find_release(const TransitionContext& context, const FlightLaw& law, con
   const double best = gap(flight.begin);
   const double doubt = std::max(std::abs(gap(flight.earliest) - best), std::abs(gap(flight.latest) - best));
   release.found = true;
+  release.far_flank = flight.push > 0.0;
   release.time = flight.begin.time;
   release.position = flight.begin.motor.position;
   release.load_travel = travel(flight.begin, kViscousShare);

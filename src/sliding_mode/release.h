@@ -25,6 +25,7 @@ struct Release {
   double position = 0.0;           ///< x1(t1) [rad]
   double load_travel = 0.0;        ///< s, against the passage, between t1 and t2 [rad]
   double travel_half_width = 0.0;  ///< of s [rad]
+  bool far_flank = true;           ///< the contact before t1 was with the flank that the passage leaves
   double contradiction = 0.0;      ///< of the gap, by the state just before t1 and that just after it [rad]
   bool passive = true;             ///< the load slowed down when it was released
   double half_width = 0.0;         ///< of the gap, from t1 and s together [rad]

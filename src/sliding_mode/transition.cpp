@@ -29,6 +29,8 @@ const char* refusal_text(Refusal refusal) {
       return "neither a rest nor a separation is seen before the impact";
     case Refusal::kLoadMoving:
       return "the load was moving between t1 and t2";
+    case Refusal::kSameFlank:
+      return "the flank that was left is hit again";
     case Refusal::kThrownOff:
       return "the impact before it threw motor and load apart";
   }
@@ -49,6 +51,7 @@ Remark advice(Refusal refusal) {
       return words::few_samples_around_impacts();
     case Refusal::kNoRelease:
       return words::release_not_located();
+    case Refusal::kSameFlank:
     case Refusal::kThrownOff:
     case Refusal::kLoadMoving:
       return words::load_moves();
@@ -111,6 +114,10 @@ void read_release(Transition& t, const TransitionContext& context, const FlightL
     return;
   }
   fill_event(t, context, impact, release);
+  if (!release.far_flank) {
+    t.refusal = Refusal::kSameFlank;
+    return;
+  }
   if (t.dwell && t.speed * (t.event.t2 - t.event.t1) < t.event.gap_uncorrected)
     t.refusal =
         Refusal::kNoRelease;  // from rest, a driven motor meets the far flank faster than it went on average

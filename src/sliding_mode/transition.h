@@ -21,6 +21,7 @@ enum class Refusal {
   kNoImpactFit,  ///< no kink where the impact should be
   kNoRelease,    ///< neither a rest of the motor nor a separation in motion is seen before the impact
   kLoadMoving,   ///< the load's own travel is too uncertain
+  kSameFlank,    ///< the flank that is hit is the one that was left: the load has only been caught up with
   kThrownOff,    ///< the impact before threw the bodies apart: they do not share a speed at t1
 };
 

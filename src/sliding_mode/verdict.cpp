@@ -65,6 +65,11 @@ double median_of(const Pool& pool, Member member) {
   return median(std::move(values));
 }
 
+/// For or against a gap.
+bool says_nothing(Refusal refusal) {
+  return refusal == Refusal::kThrownOff || refusal == Refusal::kContrast || refusal == Refusal::kSameFlank;
+}
+
 Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals) {
   Pool pool;
   for (std::size_t i = 0; i < analyses.size(); ++i) {
@@ -82,7 +87,7 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.repeats = pool.repeats || a.repeats;
     for (const Transition& t : a.passages) {
       ++pool.passages[t.event.direction];
-      pool.mute[t.event.direction] += t.refusal == Refusal::kThrownOff || t.refusal == Refusal::kContrast;
+      pool.mute[t.event.direction] += says_nothing(t.refusal);
       pool.striking += t.contrast >= kStriking;
       if (t.refusal == Refusal::kNone)
         pool.accepted.push_back(&t);

@@ -123,6 +123,22 @@ TEST(FreeFlight, AFlightThatBeginsInTheReboundOfAnImpactIsNotUsed) {
   }
 }
 
+TEST(FreeFlight, AMotorThatCatchesUpWithItsLoadCrossedNoGap) {
+  for (const std::uint64_t seed : {3300075, 3600027}) {  // read 195 % too large and 85 % too small
+    const independent_plant::BlindCase c =
+        independent_plant::random_drive(seed, independent_plant::Waveform::kMultisine);
+    const GapEstimate estimate = detect(c);
+    if (estimate.verdict == GapVerdict::kBacklash) {
+      EXPECT_NEAR(estimate.gap, c.drive.gap, 0.08 * c.drive.gap) << estimate.brief_report();
+    }
+    if (seed == 3600027) continue;  // refused for its other passages
+    EXPECT_GE(
+        std::count_if(estimate.events.begin(), estimate.events.end(),
+                      [](const GapEvent& e) { return e.remark == "the flank that was left is hit again"; }),
+        4);
+  }
+}
+
 TEST(FreeFlight, AMotorThatSlowsDownDidNotCrossAGapFromRest) {
   const independent_plant::BlindCase wide =
       independent_plant::random_drive(320204, independent_plant::Waveform::kMultisine);
