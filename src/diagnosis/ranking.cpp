@@ -106,11 +106,11 @@ void rank(std::vector<ScoredModel>& candidates, const DecisionRule& rule) {
 
 namespace {
 
-/// Whether a rival explains what was fitted clearly better than the best on what is held out: the law of the
-/// drive does both best. What contains the best always fits it no worse.
+/// Whether a rival explains what was fitted clearly better than the best on what is held out, which leaves
+/// something there, too: the law of the drive does both best. What contains the best always fits it no worse.
 bool fits_better(const ScoredModel& rival, const ScoredModel& best, const ScoredModel& before,
                  const DecisionRule& rule) {
-  if (contained_effect(*rival.entry) == best.entry) return false;
+  if (at_floor(best) || contained_effect(*rival.entry) == best.entry) return false;
   if (reads_counts(*rival.entry) || reads_counts(*best.entry)) return false;
   return before.score - rival.score >= rule.indistinct &&
          rival.fitted.mean_cost < (1.0 - rule.part) * best.fitted.mean_cost;
