@@ -1,5 +1,6 @@
 #include "gapscope/config/configuration_schema.h"
 
+#include <array>
 #include <cmath>
 
 #include "config/controller_reader.h"
@@ -146,11 +147,16 @@ Json encoder_schema() {
   encoder.add("bits",
               described({{"type", "integer"}, {"minimum", 1}, {"maximum", 40}}, "counts per turn = 2^bits"));
   encoder.add("quantum", number_schema({1e-15, 10.0, "rad; m of a slide"}, "size of one count"));
+  encoder.add("counts", number_schema({1.0, 1e12, "per turn"}, "counts per turn, in place of bits"));
   encoder.add("side", words_schema({"motor", "load", "both"},
                                    "whose position is estimated from; both: the load's validates"));
-  Json one = encoder.schema("what its sheet says, one of bits and quantum, and the body that it is on");
+  Json one =
+      encoder.schema("what its sheet says, one of bits, quantum and counts, and the body that it is on");
   one["minProperties"] = 1;
-  one["not"] = {{"required", {"bits", "quantum"}}};
+  Json pairs = Json::array();
+  for (const auto& pair : {std::array{"bits", "quantum"}, {"bits", "counts"}, {"quantum", "counts"}})
+    pairs.push_back({{"required", pair}});
+  one["not"] = {{"anyOf", pairs}};
   return one;
 }
 

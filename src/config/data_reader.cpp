@@ -149,22 +149,26 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
 }
 
 EncoderConfig read_encoder(const Value& value, Coordinates coordinates) {
-  const Section section(value, {"bits", "quantum", "side"});
-  const auto bits = section.find("bits"), quantum = section.find("quantum"), side = section.find("side");
+  const Section section(value, {"bits", "quantum", "counts", "side"});
+  const auto bits = section.find("bits"), quantum = section.find("quantum"), counts = section.find("counts"),
+             side = section.find("side");
   EncoderConfig encoder;
   encoder.line = side ? side->line() : value.line();
   if (side) encoder.sides = static_cast<EncoderSides>(side->word({"motor", "load", "both"}));
-  if (side && !bits && !quantum) return encoder;
-  if (bits.has_value() == quantum.has_value())
+  if (counts && (bits || quantum)) counts->fail("stands beside bits or quantum, expected one of the three");
+  if (side && !bits && !quantum && !counts) return encoder;
+  if (!counts && bits.has_value() == quantum.has_value())
     value.fail(fmt::format("has {} of bits and quantum, expected exactly one", bits ? "both" : "neither"));
+  if (!quantum && !coordinates.rotational())
+    (bits ? *bits : *counts).fail("counts a revolution, expected quantum [m] with coordinates: translation");
   if (quantum) {
     encoder.quantum = quantum->number({1e-15, 10.0, coordinates.position_unit()});
-    return encoder;
+  } else if (counts) {
+    encoder.quantum = 2.0 * kPi / counts->number({1.0, 1e12, "per turn"});
+  } else {
+    encoder.bits = static_cast<int>(bits->integer(1, 40));
+    encoder.quantum = EncoderConfig::quantum_of(*encoder.bits);
   }
-  if (!coordinates.rotational())
-    bits->fail("counts a revolution, expected quantum [m] with coordinates: translation");
-  encoder.bits = static_cast<int>(bits->integer(1, 40));
-  encoder.quantum = EncoderConfig::quantum_of(*encoder.bits);
   return encoder;
 }
 

@@ -190,6 +190,8 @@ bool coasts_better(const FitSummary& fit) { return fit.innovation_rmse >= fit.co
 
 std::string step_without_model(const GapEstimate& g) {
   const bool open = g.verdict == GapVerdict::kInconclusive, loop = g.lost_motion.read();
+  if (g.reason.code() == "encoder_on_load")
+    return "For a reading without a model, record the motor's position as well.";
   if (open && !loop)
     return "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell "
            "at the reversals, the output free.";

@@ -8,6 +8,8 @@
 namespace gapscope {
 namespace {
 
+constexpr double kSameTime = 1e-6;  ///< of a step: an update that close before a row is at it
+
 /// The controller beside a recording, from one update to the next.
 class RunningController {
  public:
@@ -37,7 +39,7 @@ class RunningController {
   }
 
   double error_at(double time) {
-    while (row_ + 1 < t_.size() && t_[row_ + 1] <= time) ++row_;
+    while (row_ + 1 < t_.size() && t_[row_ + 1] - kSameTime * (t_[row_ + 1] - t_[row_]) <= time) ++row_;
     double x = position_[row_];
     if (row_ + 1 < t_.size()) x += (time - t_[row_]) / (t_[row_ + 1] - t_[row_]) * (position_[row_ + 1] - x);
     const double e = target_[row_] - x;

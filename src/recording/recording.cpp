@@ -42,7 +42,6 @@ Recording part(const Recording& recording, std::size_t first, std::size_t count)
   r.resampling = recording.resampling;
   r.stamps = part_of(recording.stamps, first, count);
   r.encoder = recording.encoder;
-  r.target = part_of(recording.target, first, count);
   return r;
 }
 

@@ -32,14 +32,13 @@ std::string length_unit(const DiagnosisResult& r) { return r.coordinates.positio
 std::string torque_unit_of(const DiagnosisResult& r) { return r.coordinates.shown_unit("N m"); }
 std::string torque_word(const DiagnosisResult& r) { return r.coordinates.torque_word(); }
 bool reads_load(const DiagnosisResult& r) {
-  const auto& traces = r.diagnosis.traces;
-  return !traces.empty() && traces.front().encoder == EncoderSide::kLoad;
+  return !r.diagnosis.traces.empty() && r.diagnosis.traces.front().encoder == EncoderSide::kLoad;
 }
 std::string angle_word(const DiagnosisResult& r) {
   if (!r.coordinates.rotational()) return "displacement";
   return reads_load(r) ? "load angle" : "motor angle";
 }
-const char* position_name(const DiagnosisResult& r) { return reads_load(r) ? "$x_2$" : "$x_1$"; }
+std::string position_name(const DiagnosisResult& r) { return reads_load(r) ? "$x_2$" : "$x_1$"; }
 bool added(const DiagnosisResult& r) { return !r.diagnosis.effects.empty(); }
 
 /// What the model has been given: its one effect, or all of them.
@@ -143,13 +142,11 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   figure.title = "Errors on held-out data";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
-  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs",
-                                     std::string(position_name(r)) + " − free run", length_unit(r),
-                                     t->error_before, t->error_after));
+  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs", position_name(r) + " − free run",
+                                     length_unit(r), t->error_before, t->error_after));
   figure.panels.push_back(pair_panel(r, *t, "Residual " + torque_word(r), "residual " + torque_word(r),
                                      torque_unit_of(r), t->torque_before, t->torque_after));
-  Panel input =
-      time_panel("Held-out recording", std::string("displacement ") + position_name(r), length_unit(r), *t);
+  Panel input = time_panel("Held-out recording", "displacement " + position_name(r), length_unit(r), *t);
   input.series.push_back(over_time("", measured_style(), *t, t->x1));
   figure.panels.push_back(input);
   const MismatchSize& g = r.diagnosis.mismatch;

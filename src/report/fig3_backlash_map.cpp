@@ -56,7 +56,9 @@ FigureData fig3_backlash_map(const ReportView& view) {
   figure.file = "fig3_backlash_map.png";
   figure.title = "Backlash map of both encoders";
   if (view.source != StateSource::kRecorded)
-    return missing_figure(figure.file, figure.title, "the recording has not both positions, x1 and x2");
+    return missing_figure(figure.file, figure.title,
+                          view.reads_load() ? "the recording has no motor position x1"
+                                            : "the recording has no load position x2");
   figure.panels.push_back(
       map(view, "Load over motor", view.recording->x2, {"load $x_2$", view.length_unit, {}, {}, {}}));
   figure.panels.push_back(

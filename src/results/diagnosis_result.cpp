@@ -43,6 +43,7 @@ StoredMismatch store(const std::string& folder, std::size_t index, const Mismatc
   stored.samples = static_cast<int>(m.x1.size());
   stored.scored_from = static_cast<int>(m.scored_from);
   stored.mismatch.file = m.file, stored.mismatch.start = m.start, stored.mismatch.dt = m.dt;
+  stored.mismatch.encoder = m.encoder;
   internal::results::write_trace(folder + "/" + stored.trace, set_of(m));
   return stored;
 }

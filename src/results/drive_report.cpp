@@ -32,7 +32,7 @@ ExcitationFacts excited(const Recording& r) {
   e.samples = static_cast<int>(r.size());
   e.rate = 1.0 / r.dt;
   e.quantum = r.quantum;
-  e.position_rms = rms(r.x1);
+  e.position_rms = rms(r.position());
   if (r.u.empty()) return e;
   e.input_rms = rms(r.u);
   for (const double u : r.u) e.input_peak = std::fmax(e.input_peak, std::abs(u));

@@ -76,6 +76,7 @@ void load_recording(const std::string& folder, const StoredRecording& stored, Ru
   set.error.file = set.fit.file = stored.recording.file;
   set.fit.encoder = stored.recording.encoder;
   internal::results::read_trace(path, set);
+  if (set.fit.x2.empty()) set.fit.encoder = EncoderSide::kMotor;  // one body: x1 is both
   if (static_cast<int>(set.recording.size()) != stored.samples)
     throw ConfigError(path, "has " + std::to_string(set.recording.size()) + " samples, expected " +
                                 std::to_string(stored.samples));

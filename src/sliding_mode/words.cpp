@@ -22,10 +22,10 @@ Remark no_recording() { return {"no_recording", "no recording"}; }
 Remark encoder_on_load() {
   return {
       "encoder_on_load",
-      "the encoder is on the load: impacts and the lost-motion loop are read from the motor's, whose way "
-      "through the gap does not show in x2; of a gap x2 alone shows no more than a limit cycle of a closed "
+      "the encoder is on the load: impacts and the lost-motion loop are read from the motor's way through "
+      "the gap, which does not show in x2; of a gap x2 alone shows no more than a limit cycle of a closed "
       "loop and the time for which the load stands still at a reversal, which friction does as well; fit a "
-      "model (encoder: {{side: load}} serves it too), or record the motor's position as well"};
+      "model, or record the motor's position as well"};
 }
 Remark no_steady_motion_yet() {
   return {"no_steady_motion_yet",

@@ -64,6 +64,14 @@ TEST(EncoderSide, OfBothNeedsTheSecondColumn) {
   EXPECT_TRUE(columns_read(c).load_position_required);
 }
 
+TEST(Encoder, CountsPerTurnAreAsGoodAsBits) {
+  const Configuration c = with_encoder("{counts: 2000}", "{file: a.csv}");
+  EXPECT_DOUBLE_EQ(c.encoder.quantum, 2.0 * kPi / 2000.0);
+  EXPECT_EQ(resolved_yaml(parse_configuration(resolved_yaml(c), "c.yaml")), resolved_yaml(c));
+  EXPECT_THAT(refusal([] { with_encoder("{counts: 2000, bits: 11}", "{file: a.csv}"); }),
+              HasSubstr("c.yaml:1: encoder.counts stands beside bits or quantum, expected one of the three"));
+}
+
 TEST(EncoderSide, NeedsNoStepBesideIt) {
   EXPECT_EQ(with_encoder("{side: load}", "{file: a.csv}").encoder.quantum, 0.0);
   EXPECT_THAT(refusal([] { with_encoder("{bits: 4, quantum: 1, side: load}", "{file: a.csv}"); }),

@@ -167,6 +167,16 @@ TEST(DiagnosisResult, KeepsTheTimesOfUnevenSamples) {
   EXPECT_EQ(read.time(3), 0.1012);
 }
 
+TEST(DiagnosisResult, KeepsThatTheEncoderWasOnTheLoad) {
+  ScratchFolder scratch;
+  DiagnosisResult written = sample();
+  written.diagnosis.traces[0].encoder = EncoderSide::kLoad;
+  write_diagnosis_result(scratch.path.string(), written);
+  const MismatchTrace read = read_diagnosis_result(scratch.path.string()).diagnosis.traces[0];
+  EXPECT_EQ(read.encoder, EncoderSide::kLoad);
+  EXPECT_EQ(read.x1, written.diagnosis.traces[0].x1);
+}
+
 TEST(DiagnosisResult, IsReadWithoutWhatEarlierVersionsDidNotStore) {
   ScratchFolder scratch;
   write_diagnosis_result(scratch.path.string(), sample());

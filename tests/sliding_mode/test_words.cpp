@@ -12,6 +12,7 @@ std::vector<Remark> all_remarks() {
   const Remark more = words::more_periods();
   const std::vector<words::Play> plays = {{0.01, 0.2, 3}, {0.02, 0.4, 5}};
   return {words::no_recording(),
+          words::encoder_on_load(),
           words::no_steady_motion_yet(),
           words::within_first_samples(900),
           words::no_impact_stands_out(),

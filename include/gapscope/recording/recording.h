@@ -51,7 +51,6 @@ struct Recording {
   bool open_end = false;   ///< the last line of its file has no end: the last number may be cut off
   std::vector<double> stamps = {};            ///< time of each sample [s]; empty: evenly sampled
   EncoderSide encoder = EncoderSide::kMotor;  ///< whose position estimators read; never the other one
-  std::vector<double> target = {};  ///< position that was commanded [rad]; empty where it was not recorded
 
   /// What estimators read [rad].
   const std::vector<double>& position() const { return encoder == EncoderSide::kLoad ? x2 : x1; }

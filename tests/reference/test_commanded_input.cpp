@@ -1,0 +1,75 @@
+// The input from target and position, where a drive of the independent plant ran under a controller of its
+// own code.
+#include <gtest/gtest.h>
+
+#include "gapscope/recording/controller.h"
+#include "independent_plant/closed_loop.h"
+#include "reference/rigs.h"
+
+namespace gapscope {
+namespace {
+
+using namespace test;
+using independent_plant::ControllerSettings;
+using independent_plant::LoopRun;
+
+/// Proportional to the position error and its slope: no integral, the speed as it is.
+ControllerSettings stiff_servo(double dead_time) {
+  return {.rate = 1000.0,
+          .position_gain = 40.0,
+          .speed_forward = 1.0,
+          .speed_gain = 0.05,
+          .dead_time_s = dead_time};
+}
+
+PositionController same_servo(double delay) {
+  PositionController c;
+  c.gain = 40.0 * 0.05, c.derivative = 0.05, c.rate = 1000.0, c.delay = delay;
+  return c;
+}
+
+independent_plant::BlindDrive one_body() {
+  independent_plant::BlindDrive drive;
+  drive.load = independent_plant::BlindLoad::kNone;
+  return drive;
+}
+
+LoopRun under_control(double dead_time) {
+  const independent_plant::BlindOptions options{.duration = 6.0, .seed = 5, .tolerance = 1e-9};
+  return simulate_closed_loop(
+      one_body(), {.course = independent_plant::Course::kSines, .travel = 2.0, .speed = 4.0},
+      stiff_servo(dead_time), independent_plant::BlindSensor::with_bits(18), {.lead_s = 0.5}, options);
+}
+
+std::vector<double> commanded(const LoopRun& loop, const PositionController& controller) {
+  std::vector<double> target;
+  for (const auto& t : loop.target) target.push_back(t.x);
+  return commanded_input(controller, loop.stamps, target, loop.run.recording.x1);
+}
+
+TEST(CommandedInput, IsWhatTheDrivesOwnControllerSent) {
+  const LoopRun loop = under_control(0.0);
+  const InputComparison same = compare_inputs(loop.run.recording.u, commanded(loop, same_servo(0.0)));
+  EXPECT_NEAR(same.scale, 1.0, 2e-3);
+  EXPECT_LT(same.left, 0.02);
+  PositionController other = same_servo(0.0);
+  other.gain *= 2.0;
+  EXPECT_GT(compare_inputs(loop.run.recording.u, commanded(loop, other)).left, 0.05);
+}
+
+TEST(CommandedInput, FitsTheDriveThatItMoved) {
+  const LoopRun loop = under_control(0.002);
+  Recording r = loop.run.recording;
+  r.u = commanded(loop, same_servo(0.002));
+  r.x2.clear(), r.mode.clear();
+  ReferenceModel model = known_model(one_body());
+  model.structure.has_load = false;
+  estimate(model, kMotorInertia, 2e-3);
+  estimate(model, kMotorDamping, 0.03);
+  const FitSummary summary = fit_one(r, model);
+  EXPECT_NEAR(summary.find("motor_damping")->value, 0.062, 0.02 * 0.062) << summary.full_report();
+  EXPECT_NEAR(summary.find("motor_inertia")->value, 8.78e-4, 0.02 * 8.78e-4) << summary.full_report();
+}
+
+}  // namespace
+}  // namespace gapscope
