@@ -181,8 +181,7 @@ std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::Sign
   GapEstimate e;
   e.gap = c->gap + c->beyond;
   if (e.gap < kFewestQuanta * facts.quantum) return {};
-  const double doubt = kDoubt * std::max(c->high - c->gap, c->gap - c->low),
-               apart = 0.5 * std::abs(up - down);
+  const double doubt = std::hypot(kDoubt * c->doubt, kImpactLaw * e.gap), apart = 0.5 * std::abs(up - down);
   e.std = std::sqrt(doubt * doubt + apart * apart + std::pow(kRounding * facts.quantum, 2) +
                     0.25 * c->beyond * c->beyond);
   e.ci95 = {std::max(e.gap - 1.96 * e.std, 0.0), e.gap + 1.96 * e.std};
