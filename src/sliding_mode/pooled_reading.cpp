@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "signals/encoder.h"
 #include "sliding_mode/pooled_flights.h"
 #include "sliding_mode/words.h"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double kFirstTried = 12.0;       ///< quanta
 constexpr double kNextTried = 1.1;         ///< over the one before
-constexpr double kFewestQuanta = 20.0;     ///< in a gap that is told
 constexpr double kMostOfStroke = 0.8;      ///< largest gap tried, of the travel
 constexpr double kMostPassages = 0.6;      ///< of the changes of the torque's sign
 constexpr std::size_t kFewestFlights = 2;  ///< each way
@@ -180,7 +180,7 @@ std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::Sign
   if (std::isnan(up) || std::isnan(down)) return {};
   GapEstimate e;
   e.gap = c->gap + c->beyond;
-  if (e.gap < kFewestQuanta * facts.quantum) return {};
+  if (e.gap < signals::kFewestToldQuanta * facts.quantum) return {};
   const double doubt = std::hypot(kDoubt * c->doubt, kImpactLaw * e.gap), apart = 0.5 * std::abs(up - down);
   e.std = std::sqrt(doubt * doubt + apart * apart + std::pow(kRounding * facts.quantum, 2) +
                     0.25 * c->beyond * c->beyond);
@@ -188,7 +188,7 @@ std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::Sign
   if (1.96 * e.std > kWidestPooled * e.gap) return {};
   e.verdict = GapVerdict::kBacklash;
   e.method = GapMethod::kImpact;
-  e.smallest_visible_gap = kFewestQuanta * facts.quantum;
+  e.smallest_visible_gap = signals::kFewestToldQuanta * facts.quantum;
   keep_events(s, *c, e);
   e.reason = words::flights_together(std::ssize(e.events), std::ssize(s.turns));
   return e;
