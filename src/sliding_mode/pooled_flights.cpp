@@ -13,7 +13,7 @@ constexpr double kZero = 1e-3, kTurned = 0.15;  ///< of the largest |u|
 constexpr double kFrom = 0.1, kTo = 1.2;        ///< of the gap that is tried
 constexpr double kRest = 0.12;                  ///< of the flight, to either side of the zero of the torque
 constexpr double kWide = 0.08;                  ///< … that x1 is averaged over where it turns round
-constexpr std::size_t kRows = 3000;
+constexpr std::size_t kMostRows = 3000;
 
 }  // namespace
 
@@ -112,7 +112,7 @@ void PooledFlights::project(Eigen::VectorXd& column) const {
 void PooledFlights::lay_columns() {
   std::size_t all = 0;
   for (const PooledStretch& s : stretches_) all += s.last - s.first + 1;
-  const std::size_t stride = (all + kRows - 1) / kRows;
+  const std::size_t stride = (all + kMostRows - 1) / kMostRows;
   for (std::size_t p = 0; p < stretches_.size(); ++p) {
     begins_.push_back(static_cast<Eigen::Index>(rows_.size()));
     for (std::size_t i = stretches_[p].first; i <= stretches_[p].last; i += stride) rows_.push_back({p, i});

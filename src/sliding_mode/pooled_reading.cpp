@@ -22,14 +22,14 @@ constexpr std::size_t kFewestWindows = 2;  ///< that agree
 
 // Set on drives of the independent plant: 700001 300 gap sine, 3610001 120 gap trapezoid, 3620001 210
 // gap_free sine.
-constexpr double kLaw = 1.3;         ///< mean square that law and kink may leave, over the noise's
-constexpr double kStandsOut = 20.0;  ///< χ² that a kink takes beyond any smooth departure (10, 40 tried)
-constexpr double kLeastLoss = 0.1;   ///< of the mean speed of the passage, lost at its end
-constexpr double kMostBeyond = 0.1;  ///< of the gap: x1 goes on after the torque has changed its sign
-constexpr double kRival = 0.3;       ///< of the clearest kink's χ²: as clear as that
-constexpr double kSame = 0.15;       ///< of the gap: two windows read the same
-constexpr double kAlmost = 4.0;      ///< χ²
-constexpr double kDoubt = 0.5;       ///< standard deviation, over what shapes and windows differ by
+constexpr double kLaw = 1.3;             ///< mean square that law and kink may leave, over the noise's
+constexpr double kKinkStandsOut = 20.0;  ///< χ² that a kink takes beyond any smooth departure (10, 40 tried)
+constexpr double kLeastLoss = 0.1;       ///< of the mean speed of the passage, lost at its end
+constexpr double kMostBeyond = 0.1;      ///< of the gap: x1 goes on after the torque has changed its sign
+constexpr double kRival = 0.3;           ///< of the clearest kink's χ²: as clear as that
+constexpr double kSame = 0.15;           ///< of the gap: two windows read the same
+constexpr double kAlmost = 4.0;          ///< χ²
+constexpr double kDoubt = 0.5;           ///< standard deviation, over what shapes and windows differ by
 /// Standard deviation, over the gap: contacts and bounces of light loads are no kink of the shapes that are
 /// tried. Without it the intervals hold 15 of 17 under sines and 7 of 15 under trapezoids; with it 16 and 13.
 constexpr double kImpactLaw = 0.03;
@@ -37,13 +37,17 @@ constexpr double kRounding = 0.3;        ///< standard deviation of the level of
 constexpr double kWidestPooled = 0.095;  ///< of the 95 % interval of a gap that is told, either way
 constexpr double kDithers = 0.4;         ///< noise in quanta, from which on samples are independent
 
-struct Candidate {
-  double tried = 0.0, gap = kNaN, low = 0.0, high = 0.0, stands_out = 0.0, beyond = 0.0;
+/// What the window that ends behind one tried gap shows. All in rad but stands_out.
+struct GapCandidate {
+  double tried = 0.0, gap = kNaN;
+  double low = 0.0, high = 0.0;  ///< where kinks of other shapes fit almost as well
+  double stands_out = 0.0;       ///< χ² that the kink takes beyond any smooth departure
+  double beyond = 0.0;           ///< how far x1 goes on after the zero of the torque
   KinkShape shape;
-  double doubt = 0.0;  ///< of the gap, by the shape of the kink and the length of the window [rad]
+  double doubt = 0.0;  ///< of the gap, by the shape of the kink and the length of the window
 };
 
-struct Subject {
+struct PooledRecording {
   const MotorTrace& trace;
   const signals::SignalFacts& facts;
   std::vector<TorqueTurn> turns;
@@ -60,7 +64,7 @@ std::vector<KinkShape> abrupt_shapes(double duration) {
 }
 
 /// Samples that share one rounding.
-double correlated(const Subject& s, double speed) {
+double correlated(const PooledRecording& s, double speed) {
   if (s.facts.noise > kDithers * s.facts.quantum) return 1.0;
   return std::max(1.0, s.facts.quantum / speed);
 }
@@ -73,7 +77,7 @@ double median_beyond(const PooledFlights& flights) {
 
 /// The kinks of all shapes that fit almost as well.
 void widen(const PooledFlights& flights, std::span<const PooledKink> kinks, double limit, double step,
-           Candidate& c) {
+           GapCandidate& c) {
   c.low = c.high = c.gap;
   for (const PooledKink& k : kinks) {
     if (k.sse > limit) continue;
@@ -85,7 +89,7 @@ void widen(const PooledFlights& flights, std::span<const PooledKink> kinks, doub
   }
 }
 
-std::optional<Candidate> try_gap(const Subject& s, double gap) {
+std::optional<GapCandidate> try_gap(const PooledRecording& s, double gap) {
   const PooledFlights flights(s.trace, s.turns, s.facts.noise, gap);
   const auto asked = kMostPassages * static_cast<double>(s.turns.size());
   if (static_cast<double>(flights.passages()) < asked || flights.passages() < 2 * kFewestFlights ||
@@ -102,50 +106,51 @@ std::optional<Candidate> try_gap(const Subject& s, double gap) {
   const double smooth =
       std::min({flights.smooth_sse(), flights.best({2}, 0.5 * gap, 1.12 * gap, 0.04 * gap).sse,
                 flights.best({3}, 0.3 * gap, 1.12 * gap, 0.04 * gap).sse});
-  Candidate c{gap, best->gap,  0.0, 0.0, (smooth - best->sse) / noise / correlated(s, speed),
-              0.0, best->shape};
-  if (c.stands_out < kStandsOut) return {};
+  GapCandidate c;
+  c.tried = gap, c.gap = best->gap, c.shape = best->shape;
+  c.stands_out = (smooth - best->sse) / noise / correlated(s, speed);
+  if (c.stands_out < kKinkStandsOut) return {};
   c.beyond = median_beyond(flights);
   widen(flights, kinks, best->sse + kAlmost * noise * std::max(1.0, left) * correlated(s, speed), 0.005 * gap,
         c);
   return c;
 }
 
-double median_of(std::span<const Candidate> candidates, double Candidate::*member) {
+double median_over(std::span<const GapCandidate> candidates, double GapCandidate::*member) {
   std::vector<double> values;
-  for (const Candidate& c : candidates) values.push_back(c.*member);
+  for (const GapCandidate& c : candidates) values.push_back(c.*member);
   return median(std::move(values));
 }
 
 /// What windows of several lengths agree on. Nothing where only one shows a kink (then a longer or shorter
 /// one contradicts it), or where one as clear shows another.
-std::optional<Candidate> agreed(const Subject& s) {
-  std::vector<Candidate> found;
+std::optional<GapCandidate> agreed(const PooledRecording& s) {
+  std::vector<GapCandidate> found;
   const double least = std::max(kFirstTried * s.facts.quantum, s.facts.least_way());
   for (double gap = least; gap < kMostOfStroke * s.facts.travel; gap *= kNextTried)
     if (const auto c = try_gap(s, gap)) found.push_back(*c);
   if (found.empty()) return {};
-  const Candidate clearest = *std::ranges::max_element(found, {}, &Candidate::stands_out);
-  std::vector<Candidate> group;
-  for (const Candidate& c : found) {
+  const GapCandidate clearest = *std::ranges::max_element(found, {}, &GapCandidate::stands_out);
+  std::vector<GapCandidate> group;
+  for (const GapCandidate& c : found) {
     if (std::abs(c.gap - clearest.gap) < kSame * clearest.gap)
       group.push_back(c);
     else if (c.stands_out > kRival * clearest.stands_out)
       return {};
   }
   if (group.size() < kFewestWindows) return {};
-  Candidate middle = clearest;
-  middle.gap = median_of(group, &Candidate::gap);
-  middle.beyond = median_of(group, &Candidate::beyond);
-  const auto [least_gap, most_gap] = std::ranges::minmax_element(group, {}, &Candidate::gap);
-  const double shapes = std::max(
-      {median_of(group, &Candidate::high) - middle.gap, middle.gap - median_of(group, &Candidate::low), 0.0});
+  GapCandidate middle = clearest;
+  middle.gap = median_over(group, &GapCandidate::gap);
+  middle.beyond = median_over(group, &GapCandidate::beyond);
+  const auto [least_gap, most_gap] = std::ranges::minmax_element(group, {}, &GapCandidate::gap);
+  const double shapes = std::max({median_over(group, &GapCandidate::high) - middle.gap,
+                                  middle.gap - median_over(group, &GapCandidate::low), 0.0});
   middle.doubt = std::hypot(shapes, std::max(most_gap->gap - middle.gap, middle.gap - least_gap->gap));
   return middle;
 }
 
 /// The same kink in the passages of one direction.
-PooledKink one_way(const Subject& s, const Candidate& c, int direction) {
+PooledKink one_way(const PooledRecording& s, const GapCandidate& c, int direction) {
   std::vector<TorqueTurn> turns;
   for (const TorqueTurn& t : s.turns)
     if (t.direction == direction) turns.push_back(t);
@@ -154,7 +159,7 @@ PooledKink one_way(const Subject& s, const Candidate& c, int direction) {
   return flights.best(c.shape, 0.75 * c.tried, 1.12 * c.tried, 0.025 * c.tried);
 }
 
-void keep_events(const Subject& s, const Candidate& c, GapEstimate& estimate) {
+void keep_events(const PooledRecording& s, const GapCandidate& c, GapEstimate& estimate) {
   const PooledFlights flights(s.trace, s.turns, s.facts.noise, c.tried);
   for (const PooledStretch& stretch : flights.stretches()) {
     GapEvent event;
@@ -173,7 +178,7 @@ void keep_events(const Subject& s, const Candidate& c, GapEstimate& estimate) {
 
 std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::SignalFacts& facts) {
   if (!facts.defect.empty() || !(facts.quantum > 0.0)) return {};
-  const Subject s{trace, facts, torque_turns(trace)};
+  const PooledRecording s{trace, facts, torque_turns(trace)};
   const auto c = agreed(s);
   if (!c || c->beyond > kMostBeyond * c->gap) return {};
   const double up = one_way(s, *c, 1).gap, down = one_way(s, *c, -1).gap;
