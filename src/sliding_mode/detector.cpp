@@ -10,6 +10,7 @@
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
+#include "sliding_mode/pooled_reading.h"
 #include "sliding_mode/verdict.h"
 #include "sliding_mode/words.h"
 
@@ -21,6 +22,8 @@ using internal::sliding_mode::ImpactAnalysis;
 using internal::sliding_mode::LoopSearch;
 using internal::sliding_mode::PaperReading;
 namespace words = internal::sliding_mode::words;
+
+constexpr double kFewMovingLoads = 0.2;  ///< of the passages
 
 std::vector<PaperReading> read_all(std::span<const MotorTrace> recordings,
                                    std::span<const ImpactAnalysis> analyses, double bound) {
@@ -223,12 +226,27 @@ GapEstimate detect_paper(std::span<const MotorTrace> recordings, std::span<const
   return estimate;
 }
 
+/// Few passages say that the load moved into them: that the torque changes its sign then tells no release.
+bool load_rests(std::span<const ImpactAnalysis> analyses) {
+  using internal::sliding_mode::Refusal;
+  std::size_t moving = 0, all = 0;
+  for (const ImpactAnalysis& a : analyses)
+    for (const auto& t : a.passages) {
+      ++all;
+      moving += t.refusal == Refusal::kThrownOff || t.refusal == Refusal::kLoadMoving ||
+                t.refusal == Refusal::kSameFlank;
+    }
+  return static_cast<double>(moving) <= kFewMovingLoads * static_cast<double>(all);
+}
+
 /// The bank of bounds, by single periods or by their mean; the loop where that tells no gap.
 GapEstimate detect_auto(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
-                        std::span<const double> intervals, const LoopSearch& loops,
-                        const DetectorOptions& options) {
+                        std::span<const double> intervals, std::span<const SignalFacts> facts,
+                        const LoopSearch& loops, const DetectorOptions& options) {
   GapEstimate estimate = internal::sliding_mode::decide_gap(analyses, intervals);
   if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
+  if (estimate.verdict != GapVerdict::kBacklash && !options.locked && load_rests(analyses))
+    if (const auto pooled = internal::sliding_mode::read_pooled(recordings, facts)) return *pooled;
   const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.decides || options.locked);
   if (estimate.verdict != GapVerdict::kBacklash && loops.estimate && ask_loop) return *loops.estimate;
   if (options.locked) speak_of_locked_output(loops, estimate);
@@ -267,7 +285,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   }
   const bool paper = options.bound > 0.0;
   GapEstimate estimate = paper ? detect_paper(recordings, analyses, facts, options)
-                               : detect_auto(recordings, analyses, intervals, loops, options);
+                               : detect_auto(recordings, analyses, intervals, facts, loops, options);
   if (loops.estimate) estimate.lost_motion = loops.estimate->lost_motion;
   if (paper || estimate.method == GapMethod::kLostMotion) return estimate;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);

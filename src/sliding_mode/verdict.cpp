@@ -168,7 +168,7 @@ Remark objection(const Pool& pool) {
   if (only != 0 && moved > kLeastMoving * gap) return advice(Refusal::kLoadMoving);
   if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
     return advice(Refusal::kLoadMoving);
-  if (gap < signals::kFewestGapQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
+  if (gap < signals::kFewestToldQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
   const double hidden = median_of(pool, &Transition::hidden);
   if (hidden > kMostHidden * gap) return words::soft_contact(100.0 * hidden / gap);
   return {};

@@ -147,6 +147,11 @@ Remark only_large_gaps(double visible, double travel) {
       "faster sampling",
       {visible, travel}};
 }
+Remark flights_together(long used, long turns) {
+  return {"flights_together",
+          "{} passages after {} changes of the torque's sign, looked at together",
+          {used, turns}};
+}
 Remark mean_of_periods() { return {"mean_of_periods", " in the mean of the periods"}; }
 
 Remark stands_still() { return {"stands_still", "x1 moves by less than its noise"}; }

@@ -33,6 +33,7 @@ std::vector<Remark> all_remarks() {
           words::too_slow(0.1),
           words::too_slow(kNaN),
           words::passages_used(5, 6, 1),
+          words::flights_together(12, 13),
           words::gap_uncertain(0.01, 40.0),
           words::no_impact(0.3, 12.0),
           words::only_large_gaps(0.019, 0.246),

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <vector>
+
+#include "gapscope/recording/recording.h"
+#include "signals/signal_facts.h"
+#include "sliding_mode/kink_fit.h"
+
+namespace gapscope::internal::sliding_mode {
+
+/// Where the torque changes sign: from there on a motor that rested at its load crosses the gap.
+struct TorqueTurn {
+  std::size_t zero = 0;  ///< last sample before the torque rises
+  std::size_t next = 0;  ///< … and before it changes sign again
+  int direction = 0;     ///< of the torque that follows
+};
+
+std::vector<TorqueTurn> torque_turns(const MotorTrace& trace);
+
+/// The stretch of one passage that is fitted.
+struct PooledStretch {
+  TorqueTurn turn;
+  double rest = 0.0;    ///< x1 at the zero of the torque [rad]
+  double beyond = 0.0;  ///< how far x1 goes on against the passage after it [rad]
+  std::size_t first = 0, last = 0;
+  double speed = 1.0;  ///< where the tried gap ends, over the median of all
+};
+
+/// One kink in all passages at the same distance from rest, and the law of the free motor before it.
+struct PooledKink {
+  KinkShape shape;
+  double gap = 0.0;        ///< distance from rest [rad]
+  double amplitude = 0.0;  ///< of x1, along the passage, per speed
+  double sse = 0.0;        ///< [rad²]
+};
+
+/// All passages of a recording looked at together: between the end of its rest and the impact the motor obeys
+/// one law ẍ1 = b·u − a·ẋ1 − f, with the same b, a and f in all of them, so that what each of them shows too
+/// weakly (a light load, few quanta) shows in their sum.
+class PooledFlights {
+ public:
+  /// @param gap  tried: what is fitted begins at a tenth of it, and ends behind it [rad]
+  PooledFlights(const MotorTrace& trace, const std::vector<TorqueTurn>& turns, double noise, double gap);
+
+  std::size_t passages() const { return stretches_.size(); }
+  std::size_t rows() const { return rows_.size(); }
+  double freedom() const;
+  double smooth_sse() const { return smooth_sse_; }
+  const std::vector<PooledStretch>& stretches() const { return stretches_; }
+  /// Least squares with a kink of this shape, the distances low … high tried.
+  PooledKink best(const KinkShape& shape, double low, double high, double step) const;
+  PooledKink trial(const KinkShape& shape, double gap) const;
+  double duration() const {
+    return duration_;
+  }  ///< median from the zero of the torque to the gap tried [samples]
+  double crossing(const PooledStretch& s, double distance) const;  ///< [samples]
+
+ private:
+  struct Row {
+    std::size_t passage, sample;
+  };
+  double smooth(std::size_t i, std::size_t half) const;
+  bool prepare(const TorqueTurn& turn, double gap);
+  void lay_columns();
+  void project(Eigen::VectorXd& column) const;
+
+  const MotorTrace& trace_;
+  double noise_;
+  std::size_t half_ = 1;  ///< samples that x1 is smoothed over to either side
+  std::vector<double> sums_;
+  std::vector<PooledStretch> stretches_;
+  std::vector<Row> rows_;
+  std::vector<Eigen::Index> begins_;
+  Eigen::MatrixXd local_;  ///< orthonormal within each passage: 1 and t
+  Eigen::MatrixXd basis_;  ///< orthonormal: what all share
+  Eigen::VectorXd residual_;
+  double smooth_sse_ = 0.0, duration_ = 0.0;
+};
+
+}  // namespace gapscope::internal::sliding_mode

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "gapscope/sliding_mode/gap_estimate.h"
+#include "signals/signal_facts.h"
+
+namespace gapscope::internal::sliding_mode {
+
+/// The gap that the passages of a recording show together, where each of them shows too little
+/// (PooledFlights). Read only where the load rests while the torque changes its sign.
+/// @param facts  one per recording
+/// @returns `backlash`, or nothing
+std::optional<GapEstimate> read_pooled(std::span<const MotorTrace> recordings,
+                                       std::span<const signals::SignalFacts> facts);
+
+}  // namespace gapscope::internal::sliding_mode

@@ -1,0 +1,72 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/random_drive.h"
+#include "signals/signal_facts.h"
+#include "sliding_mode/pooled_flights.h"
+#include "sliding_mode/pooled_reading.h"
+
+namespace gapscope::internal::sliding_mode {
+namespace {
+
+using independent_plant::BlindCase;
+using independent_plant::BlindRun;
+
+struct PooledSubject {
+  BlindCase c;
+  BlindRun run;
+  MotorTrace trace;
+  signals::SignalFacts facts;
+
+  explicit PooledSubject(BlindCase drive) : c(std::move(drive)) {
+    c.options.tolerance = independent_plant::kFastTolerance;
+    run = independent_plant::simulate_blind(c);
+    trace = run.recording.motor_trace();
+    trace.quantum = c.sensor.quantum;
+    facts = signals::read_facts(trace);
+  }
+  std::optional<GapEstimate> read() const { return read_pooled({&trace, 1}, {&facts, 1}); }
+};
+
+TEST(PooledFlights, EveryChangeOfTheTorquesSignIsATurn) {
+  std::vector<double> u, x1(400, 0.0);
+  for (int i = 0; i < 400; ++i) u.push_back(std::sin(2.0 * kPi * (i + 0.5) / 100.0));
+  const MotorTrace trace{"u", 0.0, 1e-3, u, x1};
+  const std::vector<TorqueTurn> turns = torque_turns(trace);
+  ASSERT_EQ(turns.size(), 7u);  // the first rise from zero is none
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    EXPECT_NEAR(static_cast<double>(turns[k].zero), 50.0 * static_cast<double>(k + 1), 1.0);
+    EXPECT_EQ(turns[k].direction, k % 2 == 0 ? -1 : 1);
+  }
+}
+
+TEST(PooledFlights, ALightLoadThatNoSinglePassageShowsIsReadInTheirSum) {
+  const PooledSubject s(independent_plant::random_drive(700250));  // 0.4 of the motor, 72 quanta of 16 bit
+  DetectorOptions options;
+  options.frozen = true;  // a stream reads single passages only
+  EXPECT_NE(detect_gap({&s.trace, 1}, options).verdict, GapVerdict::kBacklash);
+  const GapEstimate estimate = detect_gap({&s.trace, 1});
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.04 * s.c.drive.gap);
+  EXPECT_LE(estimate.ci95.low, s.c.drive.gap);
+  EXPECT_GE(estimate.ci95.high, s.c.drive.gap);
+  EXPECT_GE(estimate.events.size(), 8u);
+}
+
+TEST(PooledFlights, ALoadThatCoastsIsNotReadByTheZeroOfTheTorque) {
+  const PooledSubject s(independent_plant::random_drive(700283));  // 39 % too small by S5
+  if (const auto estimate = s.read()) EXPECT_NEAR(estimate->gap, s.c.drive.gap, 0.05 * s.c.drive.gap);
+}
+
+TEST(PooledFlights, WithoutAGapNoKinkStandsOut) {
+  for (int kind = 0; kind < independent_plant::kGapFreeKinds; ++kind) {
+    const PooledSubject s(independent_plant::random_gap_free_drive(3620001, kind));
+    EXPECT_FALSE(s.read()) << s.c.kind;
+  }
+}
+
+}  // namespace
+}  // namespace gapscope::internal::sliding_mode
