@@ -1,8 +1,11 @@
 #include "gapscope/diagnosis/simulator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/rule.h"
 #include "diagnosis/simulator_rows.h"
 #include "diagnosis/simulator_words.h"
 #include "diagnosis/stand_in.h"
@@ -30,6 +33,7 @@ class Comparer {
   JointFit joint_fit(std::vector<JointEffect> effects) const;
   JointFit best_joint_fit() const;
   std::vector<Stretch> stretches(bool judged) const;
+  void warn(const JointFit& fit, std::vector<std::string>& warnings) const;
   void order(const JointFit& fit, std::vector<PlannedRow>& rows) const;
   void mend(const JointFit& fit, const std::vector<PlannedRow>& rows, SimulatorComparison& c) const;
   std::vector<SimulatorTrace> traces(const JointFit& fit, const StandIn& stand_in,
@@ -149,6 +153,15 @@ void Comparer::mend(const JointFit& fit, const std::vector<PlannedRow>& rows, Si
   c.traces = traces(fit, judged, differs ? &first : nullptr);
 }
 
+/// Where a model is off the floor, its numbers hold part of what it lacks.
+void Comparer::warn(const JointFit& fit, std::vector<std::string>& warnings) const {
+  for (const auto& [side, name] : {std::pair(&fit.drive, "drive"), std::pair(&fit.simulator, "simulator")})
+    if (side->error > kRule.floor_ratio * floor_)
+      warnings.push_back(fmt::format(
+          "the model leaves {:.2g} floors on the {}: a row may hold part of what it does not explain there",
+          side->error / floor_, name));
+}
+
 SimulatorComparison Comparer::answer() {
   SimulatorComparison c;
   c.verdict = question_.simulator.verdict;
@@ -164,6 +177,7 @@ SimulatorComparison Comparer::answer() {
     stop_point();
     measure({drive_, simulator_, floor_}, fit, rows[i]);
   });
+  warn(fit, c.warnings);
   order(fit, rows);
   mend(fit, rows, c);
   const double dt = drive_.train.front().dt;
