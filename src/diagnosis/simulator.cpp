@@ -97,8 +97,8 @@ void Comparer::order(const JointFit& fit, std::vector<PlannedRow>& rows) const {
   const StandIn fitted(fit.simulator.model, stretches(false));
   const double before = fitted.error_of(fit.simulator.model);
   for (PlannedRow& planned : rows)
-    planned.row.shrink_fitted =
-        share_mended(before, fitted.error_of(replaced(fit.simulator.model, fit.drive.model, planned.ids)));
+    planned.row.shrink_fitted = share_mended(
+        before, fitted.error_of(with_numbers(fit.simulator.model, fit.drive.model, planned.ids)));
   std::stable_sort(rows.begin(), rows.end(), [](const PlannedRow& a, const PlannedRow& b) {
     if (a.row.differs != b.row.differs) return a.row.differs;
     return a.row.differs && a.row.shrink_fitted > b.row.shrink_fitted;
@@ -138,11 +138,11 @@ void Comparer::mend(const JointFit& fit, const std::vector<PlannedRow>& rows, Si
   ReferenceModel all = judged.model(), first = judged.model();
   for (const PlannedRow& planned : rows) {
     SimulatorRow row = planned.row;
-    const ReferenceModel mended = replaced(judged.model(), fit.drive.model, planned.ids);
+    const ReferenceModel mended = with_numbers(judged.model(), fit.drive.model, planned.ids);
     const double error = judged.error_of(mended);
     row.shrink = share_mended(c.errors.stand_in, error);
     if (row.differs && c.rows.empty()) first = mended, c.errors.mended = error, c.shrink = row.shrink;
-    if (row.differs) all = replaced(all, fit.drive.model, planned.ids);
+    if (row.differs) all = with_numbers(all, fit.drive.model, planned.ids);
     c.rows.push_back(std::move(row));
   }
   const bool differs = !rows.empty() && rows.front().row.differs;
