@@ -109,17 +109,23 @@ std::string mended_words(const SimulatorComparison& c, Coordinates coordinates) 
   return text + ".";
 }
 
+/// What the recordings cannot tell from it; a delay and a lag of the same time are hardly ever told apart.
+std::string likely_others(const SimulatorRow& row) {
+  std::vector<std::string> others;
+  const EffectEntry* entry = find_effect(row.name);
+  const bool lags = entry != nullptr && entry->follows == ResidualPattern::kInputSteps;
+  if (lags)
+    for (const char* other : entry->look_alikes) others.push_back(readable(other));
+  for (const std::string& other : row.group)
+    if (other != row.name && !contains(others, readable(other))) others.push_back(readable(other));
+  return others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, " or "));
+}
+
 }  // namespace
 
 std::string row_sentence(const SimulatorRow& row, double dt, Coordinates coordinates) {
-  if (row.is_effect) {
-    std::string text = effect_row_sentence(row, coordinates) + in_steps(row, dt) + creeping(row);
-    std::vector<std::string> others;
-    for (const std::string& other : row.group)
-      if (other != row.name) others.push_back(readable(other));
-    if (!others.empty()) text += fmt::format(" (or {})", fmt::join(others, " or "));
-    return text;
-  }
+  if (row.is_effect)
+    return effect_row_sentence(row, coordinates) + in_steps(row, dt) + creeping(row) + likely_others(row);
   const ComparedNumber& n = row.numbers.front();
   return fmt::format("its {} is {} where the drive's is {}", readable(row.name),
                      amount(n.simulator, n.unit, coordinates), amount(n.drive, n.unit, coordinates));
