@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
+#include "diagnosis/numbers.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
-
-/// Of what an effect that is not there begins with, in the other's amount: where it is nothing at all, a
-/// phase has no slope.
-constexpr double kSmallStart = 0.1;
 
 const EffectEntry* root_of(const EffectEntry* entry) {
   const EffectEntry* simpler = contained_effect(*entry);
@@ -45,7 +42,7 @@ ModelEffect not_there(const ModelEffect& other, const ModelEffect* relative, con
   if (entry.stands_for >= 0)
     size.value = model.parameters[static_cast<std::size_t>(entry.stands_for)].value;
   else if (entry.parameters[0].absent == 0.0)
-    size.value *= kSmallStart;
+    size.value *= SearchEffort{}.weaker;  // of nothing at all a phase has no slope
   return e;
 }
 

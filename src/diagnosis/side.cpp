@@ -53,8 +53,8 @@ double excess(const SideFit& pinned, const SideFit& free) {
   return std::sqrt(std::max(0.0, pinned.error * pinned.error - free.error * free.error));
 }
 
-ReferenceModel replaced(ReferenceModel model, const ReferenceModel& by,
-                        const std::vector<reference::ParameterId>& ids) {
+ReferenceModel with_numbers(ReferenceModel model, const ReferenceModel& by,
+                            const std::vector<reference::ParameterId>& ids) {
   ReferenceModel source = by;
   for (const reference::ParameterId& id : ids) setting_of(model, id).value = setting_of(source, id).value;
   return model;
@@ -62,7 +62,7 @@ ReferenceModel replaced(ReferenceModel model, const ReferenceModel& by,
 
 ReferenceModel pinned(ReferenceModel model, const ReferenceModel& at,
                       const std::vector<reference::ParameterId>& ids) {
-  ReferenceModel there = replaced(std::move(model), at, ids);
+  ReferenceModel there = with_numbers(std::move(model), at, ids);
   for (const reference::ParameterId& id : ids) setting_of(there, id).estimate = false;
   return there;
 }

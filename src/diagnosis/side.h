@@ -38,7 +38,7 @@ ReferenceModel pinned(ReferenceModel model, const ReferenceModel& at,
                       const std::vector<reference::ParameterId>& ids);
 
 /// The same, every number as free as it was.
-ReferenceModel replaced(ReferenceModel model, const ReferenceModel& by,
-                        const std::vector<reference::ParameterId>& ids);
+ReferenceModel with_numbers(ReferenceModel model, const ReferenceModel& by,
+                            const std::vector<reference::ParameterId>& ids);
 
 }  // namespace gapscope::internal::diagnosis

@@ -1,8 +1,11 @@
 #include "gapscope/diagnosis/simulator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/rule.h"
 #include "diagnosis/simulator_rows.h"
 #include "diagnosis/simulator_words.h"
 #include "diagnosis/stand_in.h"
@@ -30,6 +33,7 @@ class Comparer {
   JointFit joint_fit(std::vector<JointEffect> effects) const;
   JointFit best_joint_fit() const;
   std::vector<Stretch> stretches(bool judged) const;
+  void warn(const JointFit& fit, std::vector<std::string>& warnings) const;
   void order(const JointFit& fit, std::vector<PlannedRow>& rows) const;
   void mend(const JointFit& fit, const std::vector<PlannedRow>& rows, SimulatorComparison& c) const;
   std::vector<SimulatorTrace> traces(const JointFit& fit, const StandIn& stand_in,
@@ -93,8 +97,8 @@ void Comparer::order(const JointFit& fit, std::vector<PlannedRow>& rows) const {
   const StandIn fitted(fit.simulator.model, stretches(false));
   const double before = fitted.error_of(fit.simulator.model);
   for (PlannedRow& planned : rows)
-    planned.row.shrink_fitted =
-        share_mended(before, fitted.error_of(replaced(fit.simulator.model, fit.drive.model, planned.ids)));
+    planned.row.shrink_fitted = share_mended(
+        before, fitted.error_of(with_numbers(fit.simulator.model, fit.drive.model, planned.ids)));
   std::stable_sort(rows.begin(), rows.end(), [](const PlannedRow& a, const PlannedRow& b) {
     if (a.row.differs != b.row.differs) return a.row.differs;
     return a.row.differs && a.row.shrink_fitted > b.row.shrink_fitted;
@@ -134,11 +138,11 @@ void Comparer::mend(const JointFit& fit, const std::vector<PlannedRow>& rows, Si
   ReferenceModel all = judged.model(), first = judged.model();
   for (const PlannedRow& planned : rows) {
     SimulatorRow row = planned.row;
-    const ReferenceModel mended = replaced(judged.model(), fit.drive.model, planned.ids);
+    const ReferenceModel mended = with_numbers(judged.model(), fit.drive.model, planned.ids);
     const double error = judged.error_of(mended);
     row.shrink = share_mended(c.errors.stand_in, error);
     if (row.differs && c.rows.empty()) first = mended, c.errors.mended = error, c.shrink = row.shrink;
-    if (row.differs) all = replaced(all, fit.drive.model, planned.ids);
+    if (row.differs) all = with_numbers(all, fit.drive.model, planned.ids);
     c.rows.push_back(std::move(row));
   }
   const bool differs = !rows.empty() && rows.front().row.differs;
@@ -147,6 +151,15 @@ void Comparer::mend(const JointFit& fit, const std::vector<PlannedRow>& rows, Si
     c.shrink_all = share_mended(c.errors.stand_in, c.errors.all_mended);
   }
   c.traces = traces(fit, judged, differs ? &first : nullptr);
+}
+
+/// Where a model is off the floor, its numbers hold part of what it lacks.
+void Comparer::warn(const JointFit& fit, std::vector<std::string>& warnings) const {
+  for (const auto& [side, name] : {std::pair(&fit.drive, "drive"), std::pair(&fit.simulator, "simulator")})
+    if (side->error > kRule.floor_ratio * floor_)
+      warnings.push_back(fmt::format(
+          "the model leaves {:.2g} floors on the {}: a row may hold part of what it does not explain there",
+          side->error / floor_, name));
 }
 
 SimulatorComparison Comparer::answer() {
@@ -164,6 +177,7 @@ SimulatorComparison Comparer::answer() {
     stop_point();
     measure({drive_, simulator_, floor_}, fit, rows[i]);
   });
+  warn(fit, c.warnings);
   order(fit, rows);
   mend(fit, rows, c);
   const double dt = drive_.train.front().dt;

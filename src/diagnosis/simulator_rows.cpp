@@ -5,14 +5,6 @@ namespace {
 
 using reference::ParameterId;
 
-/// When a row is one. Set before any pair was looked at: two floors are what the contract asks for, the rest
-/// is the usual 95 %.
-struct RowRule {
-  double floors = 2.0;       ///< least size of a row [floor]
-  double deviations = 1.96;  ///< least distance of both numbers [joint standard deviations]
-};
-constexpr RowRule kRowRule;
-
 bool is_free(const ReferenceModel& model, ParameterId id) {
   ReferenceModel copy = model;
   return setting_of(copy, id).estimate;
@@ -53,7 +45,7 @@ namespace {
 
 Interval around(double value, double std) {
   if (std::isnan(std)) return {};
-  return {value - kRowRule.deviations * std, value + kRowRule.deviations * std};
+  return {value - 1.96 * std, value + 1.96 * std};
 }
 
 void fill_numbers(const RowInstrument& of, const JointFit& fit, PlannedRow& planned) {
@@ -100,7 +92,7 @@ bool is_there(const Side& side, const SideFit& fit, const PlannedRow& planned, b
   if (in_diagnosis) return true;
   ReferenceModel without = fit.model;
   without.effects.erase(without.effects.begin() + planned.effect);
-  return in_floors(excess(fit_side(side, without), fit), fit, floor) > kRowRule.floors;
+  return in_floors(excess(fit_side(side, without), fit), fit, floor) > kLeastRow;
 }
 
 FoundIn found_in(const RowInstrument& of, const JointFit& fit, const PlannedRow& planned) {
@@ -122,7 +114,7 @@ void measure(const RowInstrument& of, const JointFit& fit, PlannedRow& planned) 
   row.size = std::min(of_drive, of_simulator);
   row.floors =
       std::min(in_floors(of_drive, fit.drive, of.floor), in_floors(of_simulator, fit.simulator, of.floor));
-  row.differs = row.floors > kRowRule.floors && intervals_apart(row);
+  row.differs = row.floors > kLeastRow && intervals_apart(row);
   if (row.is_effect) row.found_in = found_in(of, fit, planned);
 }
 

@@ -19,10 +19,21 @@ std::string amount(double value, const std::string& unit, Coordinates coordinate
   return shown.empty() ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, shown);
 }
 
-/// What the size is called where it is no amount of the effect: "length", "knee".
+/// A number by its name without its unit: "length 2 mrad", "46 periods per turn".
 std::string with_name(const ComparedNumber& n, double value, Coordinates coordinates) {
-  return readable(n.key.substr(0, n.key.rfind(n.unit == "-" ? "" : "_"))) + " " +
-         amount(value, n.unit, coordinates);
+  if (n.key == "periods_per_turn") return fmt::format("{:.3g} periods per turn", value);
+  std::string name = n.key;
+  for (const std::string end : {"_nm_rad", "_nms2", "_nms", "_nm", "_rad_s", "_rad", "_s"})
+    if (name.ends_with(end)) {
+      name.resize(name.size() - end.size());
+      break;
+    }
+  return readable(name) + " " + amount(value, n.unit, coordinates);
+}
+
+/// Where its wave begins and what rides on it are for the table.
+bool is_detail(const ComparedNumber& n) {
+  return n.key.find("phase") != std::string::npos || n.key.find("harmonic") != std::string::npos;
 }
 
 bool is_size(const ComparedNumber& n) {
@@ -35,6 +46,7 @@ bool is_size(const ComparedNumber& n) {
 std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates) {
   std::vector<std::string> parts;
   for (const ComparedNumber& n : row.numbers) {
+    if (is_detail(n)) continue;
     const double value = drive ? n.drive : n.simulator;
     parts.push_back(parts.empty() && is_size(n) ? amount(value, n.unit, coordinates)
                                                 : with_name(n, value, coordinates));
@@ -78,31 +90,42 @@ std::string effect_row_sentence(const SimulatorRow& row, Coordinates coordinates
   }
 }
 
+/// What mending takes; where errors of several rows hide each other, no row alone takes any.
 std::string mended_words(const SimulatorComparison& c, Coordinates coordinates) {
+  const SimulatorErrors& e = c.errors;
   std::string text = fmt::format(
       " Over the held-out input it is {} rms off the drive. A model fitted to it stands in for it (it misses "
-      "it by {}): with {} mended that one's error falls from {} to {}, by {:.0f} %",
-      coordinates.thousandths(c.errors.simulator), coordinates.thousandths(c.errors.stand_in_miss),
-      readable(c.rows.front().name), coordinates.thousandths(c.errors.stand_in),
-      coordinates.thousandths(c.errors.mended), 100.0 * c.shrink);
+      "it by {}): its error, {},",
+      coordinates.thousandths(e.simulator), coordinates.thousandths(e.stand_in_miss),
+      coordinates.thousandths(e.stand_in));
+  const std::string first = readable(c.rows.front().name);
+  text += c.shrink > 0.0 ? fmt::format(" falls to {} with {} mended, by {:.0f} %",
+                                       coordinates.thousandths(e.mended), first, 100.0 * c.shrink)
+                         : fmt::format(" does not fall with {} alone mended", first);
   const auto differing =
       std::count_if(c.rows.begin(), c.rows.end(), [](const SimulatorRow& r) { return r.differs; });
   if (differing > 1)
-    text += fmt::format("; with all {} rows, to {}", differing, coordinates.thousandths(c.errors.all_mended));
+    text += fmt::format("; with all {} rows it is {}", differing, coordinates.thousandths(e.all_mended));
   return text + ".";
+}
+
+/// What the recordings cannot tell from it; a delay and a lag of the same time are hardly ever told apart.
+std::string likely_others(const SimulatorRow& row) {
+  std::vector<std::string> others;
+  const EffectEntry* entry = find_effect(row.name);
+  const bool lags = entry != nullptr && entry->follows == ResidualPattern::kInputSteps;
+  if (lags)
+    for (const char* other : entry->look_alikes) others.push_back(readable(other));
+  for (const std::string& other : row.group)
+    if (other != row.name && !contains(others, readable(other))) others.push_back(readable(other));
+  return others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, " or "));
 }
 
 }  // namespace
 
 std::string row_sentence(const SimulatorRow& row, double dt, Coordinates coordinates) {
-  if (row.is_effect) {
-    std::string text = effect_row_sentence(row, coordinates) + in_steps(row, dt) + creeping(row);
-    std::vector<std::string> others;
-    for (const std::string& other : row.group)
-      if (other != row.name) others.push_back(readable(other));
-    if (!others.empty()) text += fmt::format(" (or {})", fmt::join(others, " or "));
-    return text;
-  }
+  if (row.is_effect)
+    return effect_row_sentence(row, coordinates) + in_steps(row, dt) + creeping(row) + likely_others(row);
   const ComparedNumber& n = row.numbers.front();
   return fmt::format("its {} is {} where the drive's is {}", readable(row.name),
                      amount(n.simulator, n.unit, coordinates), amount(n.drive, n.unit, coordinates));

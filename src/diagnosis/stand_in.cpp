@@ -8,8 +8,6 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kFreeRun = 0.0;  // poles of the observer [Hz]
-
 std::vector<MotorTrace> simulated(const std::vector<Stretch>& stretches) {
   std::vector<MotorTrace> traces;
   for (const Stretch& s : stretches) traces.push_back(s.simulator);
@@ -20,8 +18,7 @@ std::vector<MotorTrace> simulated(const std::vector<Stretch>& stretches) {
 
 FreeRuns free_runs(const ReferenceModel& model, const std::vector<MotorTrace>& traces,
                    const std::vector<reference::RecordingStart>& starts) {
-  const auto [plant, states] =
-      reference::ModelFit(traces, all_fixed(model), {}, kFreeRun).run_at({{}, starts});
+  const auto [plant, states] = reference::ModelFit(traces, all_fixed(model), {}, 0.0).run_at({{}, starts});
   FreeRuns runs(traces.size());
   for (std::size_t r = 0; r < traces.size(); ++r) {
     const auto keep = [&](std::size_t, const DriveStepper<double>& stepper) {
@@ -36,7 +33,7 @@ StandIn::StandIn(ReferenceModel model, std::vector<Stretch> stretches)
     : model_(std::move(model)),
       stretches_(std::move(stretches)),
       simulated_(simulated(stretches_)),
-      starts_(settled_starts(simulated_, model_, kFreeRun)) {}
+      starts_(settled_starts(simulated_, model_, 0.0)) {}
 
 /// @param error of sample i of recording r
 template <class Value>

@@ -92,6 +92,10 @@ const std::vector<BadConfig> kBadData = {
     {"null_section", "name: a\nrecording:\n", "c.yaml:2: recording is empty, expected a map"},
     {"file_twice", recorded("[a.csv, b.csv]", "[a.csv, ./train.csv]"),
      "c.yaml:4: recording.held_out[1] names ./train.csv"},
+    {"simulated_of_another_number", with(kRecorded, "  resample", "  simulated: [s.csv, t.csv]\n  resample"),
+     "c.yaml:7: recording.simulated names 2 files, expected one for each of recording: file (1), and for "
+     "each "
+     "of held_out (2) behind them"},
     {"no_files", recorded("train.csv", "[]"), "c.yaml:3: recording.file is an empty list"},
     {"column_twice", recorded("input: u", "input: x1"),
      "c.yaml:5: recording.columns.position uses the column x1 twice"},

@@ -33,6 +33,17 @@ TEST(Configuration, AResamplingForTheDetectorLeavesFitAndDiagnoseTheRowsAsTheyAr
   EXPECT_NE(resolved_yaml(c).find("resample: {rate: 400, for: detector}"), std::string::npos);
 }
 
+TEST(Configuration, NamesWhatASimulatorAnswersAndWritesItBack) {
+  std::string text = kRecorded;
+  text.replace(text.find("  resample"), 0, "  simulated: [s.csv, a_s.csv, b_s.csv]\n");
+  const Configuration c = parse_configuration(text, "configs/rig.yaml");
+  ASSERT_EQ(c.recording->simulated.size(), 3u);
+  EXPECT_EQ(c.recording->simulated[0].path, "configs/s.csv");
+  EXPECT_EQ(c.recording->simulated[2].line, 7);
+  const Configuration again = parse_configuration(resolved_yaml(c), "configs/rig.yaml");
+  EXPECT_EQ(again.recording->simulated.size(), 3u);
+}
+
 TEST(Configuration, EveryKeyOfTheSchemaArrives) {
   const Configuration c = parse_configuration(kRecorded, "configs/rig.yaml");
   EXPECT_EQ(c.name, "rig_p");

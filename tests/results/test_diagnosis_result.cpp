@@ -99,6 +99,48 @@ DiagnosisResult sample() {
   return r;
 }
 
+SimulatorComparison simulator() {
+  SimulatorComparison c;
+  c.sentence = "Your simulator differs from the drive: it has no cogging torque.";
+  c.verdict = DiagnosisVerdict::kNone;
+  c.floor = kThird, c.errors.simulator = 2.0 * kThird, c.shrink = 0.9;
+  SimulatorRow row;
+  row.name = "cogging_torque", row.is_effect = row.differs = true, row.found_in = FoundIn::kDrive;
+  row.numbers = {{"amplitude_nm", "N m", kThird, 0.0, {0.3, 0.4}, {}}};
+  row.floors = 12.0;
+  c.rows = {row};
+  c.files = {{"sim.csv", std::string(64, 'a')}};
+  SimulatorTrace t;
+  t.file = "held.csv", t.simulated = "sim.csv", t.start = 0.1, t.dt = 1e-3 * kThird, t.scored_from = 1;
+  t.u = {0.0, 1.0, 0.5}, t.x1 = {0.0, kThird, 1.0}, t.simulator = {0.0, 0.3, 0.9}, t.stand_in = t.simulator;
+  c.traces = {t};
+  return c;
+}
+
+TEST(DiagnosisResult, ReadsBackTheSimulatorBesideTheDrive) {
+  ScratchFolder scratch;
+  DiagnosisResult written = sample();
+  written.simulated = simulator();
+  write_diagnosis_result(scratch.path.string(), written);
+  const SimulatorComparison read = *read_diagnosis_result(scratch.path.string()).simulated;
+  const SimulatorComparison& as = *written.simulated;
+  EXPECT_EQ(read.sentence, as.sentence);
+  EXPECT_EQ(read.verdict, as.verdict);
+  EXPECT_EQ(read.floor, as.floor);
+  EXPECT_EQ(read.errors.simulator, as.errors.simulator);
+  EXPECT_TRUE(std::isnan(read.errors.mended));
+  ASSERT_EQ(read.rows.size(), 1u);
+  EXPECT_EQ(read.rows[0].found_in, FoundIn::kDrive);
+  EXPECT_EQ(read.rows[0].numbers[0].drive, kThird);
+  EXPECT_TRUE(std::isnan(read.rows[0].numbers[0].simulator_ci95.low));
+  EXPECT_EQ(read.files, as.files);
+  ASSERT_EQ(read.traces.size(), 1u);
+  EXPECT_EQ(read.traces[0].simulator, as.traces[0].simulator);
+  EXPECT_EQ(read.traces[0].scored_from, 1u);
+  EXPECT_TRUE(read.traces[0].mended.empty());
+  EXPECT_FALSE(read_diagnosis_result(scratch.path.string()).diagnosis.traces.empty());
+}
+
 TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   ScratchFolder scratch;
   const DiagnosisResult written = sample();

@@ -16,7 +16,7 @@
 namespace gapscope::test {
 namespace {
 
-constexpr double kRate = 1000.0, kDuration = 4.0;
+constexpr double kRate = 500.0, kDuration = 3.0;
 constexpr int kBits = 18;
 constexpr double kInertia = 8.78e-4, kTorqueConstant = 0.172;
 
@@ -41,7 +41,7 @@ independent_plant::BlindDrive blind_drive(const SimulatedPair& p, std::uint64_t 
   if (!p.has_load) d.load = independent_plant::BlindLoad::kNone;
   d.motor_inertia = p.has_load ? kInertia : knob(p, "motor_inertia", true);
   d.motor_damping = knob(p, "motor_damping", true);
-  d.load_inertia = kInertia * knob(p, "mass_ratio", true);
+  if (p.has_load) d.load_inertia = kInertia * knob(p, "mass_ratio", true);
   d.load_damping = knob(p, "load_damping", true);
   d.load_coulomb = knob(p, "load_coulomb_friction", true);
   d.gap = knob(p, "gap", true);
@@ -173,7 +173,8 @@ SimulatedPair draw_pair(std::uint64_t seed, bool same) {
   if (p.shifted) {
     if (p.find("input_delay") == nullptr) p.knobs.push_back({"input_delay", 0.0, 0.0});
     for (Knob& k : p.knobs)
-      if (k.name == "input_delay") k.simulator = 1.0 / kRate;
+      if (k.name == "input_delay")
+        k.simulator = 1.0 / kRate - p.step / 2.0;  // semi-implicit Euler is half a step ahead
   }
   const independent_plant::BlindSensor sensor = independent_plant::BlindSensor::with_bits(kBits, 0.5);
   const double peak = p.has_load ? 0.8 : 1.0;

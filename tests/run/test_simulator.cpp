@@ -79,7 +79,7 @@ TEST(Simulator, WithAnotherGapIsToldSoAndWhatMendingItTakes) {
 
 TEST(Simulator, OfAnotherInputIsRefusedByFileAndLine) {
   EXPECT_THAT(testing::refusal([] { DriveAndSimulator("0.019", "0.7").compared(); }),
-              HasSubstr("sim.csv:6: the input is"));
+              HasSubstr("sim.csv:3: the input is"));
 }
 
 }  // namespace

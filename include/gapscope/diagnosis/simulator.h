@@ -9,6 +9,9 @@
 
 namespace gapscope {
 
+/// Least size of a row that differs [floor]: what smaller ones would show is the encoder's.
+inline constexpr double kLeastRow = 2.0;
+
 /// A number that both recordings were asked for, by one and the same model.
 struct ComparedNumber {
   std::string key;
