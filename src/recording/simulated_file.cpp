@@ -12,7 +12,7 @@ namespace {
 
 using internal::recording::RecordedRows;
 
-constexpr double kSameTime = 0.1;    // of the mean step: clocks of a text have few digits
+constexpr double kSameStamp = 0.1;    // of the mean step: clocks of a text have few digits
 constexpr double kSameInput = 1e-3;  // of the input's peak: so have its columns
 
 double peak_of(const std::vector<double>& u) {
@@ -23,7 +23,7 @@ double peak_of(const std::vector<double>& u) {
 
 /// The row of a time; rows before `first` are too early.
 std::size_t row_at(const RecordedRows& rows, double t, std::size_t first, const Recording& like) {
-  const double near = kSameTime * like.dt;
+  const double near = kSameStamp * like.dt;
   std::size_t row = first;
   while (row + 1 < rows.size() && rows.t[row] < t - near) ++row;
   if (std::abs(rows.t[row] - t) <= near) return row;
@@ -47,9 +47,10 @@ void require_same_input(const RecordedRows& rows, std::size_t row, double u, dou
 }  // namespace
 
 Recording read_simulated(const std::string& path, const RecordingColumns& columns, const Recording& like) {
-  RecordingColumns without_input = columns;
-  without_input.input_required = false;
-  const RecordedRows rows = internal::recording::read_window(path, {without_input, {}, {}, {}});
+  ReadOptions options;
+  options.columns = columns;
+  options.columns.input_required = false;
+  const RecordedRows rows = internal::recording::read_window(path, options);
   const double peak = peak_of(like.u);
   Recording r;
   r.file = std::filesystem::path(path).filename().string();

@@ -93,7 +93,9 @@ std::vector<double> recorded(const Excitation& e, double rate, std::size_t count
   if (std::error_code unreachable; !std::filesystem::exists(path, unreachable))
     throw ConfigError(path, "is not there, expected the recording whose input is played");
   ReadOptions options;
-  options.columns = {e.time_column, e.input_column, e.input_column, "", false, {}};
+  options.columns.time = e.time_column;
+  options.columns.input = options.columns.position = e.input_column;
+  options.columns.load_position = "";
   options.uneven = UnevenRows::kStamped;
   Recording recording = read_recording(path, options);
   if (!recording.even()) {  // what was held over uneven steps acts as its mean over even ones
