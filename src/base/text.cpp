@@ -12,7 +12,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-std::string readable(const std::string& identifier) { return replaced(identifier, "_", " "); }
+std::string readable(const std::string& identifier) {
+  return replaced(replaced(replaced(identifier, "_", " "), "coulomb", "Coulomb"), "stribeck", "Stribeck");
+}
 
 bool contains(std::span<const std::string> names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -117,7 +117,8 @@ std::string fit_details() {
 
 void add_run(CommandLine& app) {
   add(app, "run", "Both estimators, their comparison, and a report with figures",
-      "Writes DIR/result.json, report.md, figures (PNG), traces/, resolved.yaml, timing.json and "
+      "Writes DIR/result.json, report.md and report.html, figures (PNG), traces/, resolved.yaml, timing.json "
+      "and "
       "files.json,\n"
       "which lists them: only what it lists is replaced by the next report, any other folder is refused.\n"
       "On standard output gaps are in mrad (mm for coordinates: translation), in result.json in rad (m).\n\n"

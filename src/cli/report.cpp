@@ -71,7 +71,8 @@ void add_report(CommandLine& app) {
   command.add_option("DIR", arguments->folder, "folder of a report").required();
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(
-      "Reads DIR/result.json, DIR/diagnosis.json [rad, s] and DIR/traces; writes report.md and the figures "
+      "Reads DIR/result.json, DIR/diagnosis.json [rad, s] and DIR/traces; writes report.md, report.html and "
+      "the figures "
       "(PNG).\n\n"
       "Example: gapscope report reports/02_experiment");
   command.action([arguments] {

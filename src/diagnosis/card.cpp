@@ -1,6 +1,7 @@
 #include "gapscope/diagnosis/card.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,10 +61,24 @@ std::string gap_verdict(const CardFacts& f) {
   return (*good ? " Within your tolerance of " : " Outside your tolerance of ") + limit + ".";
 }
 
+/// Without what stands in brackets: the detail below has it.
+std::string without_asides(std::string text) {
+  for (std::size_t open = text.find(" ("); open != text.npos; open = text.find(" (", open)) {
+    std::size_t at = open + 1;
+    int depth = 0;
+    do depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+    while (depth > 0 && ++at < text.size());
+    if (at >= text.size()) break;
+    text.erase(open, at + 1 - open);
+  }
+  return text;
+}
+
 std::string gap_line(const CardFacts& f) {
   if (f.answer == nullptr) return "Not estimated here; told by `gapscope run CONFIG`.";
-  return as_sentence(f.answer->sentence) + fmt::format(" Trust: {}.", to_string(f.answer->trust)) +
-         gap_verdict(f);
+  const bool known = f.answer->trust != AnswerTrust::kNone;
+  return as_sentence(known ? f.answer->sentence : without_asides(f.answer->sentence)) +
+         fmt::format(" Trust: {}.", to_string(f.answer->trust)) + gap_verdict(f);
 }
 
 std::string torque_verdict(const CardFacts& f, const Card& card) {
@@ -82,7 +97,7 @@ std::string fitted_line(const CardFacts& f) {
   if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
     return "Not measured, as no model was fitted; told by `gapscope diagnose CONFIG`.";
   return fmt::format(
-      "The fitted model follows {:.4g} % of the motion (free run); in {} told by `gapscope diagnose "
+      "The fitted model follows {:.4g} % of the motion (free run); the {} that it misses: `gapscope diagnose "
       "CONFIG`.",
       f.reference->fit_percent, f.coordinates.torque_word());
 }
@@ -171,12 +186,7 @@ std::string share_of(const AddedEffect& a) {
   return std::isfinite(a.shrink) ? fmt::format("{} ({:.0f} %)", name, 100.0 * a.shrink) : name;
 }
 
-std::string law_words(const LastResortLaw& law) {
-  return fmt::format("a free curve over the {} takes {:.0f} % of {} (compensation_{}.csv)", law.variable,
-                     100.0 * law.shrink, law.on_top_of.empty() ? "the error" : "what is left", law.law);
-}
-
-/// "in the model they bring it down from 9.66 to 1.22 N (17.1 % to 2.16 %)"
+/// "from 9.66 to 1.22 N (17.1 % to 2.16 %)"
 std::string fall(const CardFacts& f, const Card& card) {
   const MismatchSize& m = f.diagnosis->mismatch;
   if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
@@ -188,17 +198,43 @@ std::string fall(const CardFacts& f, const Card& card) {
   return fmt::format("from {} to {}", error.number(m.before), error(m.after));
 }
 
+std::string shares(const CardFacts& f, const Card& card) {
+  std::vector<std::string> all;
+  for (const AddedEffect& a : f.diagnosis->added) all.push_back(share_of(a));
+  return enumerated(all) + (all.size() > 1 ? " bring it down " : " brings it down ") + fall(f, card);
+}
+
+/// Whether each effect has the torque that it leaves.
+bool has_rungs(const Diagnosis& d) {
+  return d.added.size() > 1 && std::isfinite(d.mismatch.before_torque) &&
+         std::all_of(d.added.begin(), d.added.end(),
+                     [](const AddedEffect& a) { return std::isfinite(a.after_torque); });
+}
+
+/// "From 9.84 N to 4.19 N with friction, 2.20 N with cogging torque too (17.1 % to 3.8 %)"
+std::string rungs(const CardFacts& f, const Card& card) {
+  const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
+  std::vector<std::string> all;
+  for (const AddedEffect& a : f.diagnosis->added)
+    all.push_back(torque(a.after_torque) + (all.empty() ? " with " : " with also ") +
+                  internal::diagnosis::name_of(a));
+  return fmt::format("from {} to {} ({} to {})", torque(card.torque), fmt::format("{}", fmt::join(all, ", ")),
+                     percent_text(card.percent), percent_text(card.percent_after));
+}
+
+std::string law_words(const LastResortLaw& law) {
+  return fmt::format("a free curve over the {} takes {:.0f} % of {} (compensation_{}.csv)", law.variable,
+                     100.0 * law.shrink, law.on_top_of.empty() ? "the error" : "what is left", law.law);
+}
+
 std::string helps_line(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr) return kToldByDiagnose;
   const Diagnosis& d = *f.diagnosis;
   if (d.verdict == DiagnosisVerdict::kNone) return "Nothing has to: the model is as good as the recording.";
   std::vector<std::string> parts;
-  if (is_added(d)) {
-    std::vector<std::string> shares;
-    for (const AddedEffect& a : d.added) shares.push_back(share_of(a));
-    parts.push_back(enumerated(shares) + (shares.size() > 1 ? " bring it down " : " brings it down ") +
-                    fall(f, card) + "; `fitted.yaml` has " + (shares.size() > 1 ? "them" : "it"));
-  }
+  if (is_added(d))
+    parts.push_back((has_rungs(d) ? rungs(f, card) : shares(f, card)) + "; `fitted.yaml` has " +
+                    (d.added.size() > 1 ? "them" : "it"));
   for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law));
   if (parts.empty()) return "Nothing of the catalogue does.";
   std::string text;
@@ -208,7 +244,8 @@ std::string helps_line(const CardFacts& f, const Card& card) {
 
 /// The step that the estimate asks for; what a diagnosis would say is known where there is one.
 std::string step_of_the_answer(const CardFacts& f) {
-  if (f.answer == nullptr) return "";
+  const bool no_gap = f.reference != nullptr && f.reference->find("gap") == nullptr;
+  if (f.answer == nullptr || (f.diagnosis != nullptr && no_gap)) return "";
   for (const std::string& step : f.answer->next)
     if (f.diagnosis == nullptr || step.find("gapscope diagnose") == step.npos) return step;
   return "";

@@ -7,6 +7,7 @@
 
 #include "diagnosis/numbers.h"
 #include "gapscope/base/statistics.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -15,6 +16,9 @@ const MapShare& largest(const std::vector<MapShare>& map) {
   return *std::max_element(map.begin(), map.end(),
                            [](const MapShare& a, const MapShare& b) { return a.share < b.share; });
 }
+
+/// A bin as people write it: "0.034–0.051 m/s".
+std::string range(const std::string& bin) { return replaced(bin, "..", "–"); }
 
 std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
   static constexpr const char* kWhere[] = {"in the gap", "in engagement", "at impacts"};
@@ -27,14 +31,13 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
-  return fmt::format("following the direction of motion, {:.0f} % of it in {} motion", 100.0 * most.share,
-                     most.bin);
+  return fmt::format("follows the direction of motion ({:.0f} % of it {})", 100.0 * most.share, most.bin);
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
   const char* const along = coordinates.rotational() ? "motor angle" : "motor position";
   if (!std::isfinite(p.periods_per_turn))
-    return fmt::format("along the {}, most at {}", along, largest(p.angle).bin);
+    return fmt::format("depends on the {}, largest at {}", along, range(largest(p.angle).bin));
   if (!coordinates.rotational())
     return fmt::format("periodic in the motor position, every {:.4g} m", 2.0 * kPi / p.periods_per_turn);
   return fmt::format("periodic in the motor angle with {:.3g} cycles per turn", p.periods_per_turn);
@@ -47,14 +50,14 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coord
     case ResidualPattern::kDirection:
       return direction_words(p.direction);
     case ResidualPattern::kSpeed:
-      return fmt::format("along the speed, most at {}", largest(p.speed).bin);
+      return fmt::format("depends on the speed, largest at {}", range(largest(p.speed).bin));
     case ResidualPattern::kInput:
-      return fmt::format("along the input level, most at {}", largest(p.input).bin);
+      return fmt::format("depends on the input level, largest at {}", range(largest(p.input).bin));
     case ResidualPattern::kTime:
-      return fmt::format("changing over time, most at {}", largest(p.time).bin);
+      return fmt::format("changes over time, largest at {}", range(largest(p.time).bin));
     case ResidualPattern::kInputSteps:
-      return fmt::format("where the {} changes, most at {}", coordinates.torque_word(),
-                         largest(p.frequency).bin);
+      return fmt::format("arises where the {} changes, largest at {}", coordinates.torque_word(),
+                         range(largest(p.frequency).bin));
     case ResidualPattern::kCounts:
       return "within the count of a coarser encoder";
     case ResidualPattern::kMode:
@@ -100,8 +103,7 @@ std::string headline_of(const MismatchPlace& place, Coordinates coordinates) {
     text += text.empty() || words.empty() ? words : ", " + words;
   };
   for (const ResidualPattern pattern : place.follows) add(pattern_words(pattern, place, coordinates));
-  if (place.follows.empty())
-    add("forward and backward, without a clear order in angle, speed, input or time");
+  if (place.follows.empty()) add("no clear order in angle, speed, input or time");
   return text;
 }
 

@@ -128,12 +128,12 @@ std::string proposal_of(const TriedInput& best, double duration) {
   std::string separate, apart;
   for (const Separation& s : best.separations) {
     if (s.contained)
-      apart += fmt::format("; where {} is the truth nothing can, because {} contains it", s.truth, s.rival);
+      apart += fmt::format("; if {} is the cause nothing can, because {} contains it", s.truth, s.rival);
     else
-      separate += fmt::format("{}{:.3g} σ where {} is the truth and {} is blamed",
-                              separate.empty() ? "" : ", ", s.excess, s.truth, s.rival);
+      separate +=
+          fmt::format("{}{:.3g} σ if {} is the cause", separate.empty() ? "" : ", ", s.excess, s.truth);
   }
-  text += ": it leaves " + separate + apart + ".";
+  text += ": it would separate the two causes by " + separate + apart + ".";
   if (!(best.worst >= kTelling.separated)) text += " No input within the limits separates them by one σ.";
   return readable(text);
 }

@@ -19,7 +19,7 @@ struct Turned {
   const char *effect, *parameter, *words;
 };
 constexpr Turned kTurned[] = {{"stribeck_friction", "stiction_ratio",
-                               "friction that is lower at low speed (stribeck friction, negative ratio)"}};
+                               "friction that is lower at low speed (Stribeck friction, negative ratio)"}};
 
 /// Where a recording cannot tell an effect from others.
 std::string likeness(std::vector<std::string> group) {

@@ -76,8 +76,9 @@ std::string sum_of(const Inspection& inspection) {
   }
   const std::size_t all = inspection.findings.size();
   if (spoiling.empty())
-    return fmt::format("nothing of {} questions will spoil the estimates ({} worth a note)", all, notes);
-  return fmt::format("{} of {} will spoil the estimates: {}", spoiling.size(), all,
+    return fmt::format("{} checks: {} passed, {}", all, all - notes,
+                       notes == 1 ? "1 note" : fmt::format("{} notes", notes));
+  return fmt::format("{} of {} checks found what spoils the estimates: {}", spoiling.size(), all,
                      fmt::join(spoiling, ", "));
 }
 

@@ -117,10 +117,10 @@ Finding check_repeats(const Material& m, RecordingFacts& facts) {
             fmt::format("the last third, {:.2g} s, is all that a diagnosis has to judge by", third),
             "record longer, or a second recording for recording: held_out"};
   if (period > 0.0)
-    return {
-        "diagnosis", Severity::kFine,
-        fmt::format("u repeats itself every {:.4g} s: how well the drive does so too is measured", period),
-        ""};
+    return {"diagnosis", Severity::kFine,
+            fmt::format("u repeats every {:.4g} s: diagnose measures how well the drive repeats its motion",
+                        period),
+            ""};
   return {
       "diagnosis", Severity::kNote,
       "u does not repeat itself three times: a diagnosis judges by the encoder, or by few repetitions, and a "

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kShareInCombination = 0.05;  ///< of the largest change, for a parameter to be named
 constexpr double kLeastKnown = 10.0;          ///< relative errors this many times the least one are told
+constexpr double kWorthAdvice = 0.05;         ///< relative error below which no advice could matter
 
 /// The free numbers that the recordings see at all, and those among them that no null direction touches.
 struct Directions {
@@ -133,7 +134,8 @@ void advise(const FitProblem& problem, const FitPoint& at, Determination& determ
     if (determined.identifiable[i]) all.push_back(relative(i));
   const double least = quantile(all, 0.0), middle = median(all);
   for (std::size_t i = 0; i < determined.std.size(); ++i) {
-    if (!determined.identifiable[i] || !(relative(i) > std::max(middle, kLeastKnown * least))) continue;
+    if (!determined.identifiable[i] || !(relative(i) > std::max({middle, kLeastKnown * least, kWorthAdvice})))
+      continue;
     determined.advice.push_back(words::little_known(problem.free_parameter(i).key, 100.0 * relative(i)));
   }
 }

@@ -104,7 +104,7 @@ Remark at_bound(const std::string& key, double value, const std::string& unit) {
   return {"at_bound", "{} ended at its bound {:.4g} {}.", {key, value, RemarkUnit{unit}}};
 }
 Remark no_trace(const std::string& key) {
-  return {"no_trace", "{} leaves no trace in the recordings: needed is {}.", {key, excitation_for(key)}};
+  return {"no_trace", "{} leaves no trace in the recordings; it takes {}.", {key, excitation_for(key)}};
 }
 Remark like_initial_state(const std::string& key) {
   return {"like_initial_state", "{} cannot be told apart from the initial state: not identifiable.", {key}};
@@ -118,7 +118,7 @@ Remark change_together(const std::vector<std::string>& keys, const std::vector<d
 Remark not_determined(const std::string& key, double std, const std::string& unit,
                       const std::string& partner) {
   return {"not_determined",
-          "{} is not determined by the recordings (standard error {:.2g} {}{}): needed is {}.",
+          "{} is not determined by the recordings (standard error {:.2g} {}{}): it takes {}.",
           {key, std, RemarkUnit{unit}, partner.empty() ? "" : ", confounded with " + partner,
            excitation_for(key)}};
 }
@@ -127,7 +127,7 @@ Remark no_information(const std::string& key) {
 }
 Remark little_known(const std::string& key, double percent) {
   return {"little_known",
-          "{} is known to {:.2g} % only (standard error); sharper by {}.",
+          "{} has a relative standard error of {:.2g} %; it takes {} to know it better.",
           {key, percent, excitation_for(key)}};
 }
 

@@ -182,8 +182,8 @@ FigureData slice_figure(const BlindScore& s, const std::string& by, const std::s
       std::min_element(slices.begin(), slices.end(), [](const BlindSlice& a, const BlindSlice& b) {
         return a.named * std::max(1, b.seen) < b.named * std::max(1, a.seen);
       });
-  figure.reading =
-      fmt::format("Named least: {} ({} of {}).", literal(readable(least->name)), least->named, least->seen);
+  figure.reading = fmt::format("Least often named: {} ({} of {}).", literal(readable(least->name)),
+                               least->named, least->seen);
   return figure;
 }
 

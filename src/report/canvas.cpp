@@ -6,20 +6,20 @@
 namespace gapscope::internal::report {
 namespace {
 
-constexpr double kFine = 2.0;  // drawn at this size, averaged down
+constexpr double kFine = 2.0;  // drawn at so many times the size of the image, averaged down
 constexpr int kShift = 4;      // sixteenths of a fine pixel
 constexpr double kFar = 1e5;   // beyond any paper; keeps sub-pixel coordinates within an int
 
-cv::Point sub_pixel(Point p) {
-  const auto fixed = [](double v) { return cvRound(std::clamp(v, -kFar, kFar) * kFine * (1 << kShift)); };
+cv::Point sub_pixel(Point p, double fine) {
+  const auto fixed = [=](double v) { return cvRound(std::clamp(v, -kFar, kFar) * fine * (1 << kShift)); };
   return {fixed(p.x), fixed(p.y)};
 }
 
-int fine_width(double width) { return std::max(1, cvRound(width * kFine)); }
+int fine_width(double width, double fine) { return std::max(1, cvRound(width * fine)); }
 
-cv::Rect fine_rect(const Box& box, const cv::Mat& paper) {
-  const cv::Point corner(cvRound(box.x * kFine), cvRound(box.y * kFine));
-  const cv::Point end(cvRound(box.right() * kFine), cvRound(box.bottom() * kFine));
+cv::Rect fine_rect(const Box& box, const cv::Mat& paper, double fine) {
+  const cv::Point corner(cvRound(box.x * fine), cvRound(box.y * fine));
+  const cv::Point end(cvRound(box.right() * fine), cvRound(box.bottom() * fine));
   return cv::Rect(corner, end) & cv::Rect(0, 0, paper.cols, paper.rows);
 }
 
@@ -46,39 +46,40 @@ std::vector<Polyline> dashes_of(const Polyline& line, const std::vector<double>&
   return dashes;
 }
 
-void stroke(cv::Mat& paper, const Polyline& points, const LineStyle& style) {
+void stroke(cv::Mat& paper, const Polyline& points, const LineStyle& style, double fine) {
   if (points.empty()) return;
   for (const Polyline& dash : dashes_of(points, style.dashes)) {
     std::vector<cv::Point> fixed;
-    for (const Point& p : dash) fixed.push_back(sub_pixel(p));
-    cv::polylines(paper, fixed, false, bgr(style.colour), fine_width(style.width), cv::LINE_AA, kShift);
+    for (const Point& p : dash) fixed.push_back(sub_pixel(p, fine));
+    cv::polylines(paper, fixed, false, bgr(style.colour), fine_width(style.width, fine), cv::LINE_AA, kShift);
   }
 }
 
-void polygon(cv::Mat& paper, const Polyline& corners, Colour colour) {
+void polygon(cv::Mat& paper, const Polyline& corners, Colour colour, double fine) {
   std::vector<cv::Point> fixed;
-  for (const Point& p : corners) fixed.push_back(sub_pixel(p));
+  for (const Point& p : corners) fixed.push_back(sub_pixel(p, fine));
   cv::fillPoly(paper, fixed, bgr(colour), cv::LINE_AA, kShift);
 }
 
 }  // namespace
 
-Canvas::Canvas(double width, double height, const Typesetter& typesetter)
-    : paper_(cvRound(height) * static_cast<int>(kFine), cvRound(width) * static_cast<int>(kFine), CV_8UC3,
-             cv::Scalar::all(255)),
+Canvas::Canvas(double width, double height, const Typesetter& typesetter, double scale)
+    : fine_(kFine * scale),
+      paper_(static_cast<int>(kFine) * cvRound(height * scale),
+             static_cast<int>(kFine) * cvRound(width * scale), CV_8UC3, cv::Scalar::all(255)),
       typesetter_(typesetter) {}
 
-void Canvas::fill(const Box& box, Colour colour) { paper_(fine_rect(box, paper_)).setTo(bgr(colour)); }
+void Canvas::fill(const Box& box, Colour colour) { paper_(fine_rect(box, paper_, fine_)).setTo(bgr(colour)); }
 
-void Canvas::line(const Polyline& points, const LineStyle& style) { stroke(paper_, points, style); }
+void Canvas::line(const Polyline& points, const LineStyle& style) { stroke(paper_, points, style, fine_); }
 
 void Canvas::line(const Polyline& points, const LineStyle& style, const Box& clip) {
-  const cv::Rect part = fine_rect(clip, paper_);
+  const cv::Rect part = fine_rect(clip, paper_, fine_);
   if (part.empty()) return;
   Polyline moved;
-  for (const Point& p : points) moved.push_back({p.x - part.x / kFine, p.y - part.y / kFine});
+  for (const Point& p : points) moved.push_back({p.x - part.x / fine_, p.y - part.y / fine_});
   cv::Mat inside = paper_(part);
-  stroke(inside, moved, style);
+  stroke(inside, moved, style, fine_);
 }
 
 void Canvas::marker(Point at, Marker marker, Colour colour, double size) {
@@ -89,29 +90,31 @@ void Canvas::marker(Point at, Marker marker, Colour colour, double size) {
       return;
     case Marker::kDisc:
     case Marker::kCircle:
-      cv::circle(paper_, sub_pixel(at), cvRound(r * kFine * (1 << kShift)), bgr(colour), cv::FILLED,
+      cv::circle(paper_, sub_pixel(at, fine_), cvRound(r * fine_ * (1 << kShift)), bgr(colour), cv::FILLED,
                  cv::LINE_AA, kShift);
       if (marker == Marker::kCircle)
-        cv::circle(paper_, sub_pixel(at), cvRound((r - 3.5) * kFine * (1 << kShift)), cv::Scalar::all(255),
-                   cv::FILLED, cv::LINE_AA, kShift);
+        cv::circle(paper_, sub_pixel(at, fine_), cvRound((r - 3.5) * fine_ * (1 << kShift)),
+                   cv::Scalar::all(255), cv::FILLED, cv::LINE_AA, kShift);
       return;
     case Marker::kTriangleUp:
     case Marker::kTriangleDown:
       return polygon(paper_, {{at.x - r, at.y - up * 0.75}, {at.x + r, at.y - up * 0.75}, {at.x, at.y + up}},
-                     colour);
+                     colour, fine_);
     case Marker::kCross:
-      stroke(paper_, {{at.x - 0.8 * r, at.y - 0.8 * r}, {at.x + 0.8 * r, at.y + 0.8 * r}}, {colour, 4.0, {}});
-      stroke(paper_, {{at.x - 0.8 * r, at.y + 0.8 * r}, {at.x + 0.8 * r, at.y - 0.8 * r}}, {colour, 4.0, {}});
+      stroke(paper_, {{at.x - 0.8 * r, at.y - 0.8 * r}, {at.x + 0.8 * r, at.y + 0.8 * r}}, {colour, 4.0, {}},
+             fine_);
+      stroke(paper_, {{at.x - 0.8 * r, at.y + 0.8 * r}, {at.x + 0.8 * r, at.y - 0.8 * r}}, {colour, 4.0, {}},
+             fine_);
   }
 }
 
 void Canvas::text(Point at, const std::string& markup, const TextStyle& style) {
-  const TextMetrics fine = typesetter_.measure(markup, style.size * kFine, style.bold);
-  const double width = fine.width / kFine, ascent = fine.ascent / kFine, descent = fine.descent / kFine;
+  const TextMetrics fine = typesetter_.measure(markup, style.size * fine_, style.bold);
+  const double width = fine.width / fine_, ascent = fine.ascent / fine_, descent = fine.descent / fine_;
   const double before = style.align == Align::kLeft ? 0.0 : style.align == Align::kCentre ? width / 2 : width;
   if (!style.upwards) {
     texts_.push_back({{at.x - before, at.y - ascent, width, ascent + descent}, markup});
-    typesetter_.draw(paper_, {(at.x - before) * kFine, at.y * kFine}, markup, style.size * kFine,
+    typesetter_.draw(paper_, {(at.x - before) * fine_, at.y * fine_}, markup, style.size * fine_,
                      style.colour, style.bold);
     return;
   }
@@ -120,10 +123,10 @@ void Canvas::text(Point at, const std::string& markup, const TextStyle& style) {
   constexpr int kStripRim = 8;  // for italics that lean out of their box [fine px]
   cv::Mat strip(cvCeil(fine.height()) + 2 * kStripRim, cvCeil(fine.width) + 2 * kStripRim, CV_8UC3,
                 cv::Scalar::all(255));
-  typesetter_.draw(strip, {kStripRim, fine.ascent + kStripRim}, markup, style.size * kFine, style.colour,
+  typesetter_.draw(strip, {kStripRim, fine.ascent + kStripRim}, markup, style.size * fine_, style.colour,
                    style.bold);
   cv::rotate(strip, strip, cv::ROTATE_90_COUNTERCLOCKWISE);
-  const cv::Rect place(cvRound(box.x * kFine) - kStripRim, cvRound(box.y * kFine) - kStripRim, strip.cols,
+  const cv::Rect place(cvRound(box.x * fine_) - kStripRim, cvRound(box.y * fine_) - kStripRim, strip.cols,
                        strip.rows);
   const cv::Rect seen = place & cv::Rect(0, 0, paper_.cols, paper_.rows);
   if (seen.empty()) return;

@@ -27,11 +27,12 @@ struct DrawnText {
   std::string markup;
 };
 
-/// White paper, in pixels of the finished image. Everything is drawn at twice the size and averaged down, so
-/// that thin lines and small letters come out smooth.
+/// White paper, in pixels of the finished image at scale 1. Everything is drawn at twice the size and
+/// averaged down, so that thin lines and small letters come out smooth.
 class Canvas {
  public:
-  Canvas(double width, double height, const Typesetter& typesetter);
+  /// @param scale  of the image: everything else is told as if it were 1
+  Canvas(double width, double height, const Typesetter& typesetter, double scale = 1.0);
 
   void fill(const Box& box, Colour colour);
   void line(const Polyline& points, const LineStyle& style);
@@ -45,6 +46,7 @@ class Canvas {
   const std::vector<DrawnText>& texts() const { return texts_; }
 
  private:
+  double fine_;  ///< of the paper, in its pixels
   cv::Mat paper_;
   const Typesetter& typesetter_;
   std::vector<DrawnText> texts_;

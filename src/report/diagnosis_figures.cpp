@@ -84,7 +84,7 @@ Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::v
   panel.title = title;
   panel.x = {"share of the squared residual " + torque_word(r), "", {0.0, 1.0}, {}, {}};
   Series share{"share", {kVermillion, 4.0, {}}, {}, {}},
-      expected{"of an error without a place", {kGrey, 4.0, {}}, {}, {}};
+      expected{"if spread evenly", {kGrey, 4.0, {}}, {}, {}};
   share.joined = expected.joined = false;
   share.marker = Marker::kDisc, expected.marker = Marker::kCircle;
   for (std::size_t i = 0; i < map.size(); ++i) {
@@ -168,7 +168,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   const std::size_t shown = std::min(kShownCandidates, ranking.size());
   panel.title = "Share of the way to the floor";
   if (shown < ranking.size()) panel.title += fmt::format(": first {} of {}", shown, ranking.size());
-  panel.x = {"closed share", "", {-0.25, 1.1}, {}, {}};
+  panel.x = {"explained share", "", {-0.25, 1.1}, {}, {}};
   Series s{"", {kBlue, 4.0, {}}, {}, {}};
   s.joined = false, s.marker = Marker::kDisc;
   for (std::size_t i = 0; i < shown; ++i) {
@@ -272,7 +272,7 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
   sheet.file = "diagnosis.png";
   sheet.title = literal(r.name) + ": what the simulation lacks";
   sheet.lines.push_back(literal(r.diagnosis.sentence));
-  sheet.width = 3200.0;
+  sheet.width = 3200.0, sheet.scale = kSheetScale;
   sheet.columns = 2;
   borrow(sheet, figures, "diagnosis_budget.png", 1);
   borrow(sheet, figures, "diagnosis_traces.png", 2);

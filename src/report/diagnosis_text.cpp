@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "gapscope/base/text.h"
 #include "report/detectable.h"
 #include "report/diagnosis_figures.h"
 #include "report/error_budget.h"
@@ -21,7 +23,8 @@ std::string measures_table(const DiagnosisResult& r) {
       "was added | floor |\n|---|---|---|---|\n";
   for (const MismatchMeasure& m : r.diagnosis.measures)
     text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, m.unit),
-                        quantity(m.after, m.unit), std::isfinite(m.floor) ? quantity(m.floor, m.unit) : "–");
+                        quantity_beside(m.after, m.before, m.unit),
+                        std::isfinite(m.floor) ? quantity_beside(m.floor, m.before, m.unit) : "–");
   const MismatchSize& g = r.diagnosis.mismatch;
   text += fmt::format("\nThe answer is of the {}. Its floor, {}, is the {}{}{}.", g.measure,
                       quantity(g.floor, r.coordinates.position_unit()), floor_name(g.floor_from),
@@ -43,13 +46,22 @@ bool is_left_out(const NamedValue& p) {
          (p.key == "periods_per_turn" && p.value == 1.0);
 }
 
+/// Without the SI unit of a rotation at its end: the unit follows. "level_nm" reads "level".
+std::string name_of_key(const std::string& key) {
+  for (const char* unit :
+       {"_nms_rad", "_nm_rad", "_rad_s", "_nms2", "_nms", "_nm", "_rad", "_hz", "_w", "_s"})
+    if (key.ends_with(unit)) return readable(key.substr(0, key.size() - std::string_view(unit).size()));
+  return readable(key);
+}
+
 std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
   std::vector<std::string> parts;
   for (const NamedValue& p : e.parameters) {
     if (is_left_out(p)) continue;
     const bool phase = p.key == "phase_rad";  // an angle on a linear axis, too
     const std::string unit = (phase ? Coordinates() : coordinates).shown_unit(p.unit);
-    parts.push_back(fmt::format("{} {}{}", p.key, rounded(p.value, 4), unit.empty() ? "" : " " + unit));
+    parts.push_back(
+        fmt::format("{} {}{}", name_of_key(p.key), rounded(p.value, 4), unit.empty() ? "" : " " + unit));
     if (!coordinates.rotational() && p.key == "periods_per_turn")
       parts.back() = "a period of " + quantity(2.0 * kPi / p.value, "m");
   }
@@ -65,8 +77,8 @@ std::string probability_words(const Diagnosis& d) {
            "judged by its repeatability floor, where only their order counts: the verdict rests on the "
            "held-out errors alone.";
   return fmt::format(
-      " Probabilities are those of simulated drives with one missing effect; with {:.2f} the catalogue lacks "
-      "what is missing first.",
+      " Probabilities are those of simulated drives with one missing effect; probability {:.2f} that the "
+      "cause is not in the catalogue.",
       d.outside_probability);
 }
 
@@ -76,7 +88,7 @@ std::string ranking_table(const DiagnosisResult& r) {
       "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive; "
       "`gapscope effects --laws` has the law of each and what its parameters mean." +
       probability_words(r.diagnosis) +
-      "\n\n| effect | probability | closed share (log) | shrink | windows better | parameters | remark "
+      "\n\n| effect | probability | explained share | error removed | windows better | parameters | remark "
       "|\n|---|---|---|---|---|---|---|\n";
   for (const RankedEffect& e : r.diagnosis.ranking)
     text +=
@@ -97,15 +109,15 @@ std::string steps_table(const DiagnosisResult& r) {
     if (s.ranking.empty()) continue;
     std::vector<std::string> others = s.group;
     std::erase(others, s.effect);
-    text += fmt::format("| {} | `{}` | {} | {} | {} | {} | {} | {} | {} | {} |\n", names_list(s.on_top_of),
-                        s.effect, s.accepted ? "added" : "not added", names_list(others),
-                        quantity(s.mismatch.before, unit), quantity(s.mismatch.after, unit),
-                        rounded(s.mismatch.shrink), parameters_of(s.ranking.front(), r.coordinates),
-                        names_list(s.dropped), s.remaining);
+    text += fmt::format(
+        "| {} | `{}` | {} | {} | {} | {} | {} | {} | {} | {} |\n", names_list(s.on_top_of), s.effect,
+        s.accepted ? "added" : "not added", names_list(others), quantity(s.mismatch.before, unit),
+        quantity_beside(s.mismatch.after, s.mismatch.before, unit), rounded(s.mismatch.shrink),
+        parameters_of(s.ranking.front(), r.coordinates), names_list(s.dropped), s.remaining);
   }
   if (text.empty()) return "";
   return "\n## Further steps\n\nEvery candidate was refitted on top of what was found before it.\n\n| on top "
-         "of | effect | outcome | not told from | error before | after | shrink of this step | parameters | "
+         "of | effect | outcome | not told from | error before | after | error removed | parameters | "
          "made superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
          text;
 }
@@ -133,8 +145,8 @@ std::string periodic_table(const DiagnosisResult& r) {
 std::string blame_table(const DiagnosisResult& r) {
   if (r.diagnosis.blame.empty()) return "";
   std::string text =
-      "\n## What the model took the blame for\n\n| parameter | nominal model | with all that was added | the "
-      "first reads |\n|---|---|---|---|\n";
+      "\n## Parameters biased by what was missing\n\n| parameter | nominal model | with all that was added | "
+      "bias of the first |\n|---|---|---|---|\n";
   for (const BlameShift& b : r.diagnosis.blame) {
     const double percent = 100.0 * (b.without - b.with) / std::abs(b.with);
     text +=

@@ -102,7 +102,7 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
 Drawing draw_with_notes(const FigureData& figure) {
   const Typesetter typesetter;
   const FigurePlan plan = plan_figure(figure, typesetter);
-  Canvas canvas(figure.width, plan.height, typesetter);
+  Canvas canvas(figure.width, plan.height, typesetter, figure.scale);
   canvas.text({kRim, kRim + kTitleSize}, figure.title, {kTitleSize, Align::kLeft, kInk, true});
   for (std::size_t i = 0; i < plan.lines.size(); ++i)
     canvas.text({kRim, kRim + 1.5 * kTitleSize + (0.9 + 1.35 * static_cast<double>(i)) * kTextSize},
@@ -112,10 +112,12 @@ Drawing draw_with_notes(const FigureData& figure) {
     const PanelPlan& panel = plan.panels[i];
     draw_panel(canvas, figure.panels[i], panel, plan.titles[i], plan.corners[i],
                label_margin(figure.panels[i], plan.margins[i].left, typesetter), typesetter);
-    drawing.frames.push_back({plan.corners[i].x, plan.corners[i].y, panel.width, panel.height});
+    const Box frame{plan.corners[i].x, plan.corners[i].y, panel.width, panel.height};
+    drawing.frames.push_back(frame.scaled(figure.scale));
   }
   drawing.image = canvas.image();
   drawing.texts = canvas.texts();
+  for (DrawnText& text : drawing.texts) text.box = text.box.scaled(figure.scale);
   drawing.plans = plan.panels;
   return drawing;
 }

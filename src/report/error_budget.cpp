@@ -114,11 +114,11 @@ std::string budget_table(const DiagnosisResult& r) {
       torque_of(r), rounded(b.band_hz, 2), quantity(b.input, budget_unit(r)),
       quantity(b.nominal, budget_unit(r)), rounded(100.0 * b.nominal / b.input, 2));
   for (const BudgetRung& rung : b.rungs)
-    text += fmt::format("| {}{} | {} | {} % | {} | {} to {} | {} | {} |\n", law_of(r, rung),
-                        rung.added ? "" : " (not in the model)", quantity(rung.after, budget_unit(r)),
-                        rounded(100.0 * rung.after / b.input, 2), rounded(rung.share, 2),
-                        rounded(rung.share_ci95.low, 2), rounded(rung.share_ci95.high, 2),
-                        rounded(rung.alone, 2), rounded(rung.last, 2));
+    text += fmt::format(
+        "| {}{} | {} | {} % | {} | {} to {} | {} | {} |\n", law_of(r, rung),
+        rung.added ? "" : " (not in the model)", quantity_beside(rung.after, b.nominal, budget_unit(r)),
+        rounded(100.0 * rung.after / b.input, 2), rounded(rung.share, 2), rounded(rung.share_ci95.low, 2),
+        rounded(rung.share_ci95.high, 2), rounded(rung.alone, 2), rounded(rung.last, 2));
   if (std::any_of(b.rungs.begin(), b.rungs.end(),
                   [](const BudgetRung& g) { return std::isfinite(g.period); }))
     text +=
@@ -128,7 +128,7 @@ std::string budget_table(const DiagnosisResult& r) {
         "refitted in each of them.\n";
   std::vector<std::string> floors;
   for (const Floor& f : floors_of(b))
-    floors.push_back(fmt::format("{} {}", f.name, quantity(f.size, budget_unit(r))));
+    floors.push_back(fmt::format("{} {}", f.name, quantity_beside(f.size, b.nominal, budget_unit(r))));
   if (!floors.empty())
     text += fmt::format("\nFloors, which no model gets below: {}.\n", fmt::join(floors, ", "));
   return text;

@@ -62,7 +62,7 @@ FigureData fig3_backlash_map(const ReportView& view) {
   figure.panels.push_back(
       map(view, "Load over motor", view.recording->x2, {"load $x_2$", view.length_unit, {}, {}, {}}));
   figure.panels.push_back(
-      map(view, "Their difference", view.state, {"$x_1 − x_2$", view.length_unit, {}, {}, {}}));
+      map(view, "Backlash state", view.state, {"$x_1 − x_2$", view.length_unit, {}, {}, {}}));
   figure.panels.front().x_labels = false;
   mark_gap(view, figure.panels.back());
   figure.reading = width_of_map(view);

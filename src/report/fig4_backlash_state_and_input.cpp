@@ -49,7 +49,7 @@ Panel over_time(const ReportView& view, const std::string& title, const Series& 
 
 Panel loop(const ReportView& view, const DriveSignal& drive, const LineStyle& style) {
   Panel panel;
-  panel.title = "One against the other";
+  panel.title = "Backlash state over input";
   panel.x = drive.axis;
   panel.y = {view.state_name(), view.length_unit, {}, {}, {}};
   panel.height = 470.0;

@@ -80,6 +80,9 @@ struct Panel {
   std::vector<Series> series{};
 };
 
+/// Of a sheet of many panels, which is looked at on a screen and not printed in a column.
+inline constexpr double kSheetScale = 0.75;
+
 struct FigureData {
   std::string file{};  ///< name of the PNG
   std::string title{};
@@ -88,6 +91,7 @@ struct FigureData {
   bool expected = true;              ///< false: nobody would look for it here, so its absence needs no word
   std::vector<std::string> lines{};  ///< text under the title, wrapped
   double width = 1600.0;             ///< [px]
+  double scale = 1.0;                ///< of the image: a sheet that is only looked at needs fewer pixels
   int columns = 1;
   std::vector<Panel> panels{};  ///< row by row
 };

@@ -17,6 +17,7 @@ struct Box {
   double right() const { return x + width; }
   double bottom() const { return y + height; }
   Point centre() const { return {x + width / 2, y + height / 2}; }
+  Box scaled(double by) const { return {x * by, y * by, width * by, height * by}; }
   Box grown(double margin) const { return {x - margin, y - margin, width + 2 * margin, height + 2 * margin}; }
   bool holds(const Box& other) const {
     return other.x >= x && other.y >= y && other.right() <= right() && other.bottom() <= bottom();

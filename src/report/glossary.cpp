@@ -46,10 +46,10 @@ constexpr Word kWords[] = {
      "ripple at the higher one"},
     {"residual torque", "residual torque", "the torque that would correct the observer at 30 Hz"},
     {"residual force", "residual force", "the force that would correct the observer at 30 Hz"},
-    {"shrink", "shrink",
+    {"error removed", "error removed",
      "(error before − after) / (before − floor), as median over windows: 1 reaches the floor, below 0 it is "
      "worse"},
-    {"closed share", "closed share",
+    {"explained share", "explained share",
      "share of the way to the floor in the mean logarithm of prediction and free-run error, which a few "
      "large "
      "errors cannot decide: 1 at the floor, below 0 worse than without; candidates are ranked by it, but a "
@@ -57,7 +57,7 @@ constexpr Word kWords[] = {
     {"| windows better |", "windows better",
      "share of the held-out windows (half a second each, or less) above the floor in which its free run errs "
      "less"},
-    {"the catalogue lacks", "the catalogue lacks it",
+    {"not in the catalogue", "not in the catalogue",
      "none of the effects that `gapscope effects` lists is what is missing"},
     {"not told from", "not told from",
      "other effects that explain these recordings nearly as well: one of them may be the cause instead"},
@@ -66,11 +66,10 @@ constexpr Word kWords[] = {
     {"over neighbouring periods", "over neighbouring periods",
      "its share of the squared torque or force, times what periods beside it have"},
     {"holds there", "holds there", "improves more held-out windows than chance would let, at 1 %"},
-    {"took the blame", "took the blame",
-     "what the nominal model reads too high or too low to make up for what it lacks"},
+    {"biased by", "bias", "what the nominal model reads too high or too low to make up for what it lacks"},
     {" σ |", "σ", "rms of the encoder's noise"},
-    {"of an error without a place", "an error without a place",
-     "one that is alike all the time: its share is the share of the time spent there"}};
+    {"if spread evenly", "if spread evenly",
+     "the share that an error alike at all times would have: that of the time spent there"}};
 
 }  // namespace
 

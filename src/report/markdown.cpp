@@ -75,7 +75,8 @@ std::string comparison_line(const RunResult& run) {
   if (!run.comparison || !std::isfinite(run.comparison->difference)) return "";
   const Comparison& c = *run.comparison;
   return fmt::format("\nDifference of the two estimates: {}, joint standard deviation {}{}.\n",
-                     quantity(c.difference, position_unit(run)), quantity(c.joint_std, position_unit(run)),
+                     quantity_beside(c.difference, run.model_free->gap, position_unit(run)),
+                     quantity_beside(c.joint_std, run.model_free->gap, position_unit(run)),
                      !c.agree   ? ""
                      : *c.agree ? "; they agree within 1.96 of it"
                                 : "; they differ by more than 1.96 of it");

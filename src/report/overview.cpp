@@ -1,5 +1,7 @@
+#include <array>
 #include <cmath>
 
+#include "gapscope/base/parallel.h"
 #include "report/figures.h"
 #include "report/rich_text.h"
 #include "report/wording.h"
@@ -26,7 +28,7 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   FigureData sheet;
   sheet.file = "overview.png";
   sheet.title = literal(view.run.name) + ": overview";
-  sheet.width = 3200.0;
+  sheet.width = 3200.0, sheet.scale = kSheetScale;
   sheet.columns = 2;
   sheet.lines.push_back(literal(headline(view.run)));
   if (const std::string line = fit_quality(view.run); !line.empty()) sheet.lines.push_back(line);
@@ -46,16 +48,18 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
 }
 
 std::vector<FigureData> all_figures(const ReportView& view) {
-  std::vector<FigureData> figures = {fig2_input_and_displacement(view),
-                                     fig3_backlash_map(view),
-                                     fig4_backlash_state_and_input(view),
-                                     fig5_displacement_and_error(view),
-                                     fig6_one_period(view),
-                                     bound_time_map(view),
-                                     lost_motion_loop(view),
-                                     estimates(view),
-                                     residuals(view),
-                                     fit_starts(view)};
+  constexpr std::array kFigures = {fig2_input_and_displacement,
+                                   fig3_backlash_map,
+                                   fig4_backlash_state_and_input,
+                                   fig5_displacement_and_error,
+                                   fig6_one_period,
+                                   bound_time_map,
+                                   lost_motion_loop,
+                                   estimates,
+                                   residuals,
+                                   fit_starts};
+  std::vector<FigureData> figures(kFigures.size());
+  parallel_for(figures.size(), 0, [&](std::size_t i) { figures[i] = kFigures[i](view); });
   figures.insert(figures.begin(), overview(view, figures));
   return figures;
 }

@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <ostream>
 
+#include "gapscope/base/whole_file.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/run_result.h"
 #include "report/diagnosis_figures.h"
 #include "report/figures.h"
+#include "report/html_page.h"
 #include "report/report_files.h"
 #include "report/report_view.h"
 #include "report/story.h"
@@ -36,7 +39,12 @@ void write_report(const std::string& folder, const std::string& note) {
     story.diagnosis = &diagnosis.emplace(read_diagnosis_result(folder));
     append(story.figures, internal::report::diagnosis_figures(*diagnosis));
   }
-  internal::report::write_report_files(folder, story.figures, internal::report::story_text(story));
+  const std::string text = internal::report::story_text(story);
+  const std::vector<internal::report::Picture> pictures =
+      internal::report::write_report_files(folder, story.figures, text);
+  const std::string& name = run ? run->name : diagnosis->name;
+  write_whole_file(folder + "/report.html",
+                   [&](std::ostream& out) { out << internal::report::html_page(name, text, pictures); });
 }
 
 }  // namespace gapscope

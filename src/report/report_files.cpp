@@ -9,6 +9,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "gapscope/base/parallel.h"
 #include "gapscope/base/whole_file.h"
 #include "report/draw_figure.h"
 
@@ -17,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A fifth more bytes than the tightest in a quarter of the time.
-void write_png(const fs::path& path, const cv::Mat& image) {
+/// The bytes of a PNG: a fifth more of them than the tightest, in a quarter of the time.
+std::string png_of(const std::string& name, const cv::Mat& image) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   header.width = static_cast<png_uint_32>(image.cols);
@@ -29,33 +30,41 @@ void write_png(const fs::path& path, const cv::Mat& image) {
   const auto bytes = std::make_unique_for_overwrite<char[]>(size);
   if (png_image_write_to_memory(&header, bytes.get(), &size, 0, image.data,
                                 static_cast<png_int_32>(image.step), nullptr) == 0)
-    throw std::runtime_error(path.string() + ": " + header.message);
-  write_whole_file(path.string(),
-                   [&](std::ostream& out) { out.write(bytes.get(), static_cast<long>(size)); });
+    throw std::runtime_error(name + ": " + header.message);
+  return {bytes.get(), size};
 }
 
 /// The library below has its own words for a machine that is too small.
-void draw_file(const fs::path& path, const FigureData& figure) {
+std::string drawn(const FigureData& figure) {
   try {
-    write_png(path, draw(figure));
+    return png_of(figure.file, draw(figure));
   } catch (const cv::Exception& error) {
     if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
     throw;
   }
 }
 
+void write_bytes(const fs::path& path, const std::string& bytes) {
+  write_whole_file(path.string(), [&](std::ostream& out) { out << bytes; });
+}
+
 }  // namespace
 
-void write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
-                        const std::string& text) {
-  for (const FigureData& figure : figures) {
-    const fs::path path = fs::path(folder) / figure.file;
-    if (figure.missing.empty())
-      draw_file(path, figure);
+std::vector<Picture> write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
+                                        const std::string& text) {
+  std::vector<Picture> pictures(figures.size());
+  parallel_for(figures.size(), 0, [&](std::size_t i) {
+    if (figures[i].missing.empty()) pictures[i] = {figures[i].file, drawn(figures[i])};
+  });
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const fs::path path = fs::path(folder) / figures[i].file;
+    if (figures[i].missing.empty())
+      write_bytes(path, pictures[i].png);
     else
       fs::remove(path);  // of an earlier result
   }
-  write_whole_file(folder + "/report.md", [&](std::ostream& out) { out << text; });
+  write_bytes(fs::path(folder) / "report.md", text);
+  return pictures;
 }
 
 }  // namespace gapscope::internal::report

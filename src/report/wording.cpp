@@ -92,8 +92,9 @@ std::string comparison_sentence(const RunResult& run) {
   const Comparison& c = *run.comparison;
   if (!c.agree) return "";
   return fmt::format(" They {}: the difference is {}, its standard deviation {}.",
-                     *c.agree ? "agree" : "disagree", quantity(c.difference, position_unit(run)),
-                     quantity(c.joint_std, position_unit(run)));
+                     *c.agree ? "agree" : "disagree",
+                     quantity_beside(c.difference, run.model_free->gap, position_unit(run)),
+                     quantity_beside(c.joint_std, run.model_free->gap, position_unit(run)));
 }
 
 }  // namespace
@@ -135,6 +136,16 @@ std::string quantity(double value, const std::string& unit) {
   const AxisScale scale = axis_scale(unit, std::abs(value));
   const double shown = value / scale.factor;
   if (std::abs(shown) < 1e-2 || std::abs(shown) >= 1e5) return scientific(shown, 3) + unit_after(scale.unit);
+  return tick_label(shown, decimals_for(std::abs(shown), 3)) + unit_after(scale.unit);
+}
+
+std::string quantity_beside(double value, double larger, const std::string& unit) {
+  if (!std::isfinite(value)) return "unknown";
+  if (value == 0.0 || !std::isfinite(larger) || std::abs(larger) < std::abs(value))
+    return quantity(value, unit);
+  const AxisScale scale = axis_scale(unit, std::abs(larger));
+  const double shown = value / scale.factor;
+  if (std::abs(shown) < 1e-4) return scientific(shown, 3) + unit_after(scale.unit);
   return tick_label(shown, decimals_for(std::abs(shown), 3)) + unit_after(scale.unit);
 }
 

@@ -16,6 +16,10 @@ std::string rounded(double value, int digits = 3);
 /// "18.7 mrad": three significant digits; "unknown" for NaN.
 std::string quantity(double value, const std::string& unit);
 
+/// The same in the unit of a larger number beside it, to as many significant digits: "0.0846 mrad" beside
+/// 18.9 mrad, where quantity() has 84.6 µrad.
+std::string quantity_beside(double value, double larger, const std::string& unit);
+
 /// "18.70 mrad (95 %: 18.50 to 18.90)": digits as the interval warrants; without one like quantity().
 std::string with_interval(double value, const Interval& ci95, const std::string& unit);
 

@@ -29,7 +29,7 @@ bool is_one_of(const std::string& file, std::initializer_list<const char*> names
 
 /// Names that every report may take.
 bool is_taken(const std::string& file) {
-  return is_stored(file) || is_one_of(file, {"report.md", "truth.csv", "certificate.md"});
+  return is_stored(file) || is_one_of(file, {"report.md", "report.html", "truth.csv", "certificate.md"});
 }
 
 bool is_partial(const fs::directory_entry& entry) {
@@ -237,7 +237,7 @@ void require_redrawable(const fs::path& folder, const std::string& kind, const F
   if (list != nullptr) require_kind(folder, kind, *list);
   const FileList none;
   if (list == nullptr) list = &none;
-  require_unchanged(folder, *list, "report.md");
+  for (const char* text : {"report.md", "report.html"}) require_unchanged(folder, *list, text);
   for (const FileHash& f : list->files)
     if (fs::path(f.file).extension() == ".png") require_unchanged(folder, *list, f.file);
 }

@@ -51,8 +51,8 @@ Remark passages_few_quanta_wide() {
 }
 Remark load_hits_motor() {
   return {"load_hits_motor",
-          "the load hits the motor instead of the motor the load; let the motion rest at its reversals, or "
-          "lower the frequency"};
+          "the load drives the motor at the impacts; let the motion rest at its reversals, or lower the "
+          "frequency"};
 }
 Remark few_samples_around_impacts() {
   return {"few_samples_around_impacts", "too few samples around the impacts; sample faster"};
@@ -115,7 +115,7 @@ Remark too_slow(double visible) {
           ? Remark("visible", "the impacts of a gap below {:.2g} [rad] would not show", {visible})
           : Remark("nothing_visible", "the impact of no gap would show");
   return Remark("too_slow",
-                "no impact to be expected: quasi-static motion, locked output or coarse encoder, ") +
+                "this recording shows no impacts (slow motion, a locked output or a coarse encoder): ") +
          limit +
          Remark(
              "too_slow",

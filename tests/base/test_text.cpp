@@ -13,7 +13,7 @@ TEST(Text, IsReplacedWhereverItStandsAndNotInWhatReplacesIt) {
 }
 
 TEST(Text, OfAnIdentifierIsReadable) {
-  EXPECT_EQ(readable("motor_coulomb_friction"), "motor coulomb friction");
+  EXPECT_EQ(readable("motor_coulomb_friction"), "motor Coulomb friction");
 }
 
 TEST(Text, OfAListIsFoundAsAWhole) {

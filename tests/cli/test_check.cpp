@@ -18,7 +18,7 @@ TEST(Check, AGoodRecordingEndsWithZeroAndKeepsItsFindings) {
   const auto check = place.run("check r.csv -o r.json");
   EXPECT_EQ(check.status, 0) << check.out;
   EXPECT_EQ(check.err, "");
-  EXPECT_THAT(check.out, HasSubstr("will spoil the estimates (1 worth a note)"));
+  EXPECT_THAT(check.out, HasSubstr("16 checks: 15 passed, 1 note"));
   const auto stored = nlohmann::json::parse(testing::text_of(place.folder() / "r.json"));
   EXPECT_EQ(stored["schema"], "gapscope.check/1");
   EXPECT_EQ(stored["spoilt"], false);
@@ -36,7 +36,7 @@ TEST(Check, ASpoiltRecordingEndsWithThreeAndSaysWhatToDo) {
   const auto check = place.run("check wrong.csv --time time --input i_q --position theta --window 1 7");
   EXPECT_EQ(check.status, 3) << check.err;
   EXPECT_THAT(check.out, HasSubstr("-> turn the sign of u or of x1"));
-  EXPECT_THAT(check.out, HasSubstr("1 of 16 will spoil the estimates: sign"));
+  EXPECT_THAT(check.out, HasSubstr("1 of 16 checks found what spoils the estimates: sign"));
   const auto json = place.run("check wrong.csv --time time --input i_q --position theta --json");
   EXPECT_EQ(json.status, 3);
   EXPECT_EQ(nlohmann::json::parse(json.out)["spoilt"], true);

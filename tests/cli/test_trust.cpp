@@ -52,16 +52,23 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   make_recordings(place);
   const auto run = place.run("run right.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("report      reports/right\nanswer      The backlash gap is 18.999"));
-  EXPECT_THAT(run.out, HasSubstr("(trust: good)"));
+  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap is 18.999"));
+  EXPECT_THAT(run.out, HasSubstr(" Trust: good.\nmismatch    The fitted model follows 99.9"));
   const auto result = result_of(place, "reports/right");
   EXPECT_EQ(result["reference"]["trust"], "good");
   EXPECT_GT(result["reference"]["fit_percent"].get<double>(), 99.0);
   EXPECT_EQ(result["answer"]["from"], "reference");
   EXPECT_NEAR(result["answer"]["gap_rad"].get<double>(), 0.019, 1e-5);
-  const std::string sentence = result["answer"]["sentence"];
+  const auto& card = result["answer"]["card"];
   EXPECT_THAT(text_of(place.folder() / "reports/right/report.md"),
-              ::testing::StartsWith("# right\n\n**" + sentence + "**\n\nTrust: good."));
+              ::testing::StartsWith("# right\n\n- **Gap:** " + card["gap"].get<std::string>() + "\n"));
+  std::string all;
+  for (std::string line : {"gap", "mismatch", "place", "cause", "helps", "next"}) {
+    const std::string text = card[line];
+    line.resize(12, ' ');
+    all += line + text + "\n";
+  }
+  EXPECT_THAT(run.out, ::testing::EndsWith(all)) << "the terminal ends with the same card";
 }
 
 TEST(Trust, ARejectedModelHasNoIntervalInTheTerminalTheReportOrTheComparison) {
@@ -70,7 +77,7 @@ TEST(Trust, ARejectedModelHasNoIntervalInTheTerminalTheReportOrTheComparison) {
   ASSERT_EQ(place.run("fit right.yaml").status, 0);
   const auto fit = place.run("fit turned.yaml");
   ASSERT_EQ(fit.status, 0) << fit.err;
-  EXPECT_THAT(fit.out, HasSubstr("answer      The gap is not known. The fitted model is rejected: "));
+  EXPECT_THAT(fit.out, HasSubstr("gap         The gap is not known. The fitted model is rejected: "));
   EXPECT_THAT(fit.out, HasSubstr("next        Check the sign and the unit of u"));
   EXPECT_THAT(fit.out, Not(HasSubstr("["))) << "an interval";
   const std::string report = text_of(place.folder() / "reports/turned/report.md");

@@ -58,7 +58,7 @@ TEST(NextExperiment, SaysThatNothingTellsALawFromOneThatContainsIt) {
   const test::LookAlikes pair = test::look_alikes("stribeck_friction", "motor_coulomb_friction", 510002);
   const NextExperiment next = next_experiment(pair.rivals, pair.recording.motor_trace(), short_limits(), 3.0);
   ASSERT_TRUE(next.proposes());
-  EXPECT_NE(next.sentence.find("stribeck friction contains it"), std::string::npos) << next.sentence;
+  EXPECT_NE(next.sentence.find("Stribeck friction contains it"), std::string::npos) << next.sentence;
 }
 
 TEST(NextExperiment, NeedsTwoRivals) {

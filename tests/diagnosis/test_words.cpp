@@ -19,7 +19,7 @@ std::string sentence(std::vector<std::string> effects) {
 
 TEST(Words, AnEffectThatBringsASimplerOneSaysSo) {
   EXPECT_THAT(sentence({"friction_asymmetry"}),
-              HasSubstr("lacks friction asymmetry (which contains motor coulomb friction): with it"));
+              HasSubstr("lacks friction asymmetry (which contains motor Coulomb friction): with it"));
   EXPECT_THAT(sentence({"motor_coulomb_friction", "friction_asymmetry"}), Not(HasSubstr("contains")));
   EXPECT_THAT(sentence({"cogging_torque"}), Not(HasSubstr("contains")));
 }

@@ -41,7 +41,7 @@ TEST(Inspection, AGoodRecordingIsTold) {
   EXPECT_NEAR(i.facts.period, 1.0, 0.01);
   EXPECT_NEAR(i.facts.input_period, 1.0, 1e-3);
   EXPECT_NEAR(i.facts.input_frequency, 1.0, 0.1);
-  EXPECT_THAT(i.report(), HasSubstr("nothing of 16 questions will spoil the estimates"));
+  EXPECT_THAT(i.report(), HasSubstr("16 checks: "));
 }
 
 TEST(Inspection, AStepThatIsARoundNumberOfRadiansMayBeOneOfMetres) {

@@ -104,8 +104,8 @@ TEST(DiagnosisReport, NamesTheFloorAndWhereItComesFrom) {
   };
   std::string text = written();
   EXPECT_NE(text.find("is the encoder floor: the quantum of the encoder in held.csv."), std::string::npos);
-  EXPECT_NE(text.find("with 0.57 the catalogue lacks"), std::string::npos);
-  EXPECT_NE(text.find("- *closed share*: "), std::string::npos);
+  EXPECT_NE(text.find("probability 0.57 that the cause is not in the catalogue"), std::string::npos);
+  EXPECT_NE(text.find("- *explained share*: "), std::string::npos);
   EXPECT_EQ(text.find("- *repeatability floor*: "), std::string::npos) << "a word that does not occur";
   r.diagnosis.mismatch.floor_from = FloorSource::kRepeatability;
   r.diagnosis.mismatch.floor_of = "3.9 periods of 6.24 s in held.csv";

@@ -30,14 +30,14 @@ TEST(Report, EveryFigureOfAFullRunIsThereAndNotBlank) {
                            "fig4_backlash_state_and_input.png", "fig5_displacement_and_error.png",
                            "fig6_one_period.png", "estimates.png", "residuals.png"}) {
     const cv::Mat image = testing::picture_of((scratch.path / name).string());
-    EXPECT_EQ(image.cols, std::string(name) == "overview.png" ? 3200 : 1600) << name;
+    EXPECT_EQ(image.cols, std::string(name) == "overview.png" ? 2400 : 1600) << name;
     EXPECT_GT(image.rows, 400) << name;
     EXPECT_TRUE(has(text, "](" + std::string(name) + ")")) << name << " is not in report.md";
     cv::Scalar centre, spread;
     cv::meanStdDev(image, centre, spread);
     EXPECT_GT(spread[0], 10.0) << name << " is blank";
   }
-  EXPECT_TRUE(has(text, "# rig_p\n\n**Without a model: backlash gap 18.91 mrad"));
+  EXPECT_TRUE(has(text, "## Estimates of the gap\n\nWithout a model: backlash gap 18.91 mrad"));
   EXPECT_TRUE(has(text, "| `gap` | 18.828 ± 0.029 mrad | yes |"));
   EXPECT_TRUE(has(text, "## Warnings\n\n- The load turned on"));
 }
@@ -69,7 +69,8 @@ TEST(Report, OfARejectedModelShowsNoIntervalOfItAnywhere) {
   write_report(scratch.path.string());
   const std::string text = text_of(scratch.path / "report.md");
   EXPECT_TRUE(
-      has(text, "# rig_p\n\n**The gap is not known. The fitted model is rejected: The model misses 65 %"));
+      has(text,
+          "# rig_p\n\n- **Gap:** The gap is not known. The fitted model is rejected: The model misses 65 %"));
   EXPECT_TRUE(has(text, "Trust: rejected. The model misses 65 %"));
   EXPECT_TRUE(has(text, "| `gap` | 18.8 mrad | yes |"));
   EXPECT_FALSE(has(text, " ± ")) << text;

@@ -22,6 +22,14 @@ TEST(Wording, NamesTheUnknownAndTheVerySmall) {
   EXPECT_EQ(quantity(1.2, "-"), "1.20");
 }
 
+TEST(Wording, NumbersOfATableShareTheUnitOfTheLargest) {
+  EXPECT_EQ(quantity_beside(84.6e-6, 18.9e-3, "rad"), "0.0846 mrad");
+  EXPECT_EQ(quantity_beside(0.44, 9.8, "N"), "0.440 N");
+  EXPECT_EQ(quantity_beside(2.0, 0.5, "N"), quantity(2.0, "N")) << "nothing larger";
+  EXPECT_EQ(quantity_beside(3e-9, 1.0, "N"), "3.00·10⁻⁹ N");
+  EXPECT_EQ(quantity_beside(kNaN, 1.0, "N"), "unknown");
+}
+
 TEST(Wording, TypesetsNumbers) {
   EXPECT_EQ(typeset("-0.5..-0.1 rad, 3e-05 N, run-2.csv, 1.2e+06"),
             "−0.5..−0.1 rad, 3·10⁻⁵ N, run-2.csv, 1.2·10⁶");
@@ -39,7 +47,8 @@ TEST(Headline, TellsEveryVerdict) {
   EXPECT_EQ(
       estimates_text(run),
       "Without a model: backlash gap 18.91 mrad (95 %: 18.62 to 19.21). Model-based reference: 18.828 mrad "
-      "(95 %: 18.799 to 18.858). They agree: the difference is 84.6 µrad, its standard deviation 151 µrad.");
+      "(95 %: 18.799 to 18.858). They agree: the difference is 0.0846 mrad, its standard deviation 0.151 "
+      "mrad.");
   run.comparison->agree = false;
   EXPECT_NE(headline(run).find("They disagree"), std::string::npos);
   run.comparison->agree.reset();

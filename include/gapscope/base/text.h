@@ -9,7 +9,7 @@ namespace gapscope {
 /// `text` with every `from` in it replaced by `to`.
 std::string replaced(std::string text, const std::string& from, const std::string& to);
 
-/// An identifier for people: "cogging_torque" reads "cogging torque".
+/// An identifier for people: "motor_coulomb_friction" reads "motor Coulomb friction".
 std::string readable(const std::string& identifier);
 
 /// Number of letters to insert, delete or replace to make one word of the other (Levenshtein).

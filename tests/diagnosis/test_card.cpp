@@ -1,0 +1,126 @@
+#include <gmock/gmock.h>
+
+#include "gapscope/diagnosis/answer.h"
+#include "gapscope/diagnosis/card.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+Answer sharp_answer() {
+  Answer a{0.019, {0.018, 0.020}, AnswerSource::kModelFree, AnswerTrust::kGood, "", {}};
+  a.sentence = "The backlash gap is 19.0 mrad (95 %: 18.0 to 20.0), measured without a model.";
+  return a;
+}
+
+/// 10 N of 50 N, of which friction takes 6 and a rivalled cogging 2 more.
+Diagnosis slide_diagnosis() {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kEffect;
+  d.effects = {"motor_coulomb_friction", "cogging_torque"};
+  d.added = {{"motor_coulomb_friction", true, {"motor_coulomb_friction"}, kNaN, {}, 0.6, {}, 4.0},
+             {"cogging_torque", false, {"cogging_torque", "torque_ripple"}, kNaN, {}, 0.5, {}, 2.0}};
+  d.mismatch.before = 3e-3, d.mismatch.after = 1e-3, d.mismatch.floor = 1e-4;
+  d.mismatch.before_torque = 10.0, d.mismatch.after_torque = 2.0, d.mismatch.input_torque = 50.0;
+  d.where.headline = "follows the direction of motion (55 % of it backward)";
+  return d;
+}
+
+CardFacts facts_of(const Answer* answer, const Diagnosis* diagnosis) {
+  CardFacts f;
+  f.answer = answer, f.diagnosis = diagnosis;
+  f.coordinates = Coordinates::kTranslation;
+  return f;
+}
+
+TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
+  const Answer answer = sharp_answer();
+  const Card card = card_of(facts_of(&answer, nullptr));
+  EXPECT_EQ(card.gap, answer.sentence + " Trust: good.");
+  for (const std::string& line : {card.mismatch, card.place, card.cause, card.helps, card.next})
+    EXPECT_THAT(line, HasSubstr("`gapscope diagnose CONFIG`"));
+  EXPECT_TRUE(std::isnan(card.torque));
+  const Diagnosis d = slide_diagnosis();
+  EXPECT_EQ(card_of(facts_of(nullptr, &d)).gap, "Not estimated here; told by `gapscope run CONFIG`.");
+}
+
+TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
+  const Diagnosis d = slide_diagnosis();
+  const Card card = card_of(facts_of(nullptr, &d));
+  EXPECT_EQ(
+      card.mismatch,
+      "The model misses 10 N of force on held-out data, 20 % of the 50 N that the input brings; the error "
+      "is 30 times the encoder floor.");
+  EXPECT_EQ(card.place, "Follows the direction of motion (55 % of it backward).");
+  EXPECT_EQ(
+      card.cause,
+      "Motor Coulomb friction (established); cogging torque helps, its cause is open: it may as well be "
+      "torque ripple.");
+  EXPECT_EQ(card.helps,
+            "From 10 N to 4 N with motor Coulomb friction, 2 N with also cogging torque (20 % to 4 %); "
+            "`fitted.yaml` has them.");
+  EXPECT_DOUBLE_EQ(card.percent, 20.0);
+  EXPECT_DOUBLE_EQ(card.percent_after, 4.0);
+}
+
+TEST(Card, JudgesTheToleranceThatWasStated) {
+  const Answer answer = sharp_answer();
+  const Diagnosis d = slide_diagnosis();
+  CardFacts f = facts_of(&answer, &d);
+  EXPECT_FALSE(card_of(f).good_enough.has_value());
+  f.tolerance.torque_percent = 5.0;
+  EXPECT_THAT(card_of(f).mismatch, EndsWith("Outside your tolerance of 5 %, within it with what helps."));
+  EXPECT_EQ(card_of(f).good_enough, std::optional(false));
+  f.tolerance.torque_percent = 1.0;
+  EXPECT_THAT(card_of(f).mismatch, EndsWith("Outside your tolerance of 1 %."));
+  f.tolerance.torque_percent = 25.0;
+  EXPECT_THAT(card_of(f).mismatch, EndsWith("Within your tolerance of 25 %."));
+  EXPECT_EQ(card_of(f).next, "None: this is within your tolerance.");
+  f.tolerance.gap = 0.0195;  // within the interval of the gap
+  EXPECT_FALSE(card_of(f).good_enough.has_value());
+  EXPECT_THAT(card_of(f).gap, EndsWith("Your tolerance of 19.5 mm cannot be judged."));
+  f.tolerance.gap = 0.010;
+  EXPECT_EQ(card_of(f).good_enough, std::optional(false));
+  f.tolerance.gap = 0.021;
+  EXPECT_EQ(card_of(f).good_enough, std::optional(true));
+}
+
+TEST(Card, AToleranceOfTheTorqueIsOpenWithoutADiagnosis) {
+  const Answer answer = sharp_answer();
+  CardFacts f = facts_of(&answer, nullptr);
+  f.tolerance.torque_percent = 1.0;
+  EXPECT_FALSE(card_of(f).good_enough.has_value());
+  EXPECT_THAT(card_of(f).mismatch, EndsWith("Your tolerance of 1 % of the force cannot be judged."));
+}
+
+TEST(Card, OfAnUnknownGapLeavesAsidesToTheDetail) {
+  Answer answer;
+  answer.sentence =
+      "The gap is not known: the recording is inconclusive (too slow (much)). Rejected (8 floors).";
+  const Card card = card_of(facts_of(&answer, nullptr));
+  EXPECT_EQ(card.gap, "The gap is not known: the recording is inconclusive. Rejected. Trust: none.");
+}
+
+TEST(Card, OfADriveThatLacksNothingSaysSoInEveryLine) {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kNone;
+  d.mismatch.before = 1e-6, d.mismatch.floor = 1.1e-6;
+  d.mismatch.before_torque = 2e-4, d.mismatch.input_torque = 0.07;
+  CardFacts f = facts_of(nullptr, &d);
+  f.coordinates = Coordinates::kRotation;
+  const Card card = card_of(f);
+  EXPECT_THAT(card.mismatch,
+              StartsWith("The model misses 200 µN·m of torque on held-out data, 0.286 % of the "
+                         "70 mN·m"));
+  EXPECT_THAT(card.mismatch, HasSubstr("that is noise"));
+  EXPECT_EQ(card.next, "None.");
+  for (const CardLine& line : card.lines()) EXPECT_THAT(line.text, Not(::testing::IsEmpty())) << line.name;
+}
+
+}  // namespace
+}  // namespace gapscope

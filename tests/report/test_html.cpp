@@ -1,0 +1,66 @@
+#include <gmock/gmock.h>
+
+#include "gapscope/report/report.h"
+#include "report/html_page.h"
+#include "report/sample_run.h"
+#include "results/scratch_folder.h"
+#include "support/reading.h"
+
+namespace gapscope {
+namespace {
+
+using internal::report::base64;
+using internal::report::html_body;
+using internal::report::html_line;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Html, Base64IsThatOfRfc4648) {
+  const char* const kBytes[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar"};
+  const char* const kText[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+  for (std::size_t i = 0; i < std::size(kBytes); ++i) EXPECT_EQ(base64(kBytes[i]), kText[i]);
+  EXPECT_EQ(base64("\xff\xfe\x01"), "//4B");
+}
+
+TEST(Html, ALineKeepsItsTextAndTakesNoMarkupOfItsOwn) {
+  EXPECT_EQ(html_line("**a** < *b* & `c*d*` [w](#words)"),
+            "<b>a</b> &lt; <i>b</i> &amp; <code>c*d*</code> <a href=\"#words\">w</a>");
+  EXPECT_EQ(html_line("<script>"), "&lt;script&gt;");
+  EXPECT_EQ(html_line("[x](http://a.b)"), "[x](http://a.b)") << "links leave the page nowhere";
+  EXPECT_EQ(html_line("2 * 3"), "2 * 3");
+}
+
+TEST(Html, TablesHaveHeadingsAndRows) {
+  const std::string body = html_body("| a | b |\n|---|---|\n| 1 \\| 2 | `c` |\n", {});
+  EXPECT_THAT(body, HasSubstr("<thead><tr><th>a</th><th>b</th></tr>"));
+  EXPECT_THAT(body, HasSubstr("<tr><td>1 | 2</td><td><code>c</code></td></tr>"));
+}
+
+TEST(Html, SectionsFoldAndAreClosedOneByOne) {
+  const std::string body = html_body("# t\n\n- x\n\n## Words\n\n- y\n\n## Notes\n\ntext\n", {});
+  EXPECT_THAT(body, HasSubstr("<h1>t</h1>\n<ul class=\"card\">\n<li>x</li>\n</ul>\n<details id=\"words\">"));
+  EXPECT_THAT(body, HasSubstr("</ul>\n</details>\n<details id=\"notes\">"));
+}
+
+TEST(Html, OfAReportAsksTheNetworkAndOtherFilesForNothing) {
+  ScratchFolder scratch;
+  write_run_result(scratch.path.string(), sample_run({.samples = 6000}));
+  write_report(scratch.path.string());
+  const std::string page = testing::text_of(scratch.path / "report.html");
+  const std::string report = testing::text_of(scratch.path / "report.md");
+  std::size_t pictures = 0;
+  for (std::size_t at = page.find("src="); at != page.npos; at = page.find("src=", at + 1), ++pictures)
+    EXPECT_EQ(page.substr(at, 27), "src=\"data:image/png;base64,");
+  std::size_t listed = 0;
+  for (std::size_t at = report.find("]("); at != report.npos; at = report.find("](", at + 1))
+    listed += report[at + 2] != '#';
+  EXPECT_GT(pictures, 5U);
+  EXPECT_EQ(pictures, listed) << "every picture of report.md";
+  for (const char* asks : {"http:", "https:", "//cdn", "<link", "@import", "url(", "fetch(", "XMLHttp"})
+    EXPECT_THAT(page, Not(HasSubstr(asks)));
+  for (std::size_t at = page.find("href="); at != page.npos; at = page.find("href=", at + 1))
+    EXPECT_EQ(page.substr(at, 7), "href=\"#");
+}
+
+}  // namespace
+}  // namespace gapscope
