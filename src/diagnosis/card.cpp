@@ -19,6 +19,7 @@ using internal::diagnosis::as_sentence;
 using internal::diagnosis::enumerated;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
+using internal::diagnosis::without_asides;
 
 constexpr const char* kToldByDiagnose = "Told by `gapscope diagnose CONFIG`.";
 
@@ -59,19 +60,6 @@ std::string gap_verdict(const CardFacts& f) {
   const std::optional<bool> good = gap_good_enough(f);
   if (!good) return " Your tolerance of " + limit + " cannot be judged.";
   return (*good ? " Within your tolerance of " : " Outside your tolerance of ") + limit + ".";
-}
-
-/// Without what stands in brackets: the detail below has it.
-std::string without_asides(std::string text) {
-  for (std::size_t open = text.find(" ("); open != text.npos; open = text.find(" (", open)) {
-    std::size_t at = open + 1;
-    int depth = 0;
-    do depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
-    while (depth > 0 && ++at < text.size());
-    if (at >= text.size()) break;
-    text.erase(open, at + 1 - open);
-  }
-  return text;
 }
 
 std::string gap_line(const CardFacts& f) {

@@ -40,4 +40,16 @@ std::string as_sentence(std::string text) {
   return text;
 }
 
+std::string without_asides(std::string text) {
+  for (std::size_t open = text.find(" ("); open != text.npos; open = text.find(" (", open)) {
+    std::size_t at = open + 1;
+    int depth = 0;
+    do depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+    while (depth > 0 && ++at < text.size());
+    if (at >= text.size()) break;
+    text.erase(open, at + 1 - open);
+  }
+  return text;
+}
+
 }  // namespace gapscope::internal::diagnosis

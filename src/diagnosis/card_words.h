@@ -30,4 +30,7 @@ std::string enumerated(const std::vector<std::string>& items, const char* last =
 /// The same with a capital letter, and a full stop at its end.
 std::string as_sentence(std::string text);
 
+/// Without what stands in brackets: the detail of a report has it.
+std::string without_asides(std::string text);
+
 }  // namespace gapscope::internal::diagnosis

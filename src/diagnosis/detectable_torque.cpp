@@ -23,7 +23,7 @@ std::size_t size_of(const view::LeastNamed& least, const view::Drive& drive) {
                                   once.begin());
 }
 
-const char* name_of(const view::Law& law) { return *law.effect == '\0' ? law.name : law.effect; }
+const char* name_of_law(const view::Law& law) { return *law.effect == '\0' ? law.name : law.effect; }
 
 DetectableEffect told(const EffectEntry& entry, const view::LeastNamed& least, const view::Drive& drive,
                       const char* torque) {
@@ -36,8 +36,8 @@ DetectableEffect told(const EffectEntry& entry, const view::LeastNamed& least, c
         entry, "",
         fmt::format("not even a {} as large as the input's would be clear of what remains", torque));
   return not_detectable(
-      entry, name_of(*least.hidden_by),
-      fmt::format("a {} says it as well, whatever its size", readable(name_of(*least.hidden_by))));
+      entry, name_of_law(*least.hidden_by),
+      fmt::format("a {} says it as well, whatever its size", readable(name_of_law(*least.hidden_by))));
 }
 
 /// See acts_as_delay().

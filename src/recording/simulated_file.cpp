@@ -12,7 +12,7 @@ namespace {
 
 using internal::recording::RecordedRows;
 
-constexpr double kSameStamp = 0.1;    // of the mean step: clocks of a text have few digits
+constexpr double kSameStamp = 0.1;   // of the mean step: clocks of a text have few digits
 constexpr double kSameInput = 1e-3;  // of the input's peak: so have its columns
 
 double peak_of(const std::vector<double>& u) {

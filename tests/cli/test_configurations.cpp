@@ -143,7 +143,8 @@ TEST(Configurations, ADriveWithDetentsIsSaidToLackThemAndNothingElse) {
   const auto outcome = place.run("diagnose " + config.string() + " -o report");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
-              ::testing::HasSubstr("The model lacks cogging torque: with it the held-out error"));
+              ::testing::HasSubstr(
+                  "\ncause       Cogging torque (established).\nhelps       Cogging torque (100 %)"));
   EXPECT_THAT(outcome.out, ::testing::HasSubstr("periodic in the motor angle with 24 cycles per turn"));
   EXPECT_TRUE(std::filesystem::exists(place.folder() / "report/diagnosis.png"));
 }

@@ -94,8 +94,10 @@ TEST(Diagnosis, SpreadsTheSquaredErrorOverEachQuantity) {
 
 TEST(Diagnosis, BlamesNoNeighbourWhenTheEffectAndItsLookAlikesAreNoCandidates) {
   DiagnosisOptions options;
-  options.excluded = {"motor_coulomb_friction", "input_dead_zone", "stribeck_friction", "presliding_friction"};
-  for (const EffectEntry* law : last_resort_table()) options.excluded.emplace_back(law->name);  // blame nothing
+  options.excluded = {"motor_coulomb_friction", "input_dead_zone", "stribeck_friction",
+                      "presliding_friction"};
+  for (const EffectEntry* law : last_resort_table())
+    options.excluded.emplace_back(law->name);  // blame nothing
   const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "input_dead_zone", 0.7, 500003), options);
   EXPECT_NE(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
   EXPECT_NE(d.verdict, DiagnosisVerdict::kNone) << d.sentence;

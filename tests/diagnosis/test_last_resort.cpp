@@ -76,7 +76,7 @@ ScoredModel with_windows(const std::vector<double>& sizes) {
 
 TEST(LastResort, ALawThatFailsInAFewWindowsMayFailOnTheNextRecording) {
   const DiagnosisOptions options;
-  const Study study{.train = {}, .held_out = {}, .sheet = {}, .catalogue = {}, .options = options};
+  const Study study{{}, {}, {}, {}, kMeasure.slow_hz, 0.0, {}, options};
   const std::vector<double> none(20, 1000.0), everywhere(20, 10.0);
   std::vector<double> mostly = everywhere;
   mostly[7] = 900.0, mostly[8] = 1.0, mostly[9] = 1.0, mostly[10] = 1.0;

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Progress kSilent = [](const std::string&) {};
+const Progress kQuiet = [](const std::string&) {};
 
 std::string simulated_with(const char* encoder) {
   return std::string("encoder: ") + encoder +
@@ -47,7 +47,7 @@ TEST(EncoderOnLoad, IsWrittenThroughItsCountsAndReadBackAsTheLoads) {
 }
 
 TEST(EncoderOnLoad, GivesTheReferenceAGapAndTheDetectorAReasonWhyNot) {
-  const RunResult r = run_pipeline(simulated("{bits: 18, side: load}"), {true, true}, kSilent).result;
+  const RunResult r = run_pipeline(simulated("{bits: 18, side: load}"), {true, true}, kQuiet).result;
   ASSERT_TRUE(r.model_free && r.reference);
   EXPECT_EQ(r.model_free->verdict, GapVerdict::kInconclusive);
   EXPECT_EQ(r.model_free->reason.code(), "encoder_on_load");
@@ -61,7 +61,7 @@ TEST(EncoderOnLoad, GivesTheReferenceAGapAndTheDetectorAReasonWhyNot) {
 }
 
 TEST(EncoderOnLoad, ComesBackFromAStoredResultWithoutTheMotor) {
-  RunResult r = run_pipeline(simulated("{bits: 18, side: load}"), {false, true}, kSilent).result;
+  RunResult r = run_pipeline(simulated("{bits: 18, side: load}"), {false, true}, kQuiet).result;
   r.recordings.front().x1.clear();
   ScratchFolder folder;
   write_run_result(folder.path.string(), r);
@@ -83,7 +83,7 @@ TEST(EncoderOnLoad, OfOneBodyIsThatOfTheBody) {
                                                "{motor_inertia: 1.756e-3, torque_constant: 0.172, "
                                                "mass_ratio: 0, motor_damping: {value: 0.1, estimate: true}}}";
   const RunResult run =
-      run_pipeline(load_configuration((folder.path / "drive.yaml").string()), {false, true}, kSilent).result;
+      run_pipeline(load_configuration((folder.path / "drive.yaml").string()), {false, true}, kQuiet).result;
   write_run_result(folder.path.string(), run);
   const RunResult again = read_run_result(folder.path.string());
   EXPECT_EQ(again.recordings.front().position(), r.x2);
@@ -92,7 +92,7 @@ TEST(EncoderOnLoad, OfOneBodyIsThatOfTheBody) {
 }
 
 TEST(EncodersOnBoth, OneEstimatesAndTheOtherValidates) {
-  const RunResult r = run_pipeline(simulated("{bits: 16, side: both}"), {true, true}, kSilent).result;
+  const RunResult r = run_pipeline(simulated("{bits: 16, side: both}"), {true, true}, kQuiet).result;
   ASSERT_TRUE(r.second_encoder);
   const SecondEncoder& s = *r.second_encoder;
   const double quantum = 2.0 * kPi / 65536.0;
@@ -109,7 +109,7 @@ TEST(EncodersOnBoth, AModelThatIsWrongBehindTheGapIsSeen) {
   Configuration c = simulated("{bits: 16, side: both}");
   c.simulation->plant.drive.load_coulomb_friction *= 3.0;
   c.fit.starts = 1, c.fit.compare_parts = false;
-  const RunResult r = run_pipeline(c, {false, true}, kSilent).result;
+  const RunResult r = run_pipeline(c, {false, true}, kQuiet).result;
   ASSERT_TRUE(r.second_encoder);
   EXPECT_GT(r.second_encoder->rmse, 5.0 * r.second_encoder->floor);
 }

@@ -58,7 +58,9 @@ TEST(PooledFlights, ALightLoadThatNoSinglePassageShowsIsReadInTheirSum) {
 
 TEST(PooledFlights, ALoadThatCoastsIsNotReadByTheZeroOfTheTorque) {
   const PooledSubject s(independent_plant::random_drive(700283));  // 39 % too small by S5
-  if (const auto estimate = s.read()) EXPECT_NEAR(estimate->gap, s.c.drive.gap, 0.05 * s.c.drive.gap);
+  if (const auto estimate = s.read()) {
+    EXPECT_NEAR(estimate->gap, s.c.drive.gap, 0.05 * s.c.drive.gap);
+  }
 }
 
 TEST(PooledFlights, WithoutAGapNoKinkStandsOut) {
