@@ -112,7 +112,7 @@ class LawFit {
   /// Refines as long as a round takes what is worth having: a curve's values act on each other and on the
   /// drive's numbers, and one round ends before they have settled.
   void settle(FittedModel& here) const {
-    for (int round = 0; round < study_->effort.law_rounds; ++round) {
+    for (std::size_t round = 0; round < study_->effort.leaders; ++round) {
       const double worth = (1.0 - kRule.part) * here.mean_cost;
       keep_lower(here, fit_from(*study_, here, {}));
       if (here.mean_cost < kExplained || !(here.mean_cost < worth)) return;

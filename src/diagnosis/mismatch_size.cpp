@@ -107,8 +107,7 @@ Interval law_shrink_interval(const Study& study, const ScoredModel& before, cons
     if (b[i] > kRule.floor_ratio * kRule.floor_ratio) shares.push_back(std::sqrt(a[i] / b[i]));
   const double remaining = std::max(0.0, 1.0 - shrink);
   const double most = std::max(remaining, std::sqrt(mean(a) / mean(b)));
-  const double least =
-      shares.empty() ? remaining : std::min(remaining, quantile(shares, kTelling.best_windows));
+  const double least = shares.empty() ? remaining : std::min(remaining, quantile(shares, kRule.part));
   return shrink_interval(size, least, most);
 }
 

@@ -32,8 +32,9 @@ struct SearchEffort {
                                    1e-3};  ///< to tell whether a start, or a law, is worth a whole refinement
   double past_travel =
       2.0;  ///< period with which a torque over the whole travel begins [travel]: it need not close
-  std::size_t leaders = 5;   ///< of the race that are refined, and of these that are refined once more
-  int law_rounds = 5;        ///< of refining a law of last resort, at most
+  /// Of the race that are refined, of these that are refined once more, and rounds of refining a law of last
+  /// resort.
+  std::size_t leaders = 5;
   double far_better = 0.5;   ///< of the mean square: another minimum, or an effect that explains much
   std::size_t lines = 3;     ///< of the residual torque that periodic effects begin with and that are told
   std::size_t branches = 2;  ///< first steps that are followed where the best is unsure
@@ -65,7 +66,6 @@ struct Telling {
   double coarser = 1.5;      ///< times the sheet's quantum: another encoder than it says
   double on_grid = 0.1;      ///< mean distance from whole quanta of samples that are counted in it [quanta]
   double other_recording = 4.0;  ///< times that another recording shows more or less of what is missing
-  double best_windows = 0.1;     ///< share of the windows in which a free-form law holds best
   double floor_spread = 0.5;     ///< by which recordings of a drive differ near the floor [floor]
   int fewest_in_bin = 20;        ///< samples of a residual torque whose mean is drawn
   double inflation = 2.0;  ///< of a torque's interval: blocks of one recording agree too well for the next

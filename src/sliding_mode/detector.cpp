@@ -19,7 +19,6 @@ namespace {
 
 using internal::signals::SignalFacts;
 using internal::sliding_mode::ImpactAnalysis;
-using internal::sliding_mode::LoopSearch;
 using internal::sliding_mode::PaperReading;
 namespace words = internal::sliding_mode::words;
 
@@ -181,7 +180,7 @@ std::vector<SignalFacts> facts_of(std::span<const MotorTrace> recordings) {
 }
 
 /// The loop alone.
-GapEstimate by_loop(const LoopSearch& loops) {
+GapEstimate by_loop(const internal::sliding_mode::LoopSearch& loops) {
   if (loops.estimate) return *loops.estimate;
   GapEstimate estimate;
   estimate.verdict = GapVerdict::kInconclusive;
@@ -192,7 +191,7 @@ GapEstimate by_loop(const LoopSearch& loops) {
 }
 
 /// A load that does not move cannot be told to rest: what is missing is a loop.
-void speak_of_locked_output(const LoopSearch& loops, GapEstimate& estimate) {
+void speak_of_locked_output(const internal::sliding_mode::LoopSearch& loops, GapEstimate& estimate) {
   if (estimate.verdict != GapVerdict::kInconclusive) return;
   estimate.reason =
       words::locked_without_loop(loops.why_not.empty() ? words::loop_not_asked_for() : loops.why_not);
@@ -242,7 +241,7 @@ bool load_rests(std::span<const ImpactAnalysis> analyses) {
 /// The bank of bounds, by single periods or by their mean; the loop where that tells no gap.
 GapEstimate detect_auto(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
                         std::span<const double> intervals, std::span<const SignalFacts> facts,
-                        const LoopSearch& loops, const DetectorOptions& options) {
+                        const internal::sliding_mode::LoopSearch& loops, const DetectorOptions& options) {
   GapEstimate estimate = internal::sliding_mode::decide_gap(analyses, intervals);
   if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
   if (estimate.verdict != GapVerdict::kBacklash && !options.locked && load_rests(analyses))
@@ -275,7 +274,8 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   if (options.encoder == EncoderSide::kLoad) return nothing_from_load(options);
   if (options.frozen && !(options.bound > 0.0)) return detect_frozen(recordings, options);
   const std::vector<SignalFacts> facts = facts_of(recordings);
-  const LoopSearch loops = internal::sliding_mode::read_lost_motion(recordings, facts);
+  const internal::sliding_mode::LoopSearch loops =
+      internal::sliding_mode::read_lost_motion(recordings, facts);
   if (options.method == DetectorMethod::kLostMotion) return by_loop(loops);
   std::vector<ImpactAnalysis> analyses;
   std::vector<double> intervals;

@@ -22,10 +22,9 @@ Remark no_recording() { return {"no_recording", "no recording"}; }
 Remark encoder_on_load() {
   return {
       "encoder_on_load",
-      "the encoder is on the load: impacts and the lost-motion loop are read from the motor's way through "
-      "the gap, which does not show in x2; of a gap x2 alone shows no more than a limit cycle of a closed "
-      "loop and the time for which the load stands still at a reversal, which friction does as well; fit a "
-      "model, or record the motor's position as well"};
+      "the encoder is on the load: the motor's way through the gap does not show in x2, which has of a gap "
+      "only a standstill at reversals or a limit cycle, as friction has; record the motor's position as "
+      "well, or fit a model"};
 }
 Remark no_steady_motion_yet() {
   return {"no_steady_motion_yet",
@@ -277,9 +276,9 @@ Remark bound_below_engaged() {
           "e_x does not bend visibly; use a finer encoder or a higher bound"};
 }
 Remark flank_late(double percent) {
-  return {"flank_late",
-          "t1 comes {:.0f} % of the passage late: the bound is close to the gap-mode acceleration",
-          {percent}};
+  const char* const text =
+      "t1 comes {:.0f} % of the passage late: the bound is close to the gap-mode acceleration";
+  return {"flank_late", text, {percent}};
 }
 Remark passages_contradict() {
   return {"passages_contradict",
@@ -289,12 +288,10 @@ Remark reversals_read(double read, double half_periods, double bound) {
   return {"reversals_read", "{:.0f} of {:.0f} reversals read with L = {:.3g}", {read, half_periods, bound}};
 }
 Remark paper_bound_misses(double bound, const Remark& reason) {
-  return Remark(
-             "paper_bound_misses",
-             "the bound of the source paper's eq. (13), one e_x with L = {:.3g} [rad/s²], would have missed "
-             "the passages: ",
-             {bound}) +
-         reason;
+  const char* const text =
+      "the bound of the source paper's eq. (13), one e_x with L = {:.3g} [rad/s²], would have missed the "
+      "passages: ";
+  return Remark("paper_bound_misses", text, {bound}) + reason;
 }
 Remark no_single_bound() { return {"no_single_bound", "; no single bound reads this recording, use auto"}; }
 Remark bound_to_try(double bound) { return {"bound_to_try", "; try L = {:.2g}", {bound}}; }
