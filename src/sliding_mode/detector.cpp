@@ -274,8 +274,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   if (options.encoder == EncoderSide::kLoad) return nothing_from_load(options);
   if (options.frozen && !(options.bound > 0.0)) return detect_frozen(recordings, options);
   const std::vector<SignalFacts> facts = facts_of(recordings);
-  const internal::sliding_mode::LoopSearch loops =
-      internal::sliding_mode::read_lost_motion(recordings, facts);
+  const auto loops = internal::sliding_mode::read_lost_motion(recordings, facts);
   if (options.method == DetectorMethod::kLostMotion) return by_loop(loops);
   std::vector<ImpactAnalysis> analyses;
   std::vector<double> intervals;

@@ -33,7 +33,6 @@ Remark no_steady_motion_yet() {
 Remark within_first_samples(long samples) {
   return {"within_first_samples", " (in the first {} samples)", {samples}};
 }
-
 Remark no_impact_stands_out() {
   return {"no_impact_stands_out",
           "no impact stands out of the motion: quasi-static, or without a free passage; use a faster "
@@ -67,7 +66,6 @@ Remark load_moves() {
           "the frequency"};
 }
 Remark more_periods() { return {"more_periods", "record more periods"}; }
-
 Remark few_passages_each_way(long plus, long minus, const Remark& advice) {
   return Remark("few_passages",
                 "only {} and {} usable passages of the gap in the two directions: ", {plus, minus}) +
