@@ -199,15 +199,15 @@ bool has_rungs(const Diagnosis& d) {
                      [](const AddedEffect& a) { return std::isfinite(a.after_torque); });
 }
 
-/// "From 9.84 N to 4.19 N with friction, 2.20 N with cogging torque too (17.1 % to 3.8 %)"
+/// "From 9.84 N to 4.19 N with friction, then 2.20 N with cogging torque (17.1 % to 3.8 %)"
 std::string rungs(const CardFacts& f, const Card& card) {
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
   std::vector<std::string> all;
   for (const AddedEffect& a : f.diagnosis->added)
-    all.push_back(torque(a.after_torque) + (all.empty() ? " with " : " with also ") +
-                  internal::diagnosis::name_of(a));
-  return fmt::format("from {} to {} ({} to {})", torque(card.torque), fmt::format("{}", fmt::join(all, ", ")),
-                     percent_text(card.percent), percent_text(card.percent_after));
+    all.push_back(torque(a.after_torque) + " with " + internal::diagnosis::name_of(a));
+  return fmt::format("from {} to {} ({} to {})", torque(card.torque),
+                     fmt::format("{}", fmt::join(all, ", then ")), percent_text(card.percent),
+                     percent_text(card.percent_after));
 }
 
 std::string law_words(const LastResortLaw& law) {

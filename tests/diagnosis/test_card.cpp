@@ -62,7 +62,7 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
       "Motor Coulomb friction (established); cogging torque helps, its cause is open: it may as well be "
       "torque ripple.");
   EXPECT_EQ(card.helps,
-            "From 10 N to 4 N with motor Coulomb friction, 2 N with also cogging torque (20 % to 4 %); "
+            "From 10 N to 4 N with motor Coulomb friction, then 2 N with cogging torque (20 % to 4 %); "
             "`fitted.yaml` has them.");
   EXPECT_DOUBLE_EQ(card.percent, 20.0);
   EXPECT_DOUBLE_EQ(card.percent_after, 4.0);
