@@ -193,15 +193,6 @@ TorqueSearch climb(const Study& study, const Findings& found) {
   return take_ladder(study, found.before, *found.budget);
 }
 
-/// A free-form law that leaves hardly a part of the error and does clearly better than every effect.
-std::optional<LawSearch> leading_law(const Study& study, const Findings& found) {
-  if (found.candidates.empty() || found.decision.accepted || found.decision.in_part) return {};
-  std::optional<LawSearch> law = search_last_resort(study, found.before);
-  if (!law || !(shrink_of(law->before.median_free, law->after.median_free) > 1.0 - kRule.part)) return {};
-  const double better = score_beside(*law, found.candidates.front()) - full_score(law->after);
-  return better >= kRule.tells_apart ? law : std::nullopt;
-}
-
 /// Whether the torque balance says most of the input and knows nothing that helps, while what the observers
 /// favour stays off the floor: then they have only found numbers that hide what is missing.
 bool contradicted(const Findings& found, const Additions& added) {
@@ -227,19 +218,17 @@ Findings investigate(Study& study) {
 EffectSearch search_effects(Study& study) {
   Findings found = investigate(study);
   if (TorqueSearch ladder = climb(study, found); !ladder.added.empty())
-    return {std::move(found), {}, std::move(ladder), {}};
-  if (std::optional<LawSearch> law = leading_law(study, found))
-    return {std::move(found), {}, {}, std::move(law)};
+    return {std::move(found), {}, std::move(ladder)};
   Additions added = add_further(study, found);
   added.accepted = added.accepted && !contradicted(found, added);
   if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
   if (added.accepted || study.is_exhausted() || !asked_far_too_little(study, found))
-    return {std::move(found), std::move(added), {}, {}};
+    return {std::move(found), std::move(added), {}};
   if (std::optional<Findings> wider = look_wider(study, found)) {
     added = add_further(study, *wider);
     found = std::move(*wider);
   }
-  return {std::move(found), std::move(added), {}, {}};
+  return {std::move(found), std::move(added), {}};
 }
 
 }  // namespace internal::diagnosis
@@ -254,11 +243,10 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   counted.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
   Study study = make_study(train, held_out, model, counted);
   require_motion(study.held_out);
-  EffectSearch search = search_effects(study);
-  auto& [found, added, ladder, law] = search;
+  auto [found, added, ladder] = search_effects(study);
   std::string left = added.accepted ? motion_left(study.held_out, added.after) : "";
   if (!left.empty()) added = {};
-  Diagnosis diagnosis = verdict_on(study, search, left.empty());
+  Diagnosis diagnosis = verdict_on(study, found, added, ladder, left.empty());
   if (!left.empty()) diagnosis.warnings.push_back("no effect is named: with it, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);

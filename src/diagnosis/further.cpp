@@ -105,11 +105,6 @@ void judge_again(const Study& study, ScoredModel& model) {
   model = judge(model.entry, std::move(model.fitted), study.held_out, study.observer_hz);
 }
 
-ScoredModel judged_now(const Study& study, ScoredModel model) {
-  judge_again(study, model);
-  return model;
-}
-
 /// What was found before is judged like what was found since.
 void keep_wider(const Study& study, const Findings& found, std::size_t steps_before, Additions& a) {
   for (std::size_t i = 0; i < steps_before; ++i) {
@@ -121,12 +116,11 @@ void keep_wider(const Study& study, const Findings& found, std::size_t steps_bef
 }
 
 /// Forward from a candidate of the first step.
-/// @param sure false: the next step must bear it out, or nothing else is added
-Additions follow(Study study, const Findings& found, const Addition& first, const ScoredModel& model,
-                 bool sure) {
+Additions follow(Study study, const Findings& found, const ScoredModel& first,
+                 std::vector<const EffectEntry*> group) {
   Additions a;
-  a.after = model;
-  a.effects = {first};
+  a.after = first;
+  a.effects = {{first.entry, std::move(group)}};
   std::optional<ScoredModel> narrow;  // the model so far, before half of what is held out was fitted
   std::size_t steps_before = 0;
   while (a.steps.size() + 1 < study.effort.most_effects && !at_floor(a.after) && !study.is_exhausted()) {
@@ -147,7 +141,6 @@ Additions follow(Study study, const Findings& found, const Addition& first, cons
     a.effects.push_back({a.after.entry, step.decision.group});
     drop_stand_ins(study, a);
     choose_among_look_alikes(study, a);
-    if (!sure && !borne_out(judged_now(study, found.before), a)) break;
   }
   if (!narrow) return a;
   if (a.steps.size() > steps_before && a.steps[steps_before].decision.accepted)
@@ -195,17 +188,15 @@ Additions add_further(const Study& study, const Findings& found) {
   const auto& ranked = found.candidates;
   if (ranked.empty()) return {};
   if (sure.accepted) {
-    Additions a = follow(study, found, {ranked.front().entry, sure.group}, ranked.front(), true);
+    Additions a = follow(study, found, ranked.front(), sure.group);
     a.accepted = true;
     return a;
   }
   Additions best;
   for (const ScoredModel* first : branches(found, study.effort.branches)) {
     const bool is_best = first == &ranked.front();
-    const bool in_part = is_best && sure.in_part;
-    const Addition begun{first->entry, is_best ? sure.group : std::vector{first->entry}};
-    Additions a = follow(study, found, begun, *first, in_part);
-    a.accepted = borne_out(nominal_of(found, a), a) || (in_part && a.effects.size() > 1);
+    Additions a = follow(study, found, *first, is_best ? sure.group : std::vector{first->entry});
+    a.accepted = borne_out(nominal_of(found, a), a) || (is_best && sure.in_part && a.effects.size() > 1);
     const bool better = a.accepted && (!best.accepted || a.after.score < best.after.score);
     if (better || (is_best && !best.accepted)) best = std::move(a);
     if (study.is_exhausted()) break;

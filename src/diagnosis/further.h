@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/last_resort.h"
 #include "diagnosis/torque_search.h"
 
 namespace gapscope::internal::diagnosis {
@@ -57,12 +56,10 @@ const ScoredModel& nominal_of(const Findings& found, const Additions& additions)
 struct EffectSearch {
   Findings found;
   Additions added;
-  TorqueSearch ladder;                   ///< where it leads: nothing else is added then
-  std::optional<LawSearch> leading_law;  ///< likewise
+  TorqueSearch ladder;  ///< where it leads: nothing else is added then
 };
-/// Where no first step is sure and one free-form law over the nominal model leads them all, what is missing
-/// is a function of its variable, and no further effects are looked for. Where they lead nowhere and what is
-/// held out shows far more than what was fitted, the first half of it is fitted, too, as in investigate().
+/// Where they lead nowhere and what is held out shows far more than what was fitted, the first half of it is
+/// fitted, too, as in investigate().
 EffectSearch search_effects(Study& study);
 
 /// First steps to follow where the best is unsure in itself: those that gain on what is held out, then those

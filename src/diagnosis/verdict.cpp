@@ -61,13 +61,8 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
 
 }  // namespace
 
-Diagnosis verdict_on(const Study& study, const EffectSearch& search, bool explains) {
-  const auto& [found, added, ladder, leading_law] = search;
-  if (leading_law) {
-    Diagnosis d = report_back(study, found, {});
-    tell_law(study, leading_law, d);
-    return d;
-  }
+Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
+                     const TorqueSearch& ladder, bool explains) {
   if (!ladder.added.empty()) {
     Diagnosis d = report_ladder(study, found, ladder);
     tell_law(study, search_last_resort(study, ladder.after, true), d);
