@@ -206,6 +206,13 @@ bool asks_far_too_little(const Study& study, const FittedLaws& laws) {
          typical > kRule.far * std::sqrt(laws.closest.mean_cost);
 }
 
+/// S with all that was estimated of the effects counted.
+double full_score(const ScoredModel& model) {
+  double parameters = 0.0;
+  for (const ModelEffect& e : model.fitted.model.effects) parameters += estimated_in(e);
+  return log_score(model.windows) + kMeasure.score_per_parameter * parameters;
+}
+
 /// A fitted model once more, by what a study fits and holds out.
 ScoredModel fitted_and_judged(const Study& study, const ScoredModel& model) {
   return judge(model.entry, fit_near(study.train, model.fitted.model, study.options.fit, study.observer_hz),
@@ -249,14 +256,8 @@ std::string variable_of(const EffectEntry& entry) {
   }
 }
 
-double full_score(const ScoredModel& model) {
-  double parameters = 0.0;
-  for (const ModelEffect& e : model.fitted.model.effects) parameters += estimated_in(e);
-  return log_score(model.windows) + kMeasure.score_per_parameter * parameters;
-}
-
-double score_beside(const LawSearch& law, const ScoredModel& model) {
-  return full_score(law.wider ? fitted_and_judged(*law.wider, model) : model);
+double lead_over(const LawSearch& law, const ScoredModel& model) {
+  return full_score(law.wider ? fitted_and_judged(*law.wider, model) : model) - full_score(law.after);
 }
 
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model, bool drive_known) {

@@ -32,11 +32,9 @@ std::string variable_of(const EffectEntry& entry);
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model,
                                             bool drive_known = false);
 
-/// S with all that was estimated of the effects counted: models of several effects and laws side by side.
-double full_score(const ScoredModel& model);
-
-/// The same of a model beside a law, by what judges that.
-double score_beside(const LawSearch& law, const ScoredModel& model);
+/// S by which a law does better than a model, all that was estimated of effects and laws counted, by what
+/// judges the law.
+double lead_over(const LawSearch& law, const ScoredModel& model);
 
 /// As the report tells it.
 LastResortLaw told(const Study& study, const LawSearch& found);

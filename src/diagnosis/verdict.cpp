@@ -40,8 +40,7 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
   const ScoredModel& nominal = nominal_of(found, added);
   const auto instead =
       at_floor(added.after) || added.explained ? std::nullopt : search_last_resort(study, nominal);
-  const double better =
-      instead ? score_beside(*instead, added.after) - full_score(instead->after) : -kInfinity;
+  const double better = instead ? lead_over(*instead, added.after) : -kInfinity;
   if (better > kRule.tells_apart) {
     Diagnosis d = report_back(study, found, {});
     tell_law(study, instead, d);
@@ -73,8 +72,7 @@ Diagnosis verdict_on(const Study& study, const Findings& found, const Additions&
   const auto law = lacks_nothing(found) ? std::nullopt : search_last_resort(study, found.before);
   // A named effect that does nearly as well says more.
   const bool beaten =
-      law && !found.candidates.empty() &&
-      score_beside(*law, found.candidates.front()) < full_score(law->after) + kRule.tells_apart;
+      law && !found.candidates.empty() && lead_over(*law, found.candidates.front()) < kRule.tells_apart;
   if (helped && (beaten || !law)) return report_help(study, found);
   Diagnosis d = report_back(study, found, added);
   if (!beaten) tell_law(study, law, d);
