@@ -23,14 +23,16 @@ struct WeightedPoint {
 };
 
 /// Where a curve by nodes is told, in its abscissa: as densely as lines between the points follow it, and
-/// where it has levelled off before the largest value.
-template <int N>
+/// beyond the last node up to the largest value.
+template <int N, plant::Beyond beyond>
 std::vector<double> shares_told(double largest) {
   std::vector<double> shares;
   const int last = kPointsInPiece * N;
   for (int i = 0; i <= last; ++i) shares.push_back(static_cast<double>(i * i) / (last * last));
-  if (const double level = 1.0 + plant::NodeWeights<N>::kLevelledOver; largest > level)
-    shares.insert(shares.end(), {level, largest});
+  const double bends_to =
+      beyond == plant::Beyond::kLevel ? 1.0 + plant::NodeWeights<N, beyond>::kLevelledOver : 1.0;
+  if (bends_to > 1.0 && largest > bends_to) shares.push_back(bends_to);
+  if (largest > bends_to) shares.push_back(largest);
   return shares;
 }
 
@@ -38,16 +40,16 @@ std::vector<double> shares_told(double largest) {
 /// @param largest value that is told
 /// @param first node that has a parameter
 /// @param unit torque on the motor per unit of the parameter, for a positive abscissa
-template <int N>
+template <int N, plant::Beyond beyond>
 std::vector<WeightedPoint> node_points(const ReferenceModel& model, double largest, int first, double unit,
                                        bool friction) {
   const int effect = static_cast<int>(model.effects.size()) - 1;
   const double abscissa = model.effects.back().parameters[0].value;
-  const std::vector<double> shares = shares_told<N>(largest / abscissa);
+  const std::vector<double> shares = shares_told<N, beyond>(largest / abscissa);
   std::vector<WeightedPoint> points;
   const auto add = [&](double share, int s) {
     WeightedPoint p{share == 0.0 ? 0.0 : s * abscissa * share, friction ? s : 0, {}};
-    const plant::NodeWeights<N> weights(share);
+    const plant::NodeWeights<N, beyond> weights(share);
     for (int k = first; k <= N; ++k) {
       const int place = 1 + k - first;
       p.sum.push_back({{effect, place + N - first}, unit * weights.value(k)});
@@ -94,9 +96,11 @@ std::vector<WeightedPoint> position_points(const Study& study, const ReferenceMo
 std::vector<WeightedPoint> points_of(const Study& study, const ReferenceModel& model) {
   const std::string variable = variable_of(*model.effects.back().entry);
   const signals::OneBody rough = signals::as_one_body(study.train);
-  if (variable == "speed") return node_points<6>(model, rough.peak_speed, 0, -1.0, true);
+  if (variable == "speed")
+    return node_points<6, plant::Beyond::kLevel>(model, rough.peak_speed, 0, -1.0, true);
   if (variable == "input")
-    return node_points<7>(model, rough.peak_input, 1, model.parameters[place::kTorqueConstant].value, false);
+    return node_points<7, plant::Beyond::kStraight>(model, rough.peak_input, 1,
+                                                    model.parameters[place::kTorqueConstant].value, false);
   return position_points(study, model);
 }
 

@@ -55,7 +55,7 @@ struct FrictionCurve {
     if (at.motor_direction == 0) return {};
     const double s = at.motor_direction;
     const T speed = s * at.state.w1 / p[0];
-    const T felt = along_nodes<kNodes>(speed, [&](int k) { return level(k, s, p); });
+    const T felt = along_nodes<kNodes, Beyond::kLevel>(speed, [&](int k) { return level(k, s, p); });
     return {.motor = -s * (felt - level(0, s, p))};
   }
 

@@ -43,9 +43,14 @@ int piece_at(double s) {
   return s < 1.0 ? std::clamp(static_cast<int>(N * std::sqrt(std::max(s, 0.0))), 0, N - 1) : N;
 }
 
-/// A natural cubic spline through the nodes over [0, 1]. Beyond the last one a parabola takes its slope to
-/// zero within a quarter of the last piece; from there on it is constant.
-template <int N>
+/// How a curve goes on beyond its last node.
+enum class Beyond {
+  kLevel,    ///< a parabola takes its slope to zero within a quarter of the last piece; it is constant then
+  kStraight  ///< with the slope that it has there
+};
+
+/// A natural cubic spline through the nodes over [0, 1], and what it is beyond.
+template <int N, Beyond beyond>
 class NodeWeights {
  public:
   using Row = typename Nodes<N>::Row;
@@ -57,7 +62,7 @@ class NodeWeights {
       cubic(piece, s);
     } else {
       cubic(N - 1, 1.0);
-      level_off(s - 1.0);
+      beyond == Beyond::kLevel ? level_off(s - 1.0) : go_on(s - 1.0);
     }
   }
 
@@ -80,8 +85,12 @@ class NodeWeights {
     slope_[i] -= 1.0 / h, slope_[i + 1] += 1.0 / h;
   }
 
-  void level_off(double beyond) {
-    const double x = std::min(beyond, kLevelledOver), left = 1.0 - x / kLevelledOver;
+  void go_on(double past) {
+    for (std::size_t j = 0; j <= N; ++j) value_[j] += slope_[j] * past;
+  }
+
+  void level_off(double past) {
+    const double x = std::min(past, kLevelledOver), left = 1.0 - x / kLevelledOver;
     for (std::size_t j = 0; j <= N; ++j) {
       value_[j] += slope_[j] * x * (1.0 - 0.5 * x / kLevelledOver);
       slope_[j] *= left;
@@ -93,9 +102,9 @@ class NodeWeights {
 
 /// The curve through the nodes at a place.
 /// @param value (int node) -> T
-template <int N, class T, class Value>
+template <int N, Beyond beyond, class T, class Value>
 T along_nodes(const T& s, const Value& value) {
-  const NodeWeights<N> weights(value_of(s));
+  const NodeWeights<N, beyond> weights(value_of(s));
   T found(0.0);
   double slope = 0.0;
   for (int k = 0; k <= N; ++k) {
