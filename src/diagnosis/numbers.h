@@ -39,9 +39,11 @@ struct SearchEffort {
   std::size_t lines = 3;     ///< of the residual torque that periodic effects begin with and that are told
   std::size_t branches = 2;  ///< first steps that are followed where the best is unsure
   std::size_t most_effects = 4;
-  /// Work after which no further step is begun [nominal fits]: a sheet near the truth makes these cheap, and
-  /// an effect that nothing explains would be looked for in every branch.
-  double most_nominal_fits = 60.0;
+  /// Work after which no further step is begun [nominal fits]: the last right step of a pair began at 15 at
+  /// most
+  /// (`study_diagnosis`, pair, from 884001, 884101 and 884201), while what nothing explains would be looked
+  /// for in every branch, from 40 on.
+  double most_nominal_fits = 20.0;
 };
 
 /// Lines of the residual torque over the motor angle. One cycle over the travel is as wide as a line.

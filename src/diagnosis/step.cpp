@@ -110,7 +110,6 @@ void further_rounds(const Study& study, const ScoredModel& before, std::vector<S
     return explained ? on_drive_of(study, candidate, first) : retry(study, candidate, first);
   });
   if (!others || relative_gain(before, ranked.front()) > kRule.least_way || study.repeats_badly()) return;
-  if (study.is_exhausted()) return;
   for (std::size_t i = 0; i < ranked.size(); ++i)
     if (!tried.contains(ranked[i].entry)) rest.push_back(i);
   study.options.progress("none explains much: fitting the others once more");

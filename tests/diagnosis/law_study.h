@@ -10,7 +10,7 @@ namespace gapscope::test {
 ///   first     the law that was told, else "-"        in_group  it is of the true variable
 ///   group     number of effects that were added      before    of the nominal model [floor]
 ///   shrink    that the law takes                      covered   whether it takes as much of the next
-///   recording
+///   recording; "-beyond" where more than a tenth of that lies beyond the law's table
 StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed);
 
 /// Of what is a function of speed, position or input: how often its law was told, and how much it takes.
