@@ -1,5 +1,6 @@
 #include "diagnosis/verdict.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/last_resort.h"
@@ -33,9 +34,17 @@ void tell_law(const Study& study, const std::optional<LawSearch>& law, Diagnosis
 /// Whether the drive lacks nothing that the recordings could show.
 bool lacks_nothing(const Findings& found) { return found.candidates.empty() && at_floor(found.before); }
 
+/// Whether a free-form law beside the effects is of a variable of theirs: they are a part of a function of
+/// it.
+bool continues_one(const LawSearch& law, const Additions& added) {
+  return std::any_of(added.effects.begin(), added.effects.end(), [&](const Addition& a) {
+    return variable_of(*a.entry) == variable_of(*law.after.entry);
+  });
+}
+
 /// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
-/// them they are no causes; where one of another variable than the first does nearly as well, its cause stays
-/// open.
+/// them they are no causes. Their cause stays open where one of another variable than the first does nearly
+/// as well, or one of a variable of theirs takes what they leave.
 Diagnosis report_effects(const Study& study, const Findings& found, const Additions& added) {
   const ScoredModel& nominal = nominal_of(found, added);
   const auto instead =
@@ -47,14 +56,15 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
     return d;
   }
   Diagnosis d = report_back(study, found, added);
+  const auto on_top = search_last_resort(study, added.after);
   const bool another =
       instead && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
-  if (another && better > -kRule.indistinct) {
+  if ((another && better > -kRule.indistinct) || (on_top && continues_one(*on_top, added))) {
     d.verdict = DiagnosisVerdict::kHelps;
     for (AddedEffect& a : d.added) a.established = false;
     d.sentence = sentence_of(d, study.options.coordinates);
   }
-  tell_law(study, search_last_resort(study, added.after), d);
+  tell_law(study, on_top, d);
   return d;
 }
 

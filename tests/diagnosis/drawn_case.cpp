@@ -8,7 +8,7 @@ std::vector<std::string> effects_of_kind(const std::string& kind) {
   if (kind == "none" || kind == "lawless") return {"none"};
   std::vector<std::string> names;
   for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
-    if (e.in_catalogue == (kind == "known" || kind == "one") && e.name != "backlash")
+    if (e.in_catalogue == (kind == "known" || kind == "one" || kind == "whole") && e.name != "backlash")
       names.emplace_back(e.name);
   return names;
 }

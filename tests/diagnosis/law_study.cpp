@@ -103,6 +103,14 @@ void print_laws(const std::vector<StudyRow>& rows) {
     if (!r.covered.ends_with(kBeyond)) ++within, covered_within += yes;
   }
   fmt::print("{} cases, a law told in {}\n", rows.size(), any);
+  for (const char* const verdict : {"none", "effect", "helps", "unknown"})
+    fmt::print(
+        "  {}: {}, the true effect among those added in {}\n", verdict,
+        std::count_if(rows.begin(), rows.end(), [&](const StudyRow& r) { return r.verdict == verdict; }),
+        std::count_if(rows.begin(), rows.end(), [&](const StudyRow& r) {
+          const std::string added = r.details.substr(0, r.details.find(']'));
+          return r.verdict == verdict && added.find(r.effect) != std::string::npos;
+        }));
   if (functions == 0) return;
   fmt::print(
       "functions of speed, position or input above 2 floors: {}; law told {}, of the right variable {}\n",

@@ -1,11 +1,13 @@
 // The diagnosis on drives of the independent plant with an effect that it is not told.
-//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask|law|lawless FILE [THREADS [RIG]]
+//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask|law|lawless|whole FILE [THREADS
+//   [RIG]]
 // Appends one line a case to FILE and prints the counts of all of it with Wilson limits; seeds that FILE
 // holds already are not run again. Effect and rig follow from the seed. "Removed" takes the true effect and
 // its look-alikes out of the candidates that were fitted and decides again. "pair" are two effects, "one" and
 // "beyond" a known one and one outside the catalogue where the search may take as many steps as it likes;
-// "ask" the next experiment for look-alikes; "law" and "lawless" are the whole diagnosis, laws of last resort
-// included, of drives that lack something outside the catalogue and of drives that lack nothing.
+// "ask" the next experiment for look-alikes; "law", "lawless" and "whole" are the whole diagnosis, laws of
+// last resort included, of drives that lack something outside the catalogue, nothing, and one effect of the
+// catalogue.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -159,8 +161,10 @@ StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   return row;
 }
 
+bool is_whole(const std::string& kind) { return kind == "law" || kind == "lawless" || kind == "whole"; }
+
 StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
-  if (kind == "law" || kind == "lawless") return test::examine_laws(c.pair(), c.seed);
+  if (is_whole(kind)) return test::examine_laws(c.pair(), c.seed);
   if (kind == "ask") return test::examine_question(c.effect, c.seed);
   if (kind == "pair" || kind == "one" || kind == "beyond")
     return test::examine_steps(blind::blind_pair(c.rig, test::split_effects(c.effect), c.severity, c.seed),
@@ -169,7 +173,7 @@ StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
 }
 
 void print_counts(const std::string& kind, const std::vector<StudyRow>& rows) {
-  if (kind == "law" || kind == "lawless") test::print_laws(rows);
+  if (is_whole(kind)) test::print_laws(rows);
   if (kind == "known") print_known(rows);
   if (kind == "none") print_none(rows);
   if (kind == "outside" || kind == "beyond" || kind == "law") print_outside(rows);
