@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/last_resort.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/report_back.h"
@@ -34,14 +33,6 @@ void tell_law(const Study& study, const std::optional<LawSearch>& law, Diagnosis
 /// Whether the drive lacks nothing that the recordings could show.
 bool lacks_nothing(const Findings& found) { return found.candidates.empty() && at_floor(found.before); }
 
-/// Whether a free-form law beside the effects is of a variable of theirs: they are a part of a function of
-/// it.
-bool continues_one(const LawSearch& law, const Additions& added) {
-  return std::any_of(added.effects.begin(), added.effects.end(), [&](const Addition& a) {
-    return variable_of(*a.entry) == variable_of(*law.after.entry);
-  });
-}
-
 /// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
 /// them they are no causes. Their cause stays open where one of another variable than the first does nearly
 /// as well, or one of a variable of theirs takes what they leave.
@@ -69,6 +60,12 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
 }
 
 }  // namespace
+
+bool continues_one(const LawSearch& law, const Additions& added) {
+  return std::any_of(added.effects.begin(), added.effects.end(), [&](const Addition& a) {
+    return variable_of(*a.entry) == variable_of(*law.after.entry);
+  });
+}
 
 Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
                      const TorqueSearch& ladder, bool explains) {

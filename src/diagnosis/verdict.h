@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnosis/further.h"
+#include "diagnosis/last_resort.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope::internal::diagnosis {
@@ -10,5 +11,8 @@ namespace gapscope::internal::diagnosis {
 /// @param explains false: what was added leaves the motion unexplained
 Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
                      const TorqueSearch& ladder, bool explains);
+
+/// Whether a free-form law on top of effects is of a variable of theirs: they are a part of a function of it.
+bool continues_one(const LawSearch& law, const Additions& added);
 
 }  // namespace gapscope::internal::diagnosis

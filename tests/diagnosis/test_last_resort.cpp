@@ -7,6 +7,7 @@
 #include "diagnosis/last_resort.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/one_inertia.h"
+#include "diagnosis/verdict.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -88,6 +89,16 @@ TEST(LastResort, ALawThatFailsInAFewWindowsMayFailOnTheNextRecording) {
   EXPECT_NEAR(uneven.low, 1.0 - 4.0 * 0.2, 0.02);  // 900/1000 in one of twenty: 0.2 in the mean square
   EXPECT_GT(uneven.high, even.high);
   EXPECT_TRUE(std::isnan(law_shrink_interval(study, with_windows({1.0, 1.0}), before).low));
+}
+
+TEST(LastResort, ALawOfAnEffectsOwnVariableMakesTheEffectAPartOfIt) {
+  LawSearch law;
+  law.after.entry = find_effect("friction_curve");
+  Additions added;
+  added.effects = {{find_effect("cogging_torque"), {}}, {find_effect("measurement_lag"), {}}};
+  EXPECT_FALSE(continues_one(law, added));
+  added.effects.push_back({find_effect("stribeck_friction"), {}});
+  EXPECT_TRUE(continues_one(law, added));
 }
 
 TEST(LastResort, NothingIsLaidOverADriveThatLacksNothing) {
