@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/coasting.h"
 #include "sliding_mode/passages.h"
 #include "sliding_mode/visible_gap.h"
 
@@ -35,6 +36,7 @@ void search(const MotorTrace& trace, ImpactAnalysis& a) {
       above < a.run.bounds.size() ? smallest_visible_gap(trace, a.facts, a.run, above) : kInfinity;
   a.finest_gap = smallest_visible_gap(trace, a.facts, a.run, a.sliding);
   read_passages(trace, events, a);
+  read_coasting(trace, a.facts, a.repeats, a.passages);
 }
 
 }  // namespace

@@ -31,9 +31,10 @@ constexpr std::size_t kFewest = 2;        ///< passages in each direction
 constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
 constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
 
-constexpr double kMostHidden = 0.07;   ///< of a gap, that the motor may go on before its impact shows
-constexpr double kMostOfTravel = 0.8;  ///< largest gap, as a share of the travel
-constexpr double kFarthest = 2.0;      ///< that a load may travel, in gaps, if the rest is to be a gap
+constexpr double kMostHidden = 0.07;    ///< of a gap, that the motor may go on before its impact shows
+constexpr double kMostOfTravel = 0.8;   ///< largest gap, as a share of the travel
+constexpr double kFarthest = 2.0;       ///< that a load may travel, in gaps, if the rest is to be a gap
+constexpr double kFarthestByLaw = 4.0;  ///< … where the law of its friction is known
 constexpr double kLeastMoving =
     0.1;  ///< travel of the load, in gaps, from which on one direction alone is not believed
 constexpr double kFewMoving = 0.2;       ///< passages refused for it, over those that are used
@@ -166,7 +167,11 @@ Remark objection(const Pool& pool) {
     return advice(Refusal::kLoadMoving);
   const double moved = std::abs(median_of(pool, &Transition::load_travel));
   if (only != 0 && moved > kLeastMoving * gap) return advice(Refusal::kLoadMoving);
-  if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
+  const bool by_law =
+      2 * std::ranges::count_if(pool.accepted, &Transition::by_law) > std::ssize(pool.accepted);
+  if (by_law) {
+    if (moved > kFarthestByLaw * gap) return advice(Refusal::kLoadMoving);
+  } else if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
     return advice(Refusal::kLoadMoving);
   if (gap < signals::kFewestToldQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
   const double hidden = median_of(pool, &Transition::hidden);
