@@ -77,11 +77,27 @@ std::vector<Coasting> stretches(const MotorTrace& trace, std::vector<Transition>
 /// The laws of both bodies together and of the motor alone, and what follows for the load.
 struct Laws {
   SharedLaw together, alone;
+  double contact = 0.0;  ///< ω of both on the spring between them; 0: rigid [rad/s]
 
   double ratio() const { return alone.drive() / together.drive() - 1.0; }
   /// Deceleration of the load alone that does not depend on its speed, and what is proportional to it.
   double dry() const { return of_load(together.dry(), alone.dry()); }
   double viscous() const { return of_load(together.viscous(), alone.viscous()); }
+
+  /// By how much a load that the motor drove is faster than it at t1 [samples], where the spring between them
+  /// lets go: the torque of the contact is what keeps the motor from its law alone [rad/s].
+  double unwinding(const MotorTrace& trace, const Coasting& c, std::size_t k, double t1,
+                   double flight) const {
+    const auto held_back = [&](double time) {  // acceleration [rad/s²]
+      const auto i = static_cast<std::size_t>(std::lround(std::max(time, 0.0)));
+      const double w = together.state(k, time).speed, u = trace.u[std::min(i, trace.size() - 1)];
+      return (alone.drive() - together.drive()) * u - (alone.viscous() - together.viscous()) * w;
+    };
+    if (!(contact > 0.0)) return 0.0;
+    const double before = std::max(1.0, kBeforeImpact * flight);
+    const double rate = (held_back(t1) - held_back(t1 - before)) / (before * trace.dt);
+    return c.passage->event.direction * rate * (1.0 + 1.0 / ratio()) / (contact * contact);
+  }
 
  private:
   double of_load(double both, double motor) const { return ((1.0 + ratio()) * both - motor) / ratio(); }
@@ -95,7 +111,8 @@ struct LoadWay {
 LoadWay way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std::size_t k, double t1) {
   const GapEvent& e = c.passage->event;
   const SharedLaw::State at = laws.together.state(k, sample_of(trace, t1));
-  const double w = -e.direction * at.speed, dry = laws.dry(), viscous = laws.viscous();
+  const double flight = (e.t2 - t1) / trace.dt, dry = laws.dry(), viscous = laws.viscous();
+  const double w = -e.direction * at.speed + laws.unwinding(trace, c, k, sample_of(trace, t1), flight);
   const double slowing = dry + viscous * w;
   LoadWay result;
   if (!(laws.ratio() > 0.0) || !(slowing > 0.0) || !(w > 0.0)) return result;
@@ -116,7 +133,7 @@ std::vector<double> gaps(const MotorTrace& trace, const Laws& laws, const std::v
 double doubt_of_laws(const MotorTrace& trace, const Laws& laws, const std::vector<Coasting>& all) {
   std::vector<double> medians;
   for (std::size_t g = 0; g < kGroups; ++g) {
-    const Laws rest{laws.together.without(g, kGroups), laws.alone.without(g, kGroups)};
+    const Laws rest{laws.together.without(g, kGroups), laws.alone.without(g, kGroups), laws.contact};
     medians.push_back(median(gaps(trace, rest, all)));
   }
   double mean = 0.0, square = 0.0;
@@ -129,11 +146,14 @@ void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std
   Transition& t = *c.passage;
   const LoadWay best = way(trace, laws, c, k, t.event.t1);
   if (std::isnan(best.gap)) return;
+  Laws rigid = laws;
+  rigid.contact = 0.0;
+  const double spring = best.gap - way(trace, rigid, c, k, t.event.t1).gap;
   const double t1 = std::max(std::abs(way(trace, laws, c, k, t.t1_first).gap - best.gap),
                              std::abs(way(trace, laws, c, k, t.t1_last).gap - best.gap));
   t.event.gap = best.gap;
   t.load_travel = best.travel;
-  t.half_width = std::hypot(t.impact_half_width + t1, doubt, kTravelDoubt * best.travel);
+  t.half_width = std::hypot(t.impact_half_width + t1, doubt, std::hypot(spring, kTravelDoubt * best.travel));
   t.dwell = false;
   t.by_law = true;
   t.event.remark = "corrected for the travel of the load";
@@ -153,11 +173,17 @@ bool mostly_moving(const std::vector<Coasting>& all) {
   return all.size() >= kFewestTogether && 2 * rests < std::ssize(all);
 }
 
-std::optional<LawReading> fit_laws(const MotorTrace& trace, double noise, std::vector<Coasting> all) {
+std::optional<LawReading> fit_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
+                                   std::vector<Coasting> all) {
   std::vector<LawStretch> engaged, flights;
-  for (const Coasting& c : all) engaged.push_back(c.engaged), flights.push_back(c.flight);
-  Laws laws{{trace, std::move(engaged)}, {trace, std::move(flights)}};
-  if (laws.together.rms() > kHolds * noise || laws.alone.rms() > kHolds * noise) return {};
+  std::vector<double> contacts;
+  for (const Coasting& c : all) {
+    engaged.push_back(c.engaged), flights.push_back(c.flight);
+    contacts.push_back(c.passage->contact);
+  }
+  Laws laws{{trace, std::move(engaged)}, {trace, std::move(flights)}, median(std::move(contacts))};
+  const double yardstick = std::max(laws.alone.rms(), facts.quantum / std::sqrt(12.0));
+  if (laws.alone.rms() > kHolds * facts.noise || laws.together.rms() > kHolds * yardstick) return {};
   return LawReading{std::move(all), std::move(laws)};
 }
 
@@ -168,12 +194,13 @@ void write_all(const MotorTrace& trace, const LawReading& reading, double apart)
     write_way(trace, reading.laws, reading.passages[k], k, doubt);
 }
 
-bool read_by_laws(const MotorTrace& trace, double noise, std::vector<Transition>& passages) {
+bool read_by_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
+                  std::vector<Transition>& passages) {
   std::optional<LawReading> before;
   for (const double skipped : kSkipped) {
     std::vector<Coasting> all = stretches(trace, passages, skipped);
     if (!mostly_moving(all)) return false;
-    std::optional<LawReading> now = fit_laws(trace, noise, std::move(all));
+    std::optional<LawReading> now = fit_laws(trace, facts, std::move(all));
     if (before && now) {
       write_all(trace, *now, now->gap(trace) - before->gap(trace));
       return true;
@@ -187,7 +214,7 @@ bool read_by_laws(const MotorTrace& trace, double noise, std::vector<Transition>
 
 void read_coasting(const MotorTrace& trace, const signals::SignalFacts& facts, bool repeats,
                    std::vector<Transition>& passages) {
-  if (!repeats && read_by_laws(trace, facts.noise, passages)) return;
+  if (!repeats && read_by_laws(trace, facts, passages)) return;
   for (Transition& t : passages)
     t.half_width = std::hypot(t.half_width, kUnknownTravel * std::max(t.load_travel, 0.0));
 }

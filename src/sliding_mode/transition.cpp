@@ -157,6 +157,7 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
   t.event.x1_t2 = time.position;
   t.speed = t.event.direction * time.speed;
   t.acceleration = t.event.direction * time.acceleration;
+  t.contact = time.contact;
   if (!(time.drive > 0.0)) {
     t.refusal = Refusal::kLoadHits;
     return t;

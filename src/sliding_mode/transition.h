@@ -37,6 +37,7 @@ struct Transition {
   double half_width = 0.0;    ///< systematic: where the release and the load's travel may lie [rad]
   double speed = 0.0;         ///< of the motor before the impact [rad/s]
   double acceleration = 0.0;  ///< of the motor in the gap, just before the impact [rad/s²]
+  double contact = 0.0;       ///< ω of both bodies on the spring of the contact; 0: rigid [rad/s]
   double hidden = 0.0;        ///< way of the motor before the impact shows in the noise [rad]
   double load_travel = 0.0;   ///< assumed between t1 and t2 [rad]
   bool dwell = false;         ///< the motor rested before it entered the gap
