@@ -21,6 +21,7 @@ constexpr std::size_t kGroups = 4;              ///< of passages, left out in tu
 /// rebound, with less speed of the load than the motor shows (810371 of the random drives: 0.35 of the
 /// travel).
 constexpr double kUnknownTravel = 0.35;
+constexpr double kToldTravel = 0.1;  ///< of the gap: travel that is told though no law of the load is seen
 constexpr double kTravelDoubt =
     0.02;  ///< standard deviation, over the travel of the load: contacts are springs
 
@@ -121,10 +122,13 @@ LoadWay way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std::s
   return result;
 }
 
+/// Of the passages that the laws can read.
 std::vector<double> gaps(const MotorTrace& trace, const Laws& laws, const std::vector<Coasting>& all) {
   std::vector<double> values;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    values.push_back(way(trace, laws, all[k], k, all[k].passage->event.t1).gap);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double gap = way(trace, laws, all[k], k, all[k].passage->event.t1).gap;
+    if (!std::isnan(gap)) values.push_back(gap);
+  }
   return values;
 }
 
@@ -168,23 +172,44 @@ struct LawReading {
   double gap(const MotorTrace& trace) const { return median(gaps(trace, laws, passages)); }
 };
 
-bool mostly_moving(const std::vector<Coasting>& all) {
-  const auto rests = std::ranges::count_if(all, [](const Coasting& c) { return c.passage->dwell; });
-  return all.size() >= kFewestTogether && 2 * rests < std::ssize(all);
-}
-
-std::optional<LawReading> fit_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
-                                   std::vector<Coasting> all) {
+Laws laws_of(const MotorTrace& trace, const std::vector<Coasting>& all) {
   std::vector<LawStretch> engaged, flights;
   std::vector<double> contacts;
   for (const Coasting& c : all) {
     engaged.push_back(c.engaged), flights.push_back(c.flight);
     contacts.push_back(c.passage->contact);
   }
-  Laws laws{{trace, std::move(engaged)}, {trace, std::move(flights)}, median(std::move(contacts))};
-  const double yardstick = std::max(laws.alone.rms(), facts.quantum / std::sqrt(12.0));
-  if (laws.alone.rms() > kHolds * facts.noise || laws.together.rms() > kHolds * yardstick) return {};
-  return LawReading{std::move(all), std::move(laws)};
+  return {{trace, std::move(engaged)}, {trace, std::move(flights)}, median(std::move(contacts))};
+}
+
+/// Laws of the passages before which the bounces have faded.
+std::optional<LawReading> fit_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
+                                   const std::vector<Coasting>& all) {
+  const Laws every = laws_of(trace, all);
+  const double most = kHolds * std::max(every.alone.rms(), facts.quantum / std::sqrt(12.0));
+  std::vector<Coasting> quiet;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (every.together.own_rms(k) <= most) quiet.push_back(all[k]);
+  if (quiet.size() < kFewestTogether) return {};
+  Laws laws = laws_of(trace, quiet);
+  if (laws.alone.rms() > kHolds * facts.noise || laws.together.rms() > most) return {};
+  LawReading reading{std::move(quiet), std::move(laws)};
+  if (std::isnan(reading.gap(trace))) return {};
+  return reading;
+}
+
+/// Where bounces last until t1, both sides of the contact share no speed then, and the travel of the load is
+/// not known.
+void doubt_travel(Transition& t) {
+  if (t.by_law || t.dwell) return;
+  t.half_width = std::hypot(t.half_width, kUnknownTravel * std::max(t.load_travel, 0.0));
+}
+
+/// Beside passages that are read by the laws, one that rings says nothing.
+void leave_out(Transition& t) {
+  const bool answers = t.refusal == Refusal::kNone || t.refusal == Refusal::kLoadMoving;
+  if (answers && !t.by_law && !t.dwell && t.load_travel > kToldTravel * t.event.gap)
+    t.refusal = Refusal::kThrownOff;
 }
 
 /// @param apart  by what the gap differs from that after a shorter wait for the bounces [rad]
@@ -194,13 +219,21 @@ void write_all(const MotorTrace& trace, const LawReading& reading, double apart)
     write_way(trace, reading.laws, reading.passages[k], k, doubt);
 }
 
+/// Those of which the load moves; all where most are of that kind, since a slow load is hard to tell from one
+/// at rest.
+std::vector<Coasting> moving(std::vector<Coasting> all) {
+  const auto rests = [](const Coasting& c) { return c.passage->dwell; };
+  if (2 * std::ranges::count_if(all, rests) >= std::ssize(all)) std::erase_if(all, rests);
+  return all;
+}
+
 bool read_by_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
                   std::vector<Transition>& passages) {
   std::optional<LawReading> before;
   for (const double skipped : kSkipped) {
-    std::vector<Coasting> all = stretches(trace, passages, skipped);
-    if (!mostly_moving(all)) return false;
-    std::optional<LawReading> now = fit_laws(trace, facts, std::move(all));
+    const std::vector<Coasting> all = moving(stretches(trace, passages, skipped));
+    if (all.size() < kFewestTogether) return false;
+    std::optional<LawReading> now = fit_laws(trace, facts, all);
     if (before && now) {
       write_all(trace, *now, now->gap(trace) - before->gap(trace));
       return true;
@@ -214,9 +247,8 @@ bool read_by_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
 
 void read_coasting(const MotorTrace& trace, const signals::SignalFacts& facts, bool repeats,
                    std::vector<Transition>& passages) {
-  if (!repeats && read_by_laws(trace, facts, passages)) return;
-  for (Transition& t : passages)
-    t.half_width = std::hypot(t.half_width, kUnknownTravel * std::max(t.load_travel, 0.0));
+  if (!repeats && read_by_laws(trace, facts, passages)) std::ranges::for_each(passages, leave_out);
+  std::ranges::for_each(passages, doubt_travel);
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -190,18 +190,7 @@ PooledKink PooledFlights::trial(const KinkShape& shape, double gap) const {
 }
 
 PooledKink PooledFlights::best(const KinkShape& shape, double low, double high, double step) const {
-  PooledKink least = trial(shape, low);
-  const auto visit = [&](double gap) {
-    if (gap < low || gap > high) return;
-    if (const PooledKink k = trial(shape, gap); k.sse < least.sse) least = k;
-  };
-  for (double gap = low; gap <= high; gap += step) visit(gap);
-  for (double fine = 0.5 * step; fine > 0.1 * step; fine *= 0.5) {
-    const double centre = least.gap;
-    visit(centre - fine);
-    visit(centre + fine);
-  }
-  return least;
+  return least_sse([&](double gap) { return trial(shape, gap); }, low, high, step, 0.1 * step);
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -73,6 +73,12 @@ void SharedLaw::solve(const std::vector<bool>& used) {
   shared_ = scaled.cwiseQuotient(scale);
 }
 
+double SharedLaw::own_rms(std::size_t stretch) const {
+  const LawStretch& s = stretches_[stretch];
+  const double freedom = static_cast<double>(s.last - s.first + 1) - kLocal - kShared;
+  return std::abs(reduced_[stretch](kAll - 1, kAll - 1)) / std::sqrt(freedom);
+}
+
 SharedLaw::State SharedLaw::state(std::size_t stretch, double time) const {
   const LawStretch& s = stretches_[stretch];
   const Reduced& R = reduced_[stretch];

@@ -32,6 +32,8 @@ class SharedLaw {
   double viscous() const { return -shared_(1); }  ///< [1/s]
   double dry() const { return -shared_(2); }      ///< [rad/s²]
   double rms() const { return rms_; }             ///< of what is left over [rad]
+  /// Of what the best law of a stretch alone leaves over [rad].
+  double own_rms(std::size_t stretch) const;
 
   struct State {
     double position = 0.0;  ///< [rad]
