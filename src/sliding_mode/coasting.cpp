@@ -11,12 +11,12 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr double kSkipped[] = {0.2, 0.3, 0.4,
-                               0.5, 0.6, 0.7};  ///< of the time in contact: bounces after the impact
-constexpr double kHolds = 1.15;                 ///< what a law leaves over, over the noise
-constexpr double kBeforeImpact = 0.05;          ///< of the flight, left out at its end
-constexpr std::size_t kFewestTogether = 4;      ///< passages
-constexpr std::size_t kGroups = 4;              ///< of passages, left out in turn
+/// Of the time in contact: what bounces after the impact may take.
+constexpr double kSkipped[] = {0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+constexpr double kHolds = 1.15;             ///< what a law leaves over, over the noise
+constexpr double kBeforeImpact = 0.05;      ///< of the flight, left out at its end
+constexpr std::size_t kFewestTogether = 4;  ///< passages
+constexpr std::size_t kGroups = 4;          ///< of passages, left out in turn
 /// Of the travel of a load whose law is not seen: a half width. A contact that rings until t1 is lost in a
 /// rebound, with less speed of the load than the motor shows (810371 of the random drives: 0.35 of the
 /// travel).
@@ -63,11 +63,18 @@ std::optional<LawStretch> in_flight(const MotorTrace& trace, const Transition& t
   return LawStretch{first, farthest(trace, first, last, -t.event.direction), last, t.event.direction};
 }
 
+/// Both ends of the flight are known, and only what the load did meanwhile was in doubt.
+bool may_coast(const Transition& t) {
+  const bool in_doubt = t.refusal == Refusal::kNone || t.refusal == Refusal::kNoRelease ||
+                        t.refusal == Refusal::kLoadMoving || t.refusal == Refusal::kThrownOff;
+  return t.released() && in_doubt;
+}
+
 std::vector<Coasting> stretches(const MotorTrace& trace, std::vector<Transition>& passages, double skipped) {
   std::vector<Coasting> found;
   for (std::size_t i = 1; i < passages.size(); ++i) {
     Transition& t = passages[i];
-    if (!t.released()) continue;
+    if (!may_coast(t)) continue;
     const auto engaged = in_contact(trace, passages[i - 1].event.t2, t, skipped),
                flight = in_flight(trace, t);
     if (engaged && flight) found.push_back({&t, *engaged, *flight});
