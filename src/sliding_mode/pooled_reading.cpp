@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
-#include "signals/encoder.h"
 #include "sliding_mode/pooled_flights.h"
 #include "sliding_mode/words.h"
 

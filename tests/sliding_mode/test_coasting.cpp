@@ -17,7 +17,9 @@ struct CoastingSubject {
   independent_plant::BlindRun run;
   MotorTrace trace;
 
-  explicit CoastingSubject(std::uint64_t seed) : c(independent_plant::random_drive(seed)) {
+  explicit CoastingSubject(std::uint64_t seed,
+                           independent_plant::Waveform waveform = independent_plant::Waveform::kSine)
+      : c(independent_plant::random_drive(seed, waveform)) {
     c.options.tolerance = independent_plant::kFastTolerance;
     run = independent_plant::simulate_blind(c);
     trace = run.recording.motor_trace();
@@ -78,6 +80,13 @@ TEST(Coasting, ALoadThatMovesIsReadWithTheFrictionThatItsEngagedFlankShows) {
   EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.01 * s.c.drive.gap);
   EXPECT_LE(estimate.ci95.low, s.c.drive.gap);
   EXPECT_GE(estimate.ci95.high, s.c.drive.gap);
+}
+
+TEST(Coasting, ImpactsWithinAHalfPeriodOfTheMotionAreNoEchoesWhereTheTorqueTurnsMoreOften) {
+  const CoastingSubject s(3331015, independent_plant::Waveform::kMultisine);
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
 }
 
 TEST(Coasting, AContactThatRingsUntilItIsLostTellsNoTravelOfTheLoad) {
