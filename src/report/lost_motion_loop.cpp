@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "report/drive_signal.h"
 #include "report/figures.h"
@@ -14,7 +15,9 @@ namespace {
 
 constexpr double kAway = 0.1;  ///< of its largest value, that a torque has left zero
 
-constexpr double kWindUp = 1.5;  ///< free runs that a flank may wind up by at its amplitude
+constexpr double kFlankBegin = 0.7, kFlankEnd = 0.95;  ///< of the torque of its level
+constexpr double kAsStiff = 2.0;  ///< factor within which a flank of the loop is the one that was read
+constexpr double kWindUp = 1.5;   ///< free runs that a flank may wind up by at its amplitude
 
 /// From one zero of the torque to the next.
 struct HalfCycle {
@@ -76,20 +79,57 @@ LineStyle level_style(std::size_t level) {
   return {kColours[level % kColours.size()], 3.0, {}};
 }
 
+/// Where x1 stands as the rising torque of one side last passes a share of its level, median of the half
+/// cycles.
+double place_on_flank(const LoopFigure& f, std::size_t level, double side, double share) {
+  const double torque = share * f.amplitude(f.lost_motion.levels[level]);
+  std::vector<double> places;
+  for (const HalfCycle& cycle : f.cycles) {
+    if (f.level_of(cycle) != level || !(side * cycle.extreme > torque)) continue;
+    std::size_t i = cycle.from;
+    while (i + 1 < cycle.to && f.torque[i] != cycle.extreme) ++i;
+    while (i > cycle.from && side * f.torque[i] > torque) --i;
+    const auto& x = f.view.recording->position();
+    const double from = side * f.torque[i], to = side * f.torque[std::min(i + 1, f.torque.size() - 1)];
+    const double way = to > from ? (torque - from) / (to - from) : 0.0;
+    places.push_back(x[i] + way * (x[std::min(i + 1, x.size() - 1)] - x[i]));
+  }
+  return median(std::move(places));
+}
+
+/// The loaded flank of one side as the loop has it: a line through two of its places. Nothing where it is not
+/// as stiff as the flank that was read: then the loop has none there.
+std::optional<Series> flank_of(const LoopFigure& f, std::size_t level, double side) {
+  const LostMotionLevel& l = f.lost_motion.levels[level];
+  const double top = f.amplitude(l), read = std::abs(l.flank / f.constant);
+  if (!has_flank(l)) return {};
+  const double low = place_on_flank(f, level, side, kFlankBegin),
+               high = place_on_flank(f, level, side, kFlankEnd);
+  const double slope = (high - low) / (side * (kFlankEnd - kFlankBegin) * top);
+  if (!(std::abs(slope) < kAsStiff * read) || !(kAsStiff * std::abs(slope) > read)) return {};
+  Series s;
+  s.style = {kVermillion, 6.0, {18, 8}};
+  s.x = {side * kFlankBegin * top, side * top};
+  s.y = {low, high + slope * side * (1.0 - kFlankEnd) * top};
+  return s;
+}
+
 /// "±4.0 N·m: play 34.1 mrad, flank 690 N·m/rad"
-std::string level_name(const LoopFigure& f, const LostMotionLevel& level) {
+std::string level_name(const LoopFigure& f, std::size_t index) {
+  const LostMotionLevel& level = f.lost_motion.levels[index];
   const std::string unit = f.drive.axis.unit;
   std::string name = fmt::format("±{}: play {}", quantity(f.amplitude(level), unit),
                                  quantity(level.lost_motion, f.view.length_unit));
   const double stiffness = std::abs(f.constant) / level.flank;
-  if (has_flank(level)) name += fmt::format(", flank {} {}/{}", rounded(stiffness), unit, f.view.length_unit);
+  if (flank_of(f, index, 1.0) && flank_of(f, index, -1.0))
+    name += fmt::format(", flank {} {}/{}", rounded(stiffness), unit, f.view.length_unit);
   return name;
 }
 
 Series loop_of(const LoopFigure& f, std::size_t level) {
   Series s;
   s.style = level_style(level);
-  s.label = level_name(f, f.lost_motion.levels[level]);
+  s.label = level_name(f, level);
   for (const HalfCycle& cycle : f.cycles) {
     if (f.level_of(cycle) != level) continue;
     for (std::size_t i = cycle.from; i < std::min(cycle.to + 1, f.torque.size()); ++i) {
@@ -100,26 +140,6 @@ Series loop_of(const LoopFigure& f, std::size_t level) {
     s.y.push_back(kNaN);
   }
   return s;
-}
-
-/// The loaded flank of one side: through the typical place at three quarters of the torque, as stiff as read.
-void add_flank(const LoopFigure& f, std::size_t level, double side, Panel& panel) {
-  const LostMotionLevel& l = f.lost_motion.levels[level];
-  const double slope = l.flank / f.constant, top = f.amplitude(l);
-  if (!has_flank(l)) return;
-  std::vector<double> places;
-  for (const HalfCycle& cycle : f.cycles) {
-    if (f.level_of(cycle) != level || !(side * cycle.extreme > 0.0)) continue;
-    std::size_t i = cycle.from;
-    while (i < cycle.to && side * f.torque[i] < 0.75 * top) ++i;
-    if (i < cycle.to) places.push_back(f.view.recording->position()[i]);
-  }
-  if (places.empty()) return;
-  Series s;
-  s.style = {kVermillion, 6.0, {18, 8}};
-  s.x = {side * 0.5 * top, side * top};
-  for (const double torque : s.x) s.y.push_back(median(places) + slope * (torque - side * 0.75 * top));
-  panel.series.push_back(s);
 }
 
 /// Where x1 stands as the torque comes back to zero from one side.
@@ -143,14 +163,14 @@ void add_play(const LoopFigure& f, Panel& panel) {
   for (const double y : {middle - half, middle + half}) panel.y_marks.push_back({y, guide_style(), ""});
 }
 
-std::string reading_of(const LoopFigure& f) {
+std::string reading_of(const LoopFigure& f, bool flanks) {
   const std::string unit = f.view.length_unit;
   std::string text = fmt::format("At zero {} the two branches lie apart by {}", f.drive.name,
                                  with_interval(f.lost_motion.value, f.lost_motion.ci95, unit));
   const Interval range = f.lost_motion.range();
   if (f.lost_motion.levels.size() > 1)
     text += fmt::format(", by level {} to {}", quantity(range.low, unit), quantity(range.high, unit));
-  return text + ". Dashed: the loaded flanks with their stiffness.";
+  return text + (flanks ? ". Dashed: the loaded flanks." : ".");
 }
 
 }  // namespace
@@ -173,9 +193,10 @@ FigureData lost_motion_loop(const ReportView& view) {
   for (std::size_t level = f.lost_motion.levels.size(); level-- > 0;)  // the small ones on top
     panel.series.push_back(loop_of(f, level));
   for (std::size_t level = 0; level < f.lost_motion.levels.size(); ++level)
-    for (const double side : {1.0, -1.0}) add_flank(f, level, side, panel);
+    for (const double side : {1.0, -1.0})
+      if (auto flank = flank_of(f, level, side)) panel.series.push_back(std::move(*flank));
   add_play(f, panel);
-  figure.reading = reading_of(f);
+  figure.reading = reading_of(f, panel.series.size() > f.lost_motion.levels.size());
   figure.panels.push_back(panel);
   return figure;
 }

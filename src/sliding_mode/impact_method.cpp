@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/coasting.h"
 #include "sliding_mode/passages.h"
+#include "sliding_mode/pooled_flights.h"
 #include "sliding_mode/visible_gap.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -17,11 +19,21 @@ void read_passages(const MotorTrace& trace, const std::vector<BankEvent>& events
       a.passages.push_back(read_passage(context, events[i - 1], events[i], a.run.bounds[a.sliding]));
 }
 
+/// Between one passage and the next, where the torque changes its sign more often than the motion passes its
+/// centre [samples].
+double stroke(const MotorTrace& trace, const signals::SignalFacts& facts) {
+  const double half_period = facts.half_period / trace.dt;
+  std::vector<double> turns;
+  for (const TorqueTurn& turn : torque_turns(trace))
+    turns.push_back(static_cast<double>(turn.next - turn.zero));
+  return turns.empty() ? half_period : std::min(half_period, median(std::move(turns)));
+}
+
 void search(const MotorTrace& trace, ImpactAnalysis& a) {
   if (!a.facts.defect.empty()) return;
   a.run = run_bank(trace, a.facts, bound_grid(a.facts, trace.dt), Discretisation::kMatched);
   a.sliding = smallest_sliding(a.run);
-  const double half_period = a.facts.half_period / trace.dt;
+  const double half_period = stroke(trace, a.facts);
   const std::vector<BankEvent> all = all_events(a.run, half_period);
   std::vector<BankEvent> events;
   if (const auto least = least_top(all, a.run, a.facts.half_periods))
@@ -35,6 +47,7 @@ void search(const MotorTrace& trace, ImpactAnalysis& a) {
       above < a.run.bounds.size() ? smallest_visible_gap(trace, a.facts, a.run, above) : kInfinity;
   a.finest_gap = smallest_visible_gap(trace, a.facts, a.run, a.sliding);
   read_passages(trace, events, a);
+  read_coasting(trace, a.facts, a.repeats, a.passages);
 }
 
 }  // namespace

@@ -153,6 +153,7 @@ ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impa
   result.time = kink.time;
   const double away = std::abs(kink.time - static_cast<double>(impact.start));
   const double doubt = std::max({0.5 * (kink.high - kink.low), kTrust * away, kLeastDoubt});
+  result.contact = kink.best.shape.omega / dt;
   result.hidden = kink.hidden * dt;
   result.half_width = std::hypot(doubt * dt, kHidden * result.hidden);
   result.position = before.position;

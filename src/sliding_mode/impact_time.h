@@ -11,6 +11,7 @@ struct ImpactTime {
   std::size_t core = 0;       ///< last sample that is safely before it
   double time = 0.0;          ///< [samples]
   double half_width = 0.0;    ///< over the kinks that fit almost as well, and what is hidden [s]
+  double contact = 0.0;       ///< ω of the stroke that fits best; 0: rigid, or bounces [rad/s]
   double hidden = 0.0;        ///< how long the contact acts before it shows in the noise [s]
   double position = 0.0;      ///< x1 [rad]
   double speed = 0.0;         ///< of the motor just before [rad/s]

@@ -96,18 +96,8 @@ KinkFit KinkScan::trial(const KinkShape& shape, double time) const {
 }
 
 KinkFit KinkScan::best(const KinkShape& shape, double from, double to, double step) const {
-  KinkFit least = trial(shape, from);
-  const auto visit = [&](double t) {
-    if (t < from || t > to) return;
-    if (const KinkFit fit = trial(shape, t); fit.sse < least.sse) least = fit;
-  };
-  for (double t = from; t <= to; t += step) visit(t);
-  for (double fine = 0.5 * step; fine > 0.1; fine *= 0.5) {
-    const double centre = least.time;
-    visit(centre - fine);
-    visit(centre + fine);
-  }
-  return least;
+  constexpr double kFinestTime = 0.1;  // samples
+  return least_sse([&](double t) { return trial(shape, t); }, from, to, step, kFinestTime);
 }
 
 void KinkScan::widen(const KinkShape& shape, double from, double to, double step, double limit, double& low,

@@ -35,6 +35,25 @@ struct KinkFit {
   double operator()(double t) const { return t > time ? amplitude * shape(t - time) : 0.0; }
 };
 
+/// The trial(x) of least `sse` with x in [from, to], tried every `step`, then finer around the best down to
+/// `finest`.
+template <class Trial>
+auto least_sse(const Trial& trial, double from, double to, double step, double finest) {
+  double at = from;
+  auto least = trial(from);
+  const auto visit = [&](double x) {
+    if (x < from || x > to) return;
+    if (const auto fit = trial(x); fit.sse < least.sse) least = fit, at = x;
+  };
+  for (double x = from; x <= to; x += step) visit(x);
+  for (double fine = 0.5 * step; fine > finest; fine *= 0.5) {
+    const double centre = at;
+    visit(centre - fine);
+    visit(centre + fine);
+  }
+  return least;
+}
+
 /// 1, t, … t^degree at n samples (n × degree + 1).
 Eigen::MatrixXd polynomial_columns(std::size_t n, int degree);
 

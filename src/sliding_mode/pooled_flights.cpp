@@ -22,16 +22,19 @@ std::vector<TorqueTurn> torque_turns(const MotorTrace& trace) {
   for (const double u : trace.u) most = std::max(most, std::abs(u));
   std::vector<TorqueTurn> turns;
   int side = 0;
-  std::size_t zero = 0;
+  std::size_t quiet = 0, zero = 0;
   for (std::size_t i = 0; i < trace.size(); ++i) {
     const double u = trace.u[i];
     if (side == 0 || side * u <= kZero * most) {
-      if (std::abs(u) <= kZero * most || (i > 0 && u * trace.u[i - 1] <= 0.0)) zero = i;
+      if (std::abs(u) <= kZero * most || (i > 0 && u * trace.u[i - 1] <= 0.0)) {
+        if (zero + 1 != i) quiet = i;
+        zero = i;
+      }
     }
     const int now = u > kTurned * most ? 1 : u < -kTurned * most ? -1 : side;
     if (now == side) continue;
     if (!turns.empty()) turns.back().next = zero;
-    if (side != 0) turns.push_back({zero, trace.size() - 1, now});
+    if (side != 0) turns.push_back({quiet, zero, trace.size() - 1, now});
     side = now;
   }
   return turns;
@@ -91,7 +94,11 @@ bool PooledFlights::prepare(const TorqueTurn& turn, double gap) {
   const double first = crossing(s, kFrom * gap), last = crossing(s, kTo * gap);
   if (std::isnan(first) || std::isnan(last) || last < first + 12.0) return false;
   const auto wide = std::max<std::size_t>(1, static_cast<std::size_t>(kWide * length));
-  for (std::size_t i = turn.zero; i < static_cast<std::size_t>(first); ++i)
+  const std::size_t before = turn.zero - std::min({2 * reach, turn.zero});
+  s.slid = 0.0;
+  for (std::size_t i = std::min(turn.quiet, before); i < turn.zero; ++i)
+    s.slid = std::max(s.slid, turn.direction * (smooth(i, wide) - s.rest) - 0.5 * noise_);
+  for (std::size_t i = turn.quiet; i < static_cast<std::size_t>(first); ++i)
     s.beyond = std::max(s.beyond, -turn.direction * (smooth(i, wide) - s.rest) - 0.5 * noise_);
   s.first = static_cast<std::size_t>(first), s.last = static_cast<std::size_t>(last);
   stretches_.push_back(s);
@@ -183,18 +190,7 @@ PooledKink PooledFlights::trial(const KinkShape& shape, double gap) const {
 }
 
 PooledKink PooledFlights::best(const KinkShape& shape, double low, double high, double step) const {
-  PooledKink least = trial(shape, low);
-  const auto visit = [&](double gap) {
-    if (gap < low || gap > high) return;
-    if (const PooledKink k = trial(shape, gap); k.sse < least.sse) least = k;
-  };
-  for (double gap = low; gap <= high; gap += step) visit(gap);
-  for (double fine = 0.5 * step; fine > 0.1 * step; fine *= 0.5) {
-    const double centre = least.gap;
-    visit(centre - fine);
-    visit(centre + fine);
-  }
-  return least;
+  return least_sse([&](double gap) { return trial(shape, gap); }, low, high, step, 0.1 * step);
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -10,9 +10,10 @@ namespace gapscope::internal::sliding_mode {
 
 /// Where the torque changes sign: from there on a motor that rested at its load crosses the gap.
 struct TorqueTurn {
-  std::size_t zero = 0;  ///< last sample before the torque rises
-  std::size_t next = 0;  ///< … and before it changes sign again
-  int direction = 0;     ///< of the torque that follows
+  std::size_t quiet = 0;  ///< first sample of the stay at no torque that ends there
+  std::size_t zero = 0;   ///< last sample before the torque rises
+  std::size_t next = 0;   ///< … and before it changes sign again
+  int direction = 0;      ///< of the torque that follows
 };
 
 std::vector<TorqueTurn> torque_turns(const MotorTrace& trace);
@@ -20,8 +21,10 @@ std::vector<TorqueTurn> torque_turns(const MotorTrace& trace);
 /// The stretch of one passage that is fitted.
 struct PooledStretch {
   TorqueTurn turn;
-  double rest = 0.0;    ///< x1 at the zero of the torque [rad]
-  double beyond = 0.0;  ///< how far x1 goes on against the passage after it [rad]
+  double rest = 0.0;  ///< x1 at the zero of the torque [rad]
+  double beyond =
+      0.0;  ///< how far x1 stays from where it was farthest against the passage without torque [rad]
+  double slid = 0.0;  ///< how far x1 still goes against the passage while there is no torque [rad]
   std::size_t first = 0, last = 0;
   double speed = 1.0;  ///< where the tried gap ends, over the median of all
 };

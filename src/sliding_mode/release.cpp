@@ -17,19 +17,6 @@ constexpr double kContactShare = 0.6;         ///< of the flight: how far before
 constexpr double kBracket = 0.6;              ///< of its width, as a standard deviation
 constexpr double kViscousShare = 0.3;         ///< of a load's deceleration at t1, where nothing else is known
 
-/// Travel of a passive load from speed w and deceleration a within the time D, of which at first the share q
-/// is viscous and the rest dry friction.
-double load_travel(double w, double a, double D, double q) {
-  if (w <= 0.0) return 0.0;
-  if (a <= 0.0) return w * D;
-  const double rate = q * a / w;
-  if (rate * D < 1e-6) return w / a < D ? 0.5 * w * w / a : w * D - 0.5 * a * D * D;
-  const double dry = w * (1.0 - q) / q;  // speed at which both would be alike
-  const double stop = q < 1.0 ? std::log1p(w / dry) / rate : D;
-  const double T = std::min(D, stop);
-  return (w + dry) * -std::expm1(-rate * T) / rate - dry * T;
-}
-
 /// The motor at t1 as the time before it tells, when the load still went with it.
 MotorState state_in_contact(const MotorTrace& trace, const FlightBegin& begin, double flight) {
   const auto last = static_cast<std::size_t>(std::max(begin.time, 0.0));
@@ -44,6 +31,17 @@ MotorState state_in_contact(const MotorTrace& trace, const FlightBegin& begin, d
 }
 
 }  // namespace
+
+double load_travel(double w, double a, double D, double q) {
+  if (w <= 0.0) return 0.0;
+  if (a <= 0.0) return w * D;
+  const double rate = q * a / w;
+  if (rate * D < 1e-6) return w / a < D ? 0.5 * w * w / a : w * D - 0.5 * a * D * D;
+  const double dry = w * (1.0 - q) / q;  // speed at which both would be alike
+  const double stop = q < 1.0 ? std::log1p(w / dry) / rate : D;
+  const double T = std::min(D, stop);
+  return (w + dry) * -std::expm1(-rate * T) / rate - dry * T;
+}
 
 Release find_release(const TransitionContext& context, const FlightLaw& law, const ImpactTime& impact) {
   Release release;
@@ -62,6 +60,8 @@ Release find_release(const TransitionContext& context, const FlightLaw& law, con
   release.found = true;
   release.far_flank = flight.push > 0.0;
   release.time = flight.begin.time;
+  release.first = flight.earliest.time;
+  release.last = flight.latest.time;
   release.position = flight.begin.motor.position;
   release.load_travel = travel(flight.begin, kViscousShare);
   release.travel_half_width = 0.5 * (travel(flight.begin, 1.0) - travel(flight.begin, 0.0));

@@ -22,6 +22,7 @@ struct Release {
   bool found = false;
   bool dwell = false;              ///< the motor rested at it: the load does not move
   double time = 0.0;               ///< t1 [samples]
+  double first = 0.0, last = 0.0;  ///< that fit almost as well [samples]
   double position = 0.0;           ///< x1(t1) [rad]
   double load_travel = 0.0;        ///< s, against the passage, between t1 and t2 [rad]
   double travel_half_width = 0.0;  ///< of s [rad]
@@ -30,6 +31,10 @@ struct Release {
   bool passive = true;             ///< the load slowed down when it was released
   double half_width = 0.0;         ///< of the gap, from t1 and s together [rad]
 };
+
+/// Travel of a passive load from speed w and deceleration a within the time D, of which at first the share q
+/// is viscous and the rest dry friction [rad, rad/s, rad/s², s].
+double load_travel(double w, double a, double D, double q);
 
 /// The load at rest: x1 dwells at the reversal and leaves along (t − t1)³ or (t − t1)². The load in motion:
 /// at separation the contact torque is zero, so both bodies share speed w and deceleration a there, and a

@@ -101,7 +101,10 @@ void fill_event(Transition& t, const TransitionContext& context, const ImpactTim
   t.event.gap = s5 + release.load_travel;
   t.load_travel = release.load_travel;
   t.hidden = std::abs(impact.speed) * impact.hidden;
-  t.half_width = release.half_width + std::abs(impact.speed) * impact.half_width;
+  t.t1_first = trace.start + trace.dt * release.first;
+  t.t1_last = trace.start + trace.dt * release.last;
+  t.impact_half_width = std::abs(impact.speed) * impact.half_width;
+  t.half_width = release.half_width + t.impact_half_width;
   t.dwell = release.dwell;
   if (release.load_travel > 0.0) t.event.remark = "corrected for the travel of the load";
 }
@@ -154,6 +157,7 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
   t.event.x1_t2 = time.position;
   t.speed = t.event.direction * time.speed;
   t.acceleration = t.event.direction * time.acceleration;
+  t.contact = time.contact;
   if (!(time.drive > 0.0)) {
     t.refusal = Refusal::kLoadHits;
     return t;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gapscope/base/remark.h"
+#include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 #include "signals/signal_facts.h"
@@ -36,9 +37,14 @@ struct Transition {
   double half_width = 0.0;    ///< systematic: where the release and the load's travel may lie [rad]
   double speed = 0.0;         ///< of the motor before the impact [rad/s]
   double acceleration = 0.0;  ///< of the motor in the gap, just before the impact [rad/s²]
+  double contact = 0.0;       ///< ω of both bodies on the spring of the contact; 0: rigid [rad/s]
   double hidden = 0.0;        ///< way of the motor before the impact shows in the noise [rad]
   double load_travel = 0.0;   ///< assumed between t1 and t2 [rad]
   bool dwell = false;         ///< the motor rested before it entered the gap
+  bool by_law = false;        ///< the load's travel is by the law of the engaged flank
+  double t1_first = kNaN, t1_last = kNaN;             ///< between which contact was lost [s]
+  double impact_half_width = 0.0;                     ///< of half_width, by t2 alone [rad]
+  bool released() const { return half_width > 0.0; }  ///< both ends of the flight were found
 };
 
 /// What an impact is looked at with.

@@ -31,11 +31,13 @@ constexpr std::size_t kFewest = 2;        ///< passages in each direction
 constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
 constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
 
-constexpr double kMostHidden = 0.07;   ///< of a gap, that the motor may go on before its impact shows
-constexpr double kMostOfTravel = 0.8;  ///< largest gap, as a share of the travel
-constexpr double kFarthest = 2.0;      ///< that a load may travel, in gaps, if the rest is to be a gap
+constexpr double kMostHidden = 0.07;    ///< of a gap, that the motor may go on before its impact shows
+constexpr double kMostOfTravel = 0.8;   ///< largest gap, as a share of the travel
+constexpr double kFarthest = 2.0;       ///< that a load may travel, in gaps, if the rest is to be a gap
+constexpr double kFarthestByLaw = 4.0;  ///< … where the law of its friction is known
 constexpr double kLeastMoving =
     0.1;  ///< travel of the load, in gaps, from which on one direction alone is not believed
+constexpr double kFewTravel = 0.3;       ///< … within fewer quanta than kFewestMoving
 constexpr double kFewMoving = 0.2;       ///< passages refused for it, over those that are used
 constexpr double kFewestMoving = 100.0;  ///< quanta in a gap within which the load travels far
 
@@ -146,6 +148,15 @@ double scatter(const Pool& pool) {
   return std::max(robust_std(gaps_of(pool, 1)), robust_std(gaps_of(pool, -1)));
 }
 
+/// Farther than one can tell how far the load went.
+bool travels_too_far(const Pool& pool, double gap, int only) {
+  const double moved = std::abs(median_of(pool, &Transition::load_travel));
+  const auto by_law = std::ranges::count_if(pool.accepted, &Transition::by_law);
+  if (2 * by_law > std::ssize(pool.accepted)) return moved > kFarthestByLaw * gap;
+  return moved > kFarthest * gap || (only != 0 && moved > kLeastMoving * gap) ||
+         (moved > kFewTravel * gap && gap < kFewestMoving * pool.quantum);
+}
+
 /// Why the accepted passages do not make an estimate; empty if they do.
 Remark objection(const Pool& pool) {
   const auto plus = gaps_of(pool, 1), minus = gaps_of(pool, -1);
@@ -164,10 +175,7 @@ Remark objection(const Pool& pool) {
   const auto moving = pool.refused.find(Refusal::kLoadMoving);
   if (moving != pool.refused.end() && moving->second > kFewMoving * static_cast<double>(pool.accepted.size()))
     return advice(Refusal::kLoadMoving);
-  const double moved = std::abs(median_of(pool, &Transition::load_travel));
-  if (only != 0 && moved > kLeastMoving * gap) return advice(Refusal::kLoadMoving);
-  if (moved > kFarthest * gap || (moved > 0.3 * gap && gap < kFewestMoving * pool.quantum))
-    return advice(Refusal::kLoadMoving);
+  if (travels_too_far(pool, gap, only)) return advice(Refusal::kLoadMoving);
   if (gap < signals::kFewestToldQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
   const double hidden = median_of(pool, &Transition::hidden);
   if (hidden > kMostHidden * gap) return words::soft_contact(100.0 * hidden / gap);

@@ -143,6 +143,26 @@ TEST(LostMotionLoop, HasAColourAndAFlankForEachTorqueLevel) {
   }
 }
 
+TEST(LostMotionLoop, FlanksLieOnTheLoopThoughTheTorqueIsNoisy) {
+  RunResult run = with_loops();
+  Recording& r = run.recordings[0];
+  for (std::size_t i = 0; i < r.size(); ++i) r.u[i] += 0.1 * std::sin(static_cast<double>(i) * 2.0);
+  const Panel panel = lost_motion_loop(ReportView(run)).panels[0];
+  ASSERT_EQ(panel.series.size(), 6u);
+  for (std::size_t i = 4; i < 6; ++i) {  // the level of 4 units of u, which it reaches without the noise, too
+    const Series& flank = panel.series[i];
+    const double constant = flank.x[1] / (i == 4 ? 4.0 : -4.0), side = i == 4 ? 1.0 : -1.0;
+    for (std::size_t end = 0; end < 2; ++end)
+      EXPECT_NEAR(flank.y[end], 1e-3 - side * 2.5e-3 + 1e-4 * flank.x[end] / constant, 3e-5);
+  }
+}
+
+TEST(LostMotionLoop, AFlankThatTheLoopDoesNotShowIsNotDrawn) {
+  RunResult run = with_loops();
+  for (LostMotionLevel& level : run.model_free->lost_motion.levels) level.flank = 1e-3;  // ten times as soft
+  EXPECT_EQ(lost_motion_loop(ReportView(run)).panels[0].series.size(), 2u);
+}
+
 TEST(Estimates, ALostMotionIsShownWhereThereIsNoGap) {
   RunResult run = with_loops();
   run.model_free->verdict = GapVerdict::kInconclusive;

@@ -162,8 +162,8 @@ TEST(FreeFlight, TheLawOfTheFlightAndTheContactAreFittedTogether) {
 
 TEST(FreeFlight, AnUnsymmetricalMotionMayShowTheGapOneWayOnly) {
   const independent_plant::BlindCase c =
-      independent_plant::random_drive(345122, independent_plant::Waveform::kMultisine);
-  const GapEstimate estimate = detect(c);
+      independent_plant::random_drive(3331005, independent_plant::Waveform::kMultisine);
+  const GapEstimate estimate = detect(c);  // before its other passages the contact rings until it is lost
   ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.reason.text();
   EXPECT_NE(estimate.reason.text().find("all with falling x1"), std::string::npos) << estimate.reason.text();
   EXPECT_NEAR(estimate.gap, c.drive.gap, 0.03 * c.drive.gap);

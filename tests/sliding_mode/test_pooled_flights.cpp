@@ -63,6 +63,26 @@ TEST(PooledFlights, ALoadThatCoastsIsNotReadByTheZeroOfTheTorque) {
   }
 }
 
+TEST(PooledFlights, AStayAtNoTorqueBeginsWhereTheTorqueVanishes) {
+  std::vector<double> u, x1(300, 0.0);
+  for (int i = 0; i < 300; ++i) u.push_back(i % 100 < 40 ? 0.0 : i / 100 % 2 == 0 ? 1.0 : -1.0);
+  const std::vector<TorqueTurn> turns = torque_turns({"u", 0.0, 1e-3, u, x1});
+  ASSERT_EQ(turns.size(), 2u);
+  EXPECT_EQ(turns[0].quiet, 100u);
+  EXPECT_NEAR(static_cast<double>(turns[0].zero), 139.0, 1.0);
+  EXPECT_EQ(turns[1].quiet, 200u);
+  EXPECT_NEAR(static_cast<double>(turns[1].zero), 239.0, 1.0);
+}
+
+TEST(PooledFlights, AMotorThatLeavesItsLoadWithoutTorqueIsNotReadFromWhereItCameToRest) {
+  const auto trapezoid = [](std::uint64_t seed) {
+    return PooledSubject(independent_plant::random_drive(seed, independent_plant::Waveform::kTrapezoid));
+  };
+  EXPECT_FALSE(
+      trapezoid(3320052).read());  // thrown off the flank by the spring of the contact: 16 % too small
+  EXPECT_FALSE(trapezoid(3330047).read());  // its load goes on and leaves it: 34 % too small
+}
+
 TEST(PooledFlights, WithoutAGapNoKinkStandsOut) {
   for (int kind = 0; kind < independent_plant::kGapFreeKinds; ++kind) {
     const PooledSubject s(independent_plant::random_gap_free_drive(3620001, kind));

@@ -1,0 +1,261 @@
+#include "sliding_mode/coasting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "gapscope/base/statistics.h"
+#include "sliding_mode/release.h"
+#include "sliding_mode/shared_law.h"
+
+namespace gapscope::internal::sliding_mode {
+namespace {
+
+/// Of the time in contact: what bounces after the impact may take.
+constexpr double kSkipped[] = {0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+constexpr double kHolds = 1.15;             ///< what a law leaves over, over the noise
+constexpr double kBeforeImpact = 0.05;      ///< of the flight, left out at its end
+constexpr std::size_t kFewestTogether = 4;  ///< passages
+constexpr std::size_t kGroups = 4;          ///< of passages, left out in turn
+/// Of the travel of a load whose law is not seen: a half width. A contact that rings until t1 is lost in a
+/// rebound, with less speed of the load than the motor shows (810371 of the random drives: 0.35 of the
+/// travel).
+constexpr double kUnknownTravel = 0.35;
+constexpr double kToldTravel = 0.1;  ///< of the gap: travel that is told though no law of the load is seen
+constexpr double kTravelDoubt =
+    0.02;  ///< standard deviation, over the travel of the load: contacts are springs
+
+/// A passage, and the stretches before and in it that the laws are fitted to.
+struct Coasting {
+  Transition* passage;
+  LawStretch engaged, flight;
+};
+
+double sample_of(const MotorTrace& trace, double time) { return (time - trace.start) / trace.dt; }
+
+/// Index of the largest side·x1 in [first, last], the latest of equal ones.
+std::size_t farthest(const MotorTrace& trace, std::size_t first, std::size_t last, int side) {
+  std::size_t found = first;
+  for (std::size_t k = first; k <= last; ++k)
+    if (side * trace.x1[k] >= side * trace.x1[found]) found = k;
+  return found;
+}
+
+/// From where x1 moves steadily against the passage, once the bounces of the impact at t2 [s] have faded, to
+/// t1.
+std::optional<LawStretch> in_contact(const MotorTrace& trace, double t2, const Transition& t,
+                                     double skipped) {
+  const double since = sample_of(trace, t2), end = sample_of(trace, t.t1_first);
+  if (!(since > 0.0) || !(end > since + SharedLaw::kFewestRows)) return {};
+  const auto last = static_cast<std::size_t>(end);
+  const auto turn =
+      static_cast<double>(farthest(trace, static_cast<std::size_t>(since), last, t.event.direction));
+  const auto first = static_cast<std::size_t>(turn + skipped * (end - turn));
+  if (last < first + SharedLaw::kFewestRows) return {};
+  return LawStretch{first, first, last, -t.event.direction};
+}
+
+std::optional<LawStretch> in_flight(const MotorTrace& trace, const Transition& t) {
+  const double t1 = sample_of(trace, t.t1_last), t2 = sample_of(trace, t.event.t2);
+  const double end = t2 - std::max(2.0, kBeforeImpact * (t2 - t1));
+  if (!(t1 > 0.0) || !(end > t1 + SharedLaw::kFewestRows + 2.0)) return {};
+  const std::size_t first = static_cast<std::size_t>(t1) + 2, last = static_cast<std::size_t>(end);
+  return LawStretch{first, farthest(trace, first, last, -t.event.direction), last, t.event.direction};
+}
+
+/// Both ends of the flight are known, and only what the load did meanwhile was in doubt.
+bool may_coast(const Transition& t) {
+  const bool in_doubt = t.refusal == Refusal::kNone || t.refusal == Refusal::kNoRelease ||
+                        t.refusal == Refusal::kLoadMoving || t.refusal == Refusal::kThrownOff;
+  return t.released() && in_doubt;
+}
+
+std::vector<Coasting> stretches(const MotorTrace& trace, std::vector<Transition>& passages, double skipped) {
+  std::vector<Coasting> found;
+  for (std::size_t i = 1; i < passages.size(); ++i) {
+    Transition& t = passages[i];
+    if (!may_coast(t)) continue;
+    const auto engaged = in_contact(trace, passages[i - 1].event.t2, t, skipped),
+               flight = in_flight(trace, t);
+    if (engaged && flight) found.push_back({&t, *engaged, *flight});
+  }
+  return found;
+}
+
+/// The laws of both bodies together and of the motor alone, and what follows for the load.
+struct Laws {
+  SharedLaw together, alone;
+  double contact = 0.0;  ///< ω of both on the spring between them; 0: rigid [rad/s]
+
+  double ratio() const { return alone.drive() / together.drive() - 1.0; }
+  /// Deceleration of the load alone that does not depend on its speed, and what is proportional to it.
+  double dry() const { return of_load(together.dry(), alone.dry()); }
+  double viscous() const { return of_load(together.viscous(), alone.viscous()); }
+
+  /// By how much a load that the motor drove is faster than it at t1 [samples], where the spring between them
+  /// lets go: the torque of the contact is what keeps the motor from its law alone [rad/s].
+  double unwinding(const MotorTrace& trace, const Coasting& c, std::size_t k, double t1,
+                   double flight) const {
+    const auto held_back = [&](double time) {  // acceleration [rad/s²]
+      const auto i = static_cast<std::size_t>(std::lround(std::max(time, 0.0)));
+      const double w = together.state(k, time).speed, u = trace.u[std::min(i, trace.size() - 1)];
+      return (alone.drive() - together.drive()) * u - (alone.viscous() - together.viscous()) * w;
+    };
+    if (!(contact > 0.0)) return 0.0;
+    const double before = std::max(1.0, kBeforeImpact * flight);
+    const double rate = (held_back(t1) - held_back(t1 - before)) / (before * trace.dt);
+    return c.passage->event.direction * rate * (1.0 + 1.0 / ratio()) / (contact * contact);
+  }
+
+ private:
+  double of_load(double both, double motor) const { return ((1.0 + ratio()) * both - motor) / ratio(); }
+};
+
+struct LoadWay {
+  double gap = kNaN, travel = kNaN;  ///< [rad]
+};
+
+/// The k-th passage, if its contact was lost at t1 [s].
+LoadWay way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std::size_t k, double t1) {
+  const GapEvent& e = c.passage->event;
+  const SharedLaw::State at = laws.together.state(k, sample_of(trace, t1));
+  const double flight = (e.t2 - t1) / trace.dt, dry = laws.dry(), viscous = laws.viscous();
+  const double w = -e.direction * at.speed + laws.unwinding(trace, c, k, sample_of(trace, t1), flight);
+  const double slowing = dry + viscous * w;
+  LoadWay result;
+  if (!(laws.ratio() > 0.0) || !(slowing > 0.0) || !(w > 0.0)) return result;
+  result.travel = load_travel(w, slowing, e.t2 - t1, viscous * w / slowing);
+  result.gap = e.direction * (e.x1_t2 - at.position) + result.travel;
+  return result;
+}
+
+/// Of the passages that the laws can read.
+std::vector<double> gaps(const MotorTrace& trace, const Laws& laws, const std::vector<Coasting>& all) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double gap = way(trace, laws, all[k], k, all[k].passage->event.t1).gap;
+    if (!std::isnan(gap)) values.push_back(gap);
+  }
+  return values;
+}
+
+/// Standard deviation of the gap by what the laws are not known to: every group of passages is left out in
+/// turn.
+double doubt_of_laws(const MotorTrace& trace, const Laws& laws, const std::vector<Coasting>& all) {
+  std::vector<double> medians;
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    const Laws rest{laws.together.without(g, kGroups), laws.alone.without(g, kGroups), laws.contact};
+    medians.push_back(median(gaps(trace, rest, all)));
+  }
+  double mean = 0.0, square = 0.0;
+  for (const double m : medians) mean += m / kGroups;
+  for (const double m : medians) square += (m - mean) * (m - mean);
+  return std::sqrt(square * (kGroups - 1.0) / kGroups);
+}
+
+void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std::size_t k, double doubt) {
+  Transition& t = *c.passage;
+  const LoadWay best = way(trace, laws, c, k, t.event.t1);
+  if (std::isnan(best.gap)) return;
+  Laws rigid = laws;
+  rigid.contact = 0.0;
+  const double spring = best.gap - way(trace, rigid, c, k, t.event.t1).gap;
+  const double t1 = std::max(std::abs(way(trace, laws, c, k, t.t1_first).gap - best.gap),
+                             std::abs(way(trace, laws, c, k, t.t1_last).gap - best.gap));
+  t.event.gap = best.gap;
+  t.load_travel = best.travel;
+  t.half_width = std::hypot(t.impact_half_width + t1, doubt, std::hypot(spring, kTravelDoubt * best.travel));
+  t.dwell = false;
+  t.by_law = true;
+  t.event.remark = "corrected for the travel of the load";
+  t.refusal = best.gap > 0.0 ? Refusal::kNone : Refusal::kLoadMoving;
+}
+
+/// All passages with the laws of both stretches, where these hold.
+struct LawReading {
+  std::vector<Coasting> passages;
+  Laws laws;
+
+  double gap(const MotorTrace& trace) const { return median(gaps(trace, laws, passages)); }
+};
+
+Laws laws_of(const MotorTrace& trace, const std::vector<Coasting>& all) {
+  std::vector<LawStretch> engaged, flights;
+  std::vector<double> contacts;
+  for (const Coasting& c : all) {
+    engaged.push_back(c.engaged), flights.push_back(c.flight);
+    contacts.push_back(c.passage->contact);
+  }
+  return {{trace, std::move(engaged)}, {trace, std::move(flights)}, median(std::move(contacts))};
+}
+
+/// Laws of the passages before which the bounces have faded.
+std::optional<LawReading> fit_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
+                                   const std::vector<Coasting>& all) {
+  const Laws every = laws_of(trace, all);
+  const double most = kHolds * std::max(every.alone.rms(), facts.quantum / std::sqrt(12.0));
+  std::vector<Coasting> quiet;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (every.together.own_rms(k) <= most) quiet.push_back(all[k]);
+  if (quiet.size() < kFewestTogether) return {};
+  Laws laws = laws_of(trace, quiet);
+  if (laws.alone.rms() > kHolds * facts.noise || laws.together.rms() > most) return {};
+  LawReading reading{std::move(quiet), std::move(laws)};
+  if (std::isnan(reading.gap(trace))) return {};
+  return reading;
+}
+
+/// Where bounces last until t1, both sides of the contact share no speed then, and the travel of the load is
+/// not known.
+void doubt_travel(Transition& t) {
+  if (t.by_law || t.dwell) return;
+  t.half_width = std::hypot(t.half_width, kUnknownTravel * std::max(t.load_travel, 0.0));
+}
+
+/// Beside passages that are read by the laws, one that rings says nothing.
+void leave_out(Transition& t) {
+  const bool answers = t.refusal == Refusal::kNone || t.refusal == Refusal::kLoadMoving;
+  if (answers && !t.by_law && !t.dwell && t.load_travel > kToldTravel * t.event.gap)
+    t.refusal = Refusal::kThrownOff;
+}
+
+/// @param apart  by what the gap differs from that after a shorter wait for the bounces [rad]
+void write_all(const MotorTrace& trace, const LawReading& reading, double apart) {
+  const double doubt = std::hypot(doubt_of_laws(trace, reading.laws, reading.passages), apart);
+  for (std::size_t k = 0; k < reading.passages.size(); ++k)
+    write_way(trace, reading.laws, reading.passages[k], k, doubt);
+}
+
+/// Those of which the load moves; all where most are of that kind, since a slow load is hard to tell from one
+/// at rest.
+std::vector<Coasting> moving(std::vector<Coasting> all) {
+  const auto rests = [](const Coasting& c) { return c.passage->dwell; };
+  if (2 * std::ranges::count_if(all, rests) >= std::ssize(all)) std::erase_if(all, rests);
+  return all;
+}
+
+bool read_by_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
+                  std::vector<Transition>& passages) {
+  std::optional<LawReading> before;
+  for (const double skipped : kSkipped) {
+    const std::vector<Coasting> all = moving(stretches(trace, passages, skipped));
+    if (all.size() < kFewestTogether) return false;
+    std::optional<LawReading> now = fit_laws(trace, facts, all);
+    if (before && now) {
+      write_all(trace, *now, now->gap(trace) - before->gap(trace));
+      return true;
+    }
+    before = std::move(now);
+  }
+  return false;
+}
+
+}  // namespace
+
+void read_coasting(const MotorTrace& trace, const signals::SignalFacts& facts, bool repeats,
+                   std::vector<Transition>& passages) {
+  if (!repeats && read_by_laws(trace, facts, passages)) std::ranges::for_each(passages, leave_out);
+  std::ranges::for_each(passages, doubt_travel);
+}
+
+}  // namespace gapscope::internal::sliding_mode

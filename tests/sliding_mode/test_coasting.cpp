@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/random_drive.h"
+#include "sliding_mode/shared_law.h"
+
+namespace gapscope::internal::sliding_mode {
+namespace {
+
+using independent_plant::BlindCase;
+
+struct CoastingSubject {
+  BlindCase c;
+  independent_plant::BlindRun run;
+  MotorTrace trace;
+
+  explicit CoastingSubject(std::uint64_t seed,
+                           independent_plant::Waveform waveform = independent_plant::Waveform::kSine)
+      : c(independent_plant::random_drive(seed, waveform)) {
+    c.options.tolerance = independent_plant::kFastTolerance;
+    run = independent_plant::simulate_blind(c);
+    trace = run.recording.motor_trace();
+    trace.quantum = c.sensor.quantum;
+  }
+  GapEstimate read() const { return detect_gap({&trace, 1}); }
+};
+
+/// ẍ = 3 u − 2 ẋ − 0.5 sign(ẋ), in small steps.
+struct KnownMotion {
+  std::vector<double> u, x1;
+
+  KnownMotion() {
+    double x = 0.1, v = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      u.push_back(std::sin(2.0 * kPi * 1e-3 * i));
+      x1.push_back(x);
+      for (int k = 0; k < 100; ++k) {
+        v += 1e-5 * (3.0 * u.back() - 2.0 * v - 0.5 * (v > 0.0 ? 1.0 : -1.0));
+        x += 1e-5 * v;
+      }
+    }
+  }
+};
+
+std::size_t turn_after(const MotorTrace& trace, std::size_t i) {
+  const bool rising = trace.x1[i + 1] > trace.x1[i];
+  while ((trace.x1[i + 1] > trace.x1[i]) == rising) ++i;
+  return i;
+}
+
+TEST(SharedLaw, FindsTheLawThatStretchesShareAndTheStateInEach) {
+  const KnownMotion motion;
+  const MotorTrace trace{"known", 0.0, 1e-3, motion.u, motion.x1};
+  const std::size_t turn = turn_after(trace, 400), next = turn_after(trace, turn + 5);
+  const std::vector<LawStretch> stretches{{turn - 200, turn + 1, turn + 200, -1},
+                                          {turn + 210, turn + 210, next - 20, -1}};
+  const SharedLaw law(trace, stretches);
+  EXPECT_NEAR(law.drive(), 3.0, 0.01);
+  EXPECT_NEAR(law.viscous(), 2.0, 0.05);
+  EXPECT_NEAR(law.dry(), 0.5, 0.02);
+  EXPECT_LT(law.rms(), 1e-5);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t i = stretches[k].last - 50;
+    const SharedLaw::State s = law.state(k, static_cast<double>(i));
+    EXPECT_NEAR(s.position, trace.x1[i], 1e-5);
+    EXPECT_NEAR(s.speed, (trace.x1[i + 1] - trace.x1[i - 1]) / 2e-3, 2e-3);
+  }
+  const SharedLaw rest = law.without(1, 2);  // the first stretch alone
+  EXPECT_NEAR(rest.drive(), 3.0, 0.05);
+}
+
+TEST(Coasting, ALoadThatMovesIsReadWithTheFrictionThatItsEngagedFlankShows) {
+  const CoastingSubject s(
+      830004);  // travels 0.35 of the gap; 6 % too small by the motor's deceleration at t1
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.01 * s.c.drive.gap);
+  EXPECT_LE(estimate.ci95.low, s.c.drive.gap);
+  EXPECT_GE(estimate.ci95.high, s.c.drive.gap);
+}
+
+TEST(Coasting, ImpactsWithinAHalfPeriodOfTheMotionAreNoEchoesWhereTheTorqueTurnsMoreOften) {
+  const CoastingSubject s(3331015, independent_plant::Waveform::kMultisine);
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
+}
+
+TEST(Coasting, AContactThatRingsUntilItIsLostTellsNoTravelOfTheLoad) {
+  const CoastingSubject s(810371);  // 24 % too large by the motor's speed at t1
+  EXPECT_NE(s.read().verdict, GapVerdict::kBacklash);
+}
+
+}  // namespace
+}  // namespace gapscope::internal::sliding_mode
