@@ -98,7 +98,9 @@ std::vector<double> without_mean(std::span<const double> values) {
 std::vector<double> correlation(std::span<const double> a, std::span<const double> b, std::size_t lags,
                                 std::size_t step) {
   GAPSCOPE_REQUIRE(a.size() == b.size() && step > 0);
-  const std::vector<double> first = without_mean(a), later = without_mean(b);
+  const std::vector<double> first = without_mean(a);
+  const std::vector<double> other = a.data() == b.data() ? std::vector<double>() : without_mean(b);
+  const std::vector<double>& later = other.empty() ? first : other;
   const double power = std::sqrt(inner_product(first, first.data()) * inner_product(later, later.data()));
   std::vector<double> c;
   for (std::size_t k = 0; k <= lags && k < first.size(); k += step) {

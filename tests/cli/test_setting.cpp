@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cli/executable.h"
 
 namespace gapscope {
@@ -34,8 +36,25 @@ TEST(SettingOption, IsInTheReportThatItMade) {
   const auto detected = place.run("detect --set name=renamed c.yaml --set encoder.bits=16");
   ASSERT_EQ(detected.status, 0) << detected.err;
   const std::string resolved = text_of(place.folder() / "reports/renamed/resolved.yaml");
-  EXPECT_THAT(resolved, ::testing::HasSubstr("name: renamed"));
+  EXPECT_THAT(resolved, ::testing::HasSubstr("name: \"renamed\""));
   EXPECT_THAT(resolved, ::testing::Not(::testing::HasSubstr("18")));
+}
+
+TEST(SvgOption, DrawsEachFigureTwiceAndTheNextReportTidiesUp) {
+  Workplace place;
+  place.file("c.yaml", drive("3", "18"));
+  const auto count = [&](const char* ending) {
+    const auto content = place.content();
+    return std::count_if(content.begin(), content.end(),
+                         [&](const std::string& file) { return file.ends_with(ending); });
+  };
+  ASSERT_EQ(place.run("detect c.yaml --svg -o d").status, 0);
+  EXPECT_GT(count(".png"), 0);
+  EXPECT_EQ(count(".svg"), count(".png"));
+  ASSERT_EQ(place.run("report d").status, 0);
+  EXPECT_EQ(count(".svg"), 0);
+  ASSERT_EQ(place.run("report d --svg").status, 0);
+  EXPECT_EQ(count(".svg"), count(".png"));
 }
 
 }  // namespace
