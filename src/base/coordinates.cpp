@@ -10,6 +10,7 @@ namespace gapscope {
 
 std::string Coordinates::unit(const std::string& rotational_unit) const {
   if (rotational()) return rotational_unit;
+  if (rotational_unit == "torque") return torque_word();
   return replaced(replaced(replaced(rotational_unit, "kg m^2", "kg"), "N m", "N"), "rad", "m");
 }
 

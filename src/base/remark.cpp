@@ -1,29 +1,72 @@
 #include "gapscope/base/remark.h"
 
-#include <fmt/args.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
+#include <cmath>
 #include <ostream>
 #include <utility>
 
+#include "gapscope/base/require.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope {
 
+namespace {
+
+constexpr char kLength = '\x01';  ///< after a field: its number is a length, told with its own prefix
+
+/// What is written of a number: "8810" rather than "8.81e+03".
+std::string without_exponent(const std::string& number, double value) {
+  constexpr double kLongest = 1e6;
+  return std::abs(value) < kLongest && number.find("e+") != number.npos
+             ? fmt::format("{:.0f}", std::stod(number))
+             : number;
+}
+
+/// "2.97 mrad", "19 mm": the prefix keeps the number from 1 to 1000.
+std::string length_text(const std::string& form, double value, Coordinates coordinates) {
+  static constexpr std::array kPrefixes = {"", "m", "µ", "n"};
+  std::size_t thousands = 0;
+  const double size = std::abs(value);
+  while (size > 0.0 && thousands + 1 < kPrefixes.size() &&
+         std::stod(fmt::format(fmt::runtime(form), size * std::pow(1e3, thousands))) < 1.0)
+    ++thousands;
+  const double shown = value * std::pow(1e3, thousands);
+  return without_exponent(fmt::format(fmt::runtime(form), shown), shown) + " " + kPrefixes[thousands] +
+         coordinates.position_unit();
+}
+
+std::string field_text(const std::string& form, const Remark::Value& value, bool length,
+                       Coordinates coordinates) {
+  if (const auto* unit = std::get_if<RemarkUnit>(&value)) return coordinates.unit(unit->rotational);
+  if (const auto* count = std::get_if<long>(&value)) return fmt::format(fmt::runtime(form), *count);
+  if (const auto* text = std::get_if<std::string>(&value)) return fmt::format(fmt::runtime(form), *text);
+  const double number = std::get<double>(value);
+  return length && std::isfinite(number) ? length_text(form, number, coordinates)
+                                         : without_exponent(fmt::format(fmt::runtime(form), number), number);
+}
+
+}  // namespace
+
 std::string Remark::Part::text(Coordinates coordinates) const {
   if (said) return words;
-  fmt::dynamic_format_arg_store<fmt::format_context> all;
-  for (const Value& value : values)
-    if (const auto* unit = std::get_if<RemarkUnit>(&value))
-      all.push_back(coordinates.unit(unit->rotational));
-    else if (const auto* number = std::get_if<double>(&value))
-      all.push_back(*number);
-    else if (const auto* count = std::get_if<long>(&value))
-      all.push_back(*count);
-    else
-      all.push_back(std::get<std::string>(value));
-  return fmt::vformat(coordinates.with_units(words), all);
+  const std::string told = coordinates.with_units(replaced(words, "} [rad]", std::string("}") + kLength));
+  std::string out;
+  std::size_t next = 0;
+  for (std::size_t at = 0; at < told.size();) {
+    if (told[at] != '{') {
+      out += told[at++];
+      continue;
+    }
+    const std::size_t end = told.find('}', at);
+    GAPSCOPE_REQUIRE(end != told.npos && next < values.size());
+    const bool length = end + 1 < told.size() && told[end + 1] == kLength;
+    out += field_text(told.substr(at, end + 1 - at), values[next++], length, coordinates);
+    at = end + (length ? 2 : 1);
+  }
+  return out;
 }
 
 Remark::Remark(std::string code, std::string words, std::vector<Value> values)

@@ -25,7 +25,7 @@ std::vector<std::string> possible_effects(const ImplantConfig& config, const Imp
                                           const std::string& file) {
   for (const std::string& effect : config.effects)
     if (const std::string why = why_not_implanted(effect, host); !why.empty())
-      throw ConfigError(file, std::max(1, config.line),
+      throw ConfigError(file, config.line == 0 ? 1 : config.line,
                         fmt::format("implant.effects has {}, which {}; expected others", effect, why));
   if (!config.effects.empty()) return config.effects;
   std::vector<std::string> effects;

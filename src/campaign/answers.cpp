@@ -38,6 +38,9 @@ std::vector<std::vector<bool>> good_cells(const CampaignSummary& s, const Summar
   return good;
 }
 
+/// All values that were tried; of others nothing is known.
+std::string every(const SummaryAxis& axis) { return fmt::format("every {} that was tried", axis.name); }
+
 /// Neighbouring values of the first axis that need the same are told together.
 std::string needs_over_pair(const CampaignSummary& s, const SummaryTable& table, Score score, Within within) {
   const auto& outer = s.axes[table.a].bins;
@@ -50,7 +53,7 @@ std::string needs_over_pair(const CampaignSummary& s, const SummaryTable& table,
     std::vector<bool> here(outer.size(), false);
     std::fill(here.begin() + static_cast<long>(begin), here.begin() + static_cast<long>(end), true);
     const std::string where = range_in_words(outer, here);
-    const std::string what = words == "any" ? "any " + s.axes[table.b].name : words;
+    const std::string what = words == "any" ? every(s.axes[table.b]) : words;
     parts.push_back(where == "any" ? what : what + " with " + where);
   }
   return parts.empty() ? "nothing in this campaign is enough" : fmt::format("{}", fmt::join(parts, "; "));
@@ -61,7 +64,7 @@ std::string needs_over_line(const CampaignSummary& s, const SummaryTable& table,
   for (const SummaryCell& cell : table.cells) good[cell.a] = is_good(cell, score, within);
   const std::string words = range_in_words(s.axes[table.a].bins, good);
   return words == "none"  ? "nothing in this campaign is enough"
-         : words == "any" ? "any " + s.axes[table.a].name
+         : words == "any" ? every(s.axes[table.a])
                           : words;
 }
 

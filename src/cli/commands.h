@@ -1,12 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "cli/command_line.h"
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/config/data_config.h"
+#include "gapscope/config/configuration.h"
 
 namespace gapscope::cli {
 
@@ -35,6 +36,9 @@ inline constexpr int kSpoiltRecording = 3;
 /// What stands in the help of every command that takes a configuration.
 inline constexpr const char* kConfigHelp = "configuration (YAML)";
 
+/// In the help of every command that draws.
+inline constexpr const char* kSvgHelp = "each figure also as SVG, its text as text";
+
 /// @throws std::runtime_error naming what cannot be written
 void write_text(const std::string& path, const std::string& text, const Replaceable& found = {});
 
@@ -44,6 +48,21 @@ void write_text(const std::string& path, const std::string& text, const Replacea
 /// @returns what may be replaced: the file as it was before it was looked at
 std::string require_file_name(const std::string& file, const std::vector<std::string>& sources,
                               bool (*is_own)(const std::string& file));
+
+/// CONFIG and --set.
+struct ConfigArguments {
+  std::string file;
+  std::vector<std::string> set = {};  ///< "KEY=VALUE"
+
+  std::vector<Setting> settings() const;  ///< @throws ConfigError
+};
+
+/// @param what  of the file in the help
+void add_config_arguments(CommandLine& command, ConfigArguments& arguments, const char* name = "CONFIG",
+                          const char* what = kConfigHelp);
+
+/// Does the work with the configuration and its settings; what is wrong with a setting names it.
+void with_configuration(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work);
 
 /// A recording that is named on the command line, and how it is to be read.
 struct RecordingArguments {

@@ -19,12 +19,13 @@ namespace gapscope::cli {
 namespace {
 
 struct DiagnoseArguments {
-  std::string config;
+  ConfigArguments config;
   std::string folder;
   std::vector<std::string> excluded;
   std::vector<std::string> simulated;
   int threads = 0;
   bool quiet = false;
+  FigureFormats figures;
 };
 
 void require_known(const std::vector<std::string>& effects) {
@@ -45,7 +46,7 @@ std::string fitted_model(const Configuration& c, const Diagnosis& d, const Refer
 }
 
 void write_outcome(ReportFolder& report, const Configuration& c, DiagnosisResult& result,
-                   const MotorTrace& recording) {
+                   const MotorTrace& recording, const FigureFormats& figures) {
   add_card(report.path(), result);
   write_diagnosis_result(report.path(), result);
   write_text(report.path() + "/resolved.yaml", result.configuration);
@@ -61,7 +62,7 @@ void write_outcome(ReportFolder& report, const Configuration& c, DiagnosisResult
                experiment_yaml(c, result.diagnosis.rivals.front().model, next));
     write_input_csv(report.path() + "/next_experiment.csv", next);
   }
-  write_report(report.path(), report.dropped());
+  write_report(report.path(), report.dropped(), figures);
   stop_point();
   report.commit();
 }
@@ -79,9 +80,7 @@ void take_simulated(const std::vector<std::string>& files, Configuration& c) {
     throw ConfigError("gapscope: --simulated " + problem);
 }
 
-void diagnose_configuration(const DiagnoseArguments& a) {
-  require_known(a.excluded);
-  Configuration c = load_configuration(a.config);
+void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
   std::sort(c.excluded.begin(), c.excluded.end());  // the same question, however it is asked
   c.excluded.erase(std::unique(c.excluded.begin(), c.excluded.end()), c.excluded.end());
@@ -96,7 +95,7 @@ void diagnose_configuration(const DiagnoseArguments& a) {
   DiagnosisResult& result = outcome.result;
   options.progress("drawing the report");
   report.keep_estimate(result.version, result.sources);
-  write_outcome(report, c, result, outcome.first.motor_trace());
+  write_outcome(report, c, result, outcome.first.motor_trace(), a.figures);
   if (!report.dropped().empty()) result.diagnosis.warnings.push_back(report.dropped());
   print_warnings(result.diagnosis.warnings);
   if (result.simulated) print_warnings(result.simulated->warnings);
@@ -109,7 +108,7 @@ void add_diagnose(CommandLine& app) {
   auto arguments = std::make_shared<DiagnoseArguments>();
   CommandLine command =
       app.add_command("diagnose", "Why the simulated drive does not move like the real one");
-  command.add_option("CONFIG", arguments->config, kConfigHelp).required();
+  add_config_arguments(command, arguments->config);
   command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
       .value("DIR");
   command.add_option("--exclude", arguments->excluded, "an effect that is no candidate; may be repeated")
@@ -120,6 +119,7 @@ void add_diagnose(CommandLine& app) {
                   "CSV with what your simulator answers to the recorded input; one for each recording")
       .value("SIM.csv")
       .one_value_each();
+  command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
   add_work_options(command, arguments->threads, arguments->quiet);
   command.footer(
       "Fits the model to recording: file, adds every effect of `gapscope effects` in turn, and judges on\n"
@@ -157,7 +157,10 @@ void add_diagnose(CommandLine& app) {
       "motion far worse, that of its repeatability) or unknown (nothing in the catalogue explains it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --simulated mujoco.csv");
-  command.action([arguments] { diagnose_configuration(*arguments); });
+  command.action([arguments] {
+    require_known(arguments->excluded);
+    with_configuration(arguments->config, [&](Configuration& c) { diagnose_configuration(*arguments, c); });
+  });
 }
 
 }  // namespace gapscope::cli

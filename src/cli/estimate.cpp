@@ -19,9 +19,10 @@ namespace gapscope::cli {
 namespace {
 
 struct EstimateArguments {
-  std::string config;
+  ConfigArguments config;
   std::string folder;
   bool quiet = false;
+  FigureFormats figures;
   bool stream = false;  ///< the rest is for `detect --stream` alone
   RecordingColumns columns;
   double quantum = 0.0;  ///< [rad]; 0: as the samples show
@@ -35,8 +36,16 @@ void write_fitted_model(const std::string& folder, const Configuration& c, const
   write_text(path, fit_yaml(c, *result.reference, trace_name(0, first.file), first.motor_trace()));
 }
 
+/// What is stored need not be held twice: the report reads it from there.
+void forget_samples(RunResult& r) {
+  r.recordings = {};
+  if (r.model_free) r.model_free->traces = {}, r.model_free->map.reset();
+  if (r.reference) r.reference->traces = {};
+}
+
 /// The folder is replaced only when everything is in it.
-void write_outcome(ReportFolder& report, const Configuration& c, RunOutcome& outcome) {
+void write_outcome(ReportFolder& report, const Configuration& c, const FigureFormats& figures,
+                   RunOutcome& outcome) {
   report.keep_diagnosis(outcome.result.version, outcome.result.sources);
   if (!report.dropped().empty()) outcome.warnings.push_back(report.dropped());
   add_card(report.path(), outcome.result);
@@ -44,13 +53,13 @@ void write_outcome(ReportFolder& report, const Configuration& c, RunOutcome& out
   write_timing(report.path(), outcome.timing);
   write_text(report.path() + "/resolved.yaml", outcome.result.configuration);
   write_fitted_model(report.path(), c, outcome.result);
-  write_report(report.path(), report.dropped());
+  forget_samples(outcome.result);
+  write_report(report.path(), report.dropped(), figures);
   stop_point();
   report.commit();
 }
 
-void estimate(const EstimateArguments& a, const Estimators& wanted) {
-  const Configuration c = load_configuration(a.config);
+void estimate(const EstimateArguments& a, const Estimators& wanted, const Configuration& c) {
   const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   const Progress progress = progress_on_terminal(a.quiet);
@@ -59,7 +68,7 @@ void estimate(const EstimateArguments& a, const Estimators& wanted) {
   require_unchanged(c, sources);
   outcome.result.sources = sources;
   progress("drawing the report");
-  write_outcome(report, c, outcome);
+  write_outcome(report, c, a.figures, outcome);
   print_warnings(outcome.warnings);
   print_headline(folder, outcome.result);
 }
@@ -68,12 +77,15 @@ CommandLine add(CommandLine& app, const char* name, const char* what, const std:
                 Estimators wanted,
                 const std::shared_ptr<EstimateArguments>& arguments = std::make_shared<EstimateArguments>()) {
   CommandLine command = app.add_command(name, what);
-  command.add_option("CONFIG", arguments->config, kConfigHelp).required();
+  add_config_arguments(command, arguments->config);
   command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
       .value("DIR");
+  command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(details);
-  command.action([arguments, wanted] { estimate(*arguments, wanted); });
+  command.action([arguments, wanted] {
+    with_configuration(arguments->config, [&](const Configuration& c) { estimate(*arguments, wanted, c); });
+  });
   return command;
 }
 
@@ -81,7 +93,10 @@ CommandLine add(CommandLine& app, const char* name, const char* what, const std:
 void add_streaming(CommandLine& detect, const std::shared_ptr<EstimateArguments>& a) {
   Option config = detect.option("CONFIG").required(false);
   Option stream = detect.add_flag("--stream", a->stream, "a CSV from standard input, an event a line");
-  stream.excludes(config).excludes(detect.option("--output"));
+  stream.excludes(config)
+      .excludes(detect.option("--output"))
+      .excludes(detect.option("--set"))
+      .excludes(detect.option("--svg"));
   const auto column = [&](const char* name, std::string& place, const char* what) {
     detect.add_option(name, place, what).value("NAME").needs(stream);
   };
@@ -97,7 +112,7 @@ void add_streaming(CommandLine& detect, const std::shared_ptr<EstimateArguments>
   detect.action([a, config] {
     if (a->stream) return require_three_columns(a->columns), detect_stream(a->columns, a->quantum);
     if (!config.given()) throw_missing("CONFIG");
-    estimate(*a, {true, false});
+    with_configuration(a->config, [&](const Configuration& c) { estimate(*a, {true, false}, c); });
   });
 }
 

@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ExportArguments {
-  std::string source, format, folder;
+  ConfigArguments source;
+  std::string format, folder;
   bool quiet = false;
 };
 
@@ -55,8 +56,7 @@ void say_parts(const char* what, Fidelity fidelity, const Certificate& c) {
   if (!names.empty()) say(what, names);
 }
 
-void export_configuration(const ExportArguments& a) {
-  const Configuration c = load_configuration(configuration_in(a.source));
+void export_configuration(const ExportArguments& a, const Configuration& c) {
   ReportFolder report(a.folder, FolderKind::kExport, source_paths(c));
   progress_on_terminal(a.quiet)("exporting " + c.name);
   const DriveExport drive = export_drive(c, format_of(a.format));
@@ -82,10 +82,8 @@ void add_drive_export(CommandLine& app) {
   CommandLine command = app.add_command("export", "The fitted drive for a simulator, with a certificate");
   std::vector<std::string> words;
   for (const ExportFormatSpec& f : export_formats()) words.emplace_back(f.name);
-  command
-      .add_option("SOURCE", arguments->source,
-                  "report folder of run, fit or diagnose (its fitted.yaml), or a configuration (YAML)")
-      .required();
+  add_config_arguments(command, arguments->source, "SOURCE",
+                       "report folder of run, fit or diagnose (its fitted.yaml), or a configuration (YAML)");
   command.add_option("--to", arguments->format, "format of the simulator")
       .required()
       .value("FORMAT")
@@ -105,7 +103,10 @@ void add_drive_export(CommandLine& app) {
       "fitted.yaml under that of its trace (after diagnose: of what was held out), for the first 10 s.\n"
       "DIR may be empty, new, or hold an earlier export that was not changed since.\n\n"
       "Example: gapscope export reports/drive --to mjcf -o drive_mjcf");
-  command.action([arguments] { export_configuration(*arguments); });
+  command.action([arguments] {
+    const ConfigArguments source{configuration_in(arguments->source.file), arguments->source.set};
+    with_configuration(source, [&](const Configuration& c) { export_configuration(*arguments, c); });
+  });
 }
 
 }  // namespace gapscope::cli

@@ -36,26 +36,32 @@ struct Kind {
   FolderKind kind;
   bool (*is_in)(const std::string& folder);
   void (*read)(const std::string& folder);
-  void (*draw)(const std::string& folder, const std::string& note);
+  void (*draw)(const std::string& folder, const std::string& note, const FigureFormats& formats);
 };
 
 constexpr Kind kKinds[] = {
     {FolderKind::kCampaign, has_campaign_summary, [](const std::string& f) { read_campaign_summary(f); },
-     [](const std::string& f, const std::string&) { write_campaign_report(f); }},
+     [](const std::string& f, const std::string&, const FigureFormats& formats) {
+       write_campaign_report(f, formats);
+     }},
     {FolderKind::kBlind, has_blind_score, [](const std::string& f) { read_blind_score(f); },
-     [](const std::string& f, const std::string&) { write_blind_report(f); }},
+     [](const std::string& f, const std::string&, const FigureFormats& formats) {
+       write_blind_report(f, formats);
+     }},
     {FolderKind::kChanges, has_drive_changes, [](const std::string& f) { read_drive_changes(f); },
-     [](const std::string& f, const std::string&) { write_changes_report(f); }},
+     [](const std::string& f, const std::string&, const FigureFormats& formats) {
+       write_changes_report(f, formats);
+     }},
     {FolderKind::kDrive, [](const std::string&) { return true; }, read_what_is_stored, write_report},
 };
 
 /// Draws aside, so that the old report stands until the new one is complete.
-void redraw(const std::string& folder) {
+void redraw(const std::string& folder, const FigureFormats& formats) {
   const Kind& kind =
       *std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.is_in(folder); });
   kind.read(folder);  // so that what is wrong is told with its place in the folder that the user knows
   ReportFolder fresh = ReportFolder::to_redraw(folder, kind.kind);
-  kind.draw(fresh.path(), fresh.dropped());
+  kind.draw(fresh.path(), fresh.dropped(), formats);
   fresh.commit();
 }
 
@@ -65,10 +71,12 @@ void add_report(CommandLine& app) {
   struct ReportArguments {
     std::string folder;
     bool quiet = false;
+    FigureFormats figures;
   };
   auto arguments = std::make_shared<ReportArguments>();
   CommandLine command = app.add_command("report", "Draws a report again from its stored results");
   command.add_option("DIR", arguments->folder, "folder of a report").required();
+  command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(
       "Reads DIR/result.json, DIR/diagnosis.json [rad, s] and DIR/traces; writes report.md, report.html and "
@@ -79,7 +87,7 @@ void add_report(CommandLine& app) {
     if (!std::filesystem::is_directory(arguments->folder))
       throw ConfigError(arguments->folder, "there is no such folder, expected the folder of a report");
     progress_on_terminal(arguments->quiet)("drawing " + arguments->folder);
-    redraw(arguments->folder);
+    redraw(arguments->folder, arguments->figures);
     fmt::print("{:<12}{}\n", "report", arguments->folder);
   });
 }

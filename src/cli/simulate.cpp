@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SimulateArguments {
-  std::string config;
+  ConfigArguments config;
   std::string file;
   bool quiet = false;
 };
@@ -34,8 +34,7 @@ bool is_simulated(const std::string& file) {
   return header.starts_with("t,u,x1") && header.ends_with(",mode") && told;
 }
 
-void simulate_to_file(const SimulateArguments& a) {
-  const Configuration c = load_configuration(a.config);
+void simulate_to_file(const SimulateArguments& a, const Configuration& c) {
   if (!c.simulation)
     throw ConfigError(c.file, "there is no simulation, expected simulation: to make data from");
   require_file_name(a.file, source_paths(c), is_simulated);
@@ -81,11 +80,13 @@ std::string details() {
 void add_simulate(CommandLine& app) {
   auto arguments = std::make_shared<SimulateArguments>();
   CommandLine command = app.add_command("simulate", "A simulated recording as CSV");
-  command.add_option("CONFIG", arguments->config, kConfigHelp).required();
+  add_config_arguments(command, arguments->config);
   command.add_option("-o,--output", arguments->file, "recording to write (CSV)").required().value("FILE");
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(details());
-  command.action([arguments] { simulate_to_file(*arguments); });
+  command.action([arguments] {
+    with_configuration(arguments->config, [&](const Configuration& c) { simulate_to_file(*arguments, c); });
+  });
 }
 
 }  // namespace gapscope::cli

@@ -79,7 +79,7 @@ Value base_document(const CampaignConfig& c) {
   const Value document = parse_document(c.base_text, c.base_file);
   if (!c.base_inline) return document;
   const YAML::Node base = document.node()["base"];
-  return {base, "", std::make_shared<const std::string>(c.base_file), base.Mark().line + 1};
+  return {base, "", std::make_shared<const Source>(Source{c.base_file}), base.Mark().line + 1};
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "config/data_reader.h"
 #include "config/field_reader.h"
 #include "config/model_reader.h"
+#include "config/setting.h"
 #include "config/yaml_document.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/plain_name.h"
@@ -143,7 +144,7 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
   const auto recording = root.find("recording"), simulation = root.find("simulation");
   if (recording && simulation)
     simulation->fail(
-        fmt::format("stands beside recording (line {}), expected only one of both", recording->line()));
+        fmt::format("stands beside recording ({}), expected only one of both", recording->place()));
   if (!recording && !simulation) root.require("recording", "either recording or simulation");
   if (recording) {
     c.recording = read_recording_block(*recording, std::filesystem::path(c.file).parent_path().string(),
@@ -223,18 +224,35 @@ const char* to_string(EncoderSides sides) {
   return sides == EncoderSides::kLoad ? "load" : sides == EncoderSides::kBoth ? "both" : "motor";
 }
 
+InputFacts Configuration::input_facts() const {
+  InputFacts input;
+  input.constant_guessed =
+      model.given && model.guessed[static_cast<std::size_t>(drive_parameter_index("torque_constant"))];
+  if (!recording) return input;
+  const Quantity torque = coordinates.rotational() ? Quantity::kTorque : Quantity::kForce;
+  const bool of_a_supply = !recording->reading.columns.voltage.empty();  // a duty times its volts
+  input.unit = of_a_supply ? "V" : si_unit(torque, recording->units.input);
+  return input;
+}
+
 ShaftTurns Configuration::turns() const {
   if (!coordinates.rotational()) return ShaftTurns::of_a_slide();
   if (!recording) return {};
   return {std::abs(recording->gear.position), std::abs(recording->gear.load_position)};
 }
 
-Configuration parse_configuration(const std::string& text, const std::string& file) {
-  return internal::config::read_configuration(internal::config::parse_document(text, file));
+Configuration parse_configuration(const std::string& text, const std::string& file,
+                                  std::span<const Setting> settings) {
+  Configuration c;
+  telling_settings(settings, [&] {
+    c = internal::config::read_configuration(
+        internal::config::overlaid(internal::config::parse_document(text, file), settings));
+  });
+  return c;
 }
 
-Configuration load_configuration(const std::string& path) {
-  return parse_configuration(internal::config::read_text(path), path);
+Configuration load_configuration(const std::string& path, std::span<const Setting> settings) {
+  return parse_configuration(internal::config::read_text(path), path, settings);
 }
 
 void require_reference_model(const Configuration& c) {
@@ -263,7 +281,7 @@ DiagnosisOptions diagnosis_options(const Configuration& c) {
 void require_possible_experiment(const Configuration& c, double dt) {
   const double samples = c.next_experiment.duration / dt;
   if (samples > kMostSimulatedSamples)
-    throw ConfigError(c.file, std::max(1, c.next_experiment_line),
+    throw ConfigError(c.file, c.next_experiment_line == 0 ? 1 : c.next_experiment_line,
                       fmt::format("next_experiment.duration is {} s, {:.3g} samples at the {:.5g} Hz of the "
                                   "recording, expected at most {:.3g}",
                                   c.next_experiment.duration, samples, 1.0 / dt, kMostSimulatedSamples));

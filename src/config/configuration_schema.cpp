@@ -25,6 +25,7 @@ Json setting_schema(const Range& range, const std::string& doc, bool prior) {
     known.add("std", number_schema({0.0, kInfinity, range.unit}, "standard deviation"));
     known.required = {"std"};
     written.add("prior", known.schema("what is known beforehand"));
+    written.add("guess", truth_schema("the value is one: what rests on it is told so"));
   }
   return described(
       {{"anyOf", {number_schema(range, "fixed at this value"), written.schema("estimated, or fixed")}}}, doc,

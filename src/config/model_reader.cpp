@@ -31,12 +31,15 @@ WrittenParameter read_parameter(const Value& value, int index) {
     p.estimate = false;
     return p;
   }
-  const Section section(value, {"value", "estimate", "bounds", "prior"});
+  const Section section(value, {"value", "estimate", "bounds", "prior", "guess"});
+  if (const auto given = section.find("guess")) p.guess = given->truth();
   if (const auto given = section.find("estimate")) p.estimate = given->truth();
   if (const auto given = section.find("bounds")) p.bounds = given->rising_pair(range);
   if (const auto given = section.find("prior")) p.prior = read_prior(*given, range);
   if (const auto given = section.find("value"))
     p.value = given->number(p.bounds ? Range{p.bounds->first, p.bounds->second, range.unit} : range);
+  if (p.guess && (!p.value || p.estimate.value_or(false)))
+    value.fail("has guess: true, expected a value and no estimate with it: what is estimated is not guessed");
   if (!p.value && p.estimate == false)
     value.fail("has no value and is not estimated, expected a value or estimate: true");
   return p;

@@ -17,6 +17,7 @@ struct WrittenParameter {
   std::optional<std::pair<double, double>> bounds;
   std::optional<std::pair<std::optional<double>, double>> prior;  ///< value and std
   Value place;
+  bool guess = false;  ///< the value is one
 };
 
 /// A `model:` block as it is written.

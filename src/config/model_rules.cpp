@@ -95,6 +95,7 @@ ModelConfig resolved_model(const WrittenModel& written) {
   for (int i = 0; i < kDriveParameterCount; ++i) {
     const auto& given = written.parameters[i];
     model.defaulted[i] = !given || !given->value;
+    model.guessed[i] = given && given->guess;
     if (!has_parameter(model.structure, i)) {
       model.parameters[i] = unused_parameter(given, model.structure);
     } else {

@@ -173,8 +173,9 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
     out.entry("torque_constant", yaml_number(begin.numbers.torque_constant),
               coordinates.with_units("[N m] per unit of u; ") + begin.from);
   else
-    out.entry("torque_constant", "1",
-              coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u"));
+    out.entry("torque_constant", "{value: 1, guess: true}",
+              coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u. "
+                                     "Known: torque_constant: 0.172"));
   write_estimated(out, "motor_inertia", begin.numbers.inertia,
                   coordinates.with_units("[kg m^2] (over torque_constant); better the sheet's"), begin.from);
   write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad"), begin.from);

@@ -105,18 +105,14 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
-Value parse_document(const std::string& text, const std::string& file) {
-  const auto name = std::make_shared<const std::string>(file);
+YAML::Node parse_tree(const std::string& text, const std::string& file) {
   try {
     std::istringstream in(text);
     YAML::Parser parser(in);
-    DepthGuard guard(*name);
+    DepthGuard guard(file);
     while (parser.HandleNextDocument(guard)) {
     }
-    const YAML::Node root = YAML::Load(text);
-    if (root.IsNull())
-      throw ConfigError(file, "is empty, expected a map with name, recording or simulation, ...");
-    return Value(root, "", name, 1);
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     std::string what = error.msg;  // may quote a character of the file
     std::replace_if(
@@ -124,6 +120,13 @@ Value parse_document(const std::string& text, const std::string& file) {
     throw ConfigError(file, error.mark.line + 1,
                       "no valid YAML: " + what + ", expected a map of keys and values");
   }
+}
+
+Value parse_document(const std::string& text, const std::string& file) {
+  const YAML::Node root = parse_tree(text, file);
+  if (root.IsNull())
+    throw ConfigError(file, "is empty, expected a map with name, recording or simulation, ...");
+  return {root, "", std::make_shared<const Source>(Source{file}), 1};
 }
 
 }  // namespace gapscope::internal::config

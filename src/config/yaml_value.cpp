@@ -58,11 +58,11 @@ std::string Value::kind() const {
 }
 
 void Value::fail(const std::string& what) const {
-  throw ConfigError(*file_, line_, path_.empty() ? what : path_ + " " + what);
+  throw ConfigError(source_->file, line_, path_.empty() ? what : path_ + " " + what);
 }
 
 void Value::fail_expecting(const std::string& what) const {
-  if (path_.empty()) throw ConfigError(*file_, line_, "the file is " + kind() + ", expected " + what);
+  if (path_.empty()) throw ConfigError(source_->file, line_, "the file is " + kind() + ", expected " + what);
   fail("is " + kind() + ", expected " + what);
 }
 
@@ -111,13 +111,28 @@ std::string Value::text() const {
   return node_.Scalar();
 }
 
+std::string Value::place_of(int line) const {
+  return line < 0 ? "--set " + source_->settings[static_cast<std::size_t>(-1 - line)]
+                  : fmt::format("line {}", line);
+}
+
+/// A value within this one: of the setting that laid it over the file, else of that of this one, else of the
+/// line of the mark.
+Value Value::below(const YAML::Node& node, const std::string& path, const YAML::Node& marked) const {
+  const auto own = source_->laid_over.find(path);
+  const bool has_line = line_ >= 0 && !marked.Mark().is_null();
+  const int line = own != source_->laid_over.end() ? line_of_setting(own->second)
+                   : has_line                      ? marked.Mark().line + 1
+                                                   : line_;
+  return {node, path, source_, line};
+}
+
 std::vector<Value> Value::items() const {
   if (!is_list()) fail_expecting("a list");
   std::vector<Value> out;
   for (std::size_t i = 0; i < node_.size(); ++i) {
     const YAML::Node item = node_[i];
-    const int line = item.Mark().is_null() ? line_ : item.Mark().line + 1;
-    out.emplace_back(item, fmt::format("{}[{}]", path_, i), file_, line);
+    out.push_back(below(item, fmt::format("{}[{}]", path_, i), item));
   }
   return out;
 }
@@ -142,15 +157,16 @@ std::vector<std::pair<std::string, Value>> Value::entries() const {
   std::vector<std::pair<std::string, Value>> out;
   std::map<std::string, int> seen;
   for (const auto& entry : node_) {
-    const int line = entry.first.Mark().is_null() ? line_ : entry.first.Mark().line + 1;
-    if (!entry.first.IsScalar()) throw ConfigError(*file_, line, "a key is no text, expected a plain key");
-    const std::string& key = entry.first.Scalar();
-    const auto [first, is_new] = seen.emplace(key, line);
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    const Value value = below(entry.second, path_.empty() ? key : path_ + "." + key, entry.first);
+    if (!entry.first.IsScalar())
+      throw ConfigError(source_->file, value.line_, "a key is no text, expected a plain key");
+    const auto [first, is_new] = seen.emplace(key, value.line_);
     if (!is_new)
-      throw ConfigError(*file_, line,
-                        fmt::format("the key {} is there twice, expected it once (it is also in line {})",
-                                    shown(key), first->second));
-    out.emplace_back(key, Value(entry.second, path_.empty() ? key : path_ + "." + key, file_, line));
+      throw ConfigError(source_->file, value.line_,
+                        fmt::format("the key {} is there twice, expected it once (it is also in {})",
+                                    shown(key), place_of(first->second)));
+    out.emplace_back(key, value);
   }
   return out;
 }

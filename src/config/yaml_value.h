@@ -24,15 +24,26 @@ struct Range {
 /// "0 to 0.3 rad", "0 rad or more", "a finite number".
 std::string to_string(const Range& range);
 
+/// What the values of a document come from.
+struct Source {
+  std::string file;
+  std::vector<std::string> settings = {};             ///< keys of what was laid over it
+  std::map<std::string, std::size_t> laid_over = {};  ///< path of a value to the setting that it comes from
+};
+
+/// Where the values of a setting stand, which is in no line of the file.
+constexpr int line_of_setting(std::size_t number) { return -1 - static_cast<int>(number); }
+
 /// One value of a configuration together with its place in it: whoever reads it can refuse it.
 class Value {
  public:
-  Value(YAML::Node node, std::string path, std::shared_ptr<const std::string> file, int line)
-      : node_(std::move(node)), path_(std::move(path)), file_(std::move(file)), line_(line) {}
+  Value(YAML::Node node, std::string path, std::shared_ptr<const Source> source, int line)
+      : node_(std::move(node)), path_(std::move(path)), source_(std::move(source)), line_(line) {}
 
-  int line() const { return line_; }
-  const std::string& path() const { return path_; }  ///< "model.parameters.gap"
-  const std::string& file() const { return *file_; }
+  int line() const { return line_; }                     ///< in the file, or line_of_setting()
+  std::string place() const { return place_of(line_); }  ///< "line 7", "--set model.load"
+  const std::string& path() const { return path_; }      ///< "model.parameters.gap"
+  const std::string& file() const { return source_->file; }
 
   YAML::Node node() const { return node_; }  ///< for those who write into the tree before it is read
 
@@ -60,10 +71,12 @@ class Value {
  private:
   std::string kind() const;
   const std::string& plain(const std::string& expected) const;
+  Value below(const YAML::Node& node, const std::string& path, const YAML::Node& marked) const;
+  std::string place_of(int line) const;
 
   YAML::Node node_;
   std::string path_;
-  std::shared_ptr<const std::string> file_;
+  std::shared_ptr<const Source> source_;
   int line_;
 };
 

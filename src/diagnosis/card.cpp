@@ -84,10 +84,16 @@ std::string torque_verdict(const CardFacts& f, const Card& card) {
 std::string fitted_line(const CardFacts& f) {
   if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
     return "Not measured, as no model was fitted; told by `gapscope diagnose CONFIG`.";
+  const double percent = f.reference->fit_percent;
+  if (percent <= 0.0)
+    return fmt::format(
+        "The free run of the fitted model departs from the motion (fit {:.3g} %); the {} that it misses: "
+        "`gapscope diagnose CONFIG`.",
+        percent, f.coordinates.torque_word());
   return fmt::format(
       "The fitted model follows {:.4g} % of the motion (free run); the {} that it misses: `gapscope diagnose "
       "CONFIG`.",
-      f.reference->fit_percent, f.coordinates.torque_word());
+      percent, f.coordinates.torque_word());
 }
 
 /// "9.66 N rms on held-out data, 17.1 % of the 56.5 N that the input brings"
@@ -112,17 +118,16 @@ std::string error_size(const CardFacts& f) {
 std::string floor_words(const CardFacts& f) {
   const MismatchSize& m = f.diagnosis->mismatch;
   if (!(m.before > 0.0 && m.floor > 0.0)) return "";
-  const double ratio = m.before / m.floor;
-  const char* const floor = floor_name(m.floor_from);
-  if (f.diagnosis->verdict == DiagnosisVerdict::kNone)
-    return fmt::format("; that is noise: the error is {} times the {}", SharedUnit(1.0, "").number(ratio),
-                       floor);
-  return fmt::format("; the error is {} times the {}", SharedUnit(1.0, "").number(ratio), floor);
+  return fmt::format("; {}the error is {} times the {}",
+                     f.diagnosis->verdict == DiagnosisVerdict::kNone ? "that is noise: " : "",
+                     SharedUnit(1.0, "").number(m.before / m.floor), floor_name(m.floor_from));
 }
 
 std::string mismatch_line(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr) return fitted_line(f) + torque_verdict(f, card);
-  return (std::isfinite(card.torque) ? torque_size(f, card) : error_size(f)) + floor_words(f) + "." +
+  const bool torque = std::isfinite(card.torque);
+  return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f) + "." +
+         (torque && f.constant_guessed ? " Its unit rests on torque_constant, a guess." : "") +
          torque_verdict(f, card);
 }
 
@@ -205,9 +210,8 @@ std::string rungs(const CardFacts& f, const Card& card) {
   std::vector<std::string> all;
   for (const AddedEffect& a : f.diagnosis->added)
     all.push_back(torque(a.after_torque) + " with " + internal::diagnosis::name_of(a));
-  return fmt::format("from {} to {} ({} to {})", torque(card.torque),
-                     fmt::format("{}", fmt::join(all, ", then ")), percent_text(card.percent),
-                     percent_text(card.percent_after));
+  return fmt::format("from {} to {} ({} to {})", torque(card.torque), fmt::join(all, ", then "),
+                     percent_text(card.percent), percent_text(card.percent_after));
 }
 
 std::string law_words(const LastResortLaw& law) {

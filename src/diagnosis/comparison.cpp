@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/normal.h"
+
 namespace gapscope {
 
 Comparison compare(const GapEstimate& model_free, const FitSummary& reference) {
@@ -14,7 +16,7 @@ Comparison compare(const GapEstimate& model_free, const FitSummary& reference) {
   c.difference = model_free.gap - gap->value;
   if (!gap->identifiable || !std::isfinite(gap->std) || !std::isfinite(model_free.std)) return c;
   c.joint_std = std::hypot(model_free.std, gap->std);
-  c.agree = std::abs(c.difference) <= 1.96 * c.joint_std;
+  c.agree = std::abs(c.difference) <= kNormal95 * c.joint_std;
   return c;
 }
 

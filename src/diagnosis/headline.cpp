@@ -20,10 +20,16 @@ const MapShare& largest(const std::vector<MapShare>& map) {
 /// A bin as people write it: "0.034–0.051 m/s".
 std::string range(const std::string& bin) { return replaced(bin, "..", "–"); }
 
+/// By its odds, so that a phase which lasts most of the time can be it, too.
+bool denser_than_chance(const MapShare& m) {
+  return m.share * (1.0 - m.expected) > kTelling.dense * m.expected * (1.0 - m.share);
+}
+
 std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
   static constexpr const char* kWhere[] = {"in the gap", "in engagement", "at impacts"};
   if (!place.phase) return "";
   const auto phase = static_cast<std::size_t>(*place.phase);
+  if (!denser_than_chance(place.mode[phase])) return "";
   return fmt::format("{} ({:.0f} % of the squared residual {} in {:.0f} % of the time)", kWhere[phase],
                      100.0 * place.mode[phase].share, coordinates.torque_word(),
                      100.0 * place.mode[phase].expected);

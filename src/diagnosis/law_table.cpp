@@ -5,6 +5,7 @@
 #include "diagnosis/last_resort.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/tell_budget.h"
+#include "gapscope/base/normal.h"
 #include "plant/effects/node_curve.h"
 #include "signals/one_body.h"
 
@@ -116,7 +117,7 @@ std::vector<CurvePoint> curve_of(const Study& study, const ScoredModel& after) {
     CurvePoint c{points[i].at, points[i].direction, 0.0, {}};
     for (const auto& [id, weight] : points[i].sum)
       c.torque += weight * model.effects.back().parameters[static_cast<std::size_t>(id.index)].value;
-    if (!spreads.empty()) c.ci95 = {c.torque - 1.96 * spreads[i], c.torque + 1.96 * spreads[i]};
+    if (!spreads.empty()) c.ci95 = normal_interval(c.torque, spreads[i]);
     curve.push_back(c);
   }
   return curve;

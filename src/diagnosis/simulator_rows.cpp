@@ -1,5 +1,7 @@
 #include "diagnosis/simulator_rows.h"
 
+#include "gapscope/base/normal.h"
+
 namespace gapscope::internal::diagnosis {
 namespace {
 
@@ -43,11 +45,6 @@ std::vector<PlannedRow> planned_rows(const JointFit& fit) {
 
 namespace {
 
-Interval around(double value, double std) {
-  if (std::isnan(std)) return {};
-  return {value - 1.96 * std, value + 1.96 * std};
-}
-
 void fill_numbers(const RowInstrument& of, const JointFit& fit, PlannedRow& planned) {
   const std::vector<double> drive = spreads_of(of.drive, fit.drive, planned.ids);
   const std::vector<double> simulator = spreads_of(of.simulator, fit.simulator, planned.ids);
@@ -63,7 +60,8 @@ void fill_numbers(const RowInstrument& of, const JointFit& fit, PlannedRow& plan
       n.key = kDriveParameters[id.index].key, n.unit = kDriveParameters[id.index].unit;
     }
     n.drive = setting_of(of_drive, id).value, n.simulator = setting_of(of_simulator, id).value;
-    n.drive_ci95 = around(n.drive, drive[i]), n.simulator_ci95 = around(n.simulator, simulator[i]);
+    n.drive_ci95 = normal_interval(n.drive, drive[i]),
+    n.simulator_ci95 = normal_interval(n.simulator, simulator[i]);
     planned.row.numbers.push_back(std::move(n));
   }
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -75,6 +76,15 @@ std::optional<UnitScale> unit_scale(Quantity quantity, std::string_view declared
   for (const Unit& unit : units(quantity))
     if (declared == unit.name) return unit.scale;
   return from_number(declared);
+}
+
+std::string si_unit(Quantity quantity, std::string_view declared) {
+  const std::vector<Unit>& known = units(quantity);
+  const auto named = [&](const Unit& unit) { return declared == unit.name; };
+  if (declared == "%" || declared == "permille" || std::none_of(known.begin(), known.end(), named)) return "";
+  for (const char* unit : {"N m", "N", "A", "V", "rad", "m", "s"})
+    if (declared.ends_with(unit) && unit_scale(quantity, unit)) return unit;
+  return "";
 }
 
 std::string known_units(Quantity quantity) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/base/remark.h"
 #include "reference/information.h"
 
@@ -11,10 +12,10 @@ namespace gapscope::internal::reference {
 struct Determination {
   std::vector<double> std;  ///< [unit of the parameter]; NaN where it is not identifiable
   std::vector<bool> identifiable;
-  std::vector<double> own;     ///< std before changes to another gain or part count
-  std::vector<double> linear;  ///< std of white residuals of one floor
-  double quantile = 1.96;      ///< half width of the 95 % interval in std
-  std::vector<Remark> advice;  ///< what would sharpen the parameters that are known least
+  std::vector<double> own;      ///< std before changes to another gain or part count
+  std::vector<double> linear;   ///< std of white residuals of one floor
+  double quantile = kNormal95;  ///< half width of the 95 % interval in std
+  std::vector<Remark> advice;   ///< what would sharpen the parameters that are known least
   std::vector<Remark> warnings;
 };
 

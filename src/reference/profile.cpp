@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/normal.h"
 
 namespace gapscope::internal::reference {
 namespace {
 
-constexpr double kQuantile = 1.96;
 constexpr Effort kRefit{1e-7, 0.5};
 constexpr int kMostSteps = 12;
 constexpr double kCloseEnough = 0.02;  ///< of the rise, as a root
@@ -83,7 +83,7 @@ Profile profile_interval(const FitProblem& problem, const FitPoint& at, double o
                          const ParameterError& error) {
   const Parameter& p = problem.free_parameter(i);
   const double value = p.coordinate.physical(at.q[i]);
-  const double step = kQuantile * error.reported, wanted = kQuantile * error.reported / error.linear;
+  const double step = kNormal95 * error.reported, wanted = kNormal95 * error.reported / error.linear;
   if (!(step > 0.0) || !std::isfinite(wanted)) return {};
   const Square square = mean_square_with_priors(problem, at, observer_hz);
   ProfileWalk walk(problem, at, square.value, observer_hz, i);

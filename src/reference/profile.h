@@ -16,8 +16,8 @@ struct Profile {
 };
 
 /// Where the cost, all other numbers fitted anew, is higher by what 95 % allow: an increase of
-/// (1.96 · reported/linear)² floors², so that it is the usual interval where the cost is a parabola. An end
-/// that is not met within the bounds is the bound.
+/// (kNormal95 · reported/linear)² floors², so that it is the usual interval where the cost is a parabola. An
+/// end that is not met within the bounds is the bound.
 /// @param i  place among the free parameters
 Profile profile_interval(const FitProblem& problem, const FitPoint& at, double observer_hz, std::size_t i,
                          const ParameterError& error);

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/normal.h"
+
 namespace gapscope::internal::reference {
 namespace {
 
 constexpr int kMostTestedLags = 40;
-constexpr double kBand = 1.96;
 
 /// One recording's residual and input, without their means.
 struct Pair {
@@ -78,7 +79,7 @@ void test_residuals(const FitProblem& problem, bool free_run, FitSummary& summar
   if (lags.empty() || !(ee > 0.0)) return;
   double samples = 0.0;
   for (const Pair& p : pairs) samples += static_cast<double>(p.e.size());
-  const double band = kBand / std::sqrt(samples);
+  const double band = kNormal95 / std::sqrt(samples);
   std::vector<double> own, with_input;
   double bartlett = 1.0;  // the sum over all lags, by the trapezium rule between those that are looked at
   double before = 1.0, before_lag = 0.0;

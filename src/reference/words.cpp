@@ -74,7 +74,7 @@ Remark not_explained(double floors, double observer_hz) {
 Remark leaves_some(double unexplained_percent, double observer_hz) {
   return {
       "leaves_some",
-      "{:.2g} % of what the torque does to the motion is left unexplained: values are those of an observer "
+      "{:.2g} % of what the [torque] does to the motion is left unexplained: values are those of an observer "
       "at "
       "{:.3g} Hz; intervals hold their scatter over windows, gains and parts of the recordings, not what the "
       "missing physics may bias. `gapscope diagnose` asks what is missing.",
@@ -141,12 +141,13 @@ Remark leaves_unexplained(double share, double floors) {
   if (share >= 1.0)
     return {"leaves_unexplained",
             "The model predicts the motion no better than a motor that coasts without any torque (prediction "
-            "error {:.2g} encoder floors).",
+            "error {:.3g} encoder floors).",
             {floors}};
-  return {"leaves_unexplained",
-          "The model misses {:.0f} % of what the torque does to the motion (prediction error {:.2g} encoder "
-          "floors).",
-          {100.0 * share, floors}};
+  return {
+      "leaves_unexplained",
+      "The model misses {:.0f} % of what the [torque] does to the motion (prediction error {:.3g} encoder "
+      "floors).",
+      {100.0 * share, floors}};
 }
 Remark as_well_without_gap(double ratio) {
   return {"as_well_without_gap",
@@ -180,7 +181,7 @@ Remark above_floor(double fit_percent, double floors, double unexplained_percent
           : Remark("above_floor", "The free run drifts away");
   return run +
          Remark("above_floor",
-                ", and {:.2g} % of what the torque does to the motion is left unexplained ({:.2g} encoder "
+                ", and {:.2g} % of what the [torque] does to the motion is left unexplained ({:.3g} encoder "
                 "floors): intervals do not hold what the missing physics may bias.",
                 {unexplained_percent, floors});
 }

@@ -32,8 +32,9 @@ bool held(const BlindCount& c) {
 /// The aim and whether it is held; "–" without one.
 std::string reached(const BlindCount& c) {
   if (!std::isfinite(c.aim)) return "–";
-  return fmt::format("{} {}: {}", c.at_most ? "at most" : "at least", percent_of(c.aim),
-                     held(c) ? "held" : "**missed**");
+  const bool open = c.limits().low < c.aim && c.aim < c.limits().high;  // chance may have made it so
+  return fmt::format("{} {}: {}{}", c.at_most ? "at most" : "at least", percent_of(c.aim),
+                     held(c) ? "held" : "**missed**", open ? " in these cases, too few to be sure" : "");
 }
 
 std::string count_table(const BlindScore& s) {
@@ -128,18 +129,20 @@ std::string blind_text(const BlindScore& s, const std::vector<FigureData>& figur
 }  // namespace
 }  // namespace internal::report
 
-void write_blind_report(const std::string& folder) {
+void write_blind_report(const std::string& folder, const FigureFormats& formats) {
   const BlindScore score = read_blind_score(folder);
   if (score.of_implants()) {
     const std::vector<internal::report::FigureData> figures = {internal::report::implant_figure(score)};
     internal::report::write_report_files(
         folder, figures,
         internal::report::implant_text(score, figures, internal::report::seal_sentence(score),
-                                       internal::report::count_table(score)));
+                                       internal::report::count_table(score)),
+        formats);
     return;
   }
   const std::vector<internal::report::FigureData> figures = internal::report::blind_figures(score);
-  internal::report::write_report_files(folder, figures, internal::report::blind_text(score, figures));
+  internal::report::write_report_files(folder, figures, internal::report::blind_text(score, figures),
+                                       formats);
 }
 
 }  // namespace gapscope

@@ -94,10 +94,11 @@ std::string campaign_text(const CampaignSummary& s, const std::vector<FigureData
 
 }  // namespace internal::report
 
-void write_campaign_report(const std::string& folder) {
+void write_campaign_report(const std::string& folder, const FigureFormats& formats) {
   const CampaignSummary summary = read_campaign_summary(folder);
   const std::vector<internal::report::FigureData> figures = internal::report::campaign_figures(summary);
-  internal::report::write_report_files(folder, figures, internal::report::campaign_text(summary, figures));
+  internal::report::write_report_files(folder, figures, internal::report::campaign_text(summary, figures),
+                                       formats);
 }
 
 }  // namespace gapscope

@@ -63,17 +63,32 @@ void polygon(cv::Mat& paper, const Polyline& corners, Colour colour, double fine
 
 }  // namespace
 
-Canvas::Canvas(double width, double height, const Typesetter& typesetter, double scale)
+Polyline triangle(Point at, Marker marker, double size) {
+  const double r = size / 2, up = marker == Marker::kTriangleUp ? -r : r;
+  return {{at.x - r, at.y - up * 0.75}, {at.x + r, at.y - up * 0.75}, {at.x, at.y + up}};
+}
+
+std::array<Polyline, 2> cross(Point at, double size) {
+  const double arm = 0.4 * size;
+  return {Polyline{{at.x - arm, at.y - arm}, {at.x + arm, at.y + arm}},
+          Polyline{{at.x - arm, at.y + arm}, {at.x + arm, at.y - arm}}};
+}
+
+PixelCanvas::PixelCanvas(double width, double height, const Typesetter& typesetter, double scale)
     : fine_(kFine * scale),
       paper_(static_cast<int>(kFine) * cvRound(height * scale),
              static_cast<int>(kFine) * cvRound(width * scale), CV_8UC3, cv::Scalar::all(255)),
       typesetter_(typesetter) {}
 
-void Canvas::fill(const Box& box, Colour colour) { paper_(fine_rect(box, paper_, fine_)).setTo(bgr(colour)); }
+void PixelCanvas::fill(const Box& box, Colour colour) {
+  paper_(fine_rect(box, paper_, fine_)).setTo(bgr(colour));
+}
 
-void Canvas::line(const Polyline& points, const LineStyle& style) { stroke(paper_, points, style, fine_); }
+void PixelCanvas::line(const Polyline& points, const LineStyle& style) {
+  stroke(paper_, points, style, fine_);
+}
 
-void Canvas::line(const Polyline& points, const LineStyle& style, const Box& clip) {
+void PixelCanvas::line(const Polyline& points, const LineStyle& style, const Box& clip) {
   const cv::Rect part = fine_rect(clip, paper_, fine_);
   if (part.empty()) return;
   Polyline moved;
@@ -82,9 +97,8 @@ void Canvas::line(const Polyline& points, const LineStyle& style, const Box& cli
   stroke(inside, moved, style, fine_);
 }
 
-void Canvas::marker(Point at, Marker marker, Colour colour, double size) {
+void PixelCanvas::marker(Point at, Marker marker, Colour colour, double size) {
   const double r = size / 2;
-  const double up = marker == Marker::kTriangleUp ? -r : r;
   switch (marker) {
     case Marker::kNone:
       return;
@@ -93,22 +107,19 @@ void Canvas::marker(Point at, Marker marker, Colour colour, double size) {
       cv::circle(paper_, sub_pixel(at, fine_), cvRound(r * fine_ * (1 << kShift)), bgr(colour), cv::FILLED,
                  cv::LINE_AA, kShift);
       if (marker == Marker::kCircle)
-        cv::circle(paper_, sub_pixel(at, fine_), cvRound((r - 3.5) * fine_ * (1 << kShift)),
+        cv::circle(paper_, sub_pixel(at, fine_), cvRound((r - kRing) * fine_ * (1 << kShift)),
                    cv::Scalar::all(255), cv::FILLED, cv::LINE_AA, kShift);
       return;
     case Marker::kTriangleUp:
     case Marker::kTriangleDown:
-      return polygon(paper_, {{at.x - r, at.y - up * 0.75}, {at.x + r, at.y - up * 0.75}, {at.x, at.y + up}},
-                     colour, fine_);
+      return polygon(paper_, triangle(at, marker, size), colour, fine_);
     case Marker::kCross:
-      stroke(paper_, {{at.x - 0.8 * r, at.y - 0.8 * r}, {at.x + 0.8 * r, at.y + 0.8 * r}}, {colour, 4.0, {}},
-             fine_);
-      stroke(paper_, {{at.x - 0.8 * r, at.y + 0.8 * r}, {at.x + 0.8 * r, at.y - 0.8 * r}}, {colour, 4.0, {}},
-             fine_);
+      for (const Polyline& stroke_of_it : cross(at, size))
+        stroke(paper_, stroke_of_it, {colour, kCrossWidth, {}}, fine_);
   }
 }
 
-void Canvas::text(Point at, const std::string& markup, const TextStyle& style) {
+void PixelCanvas::text(Point at, const std::string& markup, const TextStyle& style) {
   const TextMetrics fine = typesetter_.measure(markup, style.size * fine_, style.bold);
   const double width = fine.width / fine_, ascent = fine.ascent / fine_, descent = fine.descent / fine_;
   const double before = style.align == Align::kLeft ? 0.0 : style.align == Align::kCentre ? width / 2 : width;
@@ -134,7 +145,7 @@ void Canvas::text(Point at, const std::string& markup, const TextStyle& style) {
   cv::min(under, strip(seen - place.tl()), under);
 }
 
-cv::Mat Canvas::image() const {
+cv::Mat PixelCanvas::image() const {
   cv::Mat small;
   cv::resize(paper_, small, {}, 1.0 / kFine, 1.0 / kFine, cv::INTER_AREA);
   return small;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 namespace gapscope::internal::report {
 
 enum class Align { kLeft, kCentre, kRight };
+
+inline constexpr double kRing = 3.5;  ///< width of the rim of Marker::kCircle [px]
 
 struct TextStyle {
   double size = 40.0;  ///< em [px]
@@ -27,20 +30,32 @@ struct DrawnText {
   std::string markup;
 };
 
-/// White paper, in pixels of the finished image at scale 1. Everything is drawn at twice the size and
-/// averaged down, so that thin lines and small letters come out smooth.
+/// White paper, in pixels of the finished image at scale 1, y downwards.
 class Canvas {
  public:
-  /// @param scale  of the image: everything else is told as if it were 1
-  Canvas(double width, double height, const Typesetter& typesetter, double scale = 1.0);
+  virtual ~Canvas() = default;
 
-  void fill(const Box& box, Colour colour);
-  void line(const Polyline& points, const LineStyle& style);
+  virtual void fill(const Box& box, Colour colour) = 0;
+  virtual void line(const Polyline& points, const LineStyle& style) = 0;
   /// The part of the line within the box.
-  void line(const Polyline& points, const LineStyle& style, const Box& clip);
-  void marker(Point at, Marker marker, Colour colour, double size);
+  virtual void line(const Polyline& points, const LineStyle& style, const Box& clip) = 0;
+  virtual void marker(Point at, Marker marker, Colour colour, double size) = 0;
   /// @param at the left end, middle or right end of the baseline, as the style aligns it
-  void text(Point at, const std::string& markup, const TextStyle& style);
+  virtual void text(Point at, const std::string& markup, const TextStyle& style) = 0;
+};
+
+/// Everything is drawn at twice the size and averaged down, so that thin lines and small letters come out
+/// smooth.
+class PixelCanvas : public Canvas {
+ public:
+  /// @param scale  of the image: everything else is told as if it were 1
+  PixelCanvas(double width, double height, const Typesetter& typesetter, double scale = 1.0);
+
+  void fill(const Box& box, Colour colour) override;
+  void line(const Polyline& points, const LineStyle& style) override;
+  void line(const Polyline& points, const LineStyle& style, const Box& clip) override;
+  void marker(Point at, Marker marker, Colour colour, double size) override;
+  void text(Point at, const std::string& markup, const TextStyle& style) override;
 
   cv::Mat image() const;
   const std::vector<DrawnText>& texts() const { return texts_; }
@@ -51,5 +66,11 @@ class Canvas {
   const Typesetter& typesetter_;
   std::vector<DrawnText> texts_;
 };
+
+inline constexpr double kCrossWidth = 4.0;  ///< of the strokes of Marker::kCross [px]
+
+// The shapes of markers, for every canvas.
+Polyline triangle(Point at, Marker marker, double size);
+std::array<Polyline, 2> cross(Point at, double size);
 
 }  // namespace gapscope::internal::report

@@ -175,10 +175,11 @@ std::string changes_text(const DriveChanges& all) {
   return text + internal::report::summary_line(all) + "\n";
 }
 
-void write_changes_report(const std::string& folder) {
+void write_changes_report(const std::string& folder, const FigureFormats& formats) {
   const DriveChanges all = read_drive_changes(folder);
   const std::vector<internal::report::FigureData> figures = {internal::report::gap_over_recordings(all)};
-  internal::report::write_report_files(folder, figures, internal::report::comparison_text(all, figures));
+  internal::report::write_report_files(folder, figures, internal::report::comparison_text(all, figures),
+                                       formats);
 }
 
 }  // namespace gapscope

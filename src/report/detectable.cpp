@@ -22,7 +22,8 @@ constexpr std::size_t kTold = 5;
 
 std::string number_text(const DiagnosisResult& r, const NamedValue& v) {
   if (v.unit == "-") return v.key.ends_with("ratio") ? rounded(100.0 * v.value) + " %" : rounded(v.value);
-  if (v.unit == "unit of u") return rounded(v.value) + " units of u";
+  if (v.unit == "unit of u")
+    return with_input_unit(rounded(v.value) + " units of u", r.input.value_or(InputFacts{}));
   if (v.unit == "s" || v.unit == "rad" || v.unit == "N m")
     return quantity(v.value, r.coordinates.shown_unit(v.unit));
   return rounded(v.value) + " " + r.coordinates.shown_unit(v.unit);

@@ -8,6 +8,7 @@
 
 #include "gapscope/base/text.h"
 #include "report/detectable.h"
+#include "report/diagnosis_words.h"
 #include "report/error_budget.h"
 #include "report/last_resort.h"
 #include "report/rich_text.h"
@@ -22,30 +23,6 @@ constexpr std::size_t kShownCandidates = 12;
 
 LineStyle before_style() { return {kVermillion, 4.0, {}}; }
 LineStyle after_style() { return {kBlue, 4.0, {16, 9}}; }
-
-const MismatchTrace* shown_trace(const DiagnosisResult& r) {
-  const auto& traces = r.diagnosis.traces;
-  return traces.empty() || traces.front().x1.size() < 2 ? nullptr : &traces.front();
-}
-
-std::string length_unit(const DiagnosisResult& r) { return r.coordinates.position_unit(); }
-std::string torque_unit_of(const DiagnosisResult& r) { return r.coordinates.shown_unit("N m"); }
-std::string torque_word(const DiagnosisResult& r) { return r.coordinates.torque_word(); }
-bool reads_load(const DiagnosisResult& r) {
-  return !r.diagnosis.traces.empty() && r.diagnosis.traces.front().encoder == EncoderSide::kLoad;
-}
-std::string angle_word(const DiagnosisResult& r) {
-  if (!r.coordinates.rotational()) return "displacement";
-  return reads_load(r) ? "load angle" : "motor angle";
-}
-std::string position_name(const DiagnosisResult& r) { return reads_load(r) ? "$x_2$" : "$x_1$"; }
-bool added(const DiagnosisResult& r) { return !r.diagnosis.effects.empty(); }
-
-/// What the model has been given: its one effect, or all of them.
-std::string with_added(const DiagnosisResult& r) {
-  const auto& effects = r.diagnosis.effects;
-  return effects.size() == 1 ? "with " + readable(effects.front()) : "with all that was added";
-}
 
 Series over_time(const std::string& label, const LineStyle& style, const MismatchTrace& t,
                  const std::vector<double>& values) {
@@ -113,25 +90,6 @@ bool says_nothing(const std::vector<MapShare>& map) {
 std::string share_text(double share) {
   if (!std::isfinite(share)) return "diverges";
   return tick_label(share, 2);
-}
-
-/// A cycle over the motor angle in words.
-std::string every(const DiagnosisResult& r, double periods_per_turn) {
-  return r.coordinates.rotational() ? rounded(periods_per_turn) + " cycles per turn"
-                                    : "every " + quantity(2.0 * kPi / periods_per_turn, "m");
-}
-
-/// What repeats with the motor angle: in what the nominal model leaves, and in what is left in the end.
-std::string cycles_reading(const DiagnosisResult& r) {
-  const double periods = r.diagnosis.where.periods_per_turn;
-  std::string text =
-      std::isfinite(periods)
-          ? "What the nominal model leaves repeats with the " + angle_word(r) + ", " + every(r, periods) + "."
-          : "No cycle over the " + angle_word(r) + " stands out of what the nominal model leaves.";
-  std::string lines;
-  for (const PeriodicTorque& p : r.diagnosis.periodic)
-    if (!p.given || p.holds) lines += (lines.empty() ? "" : ", ") + every(r, p.periods_per_turn);
-  return lines.empty() ? text : text + " In what remains " + with_added(r) + " one does: " + lines + ".";
 }
 
 }  // namespace
@@ -210,49 +168,7 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
     if (!says_nothing(map)) figure.panels.push_back(map_panel(r, title, map));
   if (figure.panels.empty())
     return missing_figure(figure.file, figure.title, "the error is alike everywhere");
-  figure.reading = "The residual " + torque_word(r) + " appears " + w.headline + ".";
-  return figure;
-}
-
-FigureData diagnosis_torque_map(const DiagnosisResult& r) {
-  FigureData figure;
-  figure.file = "diagnosis_torque_map.png";
-  const std::string torque = torque_word(r);
-  figure.title = "Residual " + torque + " over the " + angle_word(r) + " and the input";
-  const MismatchTrace* t = shown_trace(r);
-  if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
-  const auto scatter = [&](const std::string& title, const Axis& x, const std::vector<double>& of,
-                           const std::vector<double>& residual) {
-    Panel panel;
-    panel.title = title;
-    panel.x = x;
-    panel.y = {"residual " + torque, torque_unit_of(r), {}, {}, {}};
-    panel.height = 520.0;
-    Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}};
-    plus.joined = minus.joined = false;
-    plus.marker = Marker::kTriangleUp, minus.marker = Marker::kTriangleDown;
-    const std::size_t step = std::max<std::size_t>(1, (t->x1.size() - t->scored_from) / 600);
-    for (std::size_t i = std::max<std::size_t>(1, t->scored_from + step); i < t->x1.size(); i += step) {
-      Series& s = t->x1[i] >= t->x1[i - step] ? plus : minus;
-      s.x.push_back(of[i]), s.y.push_back(residual[i]);
-    }
-    for (Series& s : std::vector<Series>{plus, minus})
-      if (!s.x.empty()) panel.series.push_back(s);
-    return panel;
-  };
-  const Axis position{angle_word(r) + " " + position_name(r), length_unit(r), {}, {}, {}};
-  const Axis input{"input $u$", "units of $u$", {}, {}, {}};
-  const bool both = added(r) && t->torque_after.size() == t->x1.size();
-  const auto row = [&](const std::string& over, const Axis& x, const std::vector<double>& of) {
-    figure.panels.push_back(scatter("Nominal model, over " + over, x, of, t->torque_before));
-    if (both)
-      figure.panels.push_back(
-          scatter("W" + with_added(r).substr(1) + ", over " + over, x, of, t->torque_after));
-  };
-  row("the " + angle_word(r), position, t->x1);
-  row("the input", input, t->u);
-  if (both) figure.width = 3200.0, figure.columns = 2;
-  figure.reading = cycles_reading(r);
+  figure.reading = "The residual " + torque_word(r) + ": " + w.headline + ".";
   return figure;
 }
 
@@ -272,6 +188,9 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
   sheet.file = "diagnosis.png";
   sheet.title = literal(r.name) + ": what the simulation lacks";
   sheet.lines.push_back(literal(r.diagnosis.sentence));
+  if (const auto& traces = r.diagnosis.traces; traces.size() > 1)
+    sheet.lines.push_back(fmt::format("Drawn over time: {}, the first of {} held-out recordings.",
+                                      literal(traces.front().file), traces.size()));
   sheet.width = 3200.0, sheet.scale = kSheetScale;
   sheet.columns = 2;
   borrow(sheet, figures, "diagnosis_budget.png", 1);
@@ -283,6 +202,7 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
     sheet.panels[i].height = sheet.panels[i + 1].height =
         std::max(sheet.panels[i].height, sheet.panels[i + 1].height);
   sheet.reading = r.diagnosis.sentence;
+  if (sheet.lines.size() > 1) sheet.reading += " " + plain_text(sheet.lines.back());
   if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");
   return sheet;
 }

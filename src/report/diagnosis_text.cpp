@@ -72,10 +72,8 @@ std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
 std::string probability_words(const Diagnosis& d) {
   if (!std::isfinite(d.outside_probability)) return "";
   if (d.mismatch.floor_from == FloorSource::kRepeatability)
-    return " Probabilities were learned on simulated drives that are judged by the encoder floor. This one "
-           "is "
-           "judged by its repeatability floor, where only their order counts: the verdict rests on the "
-           "held-out errors alone.";
+    return " It is judged by its repeatability floor, for which no probabilities were learned: the verdict "
+           "rests on the held-out errors alone.";
   return fmt::format(
       " Probabilities are those of simulated drives with one missing effect; probability {:.2f} that the "
       "cause is not in the catalogue.",
@@ -84,17 +82,22 @@ std::string probability_words(const Diagnosis& d) {
 
 std::string ranking_table(const DiagnosisResult& r) {
   if (r.diagnosis.ranking.empty()) return "";
+  const bool learned = r.diagnosis.mismatch.floor_from != FloorSource::kRepeatability;
   std::string text =
       "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive; "
       "`gapscope effects --laws` has the law of each and what its parameters mean." +
       probability_words(r.diagnosis) +
-      "\n\n| effect | probability | explained share | error removed | windows better | parameters | remark "
-      "|\n|---|---|---|---|---|---|---|\n";
+      fmt::format(
+          "\n\n| effect |{} explained share | error removed | windows better | parameters | remark "
+          "|\n|---|{}---|---|---|---|---|\n",
+          learned ? " probability |" : "", learned ? "---|" : "");
   for (const RankedEffect& e : r.diagnosis.ranking)
-    text +=
-        fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", e.effect,
-                    std::isfinite(e.probability) ? fmt::format("{:.2f}", e.probability) : "–", rounded(e.rel),
-                    rounded(e.shrink), rounded(e.windows_better), parameters_of(e, r.coordinates), e.remark);
+    text += fmt::format("| `{}` |{} {} | {} | {} | {} | {} |\n", e.effect,
+                        !learned                       ? ""
+                        : std::isfinite(e.probability) ? fmt::format(" {:.2f} |", e.probability)
+                                                       : " – |",
+                        rounded(e.rel), rounded(e.shrink), rounded(e.windows_better),
+                        parameters_of(e, r.coordinates), e.remark);
   return text;
 }
 

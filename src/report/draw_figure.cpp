@@ -2,6 +2,9 @@
 
 #include <sstream>
 
+#include "report/rich_text.h"
+#include "report/svg_canvas.h"
+
 namespace gapscope::internal::report {
 namespace {
 
@@ -97,22 +100,26 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
   return plan;
 }
 
+void paint(Canvas& canvas, const FigureData& figure, const FigurePlan& plan, const Typesetter& typesetter) {
+  canvas.text({kRim, kRim + kTitleSize}, figure.title, {kTitleSize, Align::kLeft, kInk, true});
+  for (std::size_t i = 0; i < plan.lines.size(); ++i)
+    canvas.text({kRim, kRim + 1.5 * kTitleSize + (0.9 + 1.35 * static_cast<double>(i)) * kTextSize},
+                plan.lines[i], {kTextSize});
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    draw_panel(canvas, figure.panels[i], plan.panels[i], plan.titles[i], plan.corners[i],
+               label_margin(figure.panels[i], plan.margins[i].left, typesetter), typesetter);
+}
+
 }  // namespace
 
 Drawing draw_with_notes(const FigureData& figure) {
   const Typesetter typesetter;
   const FigurePlan plan = plan_figure(figure, typesetter);
-  Canvas canvas(figure.width, plan.height, typesetter, figure.scale);
-  canvas.text({kRim, kRim + kTitleSize}, figure.title, {kTitleSize, Align::kLeft, kInk, true});
-  for (std::size_t i = 0; i < plan.lines.size(); ++i)
-    canvas.text({kRim, kRim + 1.5 * kTitleSize + (0.9 + 1.35 * static_cast<double>(i)) * kTextSize},
-                plan.lines[i], {kTextSize});
+  PixelCanvas canvas(figure.width, plan.height, typesetter, figure.scale);
+  paint(canvas, figure, plan, typesetter);
   Drawing drawing;
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    const PanelPlan& panel = plan.panels[i];
-    draw_panel(canvas, figure.panels[i], panel, plan.titles[i], plan.corners[i],
-               label_margin(figure.panels[i], plan.margins[i].left, typesetter), typesetter);
-    const Box frame{plan.corners[i].x, plan.corners[i].y, panel.width, panel.height};
+  for (std::size_t i = 0; i < plan.panels.size(); ++i) {
+    const Box frame{plan.corners[i].x, plan.corners[i].y, plan.panels[i].width, plan.panels[i].height};
     drawing.frames.push_back(frame.scaled(figure.scale));
   }
   drawing.image = canvas.image();
@@ -123,5 +130,13 @@ Drawing draw_with_notes(const FigureData& figure) {
 }
 
 cv::Mat draw(const FigureData& figure) { return draw_with_notes(figure).image; }
+
+std::string draw_as_svg(const FigureData& figure) {
+  const Typesetter typesetter;
+  const FigurePlan plan = plan_figure(figure, typesetter);
+  SvgCanvas canvas(typesetter);
+  paint(canvas, figure, plan, typesetter);
+  return canvas.document(figure.width, plan.height, plain_text(figure.title), plain_text(figure.reading));
+}
 
 }  // namespace gapscope::internal::report

@@ -20,6 +20,9 @@ Drawing draw_with_notes(const FigureData& figure);
 /// @throws std::runtime_error without fonts.
 cv::Mat draw(const FigureData& figure);
 
+/// The same figure as an SVG of that size on paper, its text as text.
+std::string draw_as_svg(const FigureData& figure);
+
 /// Draws one panel with the upper left corner of its frame at `corner`.
 void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, const std::string& title,
                 Point corner, double left_margin, const Typesetter& typesetter);

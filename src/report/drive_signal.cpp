@@ -11,7 +11,7 @@ namespace gapscope::internal::report {
 DriveSignal drive_signal(const ReportView& view) {
   const FittedParameter* constant = parameter(view.run, "torque_constant");
   if (constant == nullptr || !std::isfinite(constant->value))
-    return {view.recording->u, {"input $u$", "units of $u$", {}, {}, {}}, "input"};
+    return {view.recording->u, {"input $u$", input_unit(view.run), {}, {}, {}}, "input"};
   const std::string name = view.run.coordinates.torque_word();
   return {times(view.recording->u, constant->value),
           {name + " $K_m u$", torque_unit(view.run), {}, {}, {}},

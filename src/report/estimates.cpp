@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/normal.h"
 #include "report/figures.h"
 #include "report/wording.h"
 
@@ -92,7 +93,7 @@ Panel side_by_side(const ReportView& view) {
 }
 
 Interval interval_of(const GapEvent& e) {
-  const double half = std::isfinite(e.std) ? 1.96 * e.std : 0.0;
+  const double half = std::isfinite(e.std) ? kNormal95 * e.std : 0.0;
   return {e.gap - half, e.gap + half};
 }
 

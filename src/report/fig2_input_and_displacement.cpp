@@ -26,14 +26,17 @@ Panel state_and_error(const ReportView& view) {
   panel.y = {"displacement", view.length_unit, {}, {}, {}};
   panel.height = 480.0;
   panel.title = view.state.empty() ? "Estimation error" : "Backlash state";
-  double target = view.recording ? 0.5 * peak_to_peak(view.recording->position()) : kNaN;
+  double target = kNaN;
   if (!view.state.empty()) {
     const bool fitted = view.source == StateSource::kFitted;
     panel.series.push_back(view.over_time(view.state_name(), fitted ? reference_style() : measured_style(),
                                           view.state, view.window));
     target = 0.5 * peak_to_peak(panel.series.back().y);
   }
-  if (view.error) panel.series.push_back(scaled_error(view, view.window, target));
+  if (view.error)
+    panel.series.push_back(
+        view.state.empty() ? view.over_time("error $e_x$", model_free_style(), view.error->error, view.window)
+                           : scaled_error(view, view.window, target));
   if (panel.series.size() == 1) {  // one line needs no legend, the axis names it
     panel.y.name = panel.series[0].label;
     panel.series[0].label.clear();
@@ -66,8 +69,8 @@ FigureData fig2_input_and_displacement(const ReportView& view) {
   figure.title = view.state.empty() ? "Input, displacement and estimation error"
                                     : "Input, displacement and backlash state";
   if (!view.recording) return missing_figure(figure.file, figure.title, "no recording is stored");
-  figure.panels.push_back(
-      over_time(view, "Input", {"input $u$", "units of $u$", {}, {}, {}}, input_style(), view.recording->u));
+  figure.panels.push_back(over_time(view, "Input", {"input $u$", input_unit(view.run), {}, {}, {}},
+                                    input_style(), view.recording->u));
   figure.panels.push_back(over_time(view, view.reads_load() ? "Load displacement" : "Motor displacement",
                                     {view.position_name(), view.length_unit, {}, {}, {}}, measured_style(),
                                     view.recording->position()));

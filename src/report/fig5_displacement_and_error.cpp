@@ -2,25 +2,14 @@
 
 #include <cmath>
 
-#include "report/error_scale.h"
 #include "report/figures.h"
 #include "report/signals.h"
-#include "report/ticks.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
 namespace {
 
-/// What is taken off x1 so that it can share an axis with e_x, a round number; 0 where zero is within its
-/// travel.
-double offset_of(const std::vector<double>& x1) {
-  const double middle = robust_middle(x1), travel = peak_to_peak(x1);
-  if (std::abs(middle) < 0.5 * travel) return 0.0;
-  const double step = round_ticks(0.0, travel, 4).step;
-  return step > 0.0 ? step * std::round(middle / step) : 0.0;
-}
-
-Series at_events(const ReportView& view, const std::string& label, Marker marker, bool first, double offset) {
+Series at_events(const ReportView& view, const std::string& label, Marker marker, bool first) {
   Series s;
   s.label = label;
   s.style = {kVermillion, 4.0, {}};
@@ -30,7 +19,7 @@ Series at_events(const ReportView& view, const std::string& label, Marker marker
     const double t = first ? e.t1 : e.t2;
     if (!(t >= view.window.low && t <= view.window.high)) continue;
     s.x.push_back(t);
-    s.y.push_back((first ? e.x1_t1 : e.x1_t2) - offset);
+    s.y.push_back(first ? e.x1_t1 : e.x1_t2);
   }
   return s;
 }
@@ -43,7 +32,7 @@ std::string at_bound(const ReportView& view) {
   return " (L = " + quantity(bound, view.length_unit + "/s²") + ")";
 }
 
-std::string reading(const ReportView& view, double offset) {
+std::string reading(const ReportView& view) {
   const std::size_t used = view.accepted().size();
   std::vector<double> magnitudes;
   for (const double e : view.error->error) magnitudes.push_back(std::abs(e));
@@ -55,7 +44,6 @@ std::string reading(const ReportView& view, double offset) {
   if (!view.whole)
     text += fmt::format("; drawn: {} to {} of {}", quantity(view.window.low, "s"),
                         quantity(view.window.high, "s"), quantity(view.recording->duration(), "s"));
-  if (offset != 0.0) text += "; x1 is drawn less " + quantity(offset, view.length_unit);
   return text + ".";
 }
 
@@ -69,22 +57,27 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
     return missing_figure(figure.file, figure.title,
                           view.run.model_free ? "the detector left no error trace of the recording"
                                               : "the model-free detector was not asked for");
-  const double offset = offset_of(view.recording->position());
-  std::vector<double> x1 = view.recording->position();
-  for (double& x : x1) x -= offset;
-  Panel panel;
-  panel.x = view.time_axis(view.window);
-  panel.y = {"displacement", view.length_unit, {}, {}, {}};
-  panel.height = 620.0;
-  const std::string name =
-      offset == 0.0 ? "$x_1$" : fmt::format("$x_1$ less {}", quantity(offset, view.length_unit));
-  panel.series.push_back(view.over_time(name, measured_style(), x1, view.window));
-  panel.series.push_back(scaled_error(view, view.window, 0.5 * peak_to_peak(x1)));
-  for (const Series& s : {at_events(view, "contact lost, $t_1$", Marker::kCircle, true, offset),
-                          at_events(view, "regained, $t_2$", Marker::kDisc, false, offset)})
-    if (!s.x.empty()) panel.series.push_back(s);
-  figure.panels.push_back(panel);
-  figure.reading = reading(view, offset);
+  Panel displacement;
+  displacement.title = "Displacement";
+  displacement.x = view.time_axis(view.window);
+  displacement.y = {"displacement " + view.position_name(), view.length_unit, {}, {}, {}};
+  displacement.height = 420.0;
+  displacement.series.push_back(
+      view.over_time("", measured_style(), view.recording->position(), view.window));
+  for (const Series& s : {at_events(view, "contact lost, $t_1$", Marker::kCircle, true),
+                          at_events(view, "regained, $t_2$", Marker::kDisc, false)})
+    if (!s.x.empty()) displacement.series.push_back(s);
+  Panel error;
+  error.title = "Estimation error";
+  error.x = displacement.x;
+  error.y = {"error $e_x$", view.length_unit, {}, {}, {}};
+  error.height = 360.0;
+  LineStyle thin = model_free_style();
+  thin.width = 3.5;  // it may chatter
+  error.series.push_back(view.over_time("", thin, view.error->error, view.window));
+  figure.panels = {displacement, error};
+  figure.panels[0].x_labels = false;
+  figure.reading = reading(view);
   return figure;
 }
 

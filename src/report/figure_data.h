@@ -83,6 +83,10 @@ struct Panel {
 /// Of a sheet of many panels, which is looked at on a screen and not printed in a column.
 inline constexpr double kSheetScale = 0.75;
 
+/// A column of a journal, which a figure of 1600 px fills [m].
+inline constexpr double kColumnWidth = 0.085;
+inline constexpr double kColumnPixels = 1600.0;
+
 struct FigureData {
   std::string file{};  ///< name of the PNG
   std::string title{};

@@ -19,6 +19,13 @@ FigureData fit_starts(const ReportView& view) {
     figure.expected = false;
     return figure;
   }
+  const double best = std::sqrt(reference->start_costs.front());
+  const auto as_good = [&](double cost) { return std::sqrt(cost) < 1.005 * best; };
+  if (std::all_of(reference->start_costs.begin(), reference->start_costs.end(), as_good)) {
+    figure.missing = fmt::format("all {} searches ended in one minimum", reference->start_costs.size());
+    figure.expected = false;
+    return figure;
+  }
   Series s;
   s.style = reference_style();
   s.marker = Marker::kDisc;
@@ -31,7 +38,7 @@ FigureData fit_starts(const ReportView& view) {
     s.y.push_back(static_cast<double>(i));
     panel.y.categories.push_back(fmt::format("search {}", i + 1));
     panel.y.remarks.push_back(plain_number(ratio));
-    same += ratio < 1.005 * std::sqrt(reference->start_costs.front());
+    same += as_good(reference->start_costs[i]);
   }
   const double lowest = std::min(0.0, s.x.front()), highest = std::max(0.0, s.x.back());
   const double margin = 0.1 * (highest - lowest) + 0.05;
@@ -45,8 +52,7 @@ FigureData fit_starts(const ReportView& view) {
   figure.reading = fmt::format(
       "{} of {} searches ended in the best minimum, {} times the encoder floor; the worst at {} "
       "times.",
-      same, s.x.size(), plain_number(std::sqrt(reference->start_costs.front())),
-      plain_number(std::sqrt(reference->start_costs.back())));
+      same, s.x.size(), plain_number(best), plain_number(std::sqrt(reference->start_costs.back())));
   return figure;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gapscope/base/text.h"
+#include "report/diagnosis_words.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -13,7 +14,7 @@ namespace {
 
 Axis variable_axis(const DiagnosisResult& r, const LastResortLaw& law) {
   if (law.variable == "speed") return {"speed $w_1$", r.coordinates.shown_unit("rad/s"), {}, {}, {}};
-  if (law.variable == "input") return {"input $u$", "units of $u$", {}, {}, {}};
+  if (law.variable == "input") return {"input $u$", input_unit(r), {}, {}, {}};
   return {std::string(r.coordinates.rotational() ? "motor angle" : "displacement") + " $x_1$",
           r.coordinates.position_unit(),
           {},

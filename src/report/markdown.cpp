@@ -16,9 +16,11 @@ std::string sentence(const std::string& text) {
   return text.empty() ? "" : text + (text.ends_with(".") ? " " : ". ");
 }
 
-std::string parameter_row(const FittedParameter& p, const FitSummary& fit, Coordinates coordinates) {
+std::string parameter_row(const FittedParameter& p, const FitSummary& fit, const RunResult& run) {
+  const Coordinates coordinates = run.coordinates;
+  const bool guess = p.key == "torque_constant" && run.input && run.input->constant_guessed;
   const std::string unit = coordinates.shown_unit(p.unit);
-  const char* known = !p.estimated ? "given" : p.identifiable ? "yes" : "no";
+  const char* known = guess ? "a guess" : !p.estimated ? "given" : p.identifiable ? "yes" : "no";
   const std::string start = p.estimated ? quantity(p.start, unit) : "";
   std::string remark = p.at_bound ? "at its bound" : "";
   if (std::isfinite(p.profile_ci95.low) && !fit.rejected())
@@ -104,7 +106,7 @@ std::string parameter_table(const RunResult& run) {
       to_string(fit.trust), fit.why.text(),
       fit.rejected() ? "value (of a rejected model, hence without an interval)"
                      : "value (± half of the 95 % interval)");
-  for (const FittedParameter& p : fit.parameters) text += parameter_row(p, fit, run.coordinates);
+  for (const FittedParameter& p : fit.parameters) text += parameter_row(p, fit, run);
   text +=
       "\n" + sentence(fit.message.text()) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";
   if (std::isfinite(fit.fit_percent)) text += ", a fit of " + rounded(fit.fit_percent, 4) + " %";

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -22,6 +24,13 @@ void borrow(FigureData& sheet, const std::vector<FigureData>& figures, const std
   }
 }
 
+/// Which of several recordings the figures over time show.
+std::string drawn_recording(const ReportView& view) {
+  if (view.recording == nullptr || view.run.recordings.size() < 2) return "";
+  return fmt::format("Drawn over time: {}, one of {} recordings.", view.recording->file,
+                     view.run.recordings.size());
+}
+
 }  // namespace
 
 FigureData overview(const ReportView& view, const std::vector<FigureData>& figures) {
@@ -32,18 +41,22 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   sheet.columns = 2;
   sheet.lines.push_back(literal(headline(view.run)));
   if (const std::string line = fit_quality(view.run); !line.empty()) sheet.lines.push_back(line);
+  const std::string drawn = drawn_recording(view);
+  if (!drawn.empty()) sheet.lines.push_back(literal(drawn));
   borrow(sheet, figures, "fig2_input_and_displacement.png", 0, 420.0);
-  borrow(sheet, figures, "fig5_displacement_and_error.png", 0, 420.0, "Displacement and estimation error");
+  borrow(sheet, figures, "fig5_displacement_and_error.png", 0, 420.0);
   if (sheet.panels.size() < 2) borrow(sheet, figures, "fig2_input_and_displacement.png", 1, 420.0);
   borrow(sheet, figures, "fig6_one_period.png", 0, 480.0, "One passage of the gap");
   borrow(sheet, figures, "fig6_one_period.png", 1, 480.0, "Its estimation error");
+  if (sheet.panels.size() < 3) borrow(sheet, figures, "fig5_displacement_and_error.png", 1, 420.0);
   borrow(sheet, figures, "lost_motion_loop.png", 0, 480.0, "Displacement against input");
   for (const std::size_t i : {0u, 1u}) borrow(sheet, figures, "estimates.png", i, 400.0);
   borrow(sheet, figures, "fig3_backlash_map.png", 1, 420.0, "Backlash map");
-  borrow(sheet, figures, "residuals.png", 0, 420.0, "Recorded minus fitted displacement");
+  borrow(sheet, figures, "residuals.png", 0, 420.0);
   if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");
   sheet.reading = accuracy(view.run) + (accuracy(view.run).empty() ? "" : " ") + fit_quality(view.run);
   if (sheet.reading.empty()) sheet.reading = "The true gap is not known here.";
+  if (!drawn.empty()) sheet.reading += " " + drawn;
   return sheet;
 }
 

@@ -24,7 +24,7 @@ void append(std::vector<internal::report::FigureData>& all,
 
 }  // namespace
 
-void write_report(const std::string& folder, const std::string& note) {
+void write_report(const std::string& folder, const std::string& note, const FigureFormats& formats) {
   const auto stored = [&](const char* name) {
     return std::filesystem::exists(std::filesystem::path(folder) / name);
   };
@@ -41,7 +41,7 @@ void write_report(const std::string& folder, const std::string& note) {
   }
   const std::string text = internal::report::story_text(story);
   const std::vector<internal::report::Picture> pictures =
-      internal::report::write_report_files(folder, story.figures, text);
+      internal::report::write_report_files(folder, story.figures, text, formats);
   const std::string& name = run ? run->name : diagnosis->name;
   write_whole_file(folder + "/report.html",
                    [&](std::ostream& out) { out << internal::report::html_page(name, text, pictures); });

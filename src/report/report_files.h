@@ -3,16 +3,17 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/report/figure_formats.h"
 #include "report/figure_data.h"
 #include "report/html_text.h"
 
 namespace gapscope::internal::report {
 
-/// Draws the figures into a folder, each as its PNG, side by side on all cores, and writes report.md beside
-/// them; removes those of an earlier result that are missing now.
+/// Draws the figures into a folder, each as its PNG and what else is asked for, side by side on all cores,
+/// and writes report.md beside them; removes those of an earlier result that are missing now.
 /// @returns the pictures, those that are missing without a name
 /// @throws std::runtime_error naming what cannot be written.
 std::vector<Picture> write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
-                                        const std::string& text);
+                                        const std::string& text, const FigureFormats& formats);
 
 }  // namespace gapscope::internal::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/normal.h"
 #include "report/figures.h"
 #include "report/signals.h"
 #include "report/wording.h"
@@ -57,33 +58,68 @@ std::string load_reading(const SecondEncoder& second, const std::string& unit) {
                      quantity(second.rmse, unit), plain_number(second.rmse / second.floor));
 }
 
-std::size_t lags_of(const ReportView& view, std::size_t samples) {
-  const double period = std::isfinite(view.half_period) ? 2.0 * view.half_period : 1.0;
-  const auto wanted = static_cast<std::size_t>(1.1 * period / view.recording->dt);
-  return std::clamp<std::size_t>(wanted, 20,
-                                 std::max<std::size_t>(20, std::min<std::size_t>(samples / 4, 4000)));
+/// Recorded over simulated: the first picture that one looks for.
+Panel overlay(const ReportView& view, const Interval& interval) {
+  Panel panel;
+  const double percent = view.run.reference->fit_percent;
+  panel.title = "Recorded and simulated";
+  if (std::isfinite(percent) && view.run.recordings.size() == 1)
+    panel.title += fmt::format(" (fit {} %)", rounded(percent, 4));
+  panel.x = view.time_axis(interval);
+  panel.y = {"displacement " + view.position_name(), view.length_unit, {}, {}, {}};
+  panel.height = 400.0;
+  panel.series.push_back(view.over_time("recorded", measured_style(), view.recording->position(), interval));
+  panel.series.push_back(
+      view.over_time("free run of the fitted model", reference_style(), view.fit->position(), interval));
+  return panel;
 }
 
-Panel autocorrelation_panel(const ReportView& view, const std::vector<double>& r, std::size_t samples) {
+/// Two periods of the motion, in steps that a picture tells apart.
+struct Lags {
+  std::size_t last = 0, step = 1;
+};
+
+Lags lags_of(const ReportView& view, std::size_t samples) {
+  constexpr std::size_t kShown = 600;
+  const double period = std::isfinite(view.half_period) ? 2.0 * view.half_period : 1.0;
+  const auto wanted = static_cast<std::size_t>(1.1 * period / view.recording->dt);
+  const std::size_t last = std::clamp<std::size_t>(
+      wanted, 20, std::max<std::size_t>(20, std::min<std::size_t>(samples / 4, 4000)));
+  return {last, last / kShown + 1};
+}
+
+/// @param band  that holds 95 % of the lags where nothing is left
+Panel correlation_panel(const ReportView& view, const std::string& title, const std::vector<double>& r,
+                        std::size_t step, bool with_first, double band, const std::string& band_name) {
   Panel panel;
-  panel.title = "Autocorrelation of the residual";
-  const double dt = view.recording->dt;
+  panel.title = title;
+  const double dt = view.recording->dt * static_cast<double>(step);
   panel.x = {"lag", "s", {0.0, dt * static_cast<double>(r.size() - 1)}, {}, {}};
   panel.height = 360.0;
-  const double band = 1.96 / std::sqrt(static_cast<double>(samples));
   // r_0 is always 1; a scale that holds it would flatten what is left of a nearly white residual.
-  const double largest = largest_magnitude(std::span(r).subspan(1));
-  const double limit = largest > 0.3 ? 1.05 : std::max(3.0 * band, 1.3 * largest);
-  panel.y = {"autocorrelation", "", {-limit, limit}, {}, {}};
-  panel.y_bands.push_back({{-band, band}, kBandShade, "95 % of white noise"});
+  const std::size_t first = with_first ? 0 : 1;
+  const double largest = largest_magnitude(std::span(r).subspan(first));
+  const double limit = std::min(1.05, std::max(3.0 * band, 1.3 * largest));
+  panel.y = {"correlation", "", {-limit, limit}, {}, {}};
+  panel.y_bands.push_back({{-band, band}, kBandShade, band_name});
   Series s;
   s.style = measured_style();
-  for (std::size_t k = 1; k < r.size(); ++k) {
+  for (std::size_t k = first; k < r.size(); ++k) {
     s.x.push_back(dt * static_cast<double>(k));
     s.y.push_back(r[k]);
   }
   panel.series.push_back(s);
   return panel;
+}
+
+/// By how much Bartlett's formula widens the band of two signals that are not white themselves:
+/// √(1 + 2 Σ_k ρ_e(k) ρ_u(k)), over the lags that are drawn.
+double widening(const ReportView& view, const std::vector<double>& own, const Lags& lags) {
+  const std::vector<double> of_input = autocorrelation(view.recording->u, lags.last, lags.step);
+  double sum = 1.0;
+  for (std::size_t k = 1; k < std::min(own.size(), of_input.size()); ++k)
+    sum += 2.0 * static_cast<double>(lags.step) * own[k] * of_input[k];
+  return std::sqrt(std::isfinite(sum) ? std::max(1.0, sum) : 1.0);
 }
 
 /// The mode with the largest rms.
@@ -92,6 +128,12 @@ const ModeError* worst_mode(const FitSummary& fit) {
   for (const ModeError& m : fit.mode_errors)
     if (m.samples > 0 && (worst == nullptr || m.rmse > worst->rmse)) worst = &m;
   return worst;
+}
+
+/// What should be noise: the error of predictions, since a free run drifts whatever it lacks.
+bool predicts(const ReportView& view) { return view.fit->predicted.size() == view.recording->size(); }
+const char* what_is_tested(const ReportView& view) {
+  return predicts(view) ? "its prediction error" : "the residual";
 }
 
 std::string reading(const ReportView& view, const std::vector<double>& residual,
@@ -109,11 +151,11 @@ std::string reading(const ReportView& view, const std::vector<double>& residual,
   if (const ModeError* worst = worst_mode(fit))
     text += fmt::format("; it is largest in mode {} ({} rms)", to_string(worst->mode),
                         quantity(worst->rmse, view.length_unit));
-  const double band = 1.96 / std::sqrt(static_cast<double>(residual.size()));
+  const double band = kNormal95 / std::sqrt(static_cast<double>(residual.size()));
   const auto beyond = std::count_if(r.begin() + 1, r.end(), [&](double v) { return std::abs(v) > band; });
   const double share = static_cast<double>(beyond) / static_cast<double>(r.size() - 1);
-  text += fmt::format("; {} % of the lags lie outside the white-noise band: the residual {}",
-                      std::lround(100 * share),
+  text += fmt::format("; {} % of the lags of {} lie outside the white-noise band: it {}",
+                      std::lround(100 * share), what_is_tested(view),
                       share > 0.1 ? "is not white, the model leaves structure" : "looks white");
   if (std::isfinite(fit.input_correlation.outside))
     text += fmt::format("; with the input it is correlated at {} % of the lags, chance leaves 5 %",
@@ -126,17 +168,28 @@ std::string reading(const ReportView& view, const std::vector<double>& residual,
 FigureData residuals(const ReportView& view) {
   FigureData figure;
   figure.file = "residuals.png";
-  figure.title = "Recorded minus fitted displacement";
+  figure.title = "Recorded and simulated displacement";
   if (!view.recording || !view.fit)
     return missing_figure(figure.file, figure.title,
                           view.run.reference ? "the fit left no free run of the recording"
                                              : "the model-based reference was not asked for");
   const std::vector<double> residual = difference_of(view.recording->position(), view.fit->position());
-  const std::vector<double> r = autocorrelation(residual, lags_of(view, residual.size()));
+  const std::vector<double> tested =
+      predicts(view) ? difference_of(view.recording->position(), view.fit->predicted) : residual;
+  const Lags lags = lags_of(view, residual.size());
+  const std::vector<double> r = autocorrelation(tested, lags.last, lags.step);
+  const std::vector<double> with_input = correlation(view.recording->u, tested, lags.last, lags.step);
+  const double band = kNormal95 / std::sqrt(static_cast<double>(residual.size()));
   const Interval all{view.time.front(), view.time.back()};
+  figure.panels.push_back(overlay(view, all));
   if (!view.whole) figure.panels.push_back(over_time(view, residual, all, false));
   figure.panels.push_back(over_time(view, residual, view.window, true));
-  figure.panels.push_back(autocorrelation_panel(view, r, residual.size()));
+  const std::string name = predicts(view) ? "prediction error" : "residual";
+  figure.panels.push_back(correlation_panel(view, "Autocorrelation of the " + name, r, lags.step, false, band,
+                                            "95 % of white noise"));
+  figure.panels.push_back(correlation_panel(view, "Correlation of the input with the " + name + " later",
+                                            with_input, lags.step, true, band * widening(view, r, lags),
+                                            "95 % where the input is not in it"));
   figure.reading = reading(view, residual, r);
   const auto& second = view.run.second_encoder;
   if (second && std::isfinite(second->rmse) && view.recording->x2.size() == view.fit->x2.size()) {

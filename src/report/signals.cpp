@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "gapscope/base/require.h"
+
 namespace gapscope::internal::report {
 
 std::vector<double> difference_of(std::span<const double> a, std::span<const double> b) {
@@ -84,22 +86,32 @@ double inner_product(std::span<const double> a, const double* b) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
+std::vector<double> without_mean(std::span<const double> values) {
+  std::vector<double> deviations(values.begin(), values.end());
+  const double centre = mean(values);
+  for (double& v : deviations) v -= centre;
+  return deviations;
+}
+
 }  // namespace
 
-std::vector<double> autocorrelation(std::span<const double> values, std::size_t lags) {
-  const double centre = mean(values);
-  std::vector<double> deviations;
-  double power = 0.0;
-  for (const double v : values) {
-    deviations.push_back(v - centre);
-    power += deviations.back() * deviations.back();
+std::vector<double> correlation(std::span<const double> a, std::span<const double> b, std::size_t lags,
+                                std::size_t step) {
+  GAPSCOPE_REQUIRE(a.size() == b.size() && step > 0);
+  const std::vector<double> first = without_mean(a);
+  const std::vector<double> other = a.data() == b.data() ? std::vector<double>() : without_mean(b);
+  const std::vector<double>& later = other.empty() ? first : other;
+  const double power = std::sqrt(inner_product(first, first.data()) * inner_product(later, later.data()));
+  std::vector<double> c;
+  for (std::size_t k = 0; k <= lags && k < first.size(); k += step) {
+    const double sum = inner_product({first.data(), first.size() - k}, &later[k]);
+    c.push_back(power > 0.0 ? sum / power : kNaN);
   }
-  std::vector<double> r;
-  for (std::size_t k = 0; k <= lags && k < values.size(); ++k) {
-    const double sum = inner_product({deviations.data(), deviations.size() - k}, &deviations[k]);
-    r.push_back(power > 0.0 ? sum / power : kNaN);
-  }
-  return r;
+  return c;
+}
+
+std::vector<double> autocorrelation(std::span<const double> values, std::size_t lags, std::size_t step) {
+  return correlation(values, values, lags, step);
 }
 
 }  // namespace gapscope::internal::report

@@ -27,9 +27,14 @@ std::vector<std::size_t> middle_crossings(std::span<const double> values);
 /// Factor 1, 2 or 5 × 10^n that brings `size` nearest below `target`.
 double round_factor(double size, double target);
 
-/// Autocorrelation of the deviations from the mean for lags 0 ... lags:
-///   r_k = Σ_i (x_i − x̄)(x_{i+k} − x̄) / Σ_i (x_i − x̄)²
-/// White noise of n samples keeps 95 % of r_1, r_2, ... within ±1.96/√n.
-std::vector<double> autocorrelation(std::span<const double> values, std::size_t lags);
+/// Correlation of what came first with what came k samples later, for k = 0, step, 2 step ... lags:
+///   c_k = Σ_i (a_i − ā)(b_{i+k} − b̄) / √(Σ (a_i − ā)² Σ (b_i − b̄)²)
+/// @param a, b  equally many
+std::vector<double> correlation(std::span<const double> a, std::span<const double> b, std::size_t lags,
+                                std::size_t step = 1);
+
+/// correlation() of values with themselves. White noise of n samples keeps 95 % of r_1, r_2, ... within
+/// ±kNormal95/√n.
+std::vector<double> autocorrelation(std::span<const double> values, std::size_t lags, std::size_t step = 1);
 
 }  // namespace gapscope::internal::report

@@ -105,19 +105,22 @@ void Typesetter::draw(cv::Mat& image, cv::Point2d at, const std::string& markup,
   }
 }
 
-void Typesetter::draw_hat(cv::Mat& image, cv::Point2d at, const PlacedRun& p, Colour colour,
-                          bool bold) const {
+Polyline Typesetter::hat_of(const PlacedRun& p, bool bold) const {
   int baseline = 0;
   const double ink = face(p.run.italic, bold).getTextSize(p.run.text, pixels(p.size), -1, &baseline).height;
   const double slant = p.run.italic ? 0.19 * ink : 0.0;  // the face leans by 11 degrees
-  const double centre = at.x + p.x + 0.5 * p.width + slant;
-  const double foot = at.y + p.y - ink - 0.05 * p.size;
+  const double centre = p.x + 0.5 * p.width + slant;
+  const double foot = p.y - ink - 0.05 * p.size;
+  return {{centre - 0.17 * p.size, foot}, {centre, foot - 0.13 * p.size}, {centre + 0.17 * p.size, foot}};
+}
+
+void Typesetter::draw_hat(cv::Mat& image, cv::Point2d at, const PlacedRun& p, Colour colour,
+                          bool bold) const {
   constexpr int kShift = 4;  // sixteenths of a pixel
-  const auto point = [&](double x, double y) { return cv::Point(cvRound(x * 16.0), cvRound(y * 16.0)); };
-  const std::vector<cv::Point> hat = {point(centre - 0.17 * p.size, foot),
-                                      point(centre, foot - 0.13 * p.size),
-                                      point(centre + 0.17 * p.size, foot)};
-  cv::polylines(image, hat, false, bgr(colour), pixels((bold ? 0.10 : 0.065) * p.size), cv::LINE_AA, kShift);
+  std::vector<cv::Point> hat;
+  for (const Point& corner : hat_of(p, bold))
+    hat.emplace_back(cvRound((at.x + corner.x) * 16.0), cvRound((at.y + corner.y) * 16.0));
+  cv::polylines(image, hat, false, bgr(colour), pixels(hat_width(p, bold)), cv::LINE_AA, kShift);
 }
 
 }  // namespace gapscope::internal::report

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "report/geometry.h"
 #include "report/palette.h"
 #include "report/rich_text.h"
 
@@ -41,6 +42,11 @@ class Typesetter {
   /// @param size em [px]
   std::vector<PlacedRun> place(const std::string& markup, double size, bool bold = false) const;
   TextMetrics measure(const std::string& markup, double size, bool bold = false) const;
+
+  /// The circumflex over an estimate, from the left end of the baseline [px, y downwards].
+  Polyline hat_of(const PlacedRun& placed, bool bold) const;
+  /// Its stroke [px].
+  static double hat_width(const PlacedRun& placed, bool bold) { return (bold ? 0.10 : 0.065) * placed.size; }
 
   /// Draws with the left end of the baseline at `at` (pixels of `image`, 8-bit BGR).
   void draw(cv::Mat& image, cv::Point2d at, const std::string& markup, double size, Colour colour,

@@ -188,6 +188,9 @@ std::string counted(std::size_t count, const std::string& noun) {
 }
 
 std::string position_unit(const RunResult& run) { return run.coordinates.position_unit(); }
+std::string input_unit(const RunResult& run) {
+  return run.input && !run.input->unit.empty() ? run.coordinates.shown_unit(run.input->unit) : "units of $u$";
+}
 std::string torque_unit(const RunResult& run) { return run.coordinates.shown_unit("N m"); }
 
 const FittedParameter* parameter(const RunResult& run, const std::string& key) {

@@ -38,6 +38,7 @@ std::string counted(std::size_t count, const std::string& noun);
 
 std::string position_unit(const RunResult& run);  ///< "rad" or "m"
 std::string torque_unit(const RunResult& run);    ///< "N·m" or "N"
+std::string input_unit(const RunResult& run);     ///< of u, as it was declared: "A", else "units of $u$"
 
 /// The parameter of that key, nullptr if there is none.
 const FittedParameter* parameter(const RunResult& run, const std::string& key);

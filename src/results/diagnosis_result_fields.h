@@ -8,6 +8,7 @@
 #include "results/answer_fields.h"
 #include "results/encoder_side_field.h"
 #include "results/file_hash_fields.h"
+#include "results/input_facts_fields.h"
 #include "results/json_archive.h"
 #include "results/last_resort_fields.h"
 #include "results/simulator_fields.h"
@@ -256,6 +257,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("name", d.result.name);
   archive("version", d.result.version);
   coordinates_field(archive, d.result.coordinates);
+  archive.seldom("input", d.result.input);
   archive.configuration(d.result.configuration);
   archive.added_list("sources", d.result.sources);
   archive.list("held_out", d.held_out);

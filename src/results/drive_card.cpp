@@ -12,10 +12,12 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
     facts.reference = run->reference ? &*run->reference : nullptr;
     facts.coordinates = run->coordinates;
     if (run->answer) facts.tolerance = run->answer->tolerance;
+    facts.constant_guessed = run->input && run->input->constant_guessed;
   }
   if (diagnosis != nullptr) {
     facts.diagnosis = &diagnosis->diagnosis;
     facts.coordinates = diagnosis->coordinates;
+    facts.constant_guessed = diagnosis->input && diagnosis->input->constant_guessed;
     if (run == nullptr && diagnosis->answer) facts.tolerance = diagnosis->answer->tolerance;
   }
   return card_of(facts);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/normal.h"
 #include "gapscope/base/require.h"
 #include "gapscope/base/version.h"
 #include "gapscope/results/sha256.h"
@@ -20,7 +21,7 @@ Observation untold(std::string why) { return {kNaN, kNaN, {}, std::move(why)}; }
 
 /// The interval may be wider than the standard error, never narrower.
 Observation told(double value, double std, const Interval& ci95) {
-  return {value, std::fmax(std, (ci95.high - ci95.low) / (2.0 * 1.96)), ci95, ""};
+  return {value, std::fmax(std, (ci95.high - ci95.low) / (2.0 * kNormal95)), ci95, ""};
 }
 
 Observation model_free(const DriveReport& report, GapQuantity quantity) {
@@ -75,7 +76,7 @@ Change change_of(const Observation& first, const Observation& now) {
   c.difference = now.value - first.value;
   const double std = std::hypot(first.std, now.std);
   if (!std::isfinite(std)) return c;
-  c.ci95 = {c.difference - 1.96 * std, c.difference + 1.96 * std};
+  c.ci95 = normal_interval(c.difference, std);
   c.p = c.difference == 0.0 ? 1.0 : p_value(c.difference / std);
   return c;
 }

@@ -239,7 +239,7 @@ void require_redrawable(const fs::path& folder, const std::string& kind, const F
   if (list == nullptr) list = &none;
   for (const char* text : {"report.md", "report.html"}) require_unchanged(folder, *list, text);
   for (const FileHash& f : list->files)
-    if (fs::path(f.file).extension() == ".png") require_unchanged(folder, *list, f.file);
+    if (is_figure(f.file)) require_unchanged(folder, *list, f.file);
 }
 
 void require_no_input(const fs::path& folder, const FileList* list, const std::vector<std::string>& inputs) {

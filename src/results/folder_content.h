@@ -55,6 +55,9 @@ void remove_partial(const std::filesystem::path& partial, const std::filesystem:
 /// Removes what processes left that were killed while they wrote into the folder.
 void remove_left_behind(const std::filesystem::path& folder);
 
+/// By its name: what is drawn anew.
+inline bool is_figure(const std::string& file) { return file.ends_with(".png") || file.ends_with(".svg"); }
+
 // Each throws ConfigError naming what is not gapscope's own.  @param list  of the folder, or nullptr
 void require_own(const std::filesystem::path& folder, const std::string& kind, const FileList* list);
 void require_redrawable(const std::filesystem::path& folder, const std::string& kind, const FileList* list);

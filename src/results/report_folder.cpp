@@ -232,7 +232,7 @@ FileList ReportFolder::list_after(const std::vector<std::string>& fresh,
   for (const FileHash& old : before_ ? before_->files : std::vector<FileHash>{}) {
     if (after.holds(old.file) || internal::results::is_left_alone(kind, old.file)) continue;
     const bool drawn =
-        old.file == "report.md" || old.file == "report.html" || fs::path(old.file).extension() == ".png";
+        old.file == "report.md" || old.file == "report.html" || internal::results::is_figure(old.file);
     if (!is_still(final_, old)) continue;  // nor of the two that a killed process left of one name
     if (kept_.contains(old.file) || (redraw_ && !drawn))
       after.files.push_back(old);

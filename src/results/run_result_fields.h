@@ -7,6 +7,7 @@
 #include "results/answer_fields.h"
 #include "results/encoder_side_field.h"
 #include "results/file_hash_fields.h"
+#include "results/input_facts_fields.h"
 #include "results/json_archive.h"
 
 /// The fields of a stored result, each named once. The first ones of every list are those that readers
@@ -224,6 +225,7 @@ void fields(Archive& archive, Document& d) {
   archive("name", d.run.name);
   archive("version", d.run.version);
   coordinates_field(archive, d.run.coordinates);
+  archive.seldom("input", d.run.input);
   archive.seldom("answer", d.run.answer);
   archive.part("model_free", d.run.model_free);
   archive.part("reference", d.run.reference);

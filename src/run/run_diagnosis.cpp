@@ -7,6 +7,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/inspection.h"
+#include "run/guess_words.h"
 #include "run/run_simulator.h"
 
 namespace gapscope {
@@ -39,6 +40,9 @@ void ask_further(const Configuration& c, const MotorTrace& like, const Diagnosis
   if (d.rivals.size() < 2) return;
   options.progress("looking for the experiment that would tell");
   d.next_experiment = next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads);
+  const InputFacts input = c.input_facts();
+  d.next_experiment.sentence = with_input_unit(d.next_experiment.sentence, input);
+  for (TriedInput& tried : d.next_experiment.tried) tried.input = with_input_unit(tried.input, input);
 }
 
 }  // namespace
@@ -68,8 +72,11 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   DiagnosisResult result{c.name, version(), resolved_yaml(c), c.coordinates,
                          diagnose_recordings(c, recordings, options)};
   result.sources = sources;
+  result.input = internal::run::known_input(c);
   result.answer.emplace().tolerance = c.tolerance;
   Diagnosis& d = result.diagnosis;
+  const std::vector<std::string> guesses = internal::run::guess_warnings(c);
+  warnings.insert(warnings.end(), guesses.begin(), guesses.end());
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
   if (!simulated.empty())
     result.simulated = internal::run::compare_simulated(c, recordings, simulated, d, options);

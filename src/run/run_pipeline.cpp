@@ -13,6 +13,7 @@
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/reference/fit.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "run/guess_words.h"
 
 namespace gapscope {
 namespace {
@@ -136,6 +137,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.version = version();
   r.configuration = resolved_yaml(c);
   r.coordinates = c.coordinates;
+  r.input = internal::run::known_input(c);
   const UnevenRows uneven = wanted.reference ? UnevenRows::kStamped : UnevenRows::kRefused;
   LoadedRecordings loaded = load_recordings(c, uneven, progress);
   const LoadedRecordings grids = wanted.model_free && wanted.reference
@@ -164,6 +166,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   put_into_words(r);
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
   if (r.reference) append(out.warnings, texts_of(r.reference->warnings));
+  if (r.reference) append(out.warnings, internal::run::guess_warnings(c));
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);
   r.answer = answer_of({r.model_free ? &*r.model_free : nullptr, r.reference ? &*r.reference : nullptr,

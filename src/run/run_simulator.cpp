@@ -38,7 +38,7 @@ void require_there(const Configuration& c, const RecordedFile& file) {
   const std::string what = fmt::format(
       "there is no simulated recording {}, expected a CSV or .mat file with what the simulator answers",
       file.given);
-  if (file.line > 0) throw ConfigError(c.file, file.line, what);
+  if (file.line != 0) throw ConfigError(c.file, file.line, what);
   throw ConfigError("gapscope: --simulated: " + what);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -19,7 +20,7 @@ constexpr int kReweighted = 40;         ///< steps of the least absolute deviati
 double student(int freedom) {
   constexpr std::array kPoints{12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26, 2.23};
   const auto place = static_cast<std::size_t>(std::max(freedom, 1) - 1);
-  return place < kPoints.size() ? kPoints[place] : 1.96 + 2.4 / static_cast<double>(freedom - 1);
+  return place < kPoints.size() ? kPoints[place] : kNormal95 + 2.4 / static_cast<double>(freedom - 1);
 }
 
 /// Weighted sums of a straight line.
@@ -148,8 +149,8 @@ LoopReading read_loop(std::span<const ZeroPassage* const> passages, double quant
   const double n =
       1.0 / (1.0 / static_cast<double>(std::ssize(rising)) + 1.0 / static_cast<double>(std::ssize(falling)));
   // Where counts scatter the ramps, the scatter holds their error already.
-  r.half_width =
-      std::max(student(freedom) * kMedianCost * std::sqrt(variance / n), 1.96 * quantum / std::sqrt(6.0));
+  r.half_width = std::max(student(freedom) * kMedianCost * std::sqrt(variance / n),
+                          kNormal95 * quantum / std::sqrt(6.0));
   return r;
 }
 

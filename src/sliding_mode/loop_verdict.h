@@ -2,13 +2,14 @@
 
 #include <span>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 #include "sliding_mode/loop_positions.h"
 #include "sliding_mode/loop_shape.h"
 
 namespace gapscope::internal::sliding_mode {
 
-constexpr double kSurely = 1.96;  ///< standard errors to either side: 95 %
+constexpr double kSurely = kNormal95;  ///< standard errors to either side: 95 %
 
 /// What the loops of one torque amplitude say.
 struct TorqueLevel {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/bend.h"
 #include "sliding_mode/words.h"
@@ -183,7 +184,8 @@ void fill_paper_estimate(const PaperPool& pool, GapEstimate& estimate) {
   estimate.gap = 0.5 * (up + down);
   estimate.std = std::sqrt(scatter * scatter + difference * difference + 0.25 * late * late +
                            latency * latency + 2.0 * pool.noise * pool.noise);
-  estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
+  estimate.ci95 = {std::max(estimate.gap - kNormal95 * estimate.std, 0.0),
+                   estimate.gap + kNormal95 * estimate.std};
   estimate.reason = words::reversals_read(n, pool.half_periods, estimate.bound);
 }
 

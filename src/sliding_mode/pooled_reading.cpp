@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/pooled_flights.h"
 #include "sliding_mode/words.h"
@@ -199,8 +200,8 @@ std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::Sign
   const double doubt = std::hypot(kDoubt * c->doubt, kImpactLaw * e.gap), apart = 0.5 * std::abs(up - down);
   e.std = std::sqrt(doubt * doubt + apart * apart + std::pow(kRounding * facts.quantum, 2) +
                     0.25 * c->beyond * c->beyond);
-  e.ci95 = {std::max(e.gap - 1.96 * e.std, 0.0), e.gap + 1.96 * e.std};
-  if (1.96 * e.std > kWidestPooled * e.gap) return {};
+  e.ci95 = {std::max(e.gap - kNormal95 * e.std, 0.0), e.gap + kNormal95 * e.std};
+  if (kNormal95 * e.std > kWidestPooled * e.gap) return {};
   e.verdict = GapVerdict::kBacklash;
   e.method = GapMethod::kImpact;
   e.smallest_visible_gap = kFewestPooledQuanta * facts.quantum;

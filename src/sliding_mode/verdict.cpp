@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "signals/encoder.h"
 #include "sliding_mode/informative.h"
@@ -219,12 +220,13 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   estimate.std = (pool.repeats ? kSummed : 1.0) *
                  std::sqrt(random * random + disagreement * disagreement + systematic * systematic +
                            sampling * sampling + pool.noise * pool.noise);
-  estimate.ci95 = {std::max(estimate.gap - 1.96 * estimate.std, 0.0), estimate.gap + 1.96 * estimate.std};
+  estimate.ci95 = {std::max(estimate.gap - kNormal95 * estimate.std, 0.0),
+                   estimate.gap + kNormal95 * estimate.std};
   estimate.reason =
       words::passages_used(static_cast<long>(used), static_cast<long>(in(pool.passages, 0)), only);
-  if (1.96 * estimate.std <= kWidest * estimate.gap) return;
+  if (kNormal95 * estimate.std <= kWidest * estimate.gap) return;
   estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = words::gap_uncertain(estimate.gap, 196.0 * estimate.std / estimate.gap);
+  estimate.reason = words::gap_uncertain(estimate.gap, 100.0 * kNormal95 * estimate.std / estimate.gap);
   estimate.gap = estimate.std = kNaN;
   estimate.ci95 = {};
 }

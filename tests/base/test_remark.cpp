@@ -12,12 +12,36 @@ Remark gap_seen() {
 }
 
 TEST(Remark, IsPutTogetherWithTheUnitsOfTheAxis) {
-  EXPECT_EQ(gap_seen().text(), "a gap of 0.012 rad in 7 passages, [1.0, 2.0] by x [rad]");
+  EXPECT_EQ(gap_seen().text(), "a gap of 12 mrad in 7 passages, [1.0, 2.0] by x [rad]");
   EXPECT_EQ(gap_seen().text(Coordinates::kTranslation),
-            "a gap of 0.012 m in 7 passages, [1.0, 2.0] by x [rad]");
+            "a gap of 12 mm in 7 passages, [1.0, 2.0] by x [rad]");
   const Remark damping("damping", "{} {}", {0.5, RemarkUnit{"N m s/rad"}});
   EXPECT_EQ(damping.text(), "0.5 N m s/rad");
   EXPECT_EQ(damping.text(Coordinates::kTranslation), "0.5 N s/m");
+}
+
+TEST(Remark, TellsALengthWithThePrefixThatItAsksFor) {
+  const auto text = [](double length) { return Remark("length", "{:.3g} [rad]", {length}).text(); };
+  EXPECT_EQ(text(1.5), "1.5 rad");
+  EXPECT_EQ(text(0.99999), "1 rad");
+  EXPECT_EQ(text(-0.00297), "-2.97 mrad");
+  EXPECT_EQ(text(5.0e-8), "50 nrad");
+  EXPECT_EQ(text(1.0e-12), "0.001 nrad");
+  EXPECT_EQ(text(0.0), "0 rad");
+  EXPECT_EQ(Remark("speed", "{:.3g} [rad/s]", {0.00297}).text(), "0.00297 rad/s");
+}
+
+TEST(Remark, WritesLargeNumbersWithoutAnExponent) {
+  const auto text = [](double ratio) { return Remark("ratio", "{:.3g} times", {ratio}).text(); };
+  EXPECT_EQ(text(8812.0), "8810 times");
+  EXPECT_EQ(text(88.1), "88.1 times");
+  EXPECT_EQ(text(3.654e6), "3.65e+06 times");
+}
+
+TEST(Remark, SpeaksOfTheForceOfASlide) {
+  const Remark remark("missed", "what the [torque] does");
+  EXPECT_EQ(remark.text(), "what the torque does");
+  EXPECT_EQ(remark.text(Coordinates::kTranslation), "what the force does");
 }
 
 TEST(Remark, KeepsItsCodeAndItsNumbers) {

@@ -116,7 +116,7 @@ TEST(Words, AnAnswerTellsWhatIsNeededOverTwoAxes) {
   EXPECT_EQ(all[0].needs, "nothing in this campaign is enough");
   EXPECT_EQ(all[1].tolerance, 0.02);
   EXPECT_EQ(all[1].parameters, "resolution by sampling rate");
-  EXPECT_EQ(all[1].needs, "16 bit with 2 kHz; any resolution with at least 5 kHz");
+  EXPECT_EQ(all[1].needs, "16 bit with 2 kHz; every resolution that was tried with at least 5 kHz");
 }
 
 TEST(Words, AxesAreCalledAsPeopleCallThem) {

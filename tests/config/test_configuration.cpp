@@ -271,5 +271,29 @@ TEST(Configuration, EveryConfigurationOfTheRepositoryLoads) {
   EXPECT_GT(count, 0);
 }
 
+TEST(Configuration, AGuessIsKeptAndToldOf) {
+  const Configuration c = parse_configuration(
+      with(kRecorded, "torque_constant: 0.172", "torque_constant: {value: 1, guess: true}"), "c.yaml");
+  EXPECT_EQ(c.model.parameters[drive_parameter_index("torque_constant")].value, 1.0);
+  EXPECT_FALSE(c.model.parameters[drive_parameter_index("torque_constant")].estimate);
+  EXPECT_TRUE(c.input_facts().constant_guessed);
+  EXPECT_NE(resolved_yaml(c).find("torque_constant: {value: 1, guess: true}"), std::string::npos);
+  EXPECT_FALSE(parse_configuration(kRecorded, "c.yaml").input_facts().told());
+}
+
+TEST(Configuration, KnowsTheUnitOfSIInWhichTheInputIsRead) {
+  const auto unit = [](const std::string& declared) {
+    return parse_configuration(with(kRecorded, "  window:", "  units: {input: " + declared + "}\n  window:"),
+                               "c.yaml")
+        .input_facts()
+        .unit;
+  };
+  EXPECT_EQ(unit("mA"), "A");
+  EXPECT_EQ(unit("mN m"), "N m");
+  EXPECT_EQ(unit("V"), "V");
+  EXPECT_EQ(unit("'%'"), "") << "of some full scale";
+  EXPECT_EQ(unit("0.5"), "");
+}
+
 }  // namespace
 }  // namespace gapscope

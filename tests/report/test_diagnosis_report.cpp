@@ -157,13 +157,18 @@ TEST(DiagnosisReport, ALawOfLastResortIsDrawnThroughTheResidualAndItsTableIsName
 TEST(DiagnosisReport, TheTorqueMapShowsWhatRemainsBesideWhatTheNominalModelLeaves) {
   DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
   const auto both = internal::report::diagnosis_torque_map(r);
-  ASSERT_EQ(both.panels.size(), 4u);
+  ASSERT_EQ(both.panels.size(), 6u);
   EXPECT_EQ(both.panels[0].title, "Nominal model, over the motor angle");
-  EXPECT_EQ(both.panels[1].title, "With cogging torque, over the motor angle");
+  EXPECT_TRUE(both.panels[1].title.starts_with("With cogging torque, over the motor angle"));
+  EXPECT_EQ(both.panels[2].title, "Nominal model, over the speed");
+  EXPECT_EQ(both.panels[0].series.back().label, "");
+  EXPECT_EQ(both.panels[0].series[2].label, "taken by what was added");
   EXPECT_NE(both.panels[0].series[0].y, both.panels[1].series[0].y);
   EXPECT_EQ(both.panels[0].series[0].x, both.panels[1].series[0].x);
   r.diagnosis.effects.clear();
-  EXPECT_EQ(internal::report::diagnosis_torque_map(r).panels.size(), 2u);
+  EXPECT_EQ(internal::report::diagnosis_torque_map(r).panels.size(), 3u);
+  r.diagnosis.where.headline = "following the direction of motion, along the speed";
+  EXPECT_EQ(internal::report::diagnosis_torque_map(r).panels[0].title, "Nominal model, over the speed");
 }
 
 TEST(DiagnosisReport, AMapOfAnErrorThatIsAlikeEverywhereIsLeftOut) {

@@ -47,15 +47,22 @@ TEST(Estimates, SplitsThePassagesByDirectionAndCountsWhatIsBeyondTheScale) {
 
 TEST(Residuals, AreRecordedMinusFitted) {
   const FigureData figure = residuals(ReportView(full_run()));
-  ASSERT_EQ(figure.panels.size(), 3u);
-  const Series& whole = figure.panels[0].series[0];
+  ASSERT_EQ(figure.panels.size(), 5u);
+  EXPECT_EQ(labelled(figure.panels[0], "recorded").y, full_run().recordings[0].x1);
+  EXPECT_EQ(labelled(figure.panels[0], "free run of the fitted model").y, full_run().reference->traces[0].x1);
+  const Series& whole = figure.panels[1].series[0];
   ASSERT_EQ(whole.y.size(), full_run().recordings[0].size());
   for (std::size_t i = 0; i < whole.y.size(); i += 501)
     EXPECT_EQ(whole.y[i], full_run().recordings[0].x1[i] - full_run().reference->traces[0].x1[i]);
-  const Series& r = figure.panels[2].series[0];
-  const std::vector<double> expected = autocorrelation(whole.y, r.y.size());
+  const Series& r = figure.panels[3].series[0];
+  const double dt = full_run().recordings[0].dt;
+  const auto step = static_cast<std::size_t>(std::lround((r.x[1] - r.x[0]) / dt));
+  const std::vector<double> expected = autocorrelation(whole.y, r.y.size() * step, step);
   EXPECT_EQ(r.y, std::vector<double>(expected.begin() + 1, expected.end())) << "from lag 1 on";
-  EXPECT_NEAR(figure.panels[2].y_bands[0].range.high, 1.96 / std::sqrt(25000.0), 1e-12);
+  EXPECT_NEAR(figure.panels[3].y_bands[0].range.high, 1.96 / std::sqrt(25000.0), 1e-12);
+  const Series& with_input = figure.panels[4].series[0];
+  EXPECT_EQ(with_input.y, correlation(full_run().recordings[0].u, whole.y, r.y.size() * step, step));
+  EXPECT_GE(figure.panels[4].y_bands[0].range.high, figure.panels[3].y_bands[0].range.high);
   EXPECT_NE(figure.reading.find("is not white"), std::string::npos);
 }
 
@@ -64,7 +71,7 @@ TEST(Residuals, ShadeTheGapModeOfTheFit) {
   const FigureData figure = residuals(view);
   const auto& mode = full_run().reference->traces[0].mode;
   double shaded = 0.0, counted = 0.0;
-  for (const Band& band : figure.panels[1].x_bands) shaded += band.range.high - band.range.low;
+  for (const Band& band : figure.panels[2].x_bands) shaded += band.range.high - band.range.low;
   for (std::size_t i = view.index(view.window.low); i <= view.index(view.window.high); ++i)
     counted += mode[i] == Mode::kGap ? full_run().recordings[0].dt : 0.0;
   EXPECT_NEAR(shaded, counted, 1e-9);
@@ -73,7 +80,7 @@ TEST(Residuals, ShadeTheGapModeOfTheFit) {
 TEST(Residuals, OfADriveWithoutAGapHaveNoModes) {
   const RunResult run =
       sample_run({.samples = 7500, .load_recorded = false, .detected = false, .one_inertia = true});
-  EXPECT_TRUE(residuals(ReportView(run)).panels[0].x_bands.empty());
+  for (const Panel& panel : residuals(ReportView(run)).panels) EXPECT_TRUE(panel.x_bands.empty());
 }
 
 TEST(Estimates, AGapThatWasDeniedIsDrawnAgainstTheOneThatWouldHaveShown) {

@@ -85,8 +85,8 @@ TEST(Words, ListPlaysWithTheirLevels) {
   const std::vector<words::Play> plays = {{0.01, 0.2, 3}, {0.02, 0.4, 5}};
   EXPECT_EQ(
       words::no_free_run(plays).text(Coordinates::kTranslation),
-      "quasi-static loop without a free run: hysteresis of friction and compliance, 0.01 m at |u| = 0.2 (3 "
-      "ramps), 0.02 m at |u| = 0.4 (5 ramps)");
+      "quasi-static loop without a free run: hysteresis of friction and compliance, 10 mm at |u| = 0.2 (3 "
+      "ramps), 20 mm at |u| = 0.4 (5 ramps)");
 }
 
 }  // namespace

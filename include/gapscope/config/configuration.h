@@ -1,11 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
+#include "gapscope/base/input_facts.h"
 #include "gapscope/config/data_config.h"
 #include "gapscope/config/implant_config.h"
 #include "gapscope/config/model_config.h"
+#include "gapscope/config/setting.h"
 #include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/acceleration_bound.h"
@@ -43,17 +46,20 @@ struct Configuration {
   std::optional<ImplantConfig> implant = {};  ///< `implant:` – only read by `blind implant`
 
   double position_quantum() const;  ///< of the encoder, seen on the axis of x1 [rad]; 0: not given
+  InputFacts input_facts() const;
   /// Turns of the encoder of x1 (the motor's) and of that of x2 (the load's), as their gears say.
   ShaftTurns turns() const;
 };
 
 /// Reads a configuration strictly: unknown and repeated keys, wrong types, numbers out of range and
 /// contradictions are refused, unknown keys with the nearest known one. Recordings are not opened.
-/// @throws ConfigError "file:line: what is wrong, what was expected"
-Configuration load_configuration(const std::string& path);
+/// @param settings  laid over the file in their order; paths in them are relative to its folder, too
+/// @throws ConfigError "file:line: what is wrong, what was expected", of a setting "--set KEY: ..."
+Configuration load_configuration(const std::string& path, std::span<const Setting> settings = {});
 
 /// The same from text; `file` names it in messages, and paths in it are relative to its folder.
-Configuration parse_configuration(const std::string& text, const std::string& file);
+Configuration parse_configuration(const std::string& text, const std::string& file,
+                                  std::span<const Setting> settings = {});
 
 /// @throws ConfigError unless the model has all that a fit needs: every parameter of its structure either
 /// given or estimated.

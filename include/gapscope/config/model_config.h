@@ -26,6 +26,7 @@ struct ModelConfig {
   DriveStructure structure;
   std::array<ParameterSetting, kDriveParameterCount> parameters;  ///< in the order of kDriveParameters
   std::array<bool, kDriveParameterCount> defaulted{};             ///< the value is not in the file
+  std::array<bool, kDriveParameterCount> guessed{};               ///< `guess: true`: nobody has measured it
   std::vector<EffectConfig> effects;
   int line = 0;
 

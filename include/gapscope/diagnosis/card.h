@@ -54,6 +54,7 @@ struct CardFacts {
   const Diagnosis* diagnosis = nullptr;
   Coordinates coordinates;
   Tolerance tolerance;
+  bool constant_guessed = false;  ///< torque_constant is a guess, and the torques rest on it
 };
 
 Card card_of(const CardFacts& facts);

@@ -13,7 +13,7 @@ namespace gapscope {
 struct Comparison {
   double difference = kNaN;   ///< model-free − reference [rad]
   double joint_std = kNaN;    ///< √(σ² + σ²) [rad]
-  std::optional<bool> agree;  ///< |difference| ≤ 1.96 joint_std; absent when either estimate is missing
+  std::optional<bool> agree;  ///< |difference| ≤ kNormal95 joint_std; absent when either estimate is missing
   double map_width = kNaN;    ///< see map_width(); NaN without x2 [rad]
 };
 

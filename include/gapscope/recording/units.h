@@ -24,6 +24,10 @@ enum class Quantity { kTime, kAngle, kLength, kTorque, kForce, kVoltage };
 /// number > 0. Nothing for any other text.
 std::optional<UnitScale> unit_scale(Quantity quantity, std::string_view declared);
 
+/// The unit of SI in which a declared one is read: "A" of "mA". Empty for a number, and for a share of some
+/// full scale (%).
+std::string si_unit(Quantity quantity, std::string_view declared);
+
 /// What may be declared, for messages: "s, ms, us, ns, or a number (s per recorded unit)".
 std::string known_units(Quantity quantity);
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "gapscope/report/figure_formats.h"
 #include "gapscope/results/drive_changes.h"
 
 namespace gapscope {
@@ -11,6 +12,6 @@ std::string changes_text(const DriveChanges& changes);
 
 /// Draws the figure (PNG) and report.md of a comparison from its compare.json alone.
 /// @throws ConfigError where there is none; std::runtime_error when a file cannot be written.
-void write_changes_report(const std::string& folder);
+void write_changes_report(const std::string& folder, const FigureFormats& formats = {});
 
 }  // namespace gapscope

@@ -39,7 +39,7 @@ struct DriveReport {
 /// A quantity in one report.
 struct Observation {
   double value = kNaN;
-  double std = kNaN;   ///< half the width of the interval over 1.96, where that is wider
+  double std = kNaN;   ///< half the width of the interval over kNormal95, where that is wider
   Interval ci95;       ///< of a gap that was denied: from 0 to the smallest that would have shown
   std::string remark;  ///< why there is no value, or none to rely on; empty: there is one
 };

@@ -6,6 +6,7 @@
 
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/file_hash.h"
+#include "gapscope/base/input_facts.h"
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/diagnosis/second_encoder.h"
@@ -29,6 +30,7 @@ struct RunResult {
   std::optional<SecondEncoder> second_encoder;  ///< absent unless one on the load validates
   double simulated_gap = kNaN;                  ///< 2β of the simulated plant [rad]; NaN for recorded data
   std::vector<Recording> recordings;            ///< stored as traces, not in the JSON
+  std::optional<InputFacts> input = {};         ///< absent where nothing is known of it
   std::vector<std::string> notes;               ///< what was done to the data, readings of the configuration
 };
 

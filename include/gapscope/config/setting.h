@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+namespace gapscope {
+
+/// A value that is laid over a configuration before it is read: `--set model.parameters.gap=0.02`.
+struct Setting {
+  std::string key;   ///< keys from the outermost on with dots between them; in a list the place, from 0
+  std::string yaml;  ///< the value, as it would stand in the file: a number, a word, a list, a map
+};
+
+/// From "KEY=VALUE".  @throws ConfigError "gapscope: --set ..." for any other text
+Setting read_setting(const std::string& text);
+
+/// Does the work, in which what is wrong with a setting is told of `--set KEY` in place of a file and line,
+/// also where it shows long after the configuration was read.
+void telling_settings(std::span<const Setting> settings, const std::function<void()>& work);
+
+}  // namespace gapscope

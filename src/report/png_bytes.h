@@ -1,0 +1,14 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace gapscope::internal::report {
+
+/// The bytes of a PNG (ISO/IEC 15948): a fifth more of them than the tightest, in a quarter of the time.
+/// @param image  8-bit BGR
+/// @param per_metre  pixels of the paper [1/m], as its chunk pHYs tells a reader
+/// @throws std::runtime_error naming the figure
+std::string png_bytes(const std::string& name, const cv::Mat& image, double per_metre);
+
+}  // namespace gapscope::internal::report

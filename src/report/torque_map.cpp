@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/diagnosis_figures.h"
+#include "report/diagnosis_words.h"
+#include "report/wording.h"
+
+namespace gapscope::internal::report {
+namespace {
+
+constexpr std::size_t kPoints = 600;  ///< of a panel
+constexpr int kCurveBins = 40;
+constexpr double kOwnScale = 0.2;  ///< of the peak before: what is smaller after is drawn to its own scale
+
+/// The held-out samples that are drawn.
+struct Sampled {
+  std::vector<double> position, speed, input, before, after;
+  std::vector<bool> forward;
+};
+
+Sampled sampled(const MismatchTrace& t, bool both) {
+  Sampled s;
+  const std::size_t step = std::max<std::size_t>(1, (t.x1.size() - t.scored_from) / kPoints);
+  const std::size_t reach = std::max<std::size_t>(5, step / 2);  // of the difference that is the speed
+  for (std::size_t i = std::max(t.scored_from + step, reach); i + reach < t.x1.size(); i += step) {
+    const double speed = (t.x1[i + reach] - t.x1[i - reach]) / (t.time(i + reach) - t.time(i - reach));
+    s.position.push_back(t.x1[i]), s.speed.push_back(speed), s.input.push_back(t.u[i]);
+    s.before.push_back(t.torque_before[i]), s.after.push_back(both ? t.torque_after[i] : kNaN);
+    s.forward.push_back(t.x1[i] >= t.x1[i - step]);
+  }
+  return s;
+}
+
+double peak_of(const std::vector<double>& values) {
+  double peak = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) peak = std::max(peak, std::abs(v));
+  return peak;
+}
+
+/// The residual torque over one variable, before and after.
+class MapRow {
+ public:
+  MapRow(const DiagnosisResult& r, const Sampled& s, bool both) : r_(r), s_(s), both_(both) {}
+
+  void add(FigureData& figure, const std::string& over, const Axis& x, const std::vector<double>& of) const {
+    const double peak = 1.05 * peak_of(s_.before), left = 1.05 * peak_of(s_.after);
+    figure.panels.push_back(scatter("Nominal model, over " + over, x, of, s_.before, peak));
+    if (!both_) return;
+    for (const bool forward : {true, false}) add_curve(figure.panels.back(), of, forward);
+    const bool own = left < kOwnScale * peak;
+    figure.panels.push_back(
+        scatter("W" + with_added(r_).substr(1) + ", over " + over + (own ? ", to its own scale" : ""), x, of,
+                s_.after, own ? left : std::max(peak, left)));
+  }
+
+ private:
+  Panel scatter(const std::string& title, const Axis& x, const std::vector<double>& of,
+                const std::vector<double>& residual, double peak) const {
+    Panel panel;
+    panel.title = title;
+    panel.x = x;
+    panel.y = {"residual " + torque_word(r_), torque_unit_of(r_), {}, {}, {}};
+    if (peak > 0.0) panel.y.range = {-peak, peak};
+    panel.height = 520.0;
+    Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}};
+    plus.joined = minus.joined = false;
+    plus.marker = Marker::kTriangleUp, minus.marker = Marker::kTriangleDown;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      Series& s = s_.forward[i] ? plus : minus;
+      s.x.push_back(of[i]), s.y.push_back(residual[i]);
+    }
+    for (Series& s : std::array{plus, minus})
+      if (!s.x.empty()) panel.series.push_back(s);
+    return panel;
+  }
+
+  /// What was added takes of it: means over bins of one direction.
+  void add_curve(Panel& panel, const std::vector<double>& of, bool forward) const {
+    const auto [low, high] = std::minmax_element(of.begin(), of.end());
+    if (of.empty() || !(*high > *low)) return;
+    std::array<double, kCurveBins> sums{}, counts{};
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      if (s_.forward[i] != forward || !std::isfinite(s_.before[i] - s_.after[i])) continue;
+      const auto bin =
+          static_cast<std::size_t>(std::min(kCurveBins - 1.0, kCurveBins * (of[i] - *low) / (*high - *low)));
+      sums[bin] += s_.before[i] - s_.after[i], counts[bin] += 1.0;
+    }
+    Series curve{forward ? "taken by what was added" : "", {kInk, 4.0, {}}, {}, {}};
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      if (counts[i] == 0.0) continue;
+      curve.x.push_back(*low + (*high - *low) * (static_cast<double>(i) + 0.5) / kCurveBins);
+      curve.y.push_back(sums[i] / counts[i]);
+    }
+    if (!curve.x.empty()) panel.series.push_back(curve);
+  }
+
+  const DiagnosisResult& r_;
+  const Sampled& s_;
+  bool both_;
+};
+
+/// A cycle over the motor angle in words.
+std::string every(const DiagnosisResult& r, double periods_per_turn) {
+  return r.coordinates.rotational() ? rounded(periods_per_turn) + " cycles per turn"
+                                    : "every " + quantity(2.0 * kPi / periods_per_turn, "m");
+}
+
+/// What repeats with the motor angle: in what the nominal model leaves, and in what is left in the end.
+std::string cycles_reading(const DiagnosisResult& r) {
+  const double periods = r.diagnosis.where.periods_per_turn;
+  std::string text =
+      std::isfinite(periods)
+          ? "What the nominal model leaves repeats with the " + angle_word(r) + ", " + every(r, periods) + "."
+          : "No cycle over the " + angle_word(r) + " stands out of what the nominal model leaves.";
+  std::string lines;
+  for (const PeriodicTorque& p : r.diagnosis.periodic)
+    if (!p.given || p.holds) lines += (lines.empty() ? "" : ", ") + every(r, p.periods_per_turn);
+  if (lines.empty()) return text;
+  return text + " In what remains " + (added(r) ? with_added(r) + " " : "") + "one does: " + lines + ".";
+}
+
+/// Where the error goes with speed or direction, that is the picture of it.
+bool goes_with_speed(const DiagnosisResult& r) {
+  const std::string& place = r.diagnosis.where.headline;
+  return place.find("speed") != place.npos || place.find("direction of motion") != place.npos;
+}
+
+}  // namespace
+
+FigureData diagnosis_torque_map(const DiagnosisResult& r) {
+  FigureData figure;
+  figure.file = "diagnosis_torque_map.png";
+  figure.title = "Residual " + torque_word(r) + " over the " + angle_word(r) + ", the speed and the input";
+  const MismatchTrace* t = shown_trace(r);
+  if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
+  const bool both = added(r) && t->torque_after.size() == t->x1.size();
+  const Sampled s = sampled(*t, both);
+  const MapRow row(r, s, both);
+  const auto over_speed = [&] {
+    const std::string name = reads_load(r) ? "speed $w_2$" : "speed $w_1$";
+    row.add(figure, "the speed", {name, r.coordinates.shown_unit("rad/s"), {}, {}, {}}, s.speed);
+  };
+  if (goes_with_speed(r)) over_speed();
+  row.add(figure, "the " + angle_word(r),
+          {angle_word(r) + " " + position_name(r), length_unit(r), {}, {}, {}}, s.position);
+  if (!goes_with_speed(r)) over_speed();
+  row.add(figure, "the input", {"input $u$", input_unit(r), {}, {}, {}}, s.input);
+  if (both) figure.width = 3200.0, figure.columns = 2;
+  figure.reading = cycles_reading(r);
+  return figure;
+}
+
+}  // namespace gapscope::internal::report

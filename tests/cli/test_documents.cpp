@@ -1,0 +1,90 @@
+// What the documents show of the terminal is what the program says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "cli/executable.h"
+#include "support/data.h"
+
+namespace gapscope {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::text_of;
+using testing::Workplace;
+
+const fs::path kRoot = GAPSCOPE_SOURCE_DIR;
+
+struct Block {
+  std::string language, text;
+};
+
+std::vector<Block> blocks_of(const std::string& document) {
+  std::vector<Block> blocks;
+  std::istringstream lines(document);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (inside) blocks.push_back({line.substr(3), ""});
+    } else if (inside) {
+      blocks.back().text += line + "\n";
+    }
+  }
+  return blocks;
+}
+
+std::string find_block(const std::string& document, const std::string& language,
+                       const std::string& beginning) {
+  for (const Block& block : blocks_of(document))
+    if (block.language == language && block.text.starts_with(beginning)) return block.text;
+  ADD_FAILURE() << "no block begins with " << beginning;
+  return "";
+}
+
+/// Whether a line of a document, which "..." may cut short, is this one of the program.
+bool shows(const std::string& line, const std::string& of_program) {
+  constexpr std::string_view kCut = " ...";
+  return line.ends_with(kCut) ? of_program.starts_with(line.substr(0, line.size() - kCut.size()))
+                              : line == of_program;
+}
+
+/// Each line of the block comes in what the program said, in this order.
+void expect_shown(const std::string& block, const std::string& said) {
+  std::istringstream expected(block), lines(said);
+  std::string line, of_program;
+  while (std::getline(expected, line)) {
+    do
+      if (!std::getline(lines, of_program)) {
+        ADD_FAILURE() << "not said, or not there: " << line << "\nthe program said:\n" << said;
+        return;
+      }
+    while (!shows(line, of_program));
+  }
+}
+
+TEST(Documents, TheReadmeShowsWhatTheFirstExampleSays) {
+  Workplace place;
+  place.file("02.yaml", text_of(kRoot / "configs/02_experiment.yaml"));
+  const auto run = place.run("run 02.yaml");
+  ASSERT_EQ(run.status, 0) << run.err;
+  expect_shown(find_block(text_of(kRoot / "README.md"), "", "report      reports/02_experiment"), run.out);
+}
+
+TEST(Documents, TheTutorialShowsWhatCheckAndDetectSay) {
+  GAPSCOPE_NEEDS_DATA();
+  const std::string tutorial = text_of(kRoot / "docs/tutorial.md");
+  Workplace place;
+  place.file("emps.yaml", find_block(tutorial, "yaml", "name: emps\n"));
+  for (const char* file : {"emps_train.csv", "emps_pulses.csv"})
+    fs::create_symlink(testing::data_folder() / "emps" / file, place.folder() / file);
+  const auto check = place.run("check --translation emps_train.csv");
+  expect_shown(find_block(tutorial, "", "fine        time"), check.out);
+  const auto detect = place.run("detect emps.yaml -o detect");
+  expect_shown(find_block(tutorial, "", "report      detect"), detect.out);
+}
+
+}  // namespace
+}  // namespace gapscope

@@ -1,0 +1,61 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cli/executable.h"
+
+namespace gapscope {
+namespace {
+
+using testing::text_of;
+using testing::Workplace;
+
+std::string drive(const char* seed, const char* bits) {
+  return std::string("name: quick\nencoder: {bits: ") + bits +
+         "}\nsimulation: {rate: 500, duration: 2, seed: " + seed +
+         ", excitation: {sine: {amplitude: 0.5, frequency: 1}}}\nmodel:\n"
+         "  parameters: {motor_inertia: 0.001, torque_constant: 1, mass_ratio: 0, motor_damping: 0.01}\n";
+}
+
+TEST(SettingOption, TakesThePlaceOfWhatTheConfigurationSays) {
+  Workplace place;
+  place.file("c.yaml", drive("3", "18"));
+  place.file("other.yaml", drive("4", "12"));
+  ASSERT_EQ(place.run("simulate c.yaml --set simulation.seed=4 --set encoder.bits=12 -o set.csv").status, 0);
+  ASSERT_EQ(place.run("simulate other.yaml -o other.csv").status, 0);
+  ASSERT_EQ(place.run("simulate c.yaml -o c.csv").status, 0);
+  const std::string set = text_of(place.folder() / "set.csv");
+  EXPECT_EQ(set, text_of(place.folder() / "other.csv"));
+  EXPECT_NE(set, text_of(place.folder() / "c.csv"));
+}
+
+TEST(SettingOption, IsInTheReportThatItMade) {
+  Workplace place;
+  place.file("c.yaml", drive("3", "18"));
+  const auto detected = place.run("detect --set name=renamed c.yaml --set encoder.bits=16");
+  ASSERT_EQ(detected.status, 0) << detected.err;
+  const std::string resolved = text_of(place.folder() / "reports/renamed/resolved.yaml");
+  EXPECT_THAT(resolved, ::testing::HasSubstr("name: \"renamed\""));
+  EXPECT_THAT(resolved, ::testing::Not(::testing::HasSubstr("18")));
+}
+
+TEST(SvgOption, DrawsEachFigureTwiceAndTheNextReportTidiesUp) {
+  Workplace place;
+  place.file("c.yaml", drive("3", "18"));
+  const auto count = [&](const char* ending) {
+    const auto content = place.content();
+    return std::count_if(content.begin(), content.end(),
+                         [&](const std::string& file) { return file.ends_with(ending); });
+  };
+  ASSERT_EQ(place.run("detect c.yaml --svg -o d").status, 0);
+  EXPECT_GT(count(".png"), 0);
+  EXPECT_EQ(count(".svg"), count(".png"));
+  ASSERT_EQ(place.run("report d").status, 0);
+  EXPECT_EQ(count(".svg"), 0);
+  ASSERT_EQ(place.run("report d --svg").status, 0);
+  EXPECT_EQ(count(".svg"), count(".png"));
+}
+
+}  // namespace
+}  // namespace gapscope

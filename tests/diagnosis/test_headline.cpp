@@ -1,0 +1,25 @@
+#include <gtest/gtest.h>
+
+#include "diagnosis/headline.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+/// An error of which so much is in engagement, where the drive is most of the time.
+std::string headline_with(double share, double expected) {
+  MismatchPlace place;
+  place.mode = {{"gap", 1.0 - share, 1.0 - expected}, {"engagement", share, expected}, {"impact", 0.0, 0.0}};
+  place.phase = ContactPhase::kEngagement;
+  return headline_of(place, {});
+}
+
+TEST(Headline, NamesAPhaseOfTheContactOnlyWhereTheErrorIsDenserThanChance) {
+  EXPECT_EQ(headline_with(0.82, 0.8), "no clear order in angle, speed, input or time");
+  EXPECT_EQ(headline_with(0.6, 0.8), "no clear order in angle, speed, input or time");
+  EXPECT_TRUE(
+      headline_with(0.98, 0.8).starts_with("in engagement (98 % of the squared residual torque in 80 %"));
+  EXPECT_TRUE(headline_with(0.4, 0.2).starts_with("in engagement"));
+}
+
+}  // namespace
+}  // namespace gapscope::internal::diagnosis
