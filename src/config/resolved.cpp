@@ -39,7 +39,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   out.open("columns");
   const RecordingColumns& columns = recording.reading.columns;
   out.entry("time", yaml_text(columns.time));
-  if (columns.input_read) out.entry("input", yaml_text(columns.input));
+  if (columns.reads_input()) out.entry("input", yaml_text(columns.input));
   if (recording.reading.encoder == EncoderSide::kLoad && !columns.position_named)
     out.comment("position: " + yaml_text(columns.position) + " of the motor, not read");
   else

@@ -110,7 +110,7 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
   const RecordingColumns& c = options.columns;
   const std::string further = (c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)) +
                               (c.target.empty() ? "" : ", target: " + yaml_text(c.target));
-  const std::string input = c.input_read ? ", input: " + yaml_text(c.input) : "";
+  const std::string input = c.reads_input() ? ", input: " + yaml_text(c.input) : "";
   out.entry("columns", fmt::format("{{time: {}{}, position: {}{}}}", yaml_text(c.time), input,
                                    yaml_text(c.position), further));
   internal::config::write_units(out, recording);

@@ -94,7 +94,8 @@ std::vector<double> commanded_by(const PositionController& controller, const Rec
 RecordedRows read_window(const std::string& path, const ReadOptions& options, EarlierRow earlier) {
   RecordedRows table = read_rows(path, options.columns, earlier);
   require_samples(table, table.size(), "");
-  if (options.controller && !options.columns.input_read) table.u = commanded_by(*options.controller, table);
+  if (options.controller && !options.columns.reads_input())
+    table.u = commanded_by(*options.controller, table);
   if (options.window) cut_to_window(table, *options.window);
   return table;
 }
@@ -151,7 +152,7 @@ RecordingColumns RecordingColumns::read_from_load() const {
 }
 
 std::optional<InputComparison> compare_with_controller(const std::string& path, const ReadOptions& options) {
-  if (!options.controller || !options.columns.input_read) return {};
+  if (!options.controller || !options.columns.reads_input()) return {};
   const RecordedRows table = internal::recording::read_window(path, options);
   return compare_inputs(table.u, internal::recording::commanded_by(*options.controller, table));
 }

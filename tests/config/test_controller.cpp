@@ -24,7 +24,7 @@ TEST(Controller, MakesTheInputOfTheTarget) {
   const Configuration c = commanded("{target: goal, voltage: volts}", "{position: " + kPosition + "}");
   const ReadOptions options = c.recording->reading_for(UnevenRows::kStamped);
   EXPECT_EQ(options.columns.target, "goal");
-  EXPECT_FALSE(options.columns.input_read);
+  EXPECT_FALSE(options.columns.reads_input());
   ASSERT_TRUE(options.controller);
   EXPECT_EQ(options.controller->gain, 1.15);
   EXPECT_EQ(options.controller->derivative, 0.1);
@@ -37,7 +37,7 @@ TEST(Controller, MakesTheInputOfTheTarget) {
 
 TEST(Controller, LeavesAnInputThatIsNamedBesideTheTarget) {
   EXPECT_TRUE(commanded("{input: duty, target: goal}", "{position: {gain: 1}}")
-                  .recording->reading.columns.input_read);
+                  .recording->reading.columns.reads_input());
 }
 
 TEST(Controller, ComesBackFromTheResolvedText) {
@@ -48,7 +48,7 @@ TEST(Controller, ComesBackFromTheResolvedText) {
       const Configuration again = parse_configuration(text, "c.yaml");
       EXPECT_EQ(resolved_yaml(again), text);
       EXPECT_EQ(again.recording->reading.controller->saturation, c.recording->reading.controller->saturation);
-      EXPECT_EQ(again.recording->reading.columns.input_read, c.recording->reading.columns.input_read);
+      EXPECT_EQ(again.recording->reading.columns.reads_input(), c.recording->reading.columns.reads_input());
     }
 }
 

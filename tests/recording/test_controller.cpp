@@ -76,7 +76,8 @@ std::string file_with(const char* header, bool input) {
 TEST(TargetColumn, TakesThePlaceOfTheInput) {
   const testing::TemporaryFile file(file_with("t,goal,x1,volts", false));
   ReadOptions options;
-  options.columns.target = "goal", options.columns.voltage = "volts", options.columns.input_read = false;
+  options.columns.target = "goal", options.columns.voltage = "volts",
+  options.columns.input_column = InputColumn::kNone;
   options.controller = PositionController{};
   options.controller->gain = 0.5;
   const Recording r = read_recording(file.path(), options);
