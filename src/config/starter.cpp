@@ -259,7 +259,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
   write_recording(out, named_from(folder, recording), config, irregular);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
-  internal::config::write_controller(out, config);
+  if (config.reading.controller)
+    internal::config::write_controller(out, ControllerModel::known(*config.reading.controller));
   out.entry("coordinates", coordinates.name());
   const bool one_body = choice.structure == StarterModel::kOneBody;
   write_model(out, choice, begin_of(seen.facts, one_body, nominal), coordinates);

@@ -56,7 +56,7 @@ struct ReadOptions {
   std::optional<double> resample_rate;              ///< [Hz]; makes any sampling uniform
   UnevenRows uneven = UnevenRows::kRefused;         ///< where they are not resampled
   EncoderSide encoder = EncoderSide::kMotor;        ///< whose position the column `position` is
-  std::optional<PositionController> controller;  ///< makes the input of the target, where that was recorded
+  std::optional<DriveController> controller;  ///< makes the input of the target, where that was recorded
 };
 
 /// Fewer samples than this are no recording.
