@@ -75,7 +75,7 @@ struct RecordingArguments {
   bool translation = false;
   std::string voltage;  ///< empty: none
   std::string target;   ///< empty: none; else the input is what the controller makes of it
-  PositionController controller;
+  DriveController controller;
   DeclaredUnits units;
   RegisterBits registers;
   GearRatios gear;

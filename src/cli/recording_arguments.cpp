@@ -37,7 +37,7 @@ RecordingConfig RecordingArguments::configuration() const {
   o.columns.position_named = true;
   o.columns.voltage = voltage;
   o.columns.target = target;
-  o.columns.input_read = target.empty() || !input.empty();
+  if (!target.empty() && input.empty()) o.columns.input_column = InputColumn::kNone;
   if (target.empty() != std::isnan(controller.gain))
     throw ConfigError("gapscope: --target and --controller-gain go together, expected both or neither");
   if (!target.empty()) o.controller = controller;
@@ -134,7 +134,7 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
 }
 
 void require_three_columns(const RecordingColumns& c) {
-  const std::string& input = c.input_read ? c.input : c.target;
+  const std::string& input = c.reads_input() ? c.input : c.target;
   if (c.time == input || c.time == c.position || input == c.position)
     throw ConfigError(
         "gapscope: --time, --input and --position name one column twice, expected three columns");

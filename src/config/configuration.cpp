@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "config/anchor_reader.h"
 #include "config/configuration_reader.h"
 #include "config/controller_reader.h"
 #include "config/data_reader.h"
@@ -177,9 +178,9 @@ std::string read_name(const Section& root, const std::string& file) {
 }
 
 Configuration read_configuration(const Value& document) {
-  const Section root(document,
-                     {"name", "recording", "simulation", "encoder", "coordinates", "model", "controller",
-                      "detector", "fit", "next_experiment", "diagnosis", "tolerance", "implant"});
+  const Section root(
+      document, {"name", "recording", "simulation", "encoder", "coordinates", "model", "controller", "anchor",
+                 "detector", "fit", "next_experiment", "diagnosis", "tolerance", "implant"});
   Configuration c;
   c.file = document.file();
   c.name = read_name(root, c.file);
@@ -194,6 +195,7 @@ Configuration read_configuration(const Value& document) {
   require_bound_from_model(c);
   read_data(root, model, c);
   read_controller(root, c);
+  read_anchor(root, c);
   settle_periods(c.model.effects, c.turns(), c.file);
   if (c.simulation) settle_periods(c.simulation->plant.effects, c.turns(), c.file);
   place_encoder(c);
@@ -212,6 +214,13 @@ Configuration read_configuration(const Value& document) {
 }
 
 }  // namespace internal::config
+
+ReferenceModel Configuration::reference_model() const {
+  ReferenceModel fitted = model.reference_model();
+  if (anchor) anchor->fix(fitted);
+  if (controller && controller->estimates()) fitted.controller = controller;
+  return fitted;
+}
 
 double Configuration::position_quantum() const {
   if (!recording) return encoder.quantum;
@@ -258,8 +267,9 @@ Configuration load_configuration(const std::string& path, std::span<const Settin
 void require_reference_model(const Configuration& c) {
   if (!c.model.given)
     throw ConfigError(c.file, "there is no model, expected model: with parameters for the reference");
+  const ReferenceModel fitted = c.reference_model();
   for (int i = 0; i < kDriveParameterCount; ++i) {
-    const ParameterSetting& p = c.model.parameters[i];
+    const ParameterSetting& p = fitted.parameters[i];
     if (!has_parameter(c.model.structure, i) || p.estimate || !std::isnan(p.value)) continue;
     throw ConfigError(
         c.file, c.model.line,

@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include "config/anchor_reader.h"
 #include "config/controller_reader.h"
 #include "config/model_reader.h"
+#include "config/parameter_setting.h"
 #include "config/schema_parts.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/plant/effect.h"
@@ -12,25 +14,6 @@
 namespace gapscope {
 namespace internal::config {
 namespace {
-
-/// A number, or `{value, estimate, bounds}` and, of a drive parameter, a prior.
-Json setting_schema(const Range& range, const std::string& doc, bool prior) {
-  MapSchema written;
-  written.add("value", number_schema(range, "where the fit begins"));
-  written.add("estimate", truth_schema("whether it is fitted"));
-  written.add("bounds", rising_pair_schema(range, "that the fit stays within"));
-  if (prior) {
-    MapSchema known;
-    known.add("value", number_schema(range, "default: where the fit begins"));
-    known.add("std", number_schema({0.0, kInfinity, range.unit}, "standard deviation"));
-    known.required = {"std"};
-    written.add("prior", known.schema("what is known beforehand"));
-    written.add("guess", truth_schema("the value is one: what rests on it is told so"));
-  }
-  return described(
-      {{"anyOf", {number_schema(range, "fixed at this value"), written.schema("estimated, or fixed")}}}, doc,
-      range.unit);
-}
 
 Json effect_schema(const EffectEntry& entry) {
   MapSchema parameters;
@@ -191,6 +174,7 @@ std::string configuration_schema() {
   root.add("coordinates", words_schema({"rotation", "translation"}, "translation: rad and N m mean m and N"));
   root.add("model", model_schema());
   root.add("controller", controller_schema());
+  root.add("anchor", anchor_schema());
   root.add("detector", detector_schema());
   root.add("fit", fields_schema(FitOptions{}).schema("how the reference is found"));
   root.add("next_experiment", fields_schema(ExperimentLimits{}).schema("what the diagnosis may propose"));

@@ -1,48 +1,159 @@
 #include "config/controller_reader.h"
 
-#include <cmath>
-#include <optional>
+#include <fmt/format.h>
 
-#include "config/field_reader.h"
+#include <cmath>
+
+#include "config/parameter_setting.h"
 #include "gapscope/base/errors.h"
 
 namespace gapscope::internal::config {
 namespace {
 
-/// The controller as its block has it.
-struct WrittenController {
-  PositionController numbers;
-  std::optional<double> saturation;
+namespace at = controller_place;
 
-  void fields(FieldVisitor& v) {
-    v.field({"gain", "unit of u per rad", "of the position error", -1e12, 1e12}, numbers.gain);
-    v.field({"derivative", "unit of u s/rad", "of its slope from update to update", -1e12, 1e12},
-            numbers.derivative);
-    v.field({"integral", "unit of u per rad s", "of its integral, which rests at saturation", -1e12, 1e12},
-            numbers.integral);
-    v.field({"rate", "Hz", "of its updates; 0: one at each row", 0, 1e5}, numbers.rate);
-    v.field({"delay", "s", "from the reading of the position to the change of the input", 0, 1},
-            numbers.delay);
-    v.field({"saturation", "unit of u", "limit of its output, either way", 1e-12, 1e12}, saturation);
-    v.field({"dead_band", "rad", "error up to which it takes no action", 0, 1e6}, numbers.dead_band);
-  }
+constexpr int kFixed = -1;  ///< a key whose number is always given
+
+/// One key of a law: of a number that can be estimated, or of one that cannot.
+struct LawKey {
+  const char* key;
+  Range range;
+  const char* doc;
+  int number = kFixed;  ///< place in kControllerNumbers
+  double DriveController::*fixed = nullptr;
 };
+using LawKeys = std::vector<LawKey>;
 
-/// @throws ConfigError for what is to be estimated: a number is needed to know the input at all
-void require_given(const Value& position) {
-  for (const auto& [key, value] : position.entries())
-    if (value.is_map())
-      value.fail(
-          "is to be estimated, expected a number: where the input was not recorded, a gain cannot be told "
-          "from torque_constant, nor a delay from the effect input_delay; estimate those");
+constexpr double kGainMost = 1e12;
+const LawKey kRate = {
+    "rate", {0.0, 1e5, "Hz"}, "of its updates; 0: one at each row", kFixed, &DriveController::rate};
+const LawKey kDelay = {
+    "delay", {0.0, 1.0, "s"}, "from the reading of the position to the change of the input", at::kDelay};
+const LawKey kSaturation = {"saturation",
+                            {1e-12, kInfinity, "unit of u"},
+                            "limit of its output, either way",
+                            kFixed,
+                            &DriveController::saturation};
+const LawKey kDeadBand = {"dead_band",
+                          {0.0, 1e6, "rad"},
+                          "error up to which it takes no action",
+                          kFixed,
+                          &DriveController::dead_band};
+
+const LawKeys kPositionAlone = {
+    {"gain", {-kGainMost, kGainMost, "unit of u per rad"}, "of the position error", at::kGain},
+    {"derivative",
+     {-kGainMost, kGainMost, "unit of u s/rad"},
+     "of its slope from update to update",
+     at::kDerivative},
+    {"integral",
+     {-kGainMost, kGainMost, "unit of u per rad s"},
+     "of its integral, which rests at saturation",
+     at::kIntegral},
+    kRate,
+    kDelay,
+    kSaturation,
+    kDeadBand};
+const LawKeys kPositionOfCascade = {
+    {"gain", {-kGainMost, kGainMost, "1/s"}, "the speed that an error of position asks for", at::kGain},
+    kDeadBand};
+const LawKeys kVelocity = {
+    {"gain", {-kGainMost, kGainMost, "unit of u s/rad"}, "of the error of the speed", at::kSpeedGain},
+    {"integral",
+     {-kGainMost, kGainMost, "unit of u per rad"},
+     "of its integral, which rests at saturation",
+     at::kSpeedIntegral},
+    kRate,
+    kDelay,
+    kSaturation};
+
+std::vector<std::string> names_of(const LawKeys& keys) {
+  std::vector<std::string> names;
+  for (const LawKey& key : keys) names.emplace_back(key.key);
+  return names;
 }
 
-PositionController read_position(const Value& value) {
-  if (value.is_map()) require_given(value);
-  WrittenController written;
-  read_fields(value, written);
-  written.numbers.saturation = written.saturation.value_or(kInfinity);
-  return written.numbers;
+bool is_gain(const LawKey& key) { return key.number == at::kGain || key.number == at::kSpeedGain; }
+
+bool leads(const LawKey& key, ControllerKind kind) { return key.number == leading_number(kind); }
+
+/// `gain: estimate` says what `gain: {estimate: true}` says. All but the leading number need a value to begin
+/// with.
+ParameterSetting read_number(const Value& value, const LawKey& key, ControllerKind kind) {
+  ParameterSetting setting = value.is_text() && value.node().Scalar() == "estimate"
+                                 ? ParameterSetting::sought()
+                                 : read_setting(value, key.range);
+  if (std::isnan(setting.value) && !leads(key, kind))
+    value.fail("is to be estimated and has no value, expected {value: ..., estimate: true}");
+  return setting;
+}
+
+void read_law(const Value& value, const LawKeys& keys, ControllerModel& model) {
+  const Section section(value, names_of(keys));
+  for (const LawKey& key : keys) {
+    const auto given = section.find(key.key);
+    if (!given && is_gain(key))
+      section.require(key.key, fmt::format("{} [{}], or estimate", key.doc, key.range.unit));
+    if (!given) continue;
+    if (key.fixed != nullptr)
+      model.fixed.*key.fixed = given->number(key.range);
+    else
+      model.numbers[static_cast<std::size_t>(key.number)] = read_number(*given, key, model.fixed.kind);
+  }
+}
+
+ControllerModel read_laws(const Value& controller) {
+  const Section section(controller, {"position", "velocity"});
+  const auto position = section.find("position"), velocity = section.find("velocity");
+  if (!position && !velocity)
+    section.require("position", "position: {gain: ...}, velocity: {gain: ...} or both, a cascade");
+  ControllerModel model;
+  model.fixed.kind = !velocity  ? ControllerKind::kPosition
+                     : position ? ControllerKind::kCascade
+                                : ControllerKind::kVelocity;
+  for (ParameterSetting& number : model.numbers) number.value = 0.0;
+  if (position) read_law(*position, velocity ? kPositionOfCascade : kPositionAlone, model);
+  if (velocity) read_law(*velocity, kVelocity, model);
+  return model;
+}
+
+/// What is estimated needs an input that is made of the target, row by row.
+void require_estimable(const Value& controller, const RecordingConfig& recording) {
+  if (recording.reading.columns.reads_input())
+    controller.fail(
+        "has a number to be estimated beside a recorded input, expected numbers: a note of fit then says how "
+        "much of the input they leave, and at which scale");
+  if (recording.reading.resample_rate && !recording.resample_for_detector)
+    controller.fail(
+        "has a number to be estimated and the recording is resampled, expected resample: {for: detector} or "
+        "none");
+}
+
+void write_law(YamlWriter& out, const char* name, const LawKeys& keys, const ControllerModel& model) {
+  out.open(name);
+  for (const LawKey& key : keys) {
+    if (key.fixed == nullptr) {
+      const ParameterSetting& setting = model.numbers[static_cast<std::size_t>(key.number)];
+      out.quantity(key.key, setting_text(setting), key.range.unit);
+    } else if (const double value = model.fixed.*key.fixed; std::isfinite(value)) {
+      out.quantity(key.key, yaml_number(value), key.range.unit);
+    }
+  }
+  out.close();
+}
+
+Json law_schema(const LawKeys& keys, const std::string& doc) {
+  MapSchema law;
+  for (const LawKey& key : keys) {
+    if (key.fixed != nullptr)
+      law.add(key.key, number_schema(key.range, key.doc));
+    else
+      law.add(
+          key.key,
+          one_of({setting_schema(key.range, "", false), words_schema({"estimate"}, "by the fit")}, key.doc));
+    if (is_gain(key)) law.required.emplace_back(key.key);
+  }
+  return law.schema(doc);
 }
 
 }  // namespace
@@ -56,33 +167,35 @@ void read_controller(const Section& root, Configuration& c) {
         c.file, c.recording->files.front().line,
         "recording.columns has a target, expected controller: {position: {gain: ...}} beside it, "
         "which makes the input of it");
-  const Section section(*controller, {"position"});
-  const PositionController position = read_position(
-      section.require("position", "{gain, derivative, integral, rate, delay, saturation, dead_band}"));
+  const ControllerModel model = read_laws(*controller);
   if (!target)
     controller->fail(c.recording
                          ? "stands without the target, expected recording: columns: {target: ...}"
                          : "stands beside simulation, expected it with recording: columns: {target: ...}");
-  c.recording->reading.controller = position;
+  if (model.estimates()) require_estimable(*controller, *c.recording);
+  c.controller = model;
+  c.recording->reading.controller = model.at_start();
 }
 
-void write_controller(YamlWriter& out, const RecordingConfig& recording) {
-  if (!recording.reading.controller) return;
-  WrittenController written{*recording.reading.controller, {}};
-  if (std::isfinite(written.numbers.saturation)) written.saturation = written.numbers.saturation;
-  FieldWriter fields(out);
+void write_controller(YamlWriter& out, const ControllerModel& model) {
+  const ControllerKind kind = model.fixed.kind;
   out.open("controller");
-  out.open("position");
-  written.fields(fields);
-  out.close();
+  if (kind != ControllerKind::kVelocity)
+    write_law(out, "position", kind == ControllerKind::kCascade ? kPositionOfCascade : kPositionAlone, model);
+  if (kind != ControllerKind::kPosition) write_law(out, "velocity", kVelocity, model);
   out.close();
 }
 
 Json controller_schema() {
   MapSchema controller;
-  controller.add("position", fields_schema(WrittenController{}).schema("of the position that is recorded"));
-  controller.required = {"position"};
-  return controller.schema("of the drive's firmware: makes the input of recording: columns: target");
+  controller.add("position",
+                 law_schema(kPositionAlone,
+                            "of the position that is recorded; beside velocity its gain [1/s] asks "
+                            "for a speed, and it has gain and dead_band alone"));
+  controller.add("velocity", law_schema(kVelocity, "of the speed, of which alone the target is one"));
+  Json schema = controller.schema("of the drive's firmware: makes the input of recording: columns: target");
+  schema["minProperties"] = 1;
+  return schema;
 }
 
 }  // namespace gapscope::internal::config

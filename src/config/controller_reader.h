@@ -7,11 +7,11 @@
 
 namespace gapscope::internal::config {
 
-/// `controller: {position: {...}}`, which goes with `recording: columns: target:`.
+/// `controller: {position: {...}, velocity: {...}}`, which goes with `recording: columns: target:`.
 /// @throws ConfigError where one of the two stands alone
 void read_controller(const Section& root, Configuration& configuration);
 
-void write_controller(YamlWriter& out, const RecordingConfig& recording);
+void write_controller(YamlWriter& out, const ControllerModel& model);
 
 Json controller_schema();
 

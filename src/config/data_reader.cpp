@@ -84,7 +84,7 @@ RecordingColumns read_columns(const Value& value) {
   columns.position_named = section.find("position").has_value();
   if (section.find("voltage")) read_column(section, "voltage", columns.voltage, taken);
   if (section.find("target")) read_column(section, "target", columns.target, taken);
-  columns.input_read = columns.target.empty() || section.find("input").has_value();
+  if (!columns.target.empty() && !section.find("input")) columns.input_column = InputColumn::kNone;
   return columns;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "config/model_reader.h"
+#include "config/parameter_setting.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/base/text.h"
@@ -42,22 +43,6 @@ ParameterSetting from_period(const ParameterSetting& period) {
   periods.value = other_way(period.value);
   periods.low = other_way(period.high), periods.high = other_way(period.low);
   return periods;
-}
-
-ParameterSetting read_setting(const Value& value, const Range& range) {
-  ParameterSetting p;
-  if (!value.is_map()) {
-    p.value = value.number(range);
-    return p;
-  }
-  const Section section(value, {"value", "estimate", "bounds"});
-  if (const auto given = section.find("estimate")) p.estimate = given->truth();
-  if (const auto given = section.find("bounds")) std::tie(p.low, p.high) = given->rising_pair(range);
-  if (const auto given = section.find("value"))
-    p.value = given->number(std::isnan(p.low) ? range : Range{p.low, p.high, range.unit});
-  if (std::isnan(p.value) && !p.estimate)
-    value.fail("has no value and is not estimated, expected a value or estimate: true");
-  return p;
 }
 
 /// The keys of an effect; of one with a period the other way to write it, too.

@@ -74,6 +74,8 @@ Configuration with_model(const Configuration& given, const ReferenceModel& fitte
   Configuration c = given;
   c.name = given.name.substr(0, kLongestName) + "_fitted";
   c.recording.reset();
+  c.controller.reset();
+  c.anchor.reset();
   c.model.structure = fitted.structure;
   c.model.parameters = fitted.parameters;
   for (ParameterSetting& p : c.model.parameters) fix(p);
@@ -143,7 +145,7 @@ std::string experiment_yaml(const Configuration& given, const ReferenceModel& mo
 std::string fit_yaml(const Configuration& given, const FitSummary& fit, const std::string& trace,
                      const MotorTrace& recording) {
   GAPSCOPE_REQUIRE(!fit.initial_states.empty());
-  Configuration c = with_model(given, fitted_model(given.model.reference_model(), fit));
+  Configuration c = with_model(given, fitted_model(given.reference_model(), fit));
   if (!c.simulation) c.simulation = replay_of(recording, trace);
   const DriveState<double>& start = fit.initial_states.front().state;
   c.simulation->initial = {start.x1, start.w1, start.x2, start.w2};

@@ -6,7 +6,9 @@
 #include <string>
 #include <tuple>
 
+#include "config/anchor_reader.h"
 #include "config/controller_reader.h"
+#include "config/parameter_setting.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/config/configuration.h"
@@ -15,6 +17,7 @@ namespace gapscope {
 namespace {
 
 using internal::config::FieldWriter;
+using internal::config::setting_text;
 using internal::config::yaml_number;
 using internal::config::yaml_text;
 using internal::config::YamlWriter;
@@ -39,7 +42,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   out.open("columns");
   const RecordingColumns& columns = recording.reading.columns;
   out.entry("time", yaml_text(columns.time));
-  if (columns.input_read) out.entry("input", yaml_text(columns.input));
+  if (columns.reads_input()) out.entry("input", yaml_text(columns.input));
   if (recording.reading.encoder == EncoderSide::kLoad && !columns.position_named)
     out.comment("position: " + yaml_text(columns.position) + " of the motor, not read");
   else
@@ -67,17 +70,6 @@ void write_structure(YamlWriter& out, const DriveStructure& structure) {
   out.entry("contact",
             rigid ? fmt::format("{{rigid: {{restitution: {}}}}}", structure.restitution) : "compliant");
   out.entry("load", structure.load == LoadKind::kFree ? "free" : "locked");
-}
-
-std::string setting_text(const ParameterSetting& p) {
-  if (!p.estimate) return yaml_number(p.value);
-  std::vector<std::string> parts;
-  if (!std::isnan(p.value)) parts.push_back(fmt::format("value: {}", p.value));
-  parts.emplace_back("estimate: true");
-  if (!std::isnan(p.low) && !std::isnan(p.high))
-    parts.push_back(fmt::format("bounds: [{}, {}]", p.low, p.high));
-  if (p.prior) parts.push_back(fmt::format("prior: {{value: {}, std: {}}}", p.prior->value, p.prior->std));
-  return "{" + joined(parts) + "}";
 }
 
 /// As many digits as come back from a period and its reciprocal.
@@ -198,7 +190,10 @@ void write_reading(YamlWriter& out, const Configuration& c) {
   if (c.recording) write_recording(out, *c.recording);
   if (c.simulation) write_simulation(out, *c.simulation, c.coordinates);
   write_encoder(out, c.encoder);
-  if (c.recording) internal::config::write_controller(out, *c.recording);
+  if (c.controller)
+    internal::config::write_controller(out, *c.controller);
+  else if (c.recording && c.recording->reading.controller)
+    internal::config::write_controller(out, ControllerModel::known(*c.recording->reading.controller));
   out.entry("coordinates", c.coordinates.name());
 }
 
@@ -232,6 +227,7 @@ std::string yaml_of(const Configuration& c, const std::string& heading) {
   out.entry("name", yaml_text(c.name));
   write_reading(out, c);
   write_model(out, c.model, c.coordinates);
+  if (c.anchor) internal::config::write_anchor(out, *c.anchor);
   write_detector(out, c.detector);
   FieldWriter fields(out);
   out.open("fit");

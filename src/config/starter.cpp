@@ -110,7 +110,7 @@ void write_recording(YamlWriter& out, const std::string& file, const RecordingCo
   const RecordingColumns& c = options.columns;
   const std::string further = (c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)) +
                               (c.target.empty() ? "" : ", target: " + yaml_text(c.target));
-  const std::string input = c.input_read ? ", input: " + yaml_text(c.input) : "";
+  const std::string input = c.reads_input() ? ", input: " + yaml_text(c.input) : "";
   out.entry("columns", fmt::format("{{time: {}{}, position: {}{}}}", yaml_text(c.time), input,
                                    yaml_text(c.position), further));
   internal::config::write_units(out, recording);
@@ -260,7 +260,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
   write_recording(out, named_from(folder, recording), config, irregular);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
-  internal::config::write_controller(out, config);
+  if (config.reading.controller)
+    internal::config::write_controller(out, ControllerModel::known(*config.reading.controller));
   out.entry("coordinates", coordinates.name());
   const bool one_body = choice.structure == StarterModel::kOneBody;
   write_model(out, choice, begin_of(seen.facts, one_body, nominal), coordinates);

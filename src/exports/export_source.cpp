@@ -64,8 +64,7 @@ ExportSource recorded_source(const Configuration& c) {
     throw ConfigError(c.file,
                       first.file + " has uneven steps, expected resample: {rate: ...} for the export");
   const MotorTrace trace = first.motor_trace();
-  const Configuration model =
-      parse_configuration(model_yaml(c, c.model.reference_model(), "", trace), c.file);
+  const Configuration model = parse_configuration(model_yaml(c, c.reference_model(), "", trace), c.file);
   return source_of(model, first.u, "the input of " + shown(first.file));
 }
 

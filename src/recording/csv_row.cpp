@@ -72,7 +72,7 @@ void CsvRow::fail(const std::string& what) const { throw ConfigError(name_, line
 
 std::string CsvRow::wanted() const {
   return fmt::format("the columns {}, {}, {}", columns_.time,
-                     columns_.input_read ? columns_.input : columns_.target, columns_.position);
+                     columns_.reads_input() ? columns_.input : columns_.target, columns_.position);
 }
 
 /// The header as it is, its first columns.
@@ -99,7 +99,7 @@ int CsvRow::place(const std::string& name, bool required) const {
 
 std::string CsvRow::wanted_with(const std::string& name) const {
   const bool further = name == columns_.load_position || name == columns_.voltage ||
-                       (name == columns_.target && columns_.input_read);
+                       (name == columns_.target && columns_.reads_input());
   return further ? wanted() + ", " + name : wanted();
 }
 
@@ -112,7 +112,7 @@ void CsvRow::header(std::string_view line) {
     std::vector<std::string_view> fields;
     split(line, separator, fields);
     const auto found = std::count_if(fields.begin(), fields.end(), [&](std::string_view name) {
-      return name == columns_.time || name == (columns_.input_read ? columns_.input : columns_.target) ||
+      return name == columns_.time || name == (columns_.reads_input() ? columns_.input : columns_.target) ||
              name == columns_.position;
     });
     const std::pair<std::ptrdiff_t, bool> rank = {found, fields.size() > 1};
@@ -121,7 +121,7 @@ void CsvRow::header(std::string_view line) {
   while (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
   width_ = fields_.size();
   t_ = place(columns_.time, true);
-  if (columns_.input_read) u_ = place(columns_.input, columns_.input_required);
+  if (columns_.reads_input()) u_ = place(columns_.input, columns_.input_column == InputColumn::kRequired);
   x1_ = place(columns_.position, true);
   x2_ = place(columns_.load_position, columns_.load_position_required);
   if (!columns_.voltage.empty() && (u_ >= 0 || !columns_.target.empty()))

@@ -49,7 +49,8 @@ RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, 
   };
   const ColumnScales& scales = columns.scales;
   const Column t = column(columns.time, scales.time);
-  const bool has_input = columns.input_read && (columns.input_required || content->find(columns.input));
+  const bool has_input = columns.input_column == InputColumn::kRequired ||
+                         (columns.input_column == InputColumn::kOptional && content->find(columns.input));
   Column u = has_input ? column(columns.input, scales.input) : Column{};
   const bool has_target = !columns.target.empty();
   const Column target = has_target ? column(columns.target, scales.position) : Column{};

@@ -31,6 +31,7 @@ bool is_mat(const std::string& path) {
 void RecordedRows::keep(std::size_t first, std::size_t count) {
   for (auto* column : {&t, &u, &x1, &x2, &target, &supply}) keep_part(*column, first, count);
   keep_part(line, first, count);
+  command_first += first;
 }
 
 bool RecordedRows::admits(double time, std::int64_t of_line, EarlierRow earlier, const std::string& column) {

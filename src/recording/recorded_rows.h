@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,9 @@ struct RecordedRows {
   std::vector<double> x2;      ///< [rad]; empty if the file has none
   std::vector<double> target;  ///< [rad]; empty where none is read
   std::vector<double> supply;  ///< beside the target: what an input is multiplied by [V]; 1 without
-  std::vector<std::int64_t> line;     ///< of each row, from 1
+  std::shared_ptr<const CommandRows> command;  ///< what u was made of; null: it was recorded
+  std::size_t command_first = 0;               ///< the row of it that is the first here
+  std::vector<std::int64_t> line;              ///< of each row, from 1
   std::vector<std::int64_t> skipped;  ///< lines of rows that were left out: not later than the row before
   bool open_end = false;              ///< the last line has no end: its last number may be cut off
 

@@ -42,6 +42,8 @@ Recording part(const Recording& recording, std::size_t first, std::size_t count)
   r.resampling = recording.resampling;
   r.stamps = part_of(recording.stamps, first, count);
   r.encoder = recording.encoder;
+  r.command = recording.command;
+  r.command_first = recording.command_first + first;
   return r;
 }
 
@@ -49,6 +51,7 @@ MotorTrace part(const MotorTrace& trace, std::size_t first, std::size_t count) {
   GAPSCOPE_REQUIRE(first <= trace.size() && count <= trace.size() - first);
   MotorTrace t = trace;
   t.start = trace.time(first);
+  t.command_first = trace.command_first + first;
   t.u = trace.u.subspan(first, count);
   t.x1 = trace.x1.subspan(first, count);
   if (!trace.even()) t.stamps = trace.stamps.subspan(first, count);

@@ -82,11 +82,12 @@ double sampling_interval(const RecordedRows& table) {
 namespace internal::recording {
 namespace {
 
-/// What the controller made of the target, times the supply's voltage.
-std::vector<double> commanded_by(const PositionController& controller, const RecordedRows& table) {
-  std::vector<double> u = commanded_input(controller, table.t, table.target, table.x1);
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] *= table.supply[i];
-  return u;
+CommandRows command_of(const RecordedRows& table) { return {table.t, table.target, table.x1, table.supply}; }
+
+/// The input is what the controller made of the target.
+void command(const DriveController& controller, RecordedRows& table) {
+  table.command = std::make_shared<const CommandRows>(command_of(table));
+  table.u = commanded_input(controller, *table.command);
 }
 
 }  // namespace
@@ -94,7 +95,7 @@ std::vector<double> commanded_by(const PositionController& controller, const Rec
 RecordedRows read_window(const std::string& path, const ReadOptions& options, EarlierRow earlier) {
   RecordedRows table = read_rows(path, options.columns, earlier);
   require_samples(table, table.size(), "");
-  if (options.controller && !options.columns.input_read) table.u = commanded_by(*options.controller, table);
+  if (options.controller && !options.columns.reads_input()) command(*options.controller, table);
   if (options.window) cut_to_window(table, *options.window);
   return table;
 }
@@ -128,6 +129,8 @@ Recording recording_of(RecordedRows&& table, UnevenRows uneven) {
   r.u = std::move(table.u);
   r.x1 = std::move(table.x1);
   r.x2 = std::move(table.x2);
+  r.command = std::move(table.command);
+  r.command_first = table.command_first;
   if (!even) r.stamps = std::move(table.t);
   return r;
 }
@@ -151,9 +154,10 @@ RecordingColumns RecordingColumns::read_from_load() const {
 }
 
 std::optional<InputComparison> compare_with_controller(const std::string& path, const ReadOptions& options) {
-  if (!options.controller || !options.columns.input_read) return {};
+  if (!options.controller || !options.columns.reads_input()) return {};
   const RecordedRows table = internal::recording::read_window(path, options);
-  return compare_inputs(table.u, internal::recording::commanded_by(*options.controller, table));
+  return compare_inputs(table.u,
+                        commanded_input(*options.controller, internal::recording::command_of(table)));
 }
 
 Recording read_recording(const std::string& path, const ReadOptions& options) {

@@ -49,7 +49,7 @@ void require_same_input(const RecordedRows& rows, std::size_t row, double u, dou
 Recording read_simulated(const std::string& path, const RecordingColumns& columns, const Recording& like) {
   ReadOptions options;
   options.columns = columns;
-  options.columns.input_required = false;
+  if (options.columns.reads_input()) options.columns.input_column = InputColumn::kOptional;
   const RecordedRows rows = internal::recording::read_window(path, options);
   const double peak = peak_of(like.u);
   Recording r;

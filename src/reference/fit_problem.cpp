@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "reference/controller_numbers.h"
 #include "signals/encoder.h"
 
 namespace gapscope::internal::reference {
@@ -219,11 +220,13 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   problem.recordings = recordings;
   problem.structure = model.structure;
   problem.options = options;
-  problem.rough = signals::as_one_body(recordings);
+  if (model.controller) command_inputs(problem, model);
+  problem.rough = signals::as_one_body(problem.recordings);
   for (const MotorTrace& r : recordings) problem.floors.push_back(signals::encoder_floor(r));
   const std::array<double, kDriveParameterCount> sizes = suggested(problem.rough, model);
   add_drive(problem, model, sizes);
   add_effects(problem, model, scales(problem, sizes));
+  if (model.controller) add_controller(problem, *model.controller);
   for (std::size_t i = 0; i < problem.parameters.size(); ++i)
     if (problem.parameters[i].estimated) problem.free.push_back(static_cast<int>(i));
   std::vector<double> q;

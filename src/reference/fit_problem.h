@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,24 +14,30 @@
 
 namespace gapscope::internal::reference {
 
-/// Every number of the model: the drive's parameters, then kMostEffectParameters for each effect.
+/// Every number of the model: the drive's parameters, the controller's, then kMostEffectParameters for each
+/// effect.
 template <class T>
 class ModelNumbers {
  public:
   explicit ModelNumbers(std::size_t effects)
-      : values_(kDriveParameterCount + effects * kMostEffectParameters, T(0.0)) {}
+      : values_(kBeforeEffects + effects * kMostEffectParameters, T(0.0)) {}
 
   T& operator[](ParameterId id) { return values_[place_of(id)]; }
   const T& operator[](ParameterId id) const { return values_[place_of(id)]; }
   const T& drive(int place) const { return values_[static_cast<std::size_t>(place)]; }
+  const T& controller(int place) const { return values_[place_of(controller_number(place))]; }
   std::span<const T> effect(std::size_t e, std::size_t count) const {
-    return std::span<const T>(values_).subspan(kDriveParameterCount + e * kMostEffectParameters, count);
+    return std::span<const T>(values_).subspan(kBeforeEffects + e * kMostEffectParameters, count);
   }
 
  private:
+  static constexpr int kBeforeEffects = kDriveParameterCount + kControllerNumberCount;
+
   static std::size_t place_of(ParameterId id) {
-    const int first =
-        id.effect == ParameterId::kDrive ? 0 : kDriveParameterCount + id.effect * kMostEffectParameters;
+    const int first = id.effect == ParameterId::kDrive ? 0
+                      : id.effect == ParameterId::kController
+                          ? kDriveParameterCount
+                          : kBeforeEffects + id.effect * kMostEffectParameters;
     return static_cast<std::size_t>(first + id.index);
   }
 
@@ -52,6 +60,12 @@ struct Parameter {
   bool at_bound(double q) const;
 };
 
+/// Recordings under what a controller makes of their targets before it is fitted.
+struct StartInputs {
+  std::vector<std::vector<double>> u;
+  std::vector<MotorTrace> recordings;
+};
+
 /// All that the searches share: data, floors and parameters.
 struct FitProblem {
   std::span<const MotorTrace> recordings;
@@ -62,6 +76,8 @@ struct FitProblem {
   std::vector<Parameter> parameters;  ///< all of the structure, in the order of the keys
   std::vector<int> free;              ///< indices of the estimated ones
   std::vector<const EffectEntry*> effects;
+  std::optional<DriveController> controller;  ///< that makes the inputs, at its start
+  std::shared_ptr<const StartInputs> inputs;  ///< that the recordings have then
   bool load_may_stick = false, motor_may_stick = false;
   double stiffest = kInfinity;  ///< rate beyond which a trial is refused [1/s]
 
@@ -100,6 +116,23 @@ struct FitProblem {
     for (std::size_t e = 0; e < effects.size(); ++e)
       add_effect(model, *effects[e], n.effect(e, effects[e]->parameters.size()));
     return model;
+  }
+
+  /// The controller with these numbers.
+  template <class T>
+  ControllerOf<T> controller_of(const ModelNumbers<T>& n) const {
+    ControllerOf<T> c;
+    c.kind = controller->kind, c.rate = controller->rate;
+    c.saturation = controller->saturation, c.dead_band = controller->dead_band;
+    for (int i = 0; i < kControllerNumberCount; ++i) gapscope::controller_number(c, i) = n.controller(i);
+    return c;
+  }
+
+  /// What that controller makes of the target of recording r.
+  template <class T>
+  std::vector<T> commanded(const ModelNumbers<T>& n, std::size_t r) const {
+    const MotorTrace& trace = recordings[r];
+    return commanded_input(controller_of(n), *trace.command, trace.command_first, trace.size());
   }
 
   /// Initial state from all four solver numbers of a recording.

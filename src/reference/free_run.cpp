@@ -31,13 +31,17 @@ DriveState<double> start_state(const FitProblem& problem, const FitPoint& at, st
 
 FitTrace trace_of(const FitProblem& problem, const FitPoint& at, std::size_t r, double observer_hz) {
   const MotorTrace& recording = problem.recordings[r];
-  const PlantModel<double> model = problem.plant_model(problem.numbers(at.q.data()));
+  const ModelNumbers<double> numbers = problem.numbers(at.q.data());
+  const PlantModel<double> model = problem.plant_model(numbers);
   const DriveState<double> start = start_state(problem, at, r);
+  const std::vector<double> commanded =
+      problem.controller ? problem.commanded(numbers, r) : std::vector<double>();
+  const std::span<const double> u = problem.controller ? std::span<const double>(commanded) : recording.u;
   const bool has_load = problem.structure.has_load;
   FitTrace t;
   t.file = recording.file;
   t.encoder = problem.structure.reads_load() ? EncoderSide::kLoad : EncoderSide::kMotor;
-  if (!roll_out(model, start, recording, {}, [&](std::size_t, const DriveStepper<double>& stepper) {
+  if (!roll_out(model, start, recording, u, {}, [&](std::size_t, const DriveStepper<double>& stepper) {
         const bool load = t.encoder == EncoderSide::kLoad;
         t.x1.push_back(load ? stepper.state().x1 : stepper.measured());
         if (has_load) t.x2.push_back(load ? stepper.measured() : stepper.state().x2);
@@ -46,7 +50,7 @@ FitTrace trace_of(const FitProblem& problem, const FitPoint& at, std::size_t r, 
     t.x1.clear(), t.x2.clear(), t.mode.clear();
   }
   const ObserverGains gains(observer_hz, recording);
-  if (!roll_out(model, start, recording, gains, [&](std::size_t, const DriveStepper<double>& stepper) {
+  if (!roll_out(model, start, recording, u, gains, [&](std::size_t, const DriveStepper<double>& stepper) {
         t.predicted.push_back(stepper.measured());
       }))
     t.predicted.clear();

@@ -13,6 +13,7 @@ namespace gapscope::internal::reference {
 ParameterSetting& setting_of(ReferenceModel& model, ParameterId id) {
   const auto index = static_cast<std::size_t>(id.index);
   if (id.effect == ParameterId::kDrive) return model.parameters[index];
+  if (id.effect == ParameterId::kController) return model.controller->numbers[index];
   return model.effects[static_cast<std::size_t>(id.effect)].parameters[index];
 }
 

@@ -14,14 +14,15 @@ namespace gapscope::internal::reference {
 
 /// One number of a model.
 struct ParameterId {
-  static constexpr int kDrive = -1;
+  static constexpr int kDrive = -1, kController = -2;
 
-  int effect = kDrive;  ///< place in ReferenceModel::effects; kDrive: a number of the drive itself
-  int index = 0;        ///< place in kDriveParameters, or in the effect's specification
+  int effect = kDrive;  ///< place in ReferenceModel::effects; else a number of the drive, the controller
+  int index = 0;        ///< place in kDriveParameters, kControllerNumbers, or in the effect's specification
 
   bool operator==(const ParameterId&) const = default;
 };
 constexpr ParameterId drive_number(int place) { return {ParameterId::kDrive, place}; }
+constexpr ParameterId controller_number(int place) { return {ParameterId::kController, place}; }
 ParameterSetting& setting_of(ReferenceModel& model, ParameterId id);
 
 /// Where the other body, the one without the encoder, may be at the first sample.

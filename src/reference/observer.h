@@ -55,13 +55,17 @@ DriveStepper<T> stepper_for(const PlantModel<T>& model, const MotorTrace& record
   return DriveStepper<T>(model, recording.dt, shortest);
 }
 
-/// One interval of the recording, from sample i on.
+/// One interval of the recording, from sample i on, with the input u.
+template <class T>
+void play_step(DriveStepper<T>& stepper, const MotorTrace& recording, std::size_t i, const T& u) {
+  if (recording.even())
+    stepper.step(u);
+  else
+    stepper.step(u, recording.step(i));
+}
 template <class T>
 void play_step(DriveStepper<T>& stepper, const MotorTrace& recording, std::size_t i) {
-  if (recording.even())
-    stepper.step(recording.u[i]);
-  else
-    stepper.step(recording.u[i], recording.step(i));
+  play_step(stepper, recording, i, T(recording.u[i]));
 }
 
 /// The drive's state where the sensor reads the position that the recorded body starts at: what the sensor
@@ -76,13 +80,13 @@ DriveState<T> behind_the_sensor(const PlantModel<T>& model, DriveStepper<T>& ste
   return drive;
 }
 
-/// Plays a recording's input on the model and hands each sample's index and stepper to `visit` before the
-/// measurement is injected. @returns false when the motion left the numbers, or chatters: more events than
-/// samples, all in all, are no motion that the recording could show.
+/// Plays an input, that of each sample, on the model and hands each sample's index and stepper to `visit`
+/// before the measurement is injected. @returns false when the motion left the numbers, or chatters: more
+/// events than samples, all in all, are no motion that the recording could show.
 /// @param start of the drive, with the motor where the sensor reads it
-template <class T, class Visit>
+template <class T, class U, class Visit>
 bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const MotorTrace& recording,
-              const ObserverGains& gains, Visit&& visit) {
+              std::span<const U> u, const ObserverGains& gains, Visit&& visit) {
   DriveStepper<T> stepper = stepper_for(model, recording);
   stepper.reset(behind_the_sensor(model, stepper, start));
   for (std::size_t i = 0; i < recording.size(); ++i) {
@@ -92,10 +96,17 @@ bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const Moto
       const T innovation = recording.x1[i] - stepper.measured();
       stepper.inject(gain.position * innovation, gain.speed * innovation);
     }
-    play_step(stepper, recording, i);
+    play_step(stepper, recording, i, T(u[i]));
     if (!stepper.healthy() || stepper.events() > 100 + static_cast<long>(recording.size())) return false;
   }
   return true;
+}
+
+/// The same with the recorded input.
+template <class T, class Visit>
+bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const MotorTrace& recording,
+              const ObserverGains& gains, Visit&& visit) {
+  return roll_out(model, start, recording, recording.u, gains, std::forward<Visit>(visit));
 }
 
 }  // namespace gapscope::internal::reference

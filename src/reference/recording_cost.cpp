@@ -18,6 +18,7 @@ RecordingCost::RecordingCost(const FitProblem& problem, std::size_t recording, c
                              double observer_hz)
     : problem_(problem),
       recording_(problem.recordings[recording]),
+      place_(recording),
       start_(start),
       states_(problem.free_states(start, observer_hz <= 0.0)),
       shared_(problem.free_count()),
@@ -34,9 +35,12 @@ bool RecordingCost::run(const T* q, T* out) const {
   const PlantModel<T> model = problem_.plant_model(numbers);
   const DriveState<T> state = problem_.state(start_, T(0.5 * model.drive.gap), initial.data());
   const double scale = 1.0 / floor_;
-  return roll_out(model, state, recording_, gains_, [&](std::size_t i, const DriveStepper<T>& stepper) {
+  const auto keep = [&](std::size_t i, const DriveStepper<T>& stepper) {
     out[i] = (recording_.x1[i] - stepper.measured()) * scale;
-  });
+  };
+  if (!problem_.controller) return roll_out(model, state, recording_, gains_, keep);
+  const std::vector<T> u = problem_.commanded(numbers, place_);
+  return roll_out(model, state, recording_, std::span<const T>(u), gains_, keep);
 }
 
 template <int N>

@@ -37,6 +37,7 @@ class RecordingCost {
 
   const FitProblem& problem_;
   const MotorTrace& recording_;
+  std::size_t place_;  ///< among the recordings of the problem
   RecordingStart start_;
   std::vector<int> states_;
   std::size_t shared_;

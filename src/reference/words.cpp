@@ -31,6 +31,8 @@ Remark what_is_determined(const std::vector<double>& changes) {
 }
 
 std::string excitation_for_any(const std::vector<std::string>& keys) {
+  for (const std::string& key : keys)
+    if (key.starts_with("controller.") && key != "controller.delay") return excitation_for(key);
   for (const char* scale : {"torque_constant", "motor_inertia"})
     if (std::find(keys.begin(), keys.end(), scale) != keys.end()) return excitation_for(scale);
   std::vector<std::string> wishes;
@@ -54,6 +56,11 @@ std::string excitation_for(const std::string& key) {
       {"load_coulomb_friction", "slow reversals that move the load"},
       {"contact_stiffness", "impacts, or a larger torque in contact"},
       {"contact_damping", "harder impacts"}};
+  if (key == "controller.delay") return "steps of the target, or faster updates of it";
+  if (key.starts_with("controller."))
+    return "a known mass on a known arm, a known inertia or a known friction torque (anchor), or the "
+           "recorded "
+           "input";
   const auto found = advice.find(key);
   return found == advice.end() ? "an input that brings this effect out" : found->second;
 }

@@ -7,6 +7,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/inspection.h"
+#include "run/fitted_command.h"
 #include "run/guess_words.h"
 #include "run/run_simulator.h"
 
@@ -51,13 +52,16 @@ DiagnosisRecordings load_for_diagnosis(const Configuration& c, const Progress& p
   DiagnosisRecordings all{load_recordings(c, UnevenRows::kStamped, progress), {}};
   require_possible_experiment(c, all.train.recordings.front().dt);
   all.held_out = load_held_out(c, progress);
+  const std::string found =
+      internal::run::settle_controller(c, all.train.recordings, all.held_out.recordings);
+  if (!found.empty()) all.train.warnings.push_back(found);
   return all;
 }
 
 Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings& recordings,
                               const DiagnosisOptions& options) {
   return diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
-                  c.model.reference_model(), options);
+                  internal::run::settled_model(c), options);
 }
 
 DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& options) {

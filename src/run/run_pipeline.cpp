@@ -13,6 +13,7 @@
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/reference/fit.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "run/fitted_command.h"
 #include "run/guess_words.h"
 
 namespace gapscope {
@@ -158,8 +159,11 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
     stop_point();
     progress("reference fit");
     note_defaults(c.model, r.notes);
+    if (c.anchor) r.notes.push_back(c.anchor->told(c.coordinates));
     r.reference = timed(out.timing.reference_s,
-                        [&] { return fit(traces_of(r.recordings), c.model.reference_model(), c.fit); });
+                        [&] { return fit(traces_of(r.recordings), c.reference_model(), c.fit); });
+    if (c.controller && c.controller->estimates())
+      internal::run::command_anew(fitted_controller(*c.controller, *r.reference), r.recordings);
   }
   if (c.encoder.sides == EncoderSides::kBoth)
     r.second_encoder = validate_by_load(r.recordings, r.reference ? &*r.reference : nullptr);

@@ -9,6 +9,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/results/sha256.h"
+#include "run/fitted_command.h"
 
 namespace gapscope::internal::run {
 namespace {
@@ -84,8 +85,7 @@ SimulatorComparison compare_simulated(const Configuration& c, const DiagnosisRec
   DiagnosisOptions asked = options;
   asked.known.detectable = false;
   asked.progress = [&](const std::string& what) { options.progress("simulator: " + what); };
-  const Diagnosis of_simulator =
-      diagnose(simulated_train, simulated_held_out, c.model.reference_model(), asked);
+  const Diagnosis of_simulator = diagnose(simulated_train, simulated_held_out, settled_model(c), asked);
   SimulatorComparison compared = compare_with_simulator(
       {train, held_out, simulated_train, simulated_held_out, drive, of_simulator}, options);
   compared.files = simulated.files;

@@ -31,11 +31,11 @@ void DriveStepper<T>::reset(const DriveState<T>& state) {
   impl_->reset(state);
 }
 template <class T>
-void DriveStepper<T>::step(double u) {
+void DriveStepper<T>::step(const T& u) {
   impl_->step(u);
 }
 template <class T>
-void DriveStepper<T>::step(double u, double dt) {
+void DriveStepper<T>::step(const T& u, double dt) {
   impl_->step(u, dt);
 }
 template <class T>

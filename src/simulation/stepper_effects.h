@@ -142,8 +142,8 @@ void StepperImpl<T>::advance_memory(const DriveState<T>& to, const T& end_time) 
 }
 
 template <class T>
-void StepperImpl<T>::set_input(double u) {
-  T input(u);
+void StepperImpl<T>::set_input(const T& u) {
+  T input = u;
   for (const ActiveEffect<T>& e : model.effects)
     if (e.hooks->command != nullptr) input = e.hooks->command(input, e.parameters);
   torque = model.drive.torque_constant * input;

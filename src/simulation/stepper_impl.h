@@ -65,10 +65,10 @@ struct StepperImpl {
   T half_gap{};
   double inverse_m1 = 0.0, inverse_m2 = 0.0;  ///< of f, for the guards
   T delay{};                                  ///< of the input [s]
-  T delay_rest{};              ///< part of a sample in which the older of two inputs still acts [s]
-  std::vector<double> inputs;  ///< ring of the last inputs, as long as the delay needs
-  std::vector<double> given;   ///< of steps of their own length: when each of them came [s]
-  std::vector<T> memory;       ///< kMostEffectMemory per effect
+  T delay_rest{};             ///< part of a sample in which the older of two inputs still acts [s]
+  std::vector<T> inputs;      ///< ring of the last inputs, as long as the delay needs
+  std::vector<double> given;  ///< of steps of their own length: when each of them came [s]
+  std::vector<T> memory;      ///< kMostEffectMemory per effect
 
   // --- the state
   DriveState<T> z;
@@ -118,14 +118,14 @@ struct StepperImpl {
   double effect_rate() const;
   void remember_start();
   void advance_memory(const DriveState<T>& to, const T& end_time);
-  void set_input(double u);
+  void set_input(const T& u);
   void set_inertia(double span);
 
   // --- one sample: stepper_sample.h
-  void begin(double u);
+  void begin(const T& u);
   void end();
-  void step(double u);
-  void segment(const T& span, double u, int index);
+  void step(const T& u);
+  void segment(const T& span, const T& u, int index);
   StateTransition<T>& transition(const T& span, int index, int times_halved);
   int halvings(double h) const;
   void respond(const StateTransition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
@@ -137,9 +137,9 @@ struct StepperImpl {
   void build_series(const T& h, PowerSeries<T>& series, Forcing<T>& on) const;
 
   // --- a sample of its own length: stepper_uneven.h
-  void step(double u, double span);
-  void delayed_inputs(double u, double span);
-  void exact_segment(const T& span, double u);
+  void step(const T& u, double span);
+  void delayed_inputs(const T& u, double span);
+  void exact_segment(const T& span, const T& u);
 
   // --- whether an event may lie in a step: stepper_outlook.h
   bool may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end, double h) const;

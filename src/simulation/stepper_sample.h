@@ -126,7 +126,7 @@ void StepperImpl<T>::accept(const DriveState<T>& next, const T& h) {
 
 /// The first input acted before it was given, too.
 template <class T>
-void StepperImpl<T>::begin(double u) {
+void StepperImpl<T>::begin(const T& u) {
   closed = false;
   if (started) return;
   std::fill(inputs.begin(), inputs.end(), u);
@@ -144,7 +144,7 @@ void StepperImpl<T>::end() {
 }
 
 template <class T>
-void StepperImpl<T>::step(double u) {
+void StepperImpl<T>::step(const T& u) {
   begin(u);
   if (varies_inertia) set_inertia(dt);
   if (delayed) {
@@ -162,7 +162,7 @@ void StepperImpl<T>::step(double u) {
 
 /// Part of a sample in which the input is constant.
 template <class T>
-void StepperImpl<T>::segment(const T& span, double u, int index) {
+void StepperImpl<T>::segment(const T& span, const T& u, int index) {
   set_input(u);
   resolve_at_input_change();
   const StateTransition<T>* whole = &transition(span, index, 0);

@@ -45,10 +45,10 @@ StepperImpl<T>::StepperImpl(const PlantModel<T>& m, double step, double shortest
   }
   const double whole = std::floor(value_of(delay) / dt);
   delay_rest = delay - whole * dt;
-  inputs.assign(static_cast<std::size_t>(whole) + 2, 0.0);
+  inputs.assign(static_cast<std::size_t>(whole) + 2, T(0.0));
   if (shortest > 0.0) {
     inputs.assign(static_cast<std::size_t>(value_of(delay) / std::max(shortest, kShortestStep * dt)) + 3,
-                  0.0);
+                  T(0.0));
     given.assign(inputs.size(), 0.0);
   }
   memory.assign(m.effects.size() * kMostEffectMemory, T(0.0));

@@ -6,7 +6,7 @@ namespace gapscope::internal::simulation {
 
 /// A sample of its own length: nothing is prepared for it, the exact path takes it whole.
 template <class T>
-void StepperImpl<T>::step(double u, double span) {
+void StepperImpl<T>::step(const T& u, double span) {
   begin(u);
   if (delayed)
     delayed_inputs(u, span);
@@ -17,7 +17,7 @@ void StepperImpl<T>::step(double u, double span) {
 
 /// The inputs that act within the span, each from its own time plus the delay.
 template <class T>
-void StepperImpl<T>::delayed_inputs(double u, double span) {
+void StepperImpl<T>::delayed_inputs(const T& u, double span) {
   GAPSCOPE_REQUIRE(!given.empty());
   newest = (newest + 1) % inputs.size();
   if (newest == acting) acting = (acting + 1) % inputs.size();
@@ -40,7 +40,7 @@ void StepperImpl<T>::delayed_inputs(double u, double span) {
 /// Any length of constant input. An inertia that changes is that of the middle of a piece, none longer than
 /// the mean step.
 template <class T>
-void StepperImpl<T>::exact_segment(const T& span, double u) {
+void StepperImpl<T>::exact_segment(const T& span, const T& u) {
   set_input(u);
   resolve_at_input_change();
   if (!varies_inertia) return advance(span);

@@ -24,7 +24,7 @@ TEST(Controller, MakesTheInputOfTheTarget) {
   const Configuration c = commanded("{target: goal, voltage: volts}", "{position: " + kPosition + "}");
   const ReadOptions options = c.recording->reading_for(UnevenRows::kStamped);
   EXPECT_EQ(options.columns.target, "goal");
-  EXPECT_FALSE(options.columns.input_read);
+  EXPECT_FALSE(options.columns.reads_input());
   ASSERT_TRUE(options.controller);
   EXPECT_EQ(options.controller->gain, 1.15);
   EXPECT_EQ(options.controller->derivative, 0.1);
@@ -37,7 +37,7 @@ TEST(Controller, MakesTheInputOfTheTarget) {
 
 TEST(Controller, LeavesAnInputThatIsNamedBesideTheTarget) {
   EXPECT_TRUE(commanded("{input: duty, target: goal}", "{position: {gain: 1}}")
-                  .recording->reading.columns.input_read);
+                  .recording->reading.columns.reads_input());
 }
 
 TEST(Controller, ComesBackFromTheResolvedText) {
@@ -48,7 +48,7 @@ TEST(Controller, ComesBackFromTheResolvedText) {
       const Configuration again = parse_configuration(text, "c.yaml");
       EXPECT_EQ(resolved_yaml(again), text);
       EXPECT_EQ(again.recording->reading.controller->saturation, c.recording->reading.controller->saturation);
-      EXPECT_EQ(again.recording->reading.columns.input_read, c.recording->reading.columns.input_read);
+      EXPECT_EQ(again.recording->reading.columns.reads_input(), c.recording->reading.columns.reads_input());
     }
 }
 
@@ -58,8 +58,8 @@ TEST(Controller, IsRefusedWhereItCannotServe) {
   EXPECT_THAT(
       refusal([] { commanded("{input: duty}", "{position: {gain: 1}}"); }),
       HasSubstr("c.yaml:4: controller stands without the target, expected recording: columns: {target"));
-  EXPECT_THAT(refusal([] { commanded("{target: goal}", "{velocity: {gain: 1}}"); }),
-              HasSubstr("c.yaml:4: unknown key 'velocity' in controller, expected position"));
+  EXPECT_THAT(refusal([] { commanded("{target: goal}", "{force: {gain: 1}}"); }),
+              HasSubstr("c.yaml:4: unknown key 'force' in controller, expected position"));
   EXPECT_THAT(refusal([] { commanded("{target: goal}", "{position: {derivative: 1}}"); }), HasSubstr("gain"));
   EXPECT_THAT(refusal([] { commanded("{target: x1}", "{position: {gain: 1}}"); }),
               HasSubstr("uses the column x1 twice"));
@@ -74,12 +74,54 @@ TEST(Controller, IsRefusedWhereItCannotServe) {
       HasSubstr("c.yaml:3: controller stands beside simulation, expected it with recording:"));
 }
 
-TEST(Controller, IsNotEstimatedAndSaysWhatInstead) {
-  EXPECT_THAT(
-      refusal([] { commanded("{target: goal}", "{position: {gain: {value: 1, estimate: true}}}"); }),
-      HasSubstr(
-          "c.yaml:4: controller.position.gain is to be estimated, expected a number: where the input was not "
-          "recorded, a gain cannot be told from torque_constant"));
+TEST(Controller, HasNumbersThatTheFitFinds) {
+  const Configuration c = commanded("{target: goal}",
+                                    "{position: {gain: estimate, derivative: {value: 0.1, estimate: true, "
+                                    "bounds: [0, 1]}, delay: {value: 0.004, estimate: true}, rate: 500}}");
+  const ReferenceModel model = c.reference_model();
+  ASSERT_TRUE(model.controller);
+  const auto& numbers = model.controller->numbers;
+  EXPECT_TRUE(numbers[controller_place::kGain].estimate);
+  EXPECT_TRUE(std::isnan(numbers[controller_place::kGain].value));
+  EXPECT_EQ(numbers[controller_place::kDerivative].high, 1.0);
+  EXPECT_EQ(numbers[controller_place::kDelay].value, 0.004);
+  EXPECT_FALSE(numbers[controller_place::kIntegral].estimate);
+  EXPECT_EQ(model.controller->fixed.rate, 500.0);
+  EXPECT_EQ(c.recording->reading.controller->gain, 1.0);  // until the fit knows better
+  EXPECT_EQ(resolved_yaml(parse_configuration(resolved_yaml(c), "c.yaml")), resolved_yaml(c));
+  EXPECT_FALSE(commanded("{target: goal}", "{position: {gain: 2}}").reference_model().controller);
+}
+
+TEST(Controller, MayBeOfTheSpeedOrACascade) {
+  const Configuration speed = commanded("{target: goal}", "{velocity: {gain: 2, integral: 30}}");
+  EXPECT_EQ(speed.controller->fixed.kind, ControllerKind::kVelocity);
+  EXPECT_EQ(speed.recording->reading.controller->speed_integral, 30.0);
+  const Configuration both =
+      commanded("{target: goal}", "{position: {gain: 20}, velocity: {gain: estimate, rate: 4000}}");
+  EXPECT_EQ(both.controller->fixed.kind, ControllerKind::kCascade);
+  EXPECT_EQ(both.recording->reading.controller->gain, 20.0);
+  for (const Configuration& c : {speed, both})
+    EXPECT_EQ(resolved_yaml(parse_configuration(resolved_yaml(c), "c.yaml")), resolved_yaml(c));
+  EXPECT_THAT(refusal([] {
+                commanded("{target: goal}", "{position: {gain: 20, integral: 1}, velocity: {gain: 1}}");
+              }),
+              HasSubstr("unknown key 'integral' in controller.position"));
+}
+
+TEST(Controller, SaysWhatAnEstimateNeeds) {
+  EXPECT_THAT(refusal([] { commanded("{target: goal}", "{position: {gain: 1, derivative: estimate}}"); }),
+              HasSubstr("c.yaml:4: controller.position.derivative is to be estimated and has no value"));
+  EXPECT_THAT(refusal([] { commanded("{target: goal}", "{position: {gain: 1, rate: estimate}}"); }),
+              HasSubstr("c.yaml:4: controller.position.rate"));
+  EXPECT_THAT(refusal([] { commanded("{input: duty, target: goal}", "{position: {gain: estimate}}"); }),
+              HasSubstr("beside a recorded input"));
+  EXPECT_THAT(refusal([] {
+                parse_configuration(
+                    "recording: {file: a.csv, columns: {target: goal}, resample: {rate: 100}}\n"
+                    "controller: {position: {gain: estimate}}\n",
+                    "c.yaml");
+              }),
+              HasSubstr("the recording is resampled"));
 }
 
 }  // namespace

@@ -18,47 +18,51 @@ using ::testing::Pointwise;
 
 const std::vector<double> kTimes = {0.0, 0.1, 0.2, 0.3, 0.4};
 
-TEST(PositionController, HoldsItsOutputFromRowToRow) {
-  PositionController c;
-  c.gain = 2.0;
-  const std::vector<double> target = {1.0, 1.0, 1.0, 0.0, 0.0}, x = {0.0, 0.25, 0.5, 0.5, 0.25};
-  EXPECT_THAT(commanded_input(c, kTimes, target, x), ElementsAre(2.0, 1.5, 1.0, -1.0, -0.5));
+std::vector<double> input_of(const DriveController& c, const std::vector<double>& target,
+                             const std::vector<double>& x) {
+  return commanded_input(c, {kTimes, target, x, std::vector<double>(kTimes.size(), 1.0)});
 }
 
-TEST(PositionController, ActsLater) {
-  PositionController c;
+TEST(DriveController, HoldsItsOutputFromRowToRow) {
+  DriveController c;
+  c.gain = 2.0;
+  const std::vector<double> target = {1.0, 1.0, 1.0, 0.0, 0.0}, x = {0.0, 0.25, 0.5, 0.5, 0.25};
+  EXPECT_THAT(input_of(c, target, x), ElementsAre(2.0, 1.5, 1.0, -1.0, -0.5));
+}
+
+TEST(DriveController, ActsLater) {
+  DriveController c;
   c.gain = 2.0, c.delay = 0.025;
   const std::vector<double> target = {1.0, 1.0, 1.0, 0.0, 0.0}, x = {0.0, 0.25, 0.5, 0.5, 0.25};
   // A quarter of each interval still has the output before.
-  EXPECT_THAT(commanded_input(c, kTimes, target, x),
+  EXPECT_THAT(input_of(c, target, x),
               Pointwise(DoubleNear(1e-12), {2.0, 0.25 * 2.0 + 0.75 * 1.5, 0.25 * 1.5 + 0.75 * 1.0,
                                             0.25 * 1.0 - 0.75 * 1.0, -0.25 * 1.0 - 0.75 * 0.5}));
 }
 
-TEST(PositionController, UpdatesAtItsOwnRateBetweenTheRows) {
-  PositionController c;
+TEST(DriveController, UpdatesAtItsOwnRateBetweenTheRows) {
+  DriveController c;
   c.gain = 1.0, c.rate = 20.0;  // at 0, 0.05, 0.1, …; the position is linear between the rows
   const std::vector<double> target(5, 1.0), x = {0.0, 0.2, 0.4, 0.6, 0.8};
-  const std::vector<double> u = commanded_input(c, kTimes, target, x);
+  const std::vector<double> u = input_of(c, target, x);
   EXPECT_NEAR(u[0], 0.5 * (1.0 + 0.9), 1e-9);
   EXPECT_NEAR(u[2], 0.5 * (0.6 + 0.5), 1e-9);
   c.rate = 5.0;  // slower than the rows: held over two of them
-  EXPECT_THAT(commanded_input(c, kTimes, target, x), Pointwise(DoubleNear(1e-9), {1.0, 1.0, 0.6, 0.6, 0.2}));
+  EXPECT_THAT(input_of(c, target, x), Pointwise(DoubleNear(1e-9), {1.0, 1.0, 0.6, 0.6, 0.2}));
 }
 
-TEST(PositionController, DampsIntegratesAndLimits) {
+TEST(DriveController, DampsIntegratesAndLimits) {
   const std::vector<double> target(5, 1.0), x = {0.0, 0.2, 0.4, 0.6, 0.8};
-  PositionController c;
+  DriveController c;
   c.gain = 0.0, c.derivative = 0.5;
-  EXPECT_THAT(commanded_input(c, kTimes, target, x),
-              Pointwise(DoubleNear(1e-9), {0.0, -1.0, -1.0, -1.0, -1.0}));
+  EXPECT_THAT(input_of(c, target, x), Pointwise(DoubleNear(1e-9), {0.0, -1.0, -1.0, -1.0, -1.0}));
   c.derivative = 0.0, c.integral = 10.0;
-  EXPECT_THAT(commanded_input(c, kTimes, target, x), Pointwise(DoubleNear(1e-9), {0.0, 0.8, 1.4, 1.8, 2.0}));
+  EXPECT_THAT(input_of(c, target, x), Pointwise(DoubleNear(1e-9), {0.0, 0.8, 1.4, 1.8, 2.0}));
   c.saturation = 1.0;  // the sum rests at 0.08
-  EXPECT_THAT(commanded_input(c, kTimes, target, x), Pointwise(DoubleNear(1e-9), {0.0, 0.8, 1.0, 1.0, 1.0}));
+  EXPECT_THAT(input_of(c, target, x), Pointwise(DoubleNear(1e-9), {0.0, 0.8, 1.0, 1.0, 1.0}));
   c = {};
   c.gain = 1.0, c.dead_band = 0.3;
-  EXPECT_THAT(commanded_input(c, kTimes, target, x), Pointwise(DoubleNear(1e-9), {1.0, 0.8, 0.6, 0.4, 0.0}));
+  EXPECT_THAT(input_of(c, target, x), Pointwise(DoubleNear(1e-9), {1.0, 0.8, 0.6, 0.4, 0.0}));
 }
 
 /// A recording with both, in units of a drive: a duty, the voltage of its supply.
@@ -76,8 +80,9 @@ std::string file_with(const char* header, bool input) {
 TEST(TargetColumn, TakesThePlaceOfTheInput) {
   const testing::TemporaryFile file(file_with("t,goal,x1,volts", false));
   ReadOptions options;
-  options.columns.target = "goal", options.columns.voltage = "volts", options.columns.input_read = false;
-  options.controller = PositionController{};
+  options.columns.target = "goal", options.columns.voltage = "volts",
+  options.columns.input_column = InputColumn::kNone;
+  options.controller = DriveController{};
   options.controller->gain = 0.5;
   const Recording r = read_recording(file.path(), options);
   EXPECT_NEAR(r.u[10], 0.5 * (std::sin(0.3) - 0.9 * std::sin(0.2)) * 7.0, 1e-5);
@@ -88,7 +93,7 @@ TEST(TargetColumn, BesideTheInputTellsOfTheController) {
   const testing::TemporaryFile file(file_with("t,u,goal,x1,volts", true));
   ReadOptions options;
   options.columns.target = "goal", options.columns.voltage = "volts";
-  options.controller = PositionController{};
+  options.controller = DriveController{};
   options.controller->gain = 0.25;
   const auto compared = compare_with_controller(file.path(), options);
   ASSERT_TRUE(compared);

@@ -22,8 +22,8 @@ ControllerSettings stiff_servo(double dead_time) {
           .dead_time_s = dead_time};
 }
 
-PositionController same_servo(double delay) {
-  PositionController c;
+DriveController same_servo(double delay) {
+  DriveController c;
   c.gain = 40.0 * 0.05, c.derivative = 0.05, c.rate = 1000.0, c.delay = delay;
   return c;
 }
@@ -41,10 +41,15 @@ LoopRun under_control(double dead_time) {
       stiff_servo(dead_time), independent_plant::BlindSensor::with_bits(18), {.lead_s = 0.5}, options);
 }
 
-std::vector<double> commanded(const LoopRun& loop, const PositionController& controller) {
-  std::vector<double> target;
-  for (const auto& t : loop.target) target.push_back(t.x);
-  return commanded_input(controller, loop.stamps, target, loop.run.recording.x1);
+CommandRows rows_of(const LoopRun& loop) {
+  CommandRows rows{loop.stamps, {}, loop.run.recording.x1, {}};
+  for (const auto& t : loop.target) rows.target.push_back(t.x);
+  rows.supply.assign(rows.t.size(), 1.0);
+  return rows;
+}
+
+std::vector<double> commanded(const LoopRun& loop, const DriveController& controller) {
+  return commanded_input(controller, rows_of(loop));
 }
 
 TEST(CommandedInput, IsWhatTheDrivesOwnControllerSent) {
@@ -52,7 +57,7 @@ TEST(CommandedInput, IsWhatTheDrivesOwnControllerSent) {
   const InputComparison same = compare_inputs(loop.run.recording.u, commanded(loop, same_servo(0.0)));
   EXPECT_NEAR(same.scale, 1.0, 2e-3);
   EXPECT_LT(same.left, 0.02);
-  PositionController other = same_servo(0.0);
+  DriveController other = same_servo(0.0);
   other.gain *= 2.0;
   EXPECT_GT(compare_inputs(loop.run.recording.u, commanded(loop, other)).left, 0.05);
 }

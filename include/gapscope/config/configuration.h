@@ -35,6 +35,8 @@ struct Configuration {
   EncoderConfig encoder;
   Coordinates coordinates;  ///< of a translation: rad and N·m mean m and N
   ModelConfig model;
+  std::optional<ControllerModel> controller = {};  ///< `controller:` – that makes the input of a target
+  std::optional<AnchorConfig> anchor = {};         ///< `anchor:` – what fixes the scale of the torques
   DetectorConfig detector;
   FitOptions fit;  ///< `fit:` – how the reference is found; optional, every key of it too
   ExperimentLimits
@@ -45,6 +47,8 @@ struct Configuration {
   Tolerance tolerance = {};                   ///< `tolerance:` – what is good enough; optional
   std::optional<ImplantConfig> implant = {};  ///< `implant:` – only read by `blind implant`
 
+  /// What is fitted: the model with its anchor, and with the controller where that estimates.
+  ReferenceModel reference_model() const;
   double position_quantum() const;  ///< of the encoder, seen on the axis of x1 [rad]; 0: not given
   InputFacts input_facts() const;
   /// Turns of the encoder of x1 (the motor's) and of that of x2 (the load's), as their gears say.

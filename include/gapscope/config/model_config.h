@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "gapscope/base/coordinates.h"
 #include "gapscope/plant/drive.h"
 #include "gapscope/plant/plant_model.h"
 #include "gapscope/reference/fit.h"
@@ -31,6 +32,22 @@ struct ModelConfig {
   int line = 0;
 
   ReferenceModel reference_model() const;
+};
+
+/// `anchor:` – what is known of the drive and fixes the scale of its torques, which a recording alone does
+/// not: with one of these torque_constant is estimated where nothing is said of it. What is not known is NaN.
+struct AnchorConfig {
+  double mass = kNaN;         ///< on an arm that turns with x1 [kg]
+  double arm = kNaN;          ///< [m]
+  ParameterSetting hangs_at;  ///< position at which the arm hangs down [rad]
+  double gravity = 9.80665;   ///< [m/s²]
+  double inertia = kNaN;      ///< of the motor's side [kg m²]
+  double friction = kNaN;     ///< dry, of the motor's side [N m]
+
+  double torque() const;        ///< of the mass, at most [N m]
+  double mass_inertia() const;  ///< [kg m²]
+  void fix(ReferenceModel& model) const;
+  std::string told(Coordinates coordinates) const;  ///< one sentence
 };
 
 /// The plant behind simulated data: `model:` with what `simulation.model:` changes, every number known.

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "gapscope/base/encoder_side.h"
+#include "gapscope/recording/controller.h"
 
 namespace gapscope {
 
@@ -25,6 +27,8 @@ struct MotorTrace {
                                      ///< or the load's where the structure of the drive says so
   double quantum = 0.0;              ///< encoder quantum [rad]; 0 = unknown
   std::span<const double> stamps{};  ///< time of each sample [s]; empty: evenly sampled
+  const CommandRows* command = nullptr;  ///< what u was made of by a controller; null: it was recorded
+  std::size_t command_first = 0;         ///< the row of the first sample
 
   std::size_t size() const { return x1.size(); }
   bool even() const { return stamps.empty(); }
@@ -49,8 +53,10 @@ struct Recording {
   double quantum = 0.0;    ///< encoder quantum of the sheet, else the one seen in the raw samples [rad]
   std::string resampling;  ///< what was done to make the sampling uniform; empty if nothing was
   bool open_end = false;   ///< the last line of its file has no end: the last number may be cut off
-  std::vector<double> stamps = {};            ///< time of each sample [s]; empty: evenly sampled
-  EncoderSide encoder = EncoderSide::kMotor;  ///< whose position estimators read; never the other one
+  std::vector<double> stamps = {};                  ///< time of each sample [s]; empty: evenly sampled
+  EncoderSide encoder = EncoderSide::kMotor;        ///< whose position estimators read; never the other one
+  std::shared_ptr<const CommandRows> command = {};  ///< what u was made of by a controller; null: recorded
+  std::size_t command_first = 0;                    ///< the row of the first sample
 
   /// What estimators read [rad].
   const std::vector<double>& position() const { return encoder == EncoderSide::kLoad ? x2 : x1; }
@@ -58,7 +64,9 @@ struct Recording {
   bool even() const { return stamps.empty(); }
   double time(std::size_t i) const { return even() ? start + dt * static_cast<double>(i) : stamps[i]; }
   double duration() const { return dt * static_cast<double>(size()); }
-  MotorTrace motor_trace() const { return {file, start, dt, u, position(), quantum, stamps}; }
+  MotorTrace motor_trace() const {
+    return {file, start, dt, u, position(), quantum, stamps, command.get(), command_first};
+  }
 };
 
 /// `count` samples from `first` on, with their own start time; dt stays that of the whole. The view must not

@@ -16,6 +16,13 @@ struct ColumnScales {
   UnitScale time, input, position, load_position, voltage = {};
 };
 
+/// What a file must have in the column of the input.
+enum class InputColumn {
+  kRequired,  ///< it is there, or the file is refused
+  kOptional,  ///< where there is none, every u is NaN
+  kNone,      ///< it is not read: there is only the target
+};
+
 /// Names of the columns (of a .mat file: its variables); load_position is optional in the file.
 struct RecordingColumns {
   std::string time = "t";
@@ -24,12 +31,12 @@ struct RecordingColumns {
   std::string load_position = "x2";
   bool load_position_required = false;  ///< true when the user named the column
   bool position_named = false;          ///< the same for the position
-  bool input_required = true;           ///< false: where there is none, every u is NaN
+  InputColumn input_column = InputColumn::kRequired;
   ColumnScales scales;
   std::string voltage = {};  ///< of the supply: u is the input, a duty, times it; empty: there is none
   std::string target = {};   ///< of the commanded position, in units of the position; empty: there is none
-  bool input_read = true;    ///< false: there is no input, only the target
 
+  bool reads_input() const { return input_column != InputColumn::kNone; }
   /// Whether an encoder on the load is read from the column load_position; else it is from the one that alone
   /// was named, position.
   bool load_reads_load_position() const { return load_position_required || !position_named; }
@@ -49,7 +56,7 @@ struct ReadOptions {
   std::optional<double> resample_rate;              ///< [Hz]; makes any sampling uniform
   UnevenRows uneven = UnevenRows::kRefused;         ///< where they are not resampled
   EncoderSide encoder = EncoderSide::kMotor;        ///< whose position the column `position` is
-  std::optional<PositionController> controller;  ///< makes the input of the target, where that was recorded
+  std::optional<DriveController> controller;  ///< makes the input of the target, where that was recorded
 };
 
 /// Fewer samples than this are no recording.

@@ -11,6 +11,7 @@
 
 #include "gapscope/base/fields.h"
 #include "gapscope/plant/effect.h"
+#include "gapscope/recording/controller.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit_summary.h"
 
@@ -49,6 +50,20 @@ struct ModelEffect {
   std::array<ParameterSetting, kMostEffectParameters> parameters;
 };
 
+/// The controller that made the input of the target, where some of its numbers are to be estimated: u is then
+/// made anew of the recorded rows (MotorTrace::command) at every trial, the position in it the recorded one.
+/// Summaries call its numbers as kControllerNumbers do. A leading number without a value starts where the
+/// inertia of the model would move as recorded.
+struct ControllerModel {
+  DriveController fixed;                                         ///< its laws, rate, limit and dead band
+  std::array<ParameterSetting, kControllerNumberCount> numbers;  ///< in the order of kControllerNumbers
+
+  static ControllerModel known(const DriveController& controller);  ///< nothing is estimated
+  bool estimates() const;
+  /// The controller with the values of its numbers, a leading one that has none at 1, others at 0.
+  DriveController at_start() const;
+};
+
 /// The drive that is fitted. Parameters that its structure does not have are ignored: without a load only
 /// motor_inertia, torque_constant and motor_damping are used; a locked load has no mass_ratio and no load_*;
 /// a rigid contact has no contact_*.
@@ -56,10 +71,14 @@ struct ReferenceModel {
   DriveStructure structure;
   std::array<ParameterSetting, kDriveParameterCount> parameters;  ///< in the order of kDriveParameters
   std::vector<ModelEffect> effects;
+  std::optional<ControllerModel> controller = {};  ///< only where it estimates
 
   /// @param key  of kDriveParameters ("gap")  @throws std::logic_error for any other
   void set(std::string_view key, const ParameterSetting& setting);
 };
+
+/// The controller with what a fit found of its numbers.
+DriveController fitted_controller(const ControllerModel& model, const FitSummary& fit);
 
 struct FitOptions {
   int starts = 6;               ///< local searches at most; they stop at the first that reaches the floor

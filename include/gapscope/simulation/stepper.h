@@ -48,10 +48,10 @@ class DriveStepper {
   void reset(const DriveState<T>& state);
 
   /// One sample with input u [unit of u].
-  void step(double u);
+  void step(const T& u);
   /// One sample that lasts dt [s]. With a delayed input only a stepper that was told the shortest step takes
   /// these, and no others.
-  void step(double u, double dt);
+  void step(const T& u, double dt);
 
   /// Moves position and speed of the body with the encoder, the other one with it while in contact (output
   /// injection of an observer). A body that sticks keeps its speed of zero.

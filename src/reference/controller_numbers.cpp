@@ -1,0 +1,107 @@
+#include "reference/controller_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/require.h"
+
+namespace gapscope::internal::reference {
+namespace {
+
+constexpr double kLongestDelay = 50.0;     ///< derived bound [samples]
+constexpr double kShortestDelay = 1e-3;    ///< the same: at 0 itself a change of it has one side [samples]
+constexpr double kFirstDelay = 0.1;        ///< where a search begins at least [samples]
+constexpr double kControllerSpan = 100.0;  ///< derived bounds of the other numbers over their starts
+
+/// The recordings under a controller.
+void set_inputs(FitProblem& problem, const DriveController& controller) {
+  auto made = std::make_shared<StartInputs>();
+  made->recordings.assign(problem.recordings.begin(), problem.recordings.end());
+  for (MotorTrace& trace : made->recordings) {
+    GAPSCOPE_REQUIRE(trace.command != nullptr);
+    made->u.push_back(commanded_input(controller, *trace.command, trace.command_first, trace.size()));
+    trace.u = made->u.back();
+  }
+  problem.inputs = made;
+  problem.recordings = made->recordings;
+  problem.controller = controller;
+}
+
+/// The inertia that the motor sees while in contact; NaN where it is not given.
+double given_inertia(const ReferenceModel& model) {
+  const double motor = model.parameters[place::kMotorInertia].value;
+  if (!model.structure.has_load || model.structure.load == LoadKind::kLocked) return motor;
+  return motor * (1.0 + model.parameters[place::kMassRatio].value);
+}
+
+/// Of a controller whose leading number is 1 so far.
+double suggested_leading(const FitProblem& problem, const ReferenceModel& model) {
+  const signals::OneBody body = signals::as_one_body(problem.recordings);
+  const double km = model.parameters[place::kTorqueConstant].value, inertia = given_inertia(model);
+  const double by_inertia = inertia / ((km > 0.0 ? km : 1.0) * body.inertia);
+  if (std::isfinite(by_inertia) && by_inertia > 0.0) return by_inertia;
+  return body.peak_input > 0.0 ? 1.0 / body.peak_input : 1.0;
+}
+
+void bound_delay(Parameter& p, double dt) {
+  p.typical = dt;
+  p.start = std::max(p.start, kFirstDelay * dt);
+  if (std::isnan(p.low)) p.low = kShortestDelay * dt;
+  if (std::isnan(p.high)) p.high = std::max(kLongestDelay * dt, 3.0 * p.start);
+  p.low = std::max(p.low, kShortestDelay * dt);
+}
+
+void bound_gain(Parameter& p, double size, bool leading) {
+  p.typical = std::max(std::abs(p.start), size);
+  const double least = leading ? p.typical / kControllerSpan : 0.0, most = kControllerSpan * p.typical;
+  const double sign = p.start < 0.0 ? -1.0 : 1.0;
+  if (std::isnan(p.low)) p.low = sign > 0.0 ? least : -most;
+  if (std::isnan(p.high)) p.high = sign > 0.0 ? most : -least;
+}
+
+Parameter parameter_of_controller(int index, const ParameterSetting& setting, const DriveController& start,
+                                  double dt) {
+  const ControllerNumberSpec& spec = kControllerNumbers[index];
+  DriveController c = start;
+  Parameter p;
+  p.id = controller_number(index);
+  p.key = spec.key, p.unit = spec.unit;
+  if (index == controller_place::kGain && c.kind == ControllerKind::kCascade) p.unit = "1/s";
+  p.estimated = setting.estimate;
+  p.given = std::isfinite(setting.value);
+  p.start = gapscope::controller_number(c, index);
+  p.prior = setting.prior;
+  if (!p.estimated) return p;
+  p.low = setting.low, p.high = setting.high;
+  const double leading = std::abs(gapscope::controller_number(c, leading_number(c.kind)));
+  if (index == controller_place::kDelay)
+    bound_delay(p, dt);
+  else
+    bound_gain(p, spec.typical * leading, index == leading_number(c.kind));
+  p.start = std::clamp(p.start, p.low, p.high);
+  p.coordinate = p.low >= 0.0 ? Coordinate::logarithmic(p.typical) : Coordinate::linear(p.start, p.typical);
+  return p;
+}
+
+}  // namespace
+
+void command_inputs(FitProblem& problem, const ReferenceModel& model) {
+  const ControllerModel& given = *model.controller;
+  DriveController controller = given.at_start();
+  set_inputs(problem, controller);
+  const int leading = leading_number(controller.kind);
+  if (std::isfinite(given.numbers[static_cast<std::size_t>(leading)].value)) return;
+  gapscope::controller_number(controller, leading) = suggested_leading(problem, model);
+  set_inputs(problem, controller);
+}
+
+void add_controller(FitProblem& problem, const ControllerModel& model) {
+  const double dt = problem.recordings.front().dt;
+  for (int i = 0; i < kControllerNumberCount; ++i) {
+    const ParameterSetting& setting = model.numbers[static_cast<std::size_t>(i)];
+    if (!setting.estimate && !(std::abs(setting.value) > 0.0)) continue;
+    problem.parameters.push_back(parameter_of_controller(i, setting, *problem.controller, dt));
+  }
+}
+
+}  // namespace gapscope::internal::reference

@@ -1,0 +1,167 @@
+// Is a controller's gain found from target and position alone, where a known mass gives the scale, and is it
+// said with what it is confounded where nothing does? Random servos of the independent plant under its own
+// cascade of P and P. study_controller [first seed] [number of drives] [anchored|free] [verbose]
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "gapscope/base/random.h"
+#include "gapscope/base/statistics.h"
+#include "independent_plant/closed_loop.h"
+#include "reference/rigs.h"
+
+namespace gapscope {
+namespace {
+
+using namespace test;
+namespace at = controller_place;
+
+/// A servo of one inertia with dry friction and an arm, and the loop that holds it.
+struct Servo {
+  independent_plant::BlindDrive drive;
+  independent_plant::ControllerSettings controller;
+  independent_plant::ReferenceMotion motion;
+  independent_plant::BlindSensor sensor;
+  std::uint64_t seed = 1;
+};
+
+Servo drawn_servo(std::uint64_t seed, bool anchored) {
+  auto g = random_stream(seed, "controller study");
+  Servo s;
+  s.seed = seed;
+  s.motion = {.course = independent_plant::Course::kSines,
+              .travel = uniform(g, 1.0, 3.0),
+              .speed = uniform(g, 3.0, 8.0)};
+  independent_plant::BlindDrive& d = s.drive;
+  d.load = independent_plant::BlindLoad::kNone;
+  d.motor_inertia = log_uniform(g, 2e-4, 5e-3);
+  d.torque_constant = log_uniform(g, 0.05, 1.0);
+  d.motor_damping = d.motor_inertia * log_uniform(g, 0.5, 5.0);
+  const double acceleration = s.motion.speed * s.motion.speed / s.motion.travel;
+  const double torque = d.motor_inertia * acceleration;
+  d.effects.motor.friction.level_nm = torque * log_uniform(g, 0.02, 0.3);
+  const double gravity = torque * log_uniform(g, 0.3, 3.0);
+  if (anchored) d.effects.load.unbalance_nm = gravity;
+  const double rate = std::array{100.0, 200.0, 500.0}[seed % 3], omega = 2.0 * kPi * uniform(g, 2.0, 6.0);
+  s.controller = {.rate = rate,
+                  .position_gain = 0.25 * omega,
+                  .speed_forward = 0.0,
+                  .speed_gain = omega * d.motor_inertia / d.torque_constant,
+                  .dead_time_s = uniform(g, 0.2, 1.0) / rate};
+  s.sensor = independent_plant::BlindSensor::with_bits(std::array{12, 14, 16}[seed / 3 % 3]);
+  return s;
+}
+
+Recording commanded_recording(const Servo& s) {
+  const independent_plant::LoopRun loop =
+      simulate_closed_loop(s.drive, s.motion, s.controller, s.sensor, {},
+                           {.duration = 8.0, .seed = s.seed, .tolerance = independent_plant::kFastTolerance});
+  auto rows = std::make_shared<CommandRows>();
+  rows->t = loop.stamps, rows->position = loop.run.recording.x1;
+  for (const auto& target : loop.target) rows->target.push_back(target.x);
+  rows->supply.assign(rows->t.size(), 1.0);
+  Recording r = loop.run.recording;
+  r.u.assign(r.size(), kNaN);
+  r.x2.clear(), r.mode.clear();
+  r.command = rows;
+  return r;
+}
+
+ModelEffect effect(const char* name, std::initializer_list<ParameterSetting> settings) {
+  ModelEffect e{find_effect(name), {}};
+  std::copy(settings.begin(), settings.end(), e.parameters.begin());
+  return e;
+}
+
+/// Everything is looked for but the torque constant, the gain of the position and the mass.
+ReferenceModel servo_model(const Servo& s, std::uint64_t seed) {
+  auto g = random_stream(seed, "controller starts");
+  ReferenceModel model = known_model(s.drive);
+  model.structure.has_load = false;
+  estimate(model, kMotorInertia, s.drive.motor_inertia * log_uniform(g, 0.5, 2.0));
+  estimate(model, kMotorDamping, s.drive.motor_damping * log_uniform(g, 0.5, 2.0));
+  model.effects.push_back(effect(
+      "motor_coulomb_friction",
+      {ParameterSetting::sought(s.drive.effects.motor.friction.level_nm * log_uniform(g, 0.5, 2.0))}));
+  if (const double arm = s.drive.effects.load.unbalance_nm; arm > 0.0)
+    model.effects.push_back(
+        effect("load_unbalance",
+               {ParameterSetting::known(arm), ParameterSetting::known(0.0), ParameterSetting::known(1.0)}));
+  ControllerModel& c = model.controller.emplace();
+  c.fixed.kind = ControllerKind::kCascade, c.fixed.rate = s.controller.rate;
+  for (ParameterSetting& number : c.numbers) number.value = 0.0;
+  c.numbers[at::kGain].value = s.controller.position_gain;
+  c.numbers[at::kSpeedGain] = ParameterSetting::sought();
+  c.numbers[at::kDelay] = ParameterSetting::sought(0.5 / s.controller.rate);
+  return model;
+}
+
+bool named(const FitSummary& summary, const std::string& key) {
+  for (const Remark& w : summary.warnings)
+    if (w.text().find(key) != std::string::npos && w.text().find("change together") != std::string::npos)
+      return true;
+  return false;
+}
+
+struct Tally {
+  int told = 0, held = 0;
+  std::vector<double> errors;  ///< relative
+};
+
+void count(const FitSummary& found, const std::map<std::string, double>& truth,
+           std::map<std::string, Tally>& tallies, bool verbose) {
+  for (const auto& [key, is] : truth) {
+    const FittedParameter* p = found.find(key);
+    Tally& t = tallies[key];
+    t.told += p->identifiable && !found.rejected();
+    t.held += !found.rejected() && contains(found, key.c_str(), is);
+    t.errors.push_back(std::abs(p->value / is - 1.0));
+    if (verbose)
+      fmt::print("  {} {:+.2f}% ({:+.1f}s)", key, 100.0 * (p->value / is - 1.0), (p->value - is) / p->std);
+  }
+}
+
+int main_study(int argc, char** argv) {
+  const std::uint64_t first = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1;
+  const int drives = argc > 2 ? std::atoi(argv[2]) : 30;
+  const bool anchored = argc <= 3 || std::string(argv[3]) != "free", verbose = argc > 4;
+  std::map<std::string, Tally> tallies;
+  std::map<std::string, int> trusts;
+  int confounded = 0;
+  for (int i = 0; i < drives; ++i) {
+    const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
+    const Servo s = drawn_servo(seed, anchored);
+    const FitSummary found = fit_one(commanded_recording(s), servo_model(s, seed));
+    ++trusts[to_string(found.trust)];
+    confounded += named(found, "controller.velocity.gain");
+    if (verbose) fmt::print("{} {}", seed, to_string(found.trust));
+    count(found,
+          {{"controller.velocity.gain", s.controller.speed_gain},
+           {"controller.delay", s.controller.dead_time_s},
+           {"motor_inertia", s.drive.motor_inertia},
+           {"motor_damping", s.drive.motor_damping},
+           {"motor_coulomb_friction.level_nm", s.drive.effects.motor.friction.level_nm}},
+          tallies, verbose);
+    if (verbose) fmt::print("{}\n", named(found, "controller.velocity.gain") ? "  confounded" : "");
+    std::fflush(stdout);
+  }
+  for (const auto& [trust, n] : trusts) fmt::print("{} {}\n", trust, n);
+  const Interval told = wilson(confounded, drives);
+  fmt::print("gain said to be confounded {} of {} [{:.1f}, {:.1f}]\n", confounded, drives, 100.0 * told.low,
+             100.0 * told.high);
+  for (const auto& [key, t] : tallies) {
+    const Interval share = wilson(t.held, t.told);
+    fmt::print("{:<32} told {} held {} = {:.1f} % [{:.1f}, {:.1f}], error median {:.3f} %, 95 % {:.2f} %\n",
+               key, t.told, t.held, 100.0 * t.held / std::max(t.told, 1), 100.0 * share.low,
+               100.0 * share.high, 100.0 * median(t.errors), 100.0 * quantile(t.errors, 0.95));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace gapscope
+
+int main(int argc, char** argv) { return gapscope::main_study(argc, argv); }
