@@ -100,13 +100,15 @@ Json recording_schema() {
   resample.add("for",
                words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
   resample.required = {"rate"};
-  recording.add("file", files_or_file("CSV or .mat, relative to this file; several are never concatenated"));
+  recording.add(
+      "file",
+      files_or_file("CSV, .mat, .npz or HDF5, relative to this file; several are never concatenated"));
   recording.add("held_out", files_or_file("only diagnose reads it"));
   recording.add(
       "simulated",
       files_or_file("what a simulator of yours answers to the same input: one for each file, or for "
                     "each file and each held_out; only diagnose reads it"));
-  recording.add("columns", columns.schema("names of the columns (of a .mat file: its variables)"));
+  recording.add("columns", columns.schema("names of the columns (of another file than a CSV: its arrays)"));
   recording.add("units",
                 fields_schema(DeclaredUnits{}).schema("a name, or the size of one recorded unit in SI"));
   recording.add("registers",

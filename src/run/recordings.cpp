@@ -36,10 +36,11 @@ void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>&
 
 Recording read_one(const RecordedFile& file, const Configuration& c, UnevenRows uneven) {
   if (std::error_code unreachable; !std::filesystem::exists(file.path, unreachable))
-    throw ConfigError(c.file, file.line,
-                      fmt::format("there is no recording {}, expected a CSV or .mat file (relative to this "
-                                  "configuration)",
-                                  file.given));
+    throw ConfigError(
+        c.file, file.line,
+        fmt::format("there is no recording {}, expected a CSV, .mat, .npz or HDF5 file (relative to this "
+                    "configuration)",
+                    file.given));
   return read_recording(file.path, c.recording->reading_for(uneven));
 }
 

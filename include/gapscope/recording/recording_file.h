@@ -16,7 +16,7 @@ struct ColumnScales {
   UnitScale time, input, position, load_position, voltage = {};
 };
 
-/// Names of the columns (of a .mat file: its variables); load_position is optional in the file.
+/// Names of the columns (of another file than a CSV: its arrays); load_position is optional in the file.
 struct RecordingColumns {
   std::string time = "t";
   std::string input = "u";
@@ -55,13 +55,14 @@ struct ReadOptions {
 /// Fewer samples than this are no recording.
 constexpr std::size_t kFewestSamples = 50;
 
-/// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), of which each column is a vector
-/// of real numbers, all equally long; any other one is a CSV with a header, in which `#` comments and extra
+/// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), *.npz NumPy's, *.h5 or *.hdf5 an
+/// HDF5, of which each column is a vector of real numbers, all equally long, or a column of a table, named
+/// "q[:, 0]"; any other one is a CSV with a header, in which `#` comments and extra
 /// columns are ignored; its columns stand between commas, semicolons or tabs, beside the last two with a
 /// decimal comma or point. Sampling is uniform when every step is within 0.1 % of the mean step; anything
 /// else is refused with the figure, taken with its stamps, or resampled on request: x1 and x2 linearly, u as
 /// the mean of the held input over each new interval, so that its impulse is kept.
-/// @throws ConfigError with file and line (sample of a .mat file): missing or empty file, missing column, a
+/// @throws ConfigError with file and line (sample of an array): missing or empty file, missing column, a
 ///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
 ///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.
 Recording read_recording(const std::string& path, const ReadOptions& options = {});
