@@ -110,7 +110,7 @@ void add_controller_options(CommandLine& command, RecordingArguments& a) {
 }  // namespace
 
 void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
-  command.add_option("FILE", a.file, "recording (CSV, .mat, .npz or HDF5)").required();
+  command.add_option("FILE", a.file, "recording (CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON)").required();
   command.add_option("--time", a.time, "column (or array) of the time (default: t)").value("NAME");
   command.add_option("--input", a.input, "column of the input (default: u)").value("NAME");
   command.add_option("--position", a.position, "column of the position (default: x1, of the load x2)")

@@ -100,9 +100,8 @@ Json recording_schema() {
   resample.add("for",
                words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
   resample.required = {"rate"};
-  recording.add(
-      "file",
-      files_or_file("CSV, .mat, .npz or HDF5, relative to this file; several are never concatenated"));
+  recording.add("file", files_or_file("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
+                                      "several are never concatenated"));
   recording.add("held_out", files_or_file("only diagnose reads it"));
   recording.add(
       "simulated",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gapscope/base/errors.h"
+#include "recording/log_file.h"
 
 namespace gapscope::internal::recording {
 namespace {
@@ -15,6 +16,11 @@ namespace {
 template <std::unique_ptr<ArrayFile> (*open)(const std::string&)>
 std::unique_ptr<ArrayFile> opened(const std::string& path, const RecordingColumns&) {
   return open(path);
+}
+
+template <std::unique_ptr<MessageLog> (*open)(const std::string&)>
+std::unique_ptr<ArrayFile> logged(const std::string& path, const RecordingColumns& columns) {
+  return log_columns(path, open(path), columns);
 }
 
 constexpr const char* kPandas =
@@ -29,6 +35,11 @@ const std::vector<FileKind>& kinds() {
       {".h5", "HDF5", opened<open_hdf5>},
       {".hdf5", "HDF5", opened<open_hdf5>},
       {".hdf", "HDF5", opened<open_hdf5>},
+      {".mcap", "MCAP", logged<open_mcap_log>},
+      {".db3", "a bag of ROS 2", logged<open_rosbag_log>},
+      {".json", "JSON", open_json},
+      {".jsonl", "JSON", open_json},
+      {".ndjson", "JSON", open_json},
       {".npy", "a single array of NumPy", nullptr,
        "in Python: numpy.savez('drive.npz', t=t, u=u, x1=x1), an array for each column"},
       {".bag", "a bag of ROS 1", nullptr,
@@ -63,9 +74,10 @@ const FileKind& kind_of(const std::string& path) {
 std::unique_ptr<ArrayFile> open_arrays(const std::string& path, const RecordingColumns& columns) {
   const FileKind& kind = kind_of(path);
   if (kind.open) return kind.open(path, columns);
-  throw ConfigError(path,
-                    fmt::format("is {}, which is not read, expected a CSV, .mat, .npz or HDF5 of it ({})",
-                                kind.called, kind.convert));
+  throw ConfigError(
+      path,
+      fmt::format("is {}, which is not read, expected a CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON of it ({})",
+                  kind.called, kind.convert));
 }
 
 }  // namespace gapscope::internal::recording

@@ -38,8 +38,7 @@ Recording read_one(const RecordedFile& file, const Configuration& c, UnevenRows 
   if (std::error_code unreachable; !std::filesystem::exists(file.path, unreachable))
     throw ConfigError(
         c.file, file.line,
-        fmt::format("there is no recording {}, expected a CSV, .mat, .npz or HDF5 file (relative to this "
-                    "configuration)",
+        fmt::format("there is no recording {}, expected a file (relative to this configuration)",
                     file.given));
   return read_recording(file.path, c.recording->reading_for(uneven));
 }

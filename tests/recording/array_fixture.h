@@ -43,7 +43,7 @@ inline void expect_refused(const std::string& good, const std::string& ending, c
     c.change(changed);
     const TemporaryFile file(changed, "r" + ending);
     const std::string what = refusal([&] { read_recording(file.path(), options); });
-    EXPECT_THAT(what, ::testing::HasSubstr("r" + ending + ": "));
+    EXPECT_THAT(what, ::testing::HasSubstr("r" + ending + ":"));
     EXPECT_THAT(what, ::testing::HasSubstr("expected"));
     for (const std::string& said : c.said) EXPECT_THAT(what, ::testing::HasSubstr(said));
   }

@@ -56,12 +56,12 @@ struct ReadOptions {
 constexpr std::size_t kFewestSamples = 50;
 
 /// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), *.npz NumPy's, *.h5 or *.hdf5 an
-/// HDF5, of which each column is a vector of real numbers, all equally long, or a column of a table, named
-/// "q[:, 0]"; any other one is a CSV with a header, in which `#` comments and extra
-/// columns are ignored; its columns stand between commas, semicolons or tabs, beside the last two with a
-/// decimal comma or point. Sampling is uniform when every step is within 0.1 % of the mean step; anything
-/// else is refused with the figure, taken with its stamps, or resampled on request: x1 and x2 linearly, u as
-/// the mean of the held input over each new interval, so that its impulse is kept.
+/// HDF5, *.mcap and *.db3 logs of robots, *.json and *.jsonl JSON, of which each column is a vector of real
+/// numbers, all equally long, or a column of a table, named "q[:, 0]"; any other one is a CSV with a header,
+/// in which `#` comments and extra columns are ignored; its columns stand between commas, semicolons or tabs,
+/// beside the last two with a decimal comma or point. Sampling is uniform when every step is within 0.1 % of
+/// the mean step; anything else is refused with the figure, taken with its stamps, or resampled on request:
+/// x1 and x2 linearly, u as the mean of the held input over each new interval, so that its impulse is kept.
 /// @throws ConfigError with file and line (sample of an array): missing or empty file, missing column, a
 ///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
 ///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.
