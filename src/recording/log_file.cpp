@@ -35,6 +35,7 @@ class LogFile : public ArrayFile {
   LogFile(std::string path, std::unique_ptr<MessageLog> log, const std::string& position)
       : path_(std::move(path)), log_(std::move(log)) {
     look();
+    if (position.empty()) return;  // only names are asked for
     choose(position);
     count();
   }
@@ -43,15 +44,20 @@ class LogFile : public ArrayFile {
   const char* row() const override { return "message"; }
 
   std::optional<StoredArray> find(const std::string& name) override {
+    if (topic_.empty()) return {};
     const std::string own = without_topic(name);
     if (!is_time(own) && !topics_.at(topic_).names.contains(own)) return {};
     return StoredArray{name, "", {messages_}};
   }
 
   std::vector<std::string> names() override {
-    const auto& own = topics_.at(topic_).names;
     std::vector<std::string> all = {kTime, kStamp, kLogged, kPublished};
-    all.insert(all.end(), own.begin(), own.end());
+    for (const auto& [topic, content] : topics_) {
+      if (topic_.empty() || topic == topic_)
+        all.insert(all.end(), content.names.begin(), content.names.end());
+      for (const std::string& own : content.names)
+        if (topic_.empty()) all.push_back(topic + "/" + own);
+    }
     return all;
   }
 

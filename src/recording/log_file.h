@@ -13,6 +13,7 @@ namespace gapscope::internal::recording {
 /// "t" (the header's stamp where there is one, else log_time), "stamp", "log_time" and "publish_time" [s],
 /// each from its first one on. The topic is the one whose messages have the position; a column may also be
 /// named with its topic, "/joint_states/elbow.position". Messages without the position are passed over.
+/// Without a position it has the names of all topics, with and without the topic, and no numbers.
 /// @throws ConfigError where no topic has it, or several have
 std::unique_ptr<ArrayFile> log_columns(const std::string& path, std::unique_ptr<MessageLog> log,
                                        const RecordingColumns& columns);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/recording/axes.h"
 #include "recording/file_kind.h"
 #include "recording/limits.h"
 
@@ -49,6 +50,11 @@ std::string RecordedRows::place(std::int64_t of_line) const { return fmt::format
 
 RecordedRows read_rows(const std::string& path, const RecordingColumns& columns, EarlierRow earlier) {
   require_recording_file(path);
+  if (names_an_axis(columns))
+    throw ConfigError(path,
+                      fmt::format("has several axes: {} is in the names of its columns, expected --axis NAME "
+                                  "(or all) beside them",
+                                  kAxisInName));
   if (kind_of(path).ending.empty()) return read_csv(path, columns, earlier);
   return read_arrays(*open_arrays(path, columns), path, columns, earlier);
 }

@@ -44,6 +44,7 @@ struct RecordedRows {
 RecordedRows read_rows(const std::string& path, const RecordingColumns& columns,
                        EarlierRow earlier = EarlierRow::kRefused);
 RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, EarlierRow earlier);
+std::vector<std::string> csv_names(const std::string& path);  ///< of its columns; empty where there are none
 RecordedRows read_arrays(ArrayFile& file, const std::string& path, const RecordingColumns& columns,
                          EarlierRow earlier);
 
