@@ -115,6 +115,9 @@ Json recording_schema() {
   recording.add("gear_ratio",
                 fields_schema(GearRatios{}).schema("turns of the recorded axis per turn of the model's"));
   recording.add("window", rising_pair_schema({-kInfinity, kInfinity, "s"}, "part of each file that is used"));
+  recording.add("lost_rows", words_schema({"held", "bridged"},
+                                          "u over rows that are missing: that of the row before, or, where "
+                                          "the drive got new ones meanwhile, a line to the next row"));
   recording.add("resample", resample.schema("makes any sampling uniform"));
   recording.required = {"file"};
   return recording.schema("data from files");

@@ -43,11 +43,18 @@ enum class UnevenRows {
   kStamped,  ///< taken as they are, each with its time
 };
 
+/// What u is over rows that a logger has lost.
+enum class LostRows {
+  kHeld,     ///< that of the row before: the drive itself kept it, or was late
+  kBridged,  ///< a line to the next row: the drive went on getting new ones, see bridge_lost_rows()
+};
+
 struct ReadOptions {
   RecordingColumns columns;
   std::optional<std::pair<double, double>> window;  ///< part of the file that is used [s]
   std::optional<double> resample_rate;              ///< [Hz]; makes any sampling uniform
   UnevenRows uneven = UnevenRows::kRefused;         ///< where they are not resampled
+  LostRows lost_rows = LostRows::kHeld;             ///< of rows with their own times
   EncoderSide encoder = EncoderSide::kMotor;        ///< whose position the column `position` is
   std::optional<PositionController> controller;  ///< makes the input of the target, where that was recorded
 };
