@@ -25,6 +25,9 @@ Json setting_schema(const Range& range, const std::string& doc, bool prior) {
     known.add("std", number_schema({0.0, kInfinity, range.unit}, "standard deviation"));
     known.required = {"std"};
     written.add("prior", known.schema("what is known beforehand"));
+    written.add("given_at", words_schema({"motor", "load"},
+                                         "side of the gear of recording: gear_ratio that the "
+                                         "numbers hold at; default: load, the axis of x1"));
   }
   return described(
       {{"anyOf", {number_schema(range, "fixed at this value"), written.schema("estimated, or fixed")}}}, doc,
