@@ -60,9 +60,10 @@ struct RecordingArguments {
   DeclaredUnits units;
   RegisterBits registers;
   GearRatios gear;
-  int bits = 0;      ///< of the encoder; 0: not given
-  std::string side;  ///< of the encoder: motor or load; empty: motor
-  std::string axis;  ///< of a machine with several; empty: the file has one
+  int bits = 0;        ///< of the encoder; 0: not given
+  std::string side;    ///< of the encoder: motor or load; empty: motor
+  std::string preset;  ///< how a common drive writes its recordings; empty: as they are declared
+  std::string axis;    ///< of a machine with several; empty: the file has one
 
   EncoderConfig encoder() const;
   Coordinates coordinates() const { return translation ? Coordinates::kTranslation : Coordinates::kRotation; }

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/presets.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
@@ -97,6 +98,9 @@ void add_init(CommandLine& app) {
       "with: diagnose then says what is missing beside them.\n"
       "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit.\n"
       "A gap that the detector does not see (inconclusive) is a GUESS too.\n"
+      "--preset dynamixel, feetech, odrive, moteus or twincat declares the columns and units that these "
+      "drives "
+      "write.\n"
       "--from takes armature, damping, frictionloss, gear and the body's inertia of a joint, of MJCF with "
       "its\n"
       "classes; a gap where a fixed tendon limits the difference of two joints or a second joint of the body "
@@ -106,6 +110,8 @@ void add_init(CommandLine& app) {
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
   command.action([arguments] {
     const auto all = arguments->recording.each_axis();
+    for (const DrivePreset& p : drive_presets())
+      if (arguments->recording.preset == p.name) fmt::print("{:<12}{}; {}\n", "preset", p.what, p.note);
     for (const RecordingArguments& one : all) write_starter(*arguments, one, all.size() > 1);
   });
 }

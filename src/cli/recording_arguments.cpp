@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "cli/commands.h"
+#include "cli/presets.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/move_file.h"
 #include "gapscope/base/shown.h"
@@ -65,6 +66,11 @@ RecordingConfig RecordingArguments::configuration() const {
 }
 
 std::vector<RecordingArguments> RecordingArguments::each_axis() const {
+  if (!preset.empty()) {
+    RecordingArguments declared = with_preset(*this);
+    declared.preset.clear();
+    return declared.each_axis();
+  }
   if (axis.empty()) return {*this};
   RecordingArguments pattern = *this;
   pattern.axis = kAllAxes;
@@ -144,6 +150,13 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command.add_option("--input", a.input, "column of the input (default: u)").value("NAME");
   command.add_option("--position", a.position, "column of the position (default: x1, of the load x2)")
       .value("NAME");
+  std::vector<std::string> presets;
+  for (const DrivePreset& p : drive_presets()) presets.emplace_back(p.name);
+  command
+      .add_option("--preset", a.preset,
+                  "columns and units as a common drive writes them; what is given beside it comes first")
+      .value("DRIVE")
+      .one_of(presets);
   command
       .add_option(
           "--axis", a.axis,

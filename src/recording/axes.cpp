@@ -71,6 +71,14 @@ RecordingColumns columns_of_axis(RecordingColumns c, const std::string& axis) {
   return c;
 }
 
+std::vector<std::string> recorded_names(const std::string& path) {
+  internal::recording::require_recording_file(path);
+  if (internal::recording::kind_of(path).ending.empty()) return internal::recording::csv_names(path);
+  RecordingColumns any;
+  any.position.clear();
+  return internal::recording::open_arrays(path, any)->names();
+}
+
 std::vector<std::string> recorded_axes(const std::string& path, const RecordingColumns& columns) {
   const std::string& pattern = columns.position;
   if (pattern.find(kAxisInName) == pattern.npos)

@@ -19,6 +19,10 @@ bool names_an_axis(const RecordingColumns& columns);
 /// The columns of one axis.
 RecordingColumns columns_of_axis(RecordingColumns columns, const std::string& axis);
 
+/// What a file has that can be named as a column; of a log also with its topic.
+/// @throws ConfigError where the file is none
+std::vector<std::string> recorded_names(const std::string& path);
+
 /// The axes that a file has a position of, as the position's name says: numbers in their order, others in
 /// that of the file.
 /// @throws ConfigError where the file is none or has none; as read_recording()
