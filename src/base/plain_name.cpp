@@ -8,4 +8,10 @@ bool is_plain_name(std::string_view name) {
          name.front() != '.' && name.front() != '-';
 }
 
+std::string plain_part(std::string text) {
+  for (char& c : text)
+    if (!is_plain_name("a" + std::string(1, c))) c = '_';
+  return text;
+}
+
 }  // namespace gapscope

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/results/inspection_result.h"
@@ -29,8 +30,7 @@ Configuration reading_of(const RecordingArguments& r) {
   return c;
 }
 
-void check_recording(const CheckArguments& a) {
-  const RecordingArguments& r = a.recording;
+bool check_recording(const CheckArguments& a, const RecordingArguments& r) {
   const auto look = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
   if (!a.output.empty()) look();  // before the work
   const Configuration c = reading_of(r);
@@ -39,7 +39,21 @@ void check_recording(const CheckArguments& a) {
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, look());
   fmt::print("{}", a.json ? json : inspection.report());
-  if (inspection.spoilt()) throw ExitStatus{kSpoiltRecording};
+  return inspection.spoilt();
+}
+
+void check_axes(const CheckArguments& a) {
+  const auto all = a.recording.each_axis();
+  if (all.size() > 1 && (a.json || !a.output.empty()))
+    throw ConfigError(
+        "gapscope: --axis all has a report for each axis, expected one axis with --json and --output");
+  bool spoilt = false;
+  for (const RecordingArguments& one : all) {
+    if (all.size() > 1)
+      fmt::print("{}axis        {}\n", &one == all.data() ? "" : "\n", printable(one.axis, 60));
+    spoilt |= check_recording(a, one);
+  }
+  if (spoilt) throw ExitStatus{kSpoiltRecording};
 }
 
 }  // namespace
@@ -67,7 +81,7 @@ void add_check(CommandLine& app) {
       "JSON keys carry their units [s, Hz, rad, units of u].\n"
       "Exit status: 0 nothing spoils the estimates, 3 something does, else as for every command.\n\n"
       "Example: gapscope check drive.csv --input i_q --position theta -o drive_check.json");
-  command.action([arguments] { check_recording(*arguments); });
+  command.action([arguments] { check_axes(*arguments); });
 }
 
 }  // namespace gapscope::cli

@@ -79,13 +79,23 @@ struct RecordingArguments {
   DeclaredUnits units;
   RegisterBits registers;
   GearRatios gear;
-  int bits = 0;      ///< of the encoder; 0: not given
-  std::string side;  ///< of the encoder: motor or load; empty: motor
+  int bits = 0;        ///< of the encoder; 0: not given
+  std::string side;    ///< of the encoder: motor or load; empty: motor
+  std::string preset;  ///< how a common drive writes its recordings; empty: as they are declared
+  std::string axis;    ///< of a machine with several; empty: the file has one
 
   EncoderConfig encoder() const;
   Coordinates coordinates() const { return translation ? Coordinates::kTranslation : Coordinates::kRotation; }
   RecordingConfig configuration() const;  ///< @throws ConfigError naming the option
+  /// Each of the axes that are asked for, as if it had been asked for alone; where it is none, these
+  /// themselves.
+  std::vector<RecordingArguments> each_axis() const;
 };
+/// The axes that are meant: the one that is named; of "all" those that the file has; none where it is empty.
+/// @throws ConfigError for one that is named where no column has {axis} in its name
+std::vector<std::string> asked_axes(const std::string& axis, const std::string& file,
+                                    const RecordingColumns& columns);
+
 /// @throws ConfigError where two of time, input and position are one column
 void require_three_columns(const RecordingColumns& columns);
 void add_recording_arguments(CommandLine& command, RecordingArguments& arguments);

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 struct CompareArguments {
   std::vector<std::string> folders;
   std::string output;
+  bool spread = false;
 };
 
 /// A comparison that went into one of its reports would remove that report.
@@ -49,7 +50,7 @@ void compare(const CompareArguments& a) {
   if (report) write_comparison(*report, all);
   print_warnings(all.warnings);
   if (!a.output.empty()) fmt::print("{:<12}{}\n", "report", a.output);
-  fmt::print("{}", changes_text(all));
+  fmt::print("{}", a.spread ? spread_text(all) : changes_text(all));
 }
 
 }  // namespace
@@ -64,6 +65,9 @@ void add_compare(CommandLine& app) {
   command
       .add_option("-o,--output", arguments->output, "folder of the comparison (default: nothing is written)")
       .value("DIR");
+  command.add_flag(
+      "--spread", arguments->spread,
+      "the reports are of several axes or units: how far they lie apart, beside how far a fit does");
   command.footer(
       "Reads DIR/result.json and what belongs to it: the model-free gap and every parameter that a "
       "reference\n"

@@ -9,6 +9,8 @@
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/plain_name.h"
+#include "gapscope/recording/axes.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/drive_card.h"
@@ -21,6 +23,7 @@ namespace {
 struct DiagnoseArguments {
   ConfigArguments config;
   std::string folder;
+  std::string axis;  ///< of a machine with several; empty: the configuration has one
   std::vector<std::string> excluded;
   std::vector<std::string> simulated;
   int threads = 0;
@@ -80,13 +83,23 @@ void take_simulated(const std::vector<std::string>& files, Configuration& c) {
     throw ConfigError("gapscope: --simulated " + problem);
 }
 
+void take_axis(const std::string& axis, Configuration& c) {
+  if (!c.recording || axis == kAllAxes)
+    throw ConfigError(
+        c.file, "is diagnosed for one axis at a time, expected its name behind --axis and a recording:");
+  asked_axes(axis, "", c.recording->reading.columns);
+  c.recording->reading.columns = columns_of_axis(c.recording->reading.columns, axis);
+}
+
 void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
+  if (!a.axis.empty()) take_axis(a.axis, c);
   c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
   std::sort(c.excluded.begin(), c.excluded.end());  // the same question, however it is asked
   c.excluded.erase(std::unique(c.excluded.begin(), c.excluded.end()), c.excluded.end());
   take_simulated(a.simulated, c);
   require_reference_model(c);
-  const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
+  const std::string folder =
+      (a.folder.empty() ? "reports/" + c.name : a.folder) + (a.axis.empty() ? "" : "/" + plain_part(a.axis));
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = a.threads;
@@ -111,6 +124,11 @@ void add_diagnose(CommandLine& app) {
   add_config_arguments(command, arguments->config);
   command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
       .value("DIR");
+  command
+      .add_option("--axis", arguments->axis,
+                  "axis that stands for {axis} in recording: columns; the report is in "
+                  "DIR/<axis>")
+      .value("NAME");
   command.add_option("--exclude", arguments->excluded, "an effect that is no candidate; may be repeated")
       .value("EFFECT")
       .one_value_each();

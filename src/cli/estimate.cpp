@@ -10,6 +10,10 @@
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/plain_name.h"
+#include "gapscope/base/shown.h"
+#include "gapscope/recording/axes.h"
+#include "gapscope/report/changes_report.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/drive_card.h"
 #include "gapscope/results/report_folder.h"
@@ -21,6 +25,7 @@ namespace {
 struct EstimateArguments {
   ConfigArguments config;
   std::string folder;
+  std::string axis;  ///< of a machine with several: one of them, or all
   bool quiet = false;
   FigureFormats figures;
   bool stream = false;  ///< the rest is for `detect --stream` alone
@@ -59,8 +64,8 @@ void write_outcome(ReportFolder& report, const Configuration& c, const FigureFor
   report.commit();
 }
 
-void estimate(const EstimateArguments& a, const Estimators& wanted, const Configuration& c) {
-  const std::string folder = a.folder.empty() ? "reports/" + c.name : a.folder;
+void estimate(const EstimateArguments& a, const Configuration& c, const std::string& folder,
+              const Estimators& wanted) {
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   const Progress progress = progress_on_terminal(a.quiet);
   const std::vector<FileHash> sources = sources_of(c);
@@ -73,6 +78,33 @@ void estimate(const EstimateArguments& a, const Estimators& wanted, const Config
   print_headline(folder, outcome.result);
 }
 
+std::string folder_of(const EstimateArguments& a, const Configuration& c) {
+  return a.folder.empty() ? "reports/" + c.name : a.folder;
+}
+
+/// A configuration whose columns are those of this axis, and its folder within that of the machine.
+Configuration of_axis(Configuration c, const std::string& axis) {
+  c.recording->reading.columns = columns_of_axis(c.recording->reading.columns, axis);
+  return c;
+}
+
+/// A report for each axis and one table of all.
+void estimate_axes(const EstimateArguments& a, const Configuration& c, const Estimators& wanted) {
+  if (a.axis.empty()) return estimate(a, c, folder_of(a, c), wanted);
+  if (!c.recording)
+    throw ConfigError(c.file, "has no recording: beside --axis, expected one with several axes");
+  std::vector<DriveReport> reports;
+  const std::vector<std::string> axes =
+      asked_axes(a.axis, c.recording->files.front().path, c.recording->reading.columns);
+  for (const std::string& axis : axes) {
+    const std::string folder = folder_of(a, c) + "/" + plain_part(axis);
+    if (axes.size() > 1) say("axis", printable(axis, 60));
+    estimate(a, of_axis(c, axis), folder, wanted);
+    reports.push_back(read_drive_report(folder));
+  }
+  if (reports.size() > 1) fmt::print("\n{}", spread_text(changes(reports)));
+}
+
 CommandLine add(CommandLine& app, const char* name, const char* what, const std::string& details,
                 Estimators wanted,
                 const std::shared_ptr<EstimateArguments>& arguments = std::make_shared<EstimateArguments>()) {
@@ -80,11 +112,18 @@ CommandLine add(CommandLine& app, const char* name, const char* what, const std:
   add_config_arguments(command, arguments->config);
   command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
       .value("DIR");
+  command
+      .add_option(
+          "--axis", arguments->axis,
+          "axis that stands for {axis} in recording: columns, or all: a report for each in DIR/<axis>, and a "
+          "table")
+      .value("NAME");
   command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(details);
   command.action([arguments, wanted] {
-    with_configuration(arguments->config, [&](const Configuration& c) { estimate(*arguments, wanted, c); });
+    with_configuration(arguments->config,
+                       [&](const Configuration& c) { estimate_axes(*arguments, c, wanted); });
   });
   return command;
 }
@@ -96,6 +135,7 @@ void add_streaming(CommandLine& detect, const std::shared_ptr<EstimateArguments>
   stream.excludes(config)
       .excludes(detect.option("--output"))
       .excludes(detect.option("--set"))
+      .excludes(detect.option("--axis"))
       .excludes(detect.option("--svg"));
   const auto column = [&](const char* name, std::string& place, const char* what) {
     detect.add_option(name, place, what).value("NAME").needs(stream);
@@ -112,7 +152,7 @@ void add_streaming(CommandLine& detect, const std::shared_ptr<EstimateArguments>
   detect.action([a, config] {
     if (a->stream) return require_three_columns(a->columns), detect_stream(a->columns, a->quantum);
     if (!config.given()) throw_missing("CONFIG");
-    with_configuration(a->config, [&](const Configuration& c) { estimate(*a, {true, false}, c); });
+    with_configuration(a->config, [&](const Configuration& c) { estimate_axes(*a, c, {true, false}); });
   });
 }
 

@@ -6,7 +6,9 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/presets.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/config/starter.h"
 
@@ -38,16 +40,29 @@ std::optional<JointNumbers> nominal_of(const InitArguments& a) {
   return numbers;
 }
 
-void write_starter(const InitArguments& a) {
-  const RecordingArguments& r = a.recording;
+/// Several axes each have a configuration of their own, called after them.
+std::string output_of(const InitArguments& a, const RecordingArguments& r, bool several) {
+  const std::string one = a.output.empty() ? fs::path(r.file).stem().string() + ".yaml" : a.output;
+  if (!several) return one;
+  const std::string name = fs::path(one).stem().string() + "_" + plain_part(r.axis) + ".yaml";
+  return (fs::path(one).parent_path() / name).string();
+}
+
+/// The same of the name that its report will have.
+std::string named_after(const std::string& axis, std::string yaml) {
+  const auto end = yaml.find_first_of(" \n", yaml.find("\nname: ") + 7);
+  return yaml.insert(end, "_" + plain_part(axis));
+}
+
+void write_starter(const InitArguments& a, const RecordingArguments& r, bool several) {
   const std::optional<JointNumbers> nominal = nominal_of(a);
-  const std::string output = a.output.empty() ? fs::path(r.file).stem().string() + ".yaml" : a.output;
+  const std::string output = output_of(a, r, several);
   require_file_name(output, {r.file}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
   const Starter starter =
       starter_configuration(r.configuration(), r.encoder(), r.coordinates(),
                             parent.empty() ? "." : parent.string(), model_of(a.model), nominal);
-  write_text(output, starter.yaml, "");
+  write_text(output, several ? named_after(r.axis, starter.yaml) : starter.yaml, "");
   print_warnings(starter.spoiling);
   fmt::print(
       "{:<12}{}\n{:<12}{}\n{:<12}fill in what is marked GUESS, then gapscope run {} (or detect, fit, "
@@ -83,6 +98,9 @@ void add_init(CommandLine& app) {
       "with: diagnose then says what is missing beside them.\n"
       "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit.\n"
       "A gap that the detector does not see (inconclusive) is a GUESS too.\n"
+      "--preset dynamixel, feetech, odrive, moteus or twincat declares the columns and units that these "
+      "drives "
+      "write.\n"
       "--from takes armature, damping, frictionloss, gear and the body's inertia of a joint, of MJCF with "
       "its\n"
       "classes; a gap where a fixed tendon limits the difference of two joints or a second joint of the body "
@@ -90,7 +108,12 @@ void add_init(CommandLine& app) {
       "a narrow range. The fit begins there, and diagnose says what that model lacks.\n"
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
-  command.action([arguments] { write_starter(*arguments); });
+  command.action([arguments] {
+    const auto all = arguments->recording.each_axis();
+    for (const DrivePreset& p : drive_presets())
+      if (arguments->recording.preset == p.name) fmt::print("{:<12}{}; {}\n", "preset", p.what, p.note);
+    for (const RecordingArguments& one : all) write_starter(*arguments, one, all.size() > 1);
+  });
 }
 
 }  // namespace gapscope::cli

@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "cli/commands.h"
+#include "cli/presets.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/move_file.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/recording/axes.h"
 
 namespace gapscope::cli {
 
@@ -31,9 +33,13 @@ RecordingConfig RecordingArguments::configuration() const {
   c.gear = gear;
   ReadOptions& o = c.reading;
   o.columns.time = time;
-  o.columns.input = input.empty() ? "u" : input;
+  const std::string named = axis.empty() ? "" : std::string(kAxisInName) + ".";  // as of joint states
+  o.columns.input = !input.empty() ? input : axis.empty() ? "u" : named + "effort";
   o.encoder = encoder().side();
-  o.columns.position = !position.empty() ? position : o.encoder == EncoderSide::kLoad ? "x2" : "x1";
+  o.columns.position = !position.empty()                 ? position
+                       : !axis.empty()                   ? named + "position"
+                       : o.encoder == EncoderSide::kLoad ? "x2"
+                                                         : "x1";
   o.columns.position_named = true;
   o.columns.voltage = voltage;
   o.columns.target = target;
@@ -41,6 +47,7 @@ RecordingConfig RecordingArguments::configuration() const {
   if (target.empty() != std::isnan(controller.gain))
     throw ConfigError("gapscope: --target and --controller-gain go together, expected both or neither");
   if (!target.empty()) o.controller = controller;
+  if (!axis.empty() && axis != kAllAxes) o.columns = columns_of_axis(o.columns, axis);
   require_three_columns(o.columns);
   o.columns.scales = declared_scales(
       units, registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
@@ -56,6 +63,34 @@ RecordingConfig RecordingArguments::configuration() const {
     throw ConfigError("gapscope: --window goes backwards, expected FROM before TO [s]");
   if (resample > 0.0) o.resample_rate = resample;
   return c;
+}
+
+std::vector<RecordingArguments> RecordingArguments::each_axis() const {
+  if (!preset.empty()) {
+    RecordingArguments declared = with_preset(*this);
+    declared.preset.clear();
+    return declared.each_axis();
+  }
+  if (axis.empty()) return {*this};
+  RecordingArguments pattern = *this;
+  pattern.axis = kAllAxes;
+  std::vector<RecordingArguments> all;
+  for (const std::string& one : asked_axes(axis, file, pattern.configuration().reading.columns)) {
+    all.push_back(*this);
+    all.back().axis = one;
+  }
+  return all;
+}
+
+std::vector<std::string> asked_axes(const std::string& axis, const std::string& file,
+                                    const RecordingColumns& columns) {
+  if (axis.empty()) return {};
+  if (!names_an_axis(columns))
+    throw ConfigError(
+        fmt::format("gapscope: --axis is {}, expected {} in the names of the columns, as in --position "
+                    "{}.position or \"q[:, {}]\"",
+                    shown(axis), kAxisInName, kAxisInName, kAxisInName));
+  return axis == kAllAxes ? recorded_axes(file, columns) : std::vector<std::string>{axis};
 }
 
 namespace {
@@ -110,10 +145,23 @@ void add_controller_options(CommandLine& command, RecordingArguments& a) {
 }  // namespace
 
 void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
-  command.add_option("FILE", a.file, "recording (CSV or .mat)").required();
-  command.add_option("--time", a.time, "column (or variable) of the time (default: t)").value("NAME");
+  command.add_option("FILE", a.file, "recording (CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON)").required();
+  command.add_option("--time", a.time, "column (or array) of the time (default: t)").value("NAME");
   command.add_option("--input", a.input, "column of the input (default: u)").value("NAME");
   command.add_option("--position", a.position, "column of the position (default: x1, of the load x2)")
+      .value("NAME");
+  std::vector<std::string> presets;
+  for (const DrivePreset& p : drive_presets()) presets.emplace_back(p.name);
+  command
+      .add_option("--preset", a.preset,
+                  "columns and units as a common drive writes them; what is given beside it comes first")
+      .value("DRIVE")
+      .one_of(presets);
+  command
+      .add_option(
+          "--axis", a.axis,
+          "axis that stands for {axis} in the names of columns, or all (default names: {axis}.position, "
+          "{axis}.effort)")
       .value("NAME");
   command.add_option("--encoder-side", a.side, "body that the position is of: motor or load (default: motor)")
       .value("SIDE")

@@ -155,6 +155,7 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
   c.simulation = read_simulation(*simulation, std::filesystem::path(c.file).parent_path().string());
   WrittenModel changes;
   if (const auto given = simulated_model(*simulation)) changes = read_model(*given);
+  put_behind_gear(changes, {}, c.coordinates);
   c.simulation->plant = simulated_plant(overlaid(model, changes), *simulation);
   require_possible_start(c);
   if (c.simulation->independent && !c.simulation->plant.effects.empty())
@@ -191,6 +192,7 @@ Configuration read_configuration(const Value& document) {
   if (const auto detector = root.find("detector")) c.detector = read_detector(*detector);
   WrittenModel model;
   if (const auto given = root.find("model")) model = read_model(*given);
+  put_behind_gear(model, root.find("recording"), c.coordinates);
   c.model = resolved_model(model);
   require_bound_from_model(c);
   read_data(root, model, c);

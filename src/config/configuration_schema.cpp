@@ -84,13 +84,14 @@ Json recording_schema() {
   resample.add("for",
                words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
   resample.required = {"rate"};
-  recording.add("file", files_or_file("CSV or .mat, relative to this file; several are never concatenated"));
+  recording.add("file", files_or_file("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
+                                      "several are never concatenated"));
   recording.add("held_out", files_or_file("only diagnose reads it"));
   recording.add(
       "simulated",
       files_or_file("what a simulator of yours answers to the same input: one for each file, or for "
                     "each file and each held_out; only diagnose reads it"));
-  recording.add("columns", columns.schema("names of the columns (of a .mat file: its variables)"));
+  recording.add("columns", columns.schema("names of the columns (of another file than a CSV: its arrays)"));
   recording.add("units",
                 fields_schema(DeclaredUnits{}).schema("a name, or the size of one recorded unit in SI"));
   recording.add("registers",
@@ -98,6 +99,9 @@ Json recording_schema() {
   recording.add("gear_ratio",
                 fields_schema(GearRatios{}).schema("turns of the recorded axis per turn of the model's"));
   recording.add("window", rising_pair_schema({-kInfinity, kInfinity, "s"}, "part of each file that is used"));
+  recording.add("lost_rows", words_schema({"held", "bridged"},
+                                          "u over rows that are missing: that of the row before, or, where "
+                                          "the drive got new ones meanwhile, a line to the next row"));
   recording.add("resample", resample.schema("makes any sampling uniform"));
   recording.required = {"file"};
   return recording.schema("data from files");

@@ -128,7 +128,7 @@ void read_resampling(const Value& value, RecordingConfig& recording) {
 RecordingConfig read_recording_block(const Value& value, const std::string& folder,
                                      const EncoderConfig& encoder, Coordinates coordinates) {
   const Section section(value, {"file", "held_out", "simulated", "columns", "units", "registers",
-                                "gear_ratio", "window", "resample"});
+                                "gear_ratio", "window", "resample", "lost_rows"});
   RecordingConfig recording;
   std::set<std::string> seen;
   recording.files = read_files(section.require("file", "a file or a list of files"), folder, seen);
@@ -144,6 +144,8 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
   read_units(section, encoder, coordinates, recording);
   if (const auto window = section.find("window"))
     recording.reading.window = window->rising_pair({-kInfinity, kInfinity, "s"});
+  if (const auto lost = section.find("lost_rows"))
+    recording.reading.lost_rows = static_cast<LostRows>(lost->word({"held", "bridged"}));
   if (const auto resample = section.find("resample")) read_resampling(*resample, recording);
   return recording;
 }

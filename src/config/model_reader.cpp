@@ -31,8 +31,9 @@ WrittenParameter read_parameter(const Value& value, int index) {
     p.estimate = false;
     return p;
   }
-  const Section section(value, {"value", "estimate", "bounds", "prior", "guess"});
+  const Section section(value, {"value", "estimate", "bounds", "prior", "guess", "given_at"});
   if (const auto given = section.find("guess")) p.guess = given->truth();
+  p.given_at = section.find("given_at");
   if (const auto given = section.find("estimate")) p.estimate = given->truth();
   if (const auto given = section.find("bounds")) p.bounds = given->rising_pair(range);
   if (const auto given = section.find("prior")) p.prior = read_prior(*given, range);
@@ -63,7 +64,48 @@ void read_parameters(const Value& value, WrittenModel& model) {
     if (const auto given = section.find(keys[i])) model.parameters[i] = read_parameter(*given, i);
 }
 
+/// Turns of the motor for one of the axis; 0 where none are told. Whoever reads the recording judges them.
+double told_gear(const std::optional<Value>& recording) {
+  if (!recording || !recording->is_map()) return 0.0;
+  for (const auto& [key, gear] : recording->entries()) {
+    if (key != "gear_ratio" || !gear.is_map()) continue;
+    for (const auto& [side, ratio] : gear.entries())
+      if (side == "position") return std::abs(ratio.number());
+  }
+  return 0.0;
+}
+
+/// Power of the gear's ratio by which a number grows from the motor's shaft to the axis behind the gear.
+int power_of_gear(const std::string& unit) {
+  if (unit == "kg m^2" || unit == "N m s/rad" || unit == "N m/rad") return 2;
+  if (unit == "N m" || unit == "N m per unit of u") return 1;
+  return unit == "rad" ? -1 : 0;
+}
+
 }  // namespace
+
+void put_behind_gear(WrittenModel& model, const std::optional<Value>& recording, Coordinates coordinates) {
+  for (int i = 0; i < kDriveParameterCount; ++i) {
+    auto& p = model.parameters[i];
+    if (!p || !p->given_at) continue;
+    const Value& side = *p->given_at;
+    const bool at_motor = side.word({"motor", "load"}) == 0;
+    const int power = power_of_gear(kDriveParameters[i].unit);
+    const double ratio = told_gear(recording);
+    if (power == 0) side.fail("stands beside a ratio, expected a quantity with a unit: a ratio has no side");
+    if (!coordinates.rotational()) side.fail("stands on a slide, expected the number as it is for the slide");
+    if (ratio == 0.0)
+      side.fail(
+          "needs the gear, expected recording: gear_ratio: {position: turns of the motor for one of the "
+          "axis}");
+    if (!at_motor) continue;
+    const double factor = std::pow(ratio, power);
+    if (p->value) *p->value *= factor;
+    if (p->bounds) p->bounds->first *= factor, p->bounds->second *= factor;
+    if (p->prior && p->prior->first) *p->prior->first *= factor;
+    if (p->prior) p->prior->second *= factor;
+  }
+}
 
 Range possible_parameter(int index) {
   return {kPossible[index].first, kPossible[index].second, kDriveParameters[index].unit};

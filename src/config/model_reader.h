@@ -18,6 +18,7 @@ struct WrittenParameter {
   std::optional<std::pair<std::optional<double>, double>> prior;  ///< value and std
   Value place;
   bool guess = false;  ///< the value is one
+  std::optional<Value> given_at = {};  ///< "motor" or "load": the side of the gear that the numbers hold at
 };
 
 /// A `model:` block as it is written.
@@ -41,6 +42,12 @@ inline constexpr const char* kPeriodKey = "period_rad";
 inline constexpr Range kPossiblePeriod = {1e-15, 1e15, "rad"};
 
 WrittenModel read_model(const Value& value);
+
+/// Numbers that are given at the motor's shaft become those of the axis behind the gear, which the model
+/// moves.
+/// @param recording  whose gear_ratio says how many turns the motor makes for one of that axis
+/// @throws ConfigError at given_at: where there is no such gear, on a slide, and of a number without a side
+void put_behind_gear(WrittenModel& model, const std::optional<Value>& recording, Coordinates coordinates);
 
 /// `base` with everything that `changes` writes. A parameter of both keeps what only the base says.
 WrittenModel overlaid(const WrittenModel& base, const WrittenModel& changes);

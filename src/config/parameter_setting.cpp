@@ -49,6 +49,9 @@ Json setting_schema(const Range& range, const std::string& doc, bool prior) {
     known.add("std", number_schema({0.0, kInfinity, range.unit}, "standard deviation"));
     known.required = {"std"};
     written.add("prior", known.schema("what is known beforehand"));
+    written.add("given_at", words_schema({"motor", "load"},
+                                         "side of the gear of recording: gear_ratio that the "
+                                         "numbers hold at; default: load, the axis of x1"));
     written.add("guess", truth_schema("the value is one: what rests on it is told so"));
   }
   return described(

@@ -58,6 +58,8 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   internal::config::write_units(out, recording);
   if (const auto& window = recording.reading.window)
     out.entry("window", fmt::format("[{}, {}]", window->first, window->second), "s");
+  if (recording.reading.lost_rows == LostRows::kBridged)
+    out.entry("lost_rows", "bridged", "u over them is a line to the next row");
   if (const auto& rate = recording.reading.resample_rate)
     out.entry("resample",
               fmt::format("{{rate: {}{}}}", *rate, recording.resample_for_detector ? ", for: detector" : ""),

@@ -4,6 +4,7 @@
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -90,7 +91,9 @@ std::string read_text(const std::string& path) {
   if (fs::is_directory(status)) throw ConfigError(path, "is a folder, expected a configuration in YAML");
   if (!fs::is_regular_file(status))
     throw ConfigError(path, "is no regular file, expected a configuration in YAML");
-  if (const fs::path ending = fs::path(path).extension(); ending == ".csv" || ending == ".mat")
+  constexpr std::array<const char*, 7> kRecordings = {".csv",  ".mat",  ".npz", ".h5",
+                                                      ".hdf5", ".mcap", ".db3"};
+  if (std::find(kRecordings.begin(), kRecordings.end(), fs::path(path).extension()) != kRecordings.end())
     throw ConfigError(path,
                       "is a recording, expected a configuration in YAML; `gapscope init` writes one from it");
   std::ifstream in(path, std::ios::binary);

@@ -42,6 +42,33 @@ std::string resample_advice(const RecordingFacts& facts) {
       facts.rate);
 }
 
+/// Share of the rows whose stamp is not one tick after the row before, where all are of a clock that goes on
+/// by 15.6 ms, as those of PCs do that are not asked for better; 0 where it is another one.
+double off_a_pc_tick(const recording::RecordedRows& rows) {
+  constexpr double kTick = 1.0 / 64.0, kOff = 0.8e-3;  // [s]; stamps in whole milliseconds are off by so much
+  constexpr double kNearlyAll = 0.98, kMostTicks = 20.0;
+  std::size_t of_ticks = 0, other_than_one = rows.skipped.size();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double step = rows.t[i] - rows.t[i - 1], ticks = std::round(step / kTick);
+    of_ticks += ticks >= 1.0 && ticks <= kMostTicks && std::abs(step - ticks * kTick) < kOff;
+    other_than_one += ticks > 1.0;
+  }
+  const double steps = static_cast<double>(rows.size() - 1);
+  if (static_cast<double>(of_ticks) < kNearlyAll * steps) return 0.0;
+  return static_cast<double>(other_than_one) / (steps + static_cast<double>(rows.skipped.size()));
+}
+
+Finding pc_clock(const Material& m, double off) {
+  return {kTimeRule, Severity::kSpoils,
+          fmt::format(
+              "all stamps are whole ticks of 15.6 ms, a PC's coarse clock; {:.0f} % of the rows are not one "
+              "tick after the row before, {} share a stamp",
+              100.0 * off, m.rows.skipped.size()),
+          "these are not the times at which x1 was read: record the drive's own clock or the PC's fine one; "
+          "where "
+          "the drive samples at a fixed rate, write t = row number / rate"};
+}
+
 Finding skipped_rows(const Material& m) {
   return {kTimeRule, Severity::kSpoils,
           fmt::format("{} rows are not later than the row before, the first in {}", m.rows.skipped.size(),
@@ -54,10 +81,11 @@ Finding pauses(const Material& m, const Steps& s, const RecordingFacts& facts) {
       kTimeRule, m.resampled ? Severity::kNote : Severity::kSpoils,
       fmt::format("{:.0f} samples are missing at {} places, most of them in {:.4g} s from t = {:.6g} s on",
                   s.missing, s.pauses, s.longest, m.rows.t[s.longest_row]),
-      m.resampled
-          ? "the resampled motion is a straight line there; better record without losses"
-          : "u is held over each gap: record without losses, or cut a whole part with recording: window; " +
-                resample_advice(facts)};
+      m.resampled ? "the resampled motion is a straight line there; better record without losses"
+                  : "u is held over each gap (recording: lost_rows: bridged, where the drive got new inputs "
+                    "meanwhile): record "
+                    "without losses, or cut a whole part with recording: window; " +
+                        resample_advice(facts)};
 }
 
 Finding jitter(const Material& m, const Steps& s, const RecordingFacts& facts) {
@@ -80,6 +108,8 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
   facts.duration = m.rows.t.back() - m.rows.t.front() + s.median;
   facts.rate = 1.0 / s.median;
   facts.shortest_step = s.shortest, facts.longest_step = s.longest;
+  constexpr double kUnlikeLosses = 0.15;
+  if (const double off = off_a_pc_tick(m.rows); off > kUnlikeLosses) return pc_clock(m, off);
   if (!m.rows.skipped.empty()) return skipped_rows(m);
   if (facts.rate < kSlowest || facts.rate > kFastest)
     return {kTimeRule, Severity::kSpoils,

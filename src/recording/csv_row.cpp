@@ -36,9 +36,9 @@ bool begins_comment(std::string_view text, std::size_t at) {
   return text[at] == '#' && (at == 0 || text[at - 1] == ' ' || text[at - 1] == '\t');
 }
 
-/// Splits at separators outside quotes; a comment ends the line. The vector is reused: no allocation
-/// per row. A line with nothing but blanks and comment gives no field.
-void split(std::string_view text, char separator, std::vector<std::string_view>& fields) {
+}  // namespace
+
+void split_fields(std::string_view text, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
   std::size_t begin = 0, end = 0;
   bool quoted = false;
@@ -52,11 +52,9 @@ void split(std::string_view text, char separator, std::vector<std::string_view>&
   if (!last.empty() || !fields.empty()) fields.push_back(unquoted(last));
 }
 
-}  // namespace
-
 bool CsvRow::next(std::string_view line) {
   if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
-  split(line, separator_, fields_);
+  split_fields(line, separator_, fields_);
   if (fields_.empty()) return false;
   if (has_header_) check_width();
   if (has_header_) return true;
@@ -110,7 +108,7 @@ void CsvRow::header(std::string_view line) {
   std::pair<std::ptrdiff_t, bool> most = {-1, false};
   for (const char separator : {',', ';', '\t'}) {
     std::vector<std::string_view> fields;
-    split(line, separator, fields);
+    split_fields(line, separator, fields);
     const auto found = std::count_if(fields.begin(), fields.end(), [&](std::string_view name) {
       return name == columns_.time || name == (columns_.reads_input() ? columns_.input : columns_.target) ||
              name == columns_.position;

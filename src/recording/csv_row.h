@@ -9,6 +9,10 @@
 
 namespace gapscope::internal::recording {
 
+/// Splits at separators outside quotes; a comment ends the line. The vector is reused: no allocation
+/// per row. A line with nothing but blanks and comment gives no field.
+void split_fields(std::string_view text, char separator, std::vector<std::string_view>& fields);
+
 /// The lines of a CSV one after the other: the header first, then rows of which any column may be asked for.
 /// The header tells what stands between the columns: a comma, a semicolon or a tab. Beside the last two a
 /// number may have a decimal comma; the first number with either mark says which one the file has.

@@ -36,6 +36,20 @@ void add_row(CsvRow& row, EarlierRow earlier, RecordedRows& table) {
 
 }  // namespace
 
+std::vector<std::string> csv_names(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::vector<std::string_view> fields, most;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    for (const char separator : {',', ';', '\t'}) {
+      split_fields(line, separator, fields);
+      if (fields.size() > most.size()) most = fields;
+    }
+    if (!most.empty()) return {most.begin(), most.end()};
+  }
+  return {};
+}
+
 RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, EarlierRow earlier) {
   const std::string text = whole_file(path);
   RecordedRows table;

@@ -122,7 +122,7 @@ class ByMatio : public MatContent {
  public:
   explicit ByMatio(std::string path) : path_(std::move(path)) {}
 
-  std::optional<MatVariable> find(const std::string& name) override {
+  std::optional<StoredArray> find(const std::string& name) override {
     const std::string answer = asked([&](const MatioFile& file) -> std::string {
       const Variable v = file.info(name);
       if (!v) return {};
@@ -132,7 +132,7 @@ class ByMatio : public MatContent {
     });
     if (answer.empty()) return {};
     const std::size_t end = answer.find('\0');
-    return MatVariable{name, answer.substr(0, end), values_of<std::size_t>(answer.substr(end + 1))};
+    return StoredArray{name, answer.substr(0, end), values_of<std::size_t>(answer.substr(end + 1))};
   }
 
   std::vector<std::string> names() override {
@@ -236,7 +236,7 @@ std::string kind_of_version_7_3(const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<MatContent> open_by_matio(const std::string& path) {
+std::unique_ptr<ArrayFile> open_by_matio(const std::string& path) {
   const std::string kind = kind_of_version_7_3(path);
   if (kind == "elsewhere")
     throw ConfigError(path, "keeps data in other files, expected a .mat file that holds its own");

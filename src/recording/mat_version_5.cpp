@@ -42,13 +42,13 @@ std::string flaw_of(std::uint32_t array_class, bool is_complex) {
                                   : "is no array of numbers";
 }
 
-MatVariable read_head(MatElement& element, bool deflated) {
+StoredArray read_head(MatElement& element, bool deflated) {
   constexpr std::uint32_t kComplex = 0x0800;
   if (deflated && element.tag().type != kMatrix) throw DamagedVariable();
   const std::vector<std::uint32_t> flags = element.small_words();
   if (flags.empty()) throw DamagedVariable();
   const std::uint32_t array_class = flags[0] & 0xff;
-  MatVariable v;
+  StoredArray v;
   v.flaw = flaw_of(array_class, (flags[0] & kComplex) != 0);
   if (array_class != kOpaque)
     for (const std::uint32_t size : element.small_words()) v.size.push_back(size);
@@ -109,7 +109,7 @@ class Version5 : public MatContent {
     }
   }
 
-  std::optional<MatVariable> find(const std::string& name) override {
+  std::optional<StoredArray> find(const std::string& name) override {
     const auto found = place_of(name);
     return found == variables_.end() ? std::nullopt : std::optional(found->variable);
   }
@@ -141,11 +141,11 @@ class Version5 : public MatContent {
   struct StoredVariable {
     Bytes place = 0, length = 0;
     bool deflated = false;
-    MatVariable variable;
+    StoredArray variable;
   };
 
   /// One that cannot be read stands in nobody's way as long as another one is asked for.
-  MatVariable head_of(const StoredVariable& s) try {
+  StoredArray head_of(const StoredVariable& s) try {
     MatElement element(file_, s.place, s.length, s.deflated, foreign_);
     return read_head(element, s.deflated);
   } catch (const DamagedVariable&) {
@@ -181,7 +181,7 @@ class Version5 : public MatContent {
 
 }  // namespace
 
-std::unique_ptr<MatContent> open_version_5(const std::string& path) {
+std::unique_ptr<ArrayFile> open_version_5(const std::string& path) {
   return std::make_unique<Version5>(path);
 }
 

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/recording/axes.h"
+#include "recording/file_kind.h"
 #include "recording/limits.h"
 
 namespace gapscope::internal::recording {
@@ -17,13 +18,6 @@ void keep_part(std::vector<T>& values, std::size_t first, std::size_t count) {
   if (values.empty()) return;
   const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
   values = std::vector<T>(begin, begin + static_cast<std::ptrdiff_t>(count));
-}
-
-bool is_mat(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".mat";
 }
 
 }  // namespace
@@ -49,24 +43,28 @@ bool RecordedRows::admits(double time, std::int64_t of_line, EarlierRow earlier,
 }
 
 void RecordedRows::fail(std::int64_t of_line, const std::string& what) const {
-  if (is_text) throw ConfigError(path, of_line, what);
+  if (row == "line") throw ConfigError(path, of_line, what);
   throw ConfigError(path, place(of_line) + ": " + what);
 }
 
-std::string RecordedRows::place(std::int64_t of_line) const {
-  return fmt::format("{} {}", is_text ? "line" : "sample", of_line);
-}
+std::string RecordedRows::place(std::int64_t of_line) const { return fmt::format("{} {}", row, of_line); }
 
 RecordedRows read_rows(const std::string& path, const RecordingColumns& columns, EarlierRow earlier) {
   require_recording_file(path);
-  return is_mat(path) ? read_mat(path, columns, earlier) : read_csv(path, columns, earlier);
+  if (names_an_axis(columns))
+    throw ConfigError(path,
+                      fmt::format("has several axes: {} is in the names of its columns, expected --axis NAME "
+                                  "(or all) beside them",
+                                  kAxisInName));
+  if (kind_of(path).ending.empty()) return read_csv(path, columns, earlier);
+  return read_arrays(*open_arrays(path, columns), path, columns, earlier);
 }
 
 void require_recording_file(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code problem;
   const fs::file_status status = fs::status(path, problem);
-  const std::string expected = fmt::format("expected a recording as {}", is_mat(path) ? ".mat" : "CSV");
+  const std::string expected = fmt::format("expected a recording as {}", kind_of(path).called);
   if (!fs::exists(status)) throw ConfigError(path, "there is no such file, " + expected);
   if (!fs::is_regular_file(status)) throw ConfigError(path, "is no regular file, " + expected);
   const std::uintmax_t bytes = fs::file_size(path);

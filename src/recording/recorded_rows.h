@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gapscope/recording/recording_file.h"
+#include "recording/array_file.h"
 
 namespace gapscope::internal::recording {
 
@@ -15,7 +16,7 @@ enum class EarlierRow { kRefused, kSkipped };
 /// The rows of a recording as they stand in its file, in SI, with the place of each.
 struct RecordedRows {
   std::string path;
-  bool is_text = true;         ///< whether `line` counts the lines of a text, else the samples of variables
+  std::string row = "line";    ///< what `line` counts: the lines of a text, else samples or messages
   std::vector<double> t;       ///< [s], strictly increasing
   std::vector<double> u;       ///< [unit of u]
   std::vector<double> x1;      ///< [rad]
@@ -35,17 +36,20 @@ struct RecordedRows {
   /// @throws ConfigError for one that is refused, and for one too many
   bool admits(double time, std::int64_t of_line, EarlierRow earlier, const std::string& column);
 
-  /// @throws ConfigError "file:line: what" or "file: sample N: what"
+  /// @throws ConfigError "file:line: what" or, of another row than a line, "file: sample N: what"
   [[noreturn]] void fail(std::int64_t of_line, const std::string& what) const;
 
   std::string place(std::int64_t of_line) const;  ///< "line 12" or "sample 12"
 };
 
-/// By the name of the file: read_mat() or read_csv().  @throws ConfigError, see read_recording().
+/// By the name of the file: read_csv() or, of a kind that has arrays, read_arrays().  @throws ConfigError,
+/// see read_recording().
 RecordedRows read_rows(const std::string& path, const RecordingColumns& columns,
                        EarlierRow earlier = EarlierRow::kRefused);
 RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, EarlierRow earlier);
-RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, EarlierRow earlier);
+std::vector<std::string> csv_names(const std::string& path);  ///< of its columns; empty where there are none
+RecordedRows read_arrays(ArrayFile& file, const std::string& path, const RecordingColumns& columns,
+                         EarlierRow earlier);
 
 /// @throws ConfigError unless it is a file of a size that is read
 void require_recording_file(const std::string& path);

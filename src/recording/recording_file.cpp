@@ -8,6 +8,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
+#include "gapscope/recording/lost_rows.h"
 #include "recording/limits.h"
 #include "recording/recorded_rows.h"
 #include "recording/resample.h"
@@ -167,6 +168,7 @@ Recording read_recording(const std::string& path, const ReadOptions& options) {
   Recording r = options.resample_rate ? internal::recording::resample(table, *options.resample_rate)
                                       : internal::recording::recording_of(std::move(table), options.uneven);
   if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
+  if (options.lost_rows == LostRows::kBridged) bridge_lost_rows(r);
   r.file = std::filesystem::path(path).filename().string();
   r.open_end = open_end;
   r.quantum = quantum;

@@ -5,6 +5,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/recording/lost_rows.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/results/sha256.h"
 #include "gapscope/run/run_pipeline.h"
@@ -36,10 +37,10 @@ void apply_sheet(Recording& r, const Configuration& c, std::vector<std::string>&
 
 Recording read_one(const RecordedFile& file, const Configuration& c, UnevenRows uneven) {
   if (std::error_code unreachable; !std::filesystem::exists(file.path, unreachable))
-    throw ConfigError(c.file, file.line,
-                      fmt::format("there is no recording {}, expected a CSV or .mat file (relative to this "
-                                  "configuration)",
-                                  file.given));
+    throw ConfigError(
+        c.file, file.line,
+        fmt::format("there is no recording {}, expected a file (relative to this configuration)",
+                    file.given));
   return read_recording(file.path, c.recording->reading_for(uneven));
 }
 
@@ -81,9 +82,16 @@ Recording independent_recording(const Configuration& c, const std::vector<double
 }
 
 /// What becomes of the time of a recording that is not uniform.
-void note_time(const Recording& r, std::vector<std::string>& notes) {
+void note_time(const Recording& r, LostRows how, std::vector<std::string>& notes) {
   if (!r.resampling.empty()) notes.push_back(r.file + ": " + r.resampling);
   if (!r.even()) notes.push_back(r.file + ": uneven steps, each taken with its own length");
+  const std::size_t lost = lost_rows(r);
+  if (lost == 0) return;
+  notes.push_back(fmt::format("{}: {} rows are missing; {}", r.file, lost,
+                              how == LostRows::kBridged
+                                  ? "u over them is a line to the next row"
+                                  : "u is held over them, as recording: lost_rows: held says: bridged, where "
+                                    "the drive got new inputs"));
 }
 
 /// Where input and target both were recorded, the first is taken and the second tells of the controller.
@@ -112,7 +120,7 @@ LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile
     Recording r = read_one(file, c, uneven);
     r.file = name_of(file, files);
     apply_sheet(r, c, loaded.warnings);
-    note_time(r, loaded.notes);
+    note_time(r, c.recording->reading.lost_rows, loaded.notes);
     note_controller(file, c, uneven, loaded.notes);
     if (r.open_end)
       loaded.notes.push_back(r.file + ": its last line has no end, so the last number may be cut off");

@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 using Reader = int (*)(std::string_view);
 const std::map<std::string, Reader> kReaders = {{"recording", testing::read_recording},
                                                 {"mat", testing::read_mat},
+                                                {"arrays", testing::read_arrays},
+                                                {"logs", testing::read_logs},
                                                 {"configuration", testing::read_configuration},
                                                 {"result", testing::read_result},
                                                 {"store", testing::read_store},
@@ -38,7 +40,8 @@ TEST_P(KeptInputs, AreReadOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, KeptInputs,
-                         ::testing::Values("recording", "mat", "configuration", "result", "store", "stream"),
+                         ::testing::Values("recording", "mat", "arrays", "logs", "configuration", "result",
+                                           "store", "stream"),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace

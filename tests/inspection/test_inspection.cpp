@@ -84,6 +84,14 @@ const std::vector<Fault> kFaults = {
      [] { return changed([](Rows& r) { r.erase(3000, 12); }); },
      {"time"},
      "12 samples are missing"},
+    {"clock_of_a_pc",
+     [] {
+       return changed([](Rows& r) {
+         for (double& t : r.t) t = 1e-3 * std::round(1e3 * std::floor(64.0 * t) / 64.0);
+       });
+     },
+     {"time"},
+     "whole ticks of 15.6 ms"},
     {"milliseconds",
      [] { return changed([](Rows& r) { scale(r.t, 1000.0); }); },
      {"time"},

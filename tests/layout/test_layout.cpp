@@ -58,7 +58,8 @@ const std::vector<std::pair<std::string, Names>> kConfined = {
     {"yaml-cpp/", {"config"}}, {"nlohmann/", {"config", "results"}},
     {"CLI/", {"cli"}},         {"spdlog/", {"campaign", "cli"}},
     {"matio", {"recording"}},  {"hdf5", {"recording"}},
-    {"zlib", {"recording"}},   {"sqlite3", {"campaign"}},
+    {"zlib", {"recording"}},   {"sqlite3", {"campaign", "recording"}},
+    {"lz4", {"recording"}},    {"zstd", {"recording"}},
     {"openssl/", {"results"}}, {"tbb/", {"base"}},
     {"tinyxml2", {"config"}},  {"oneapi/", {"base"}},
 };

@@ -73,6 +73,17 @@ TEST(ChangesReport, IsDrawnFromTheStoredComparisonAlone) {
   EXPECT_THAT(text, HasSubstr("- reports/recording_of_month_2: another excitation"));
 }
 
+TEST(ChangesReport, SeveralUnitsLieApartBesideWhatAFitDoes) {
+  DriveChanges all = sample_changes();
+  all.quantities.resize(1);
+  all.quantities[0].observed = {read(0.010, 3e-3), read(0.018, 4e-3), {kNaN, kNaN, {0.0, 0.008}, "none"}};
+  all.reports = {"out/hip", "out/knee", "out/toe"};
+  const std::string text = spread_text(all);
+  EXPECT_THAT(text, HasSubstr("hip                 knee                toe   "));
+  EXPECT_THAT(text, HasSubstr("0.01 ± 0.0059       0.018 ± 0.0078      none > 0.008        0.014 "));
+  EXPECT_THAT(text, HasSubstr("0.00442     0.00354 rad"));  // sqrt(2 0.004² - 0.00354²), sqrt((3² + 4²)/2)
+}
+
 TEST(ChangesReport, OfReportsWithoutAGapHasNoFigure) {
   DriveChanges all = sample_changes();
   for (DriveQuantity& q : all.quantities) q.key = "load_damping", q.unit = "N m s/rad";

@@ -23,7 +23,7 @@ enum class InputColumn {
   kNone,      ///< it is not read: there is only the target
 };
 
-/// Names of the columns (of a .mat file: its variables); load_position is optional in the file.
+/// Names of the columns (of another file than a CSV: its arrays); load_position is optional in the file.
 struct RecordingColumns {
   std::string time = "t";
   std::string input = "u";
@@ -50,11 +50,18 @@ enum class UnevenRows {
   kStamped,  ///< taken as they are, each with its time
 };
 
+/// What u is over rows that a logger has lost.
+enum class LostRows {
+  kHeld,     ///< that of the row before: the drive itself kept it, or was late
+  kBridged,  ///< a line to the next row: the drive went on getting new ones, see bridge_lost_rows()
+};
+
 struct ReadOptions {
   RecordingColumns columns;
   std::optional<std::pair<double, double>> window;  ///< part of the file that is used [s]
   std::optional<double> resample_rate;              ///< [Hz]; makes any sampling uniform
   UnevenRows uneven = UnevenRows::kRefused;         ///< where they are not resampled
+  LostRows lost_rows = LostRows::kHeld;             ///< of rows with their own times
   EncoderSide encoder = EncoderSide::kMotor;        ///< whose position the column `position` is
   std::optional<DriveController> controller;  ///< makes the input of the target, where that was recorded
 };
@@ -62,13 +69,14 @@ struct ReadOptions {
 /// Fewer samples than this are no recording.
 constexpr std::size_t kFewestSamples = 50;
 
-/// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), of which each column is a vector
-/// of real numbers, all equally long; any other one is a CSV with a header, in which `#` comments and extra
-/// columns are ignored; its columns stand between commas, semicolons or tabs, beside the last two with a
-/// decimal comma or point. Sampling is uniform when every step is within 0.1 % of the mean step; anything
-/// else is refused with the figure, taken with its stamps, or resampled on request: x1 and x2 linearly, u as
-/// the mean of the held input over each new interval, so that its impulse is kept.
-/// @throws ConfigError with file and line (sample of a .mat file): missing or empty file, missing column, a
+/// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), *.npz NumPy's, *.h5 or *.hdf5 an
+/// HDF5, *.mcap and *.db3 logs of robots, *.json and *.jsonl JSON, of which each column is a vector of real
+/// numbers, all equally long, or a column of a table, named "q[:, 0]"; any other one is a CSV with a header,
+/// in which `#` comments and extra columns are ignored; its columns stand between commas, semicolons or tabs,
+/// beside the last two with a decimal comma or point. Sampling is uniform when every step is within 0.1 % of
+/// the mean step; anything else is refused with the figure, taken with its stamps, or resampled on request:
+/// x1 and x2 linearly, u as the mean of the held input over each new interval, so that its impulse is kept.
+/// @throws ConfigError with file and line (sample of an array): missing or empty file, missing column, a
 ///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
 ///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.
 Recording read_recording(const std::string& path, const ReadOptions& options = {});

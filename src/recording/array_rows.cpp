@@ -4,8 +4,8 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
+#include "recording/array_file.h"
 #include "recording/limits.h"
-#include "recording/mat_file.h"
 #include "recording/recorded_rows.h"
 
 namespace gapscope::internal::recording {
@@ -16,17 +16,18 @@ struct Column {
   std::vector<double> values;  ///< SI
 };
 
-Column read_column(MatContent& file, const std::string& path, const std::string& name,
+Column read_column(ArrayFile& file, const std::string& path, const std::string& name,
                    const UnitScale& scale) {
   Column column{name, vector_of(file, path, name)};
   for (double& value : column.values) value = scale(value);
   return column;
 }
 
-void require_length(const std::string& path, const Column& column, const Column& time) {
+void require_length(const ArrayFile& file, const std::string& path, const Column& column,
+                    const Column& time) {
   if (column.values.size() == time.values.size()) return;
-  throw ConfigError(path, fmt::format("the variable '{}' has {} values, expected {} as in '{}'", column.name,
-                                      column.values.size(), time.values.size(), time.name));
+  throw ConfigError(path, fmt::format("the {} '{}' has {} values, expected {} as in '{}'", file.noun(),
+                                      column.name, column.values.size(), time.values.size(), time.name));
 }
 
 void append(std::vector<double>& to, const Column& column, std::size_t i, const RecordedRows& rows) {
@@ -42,35 +43,35 @@ void append(std::vector<double>& to, const Column& column, std::size_t i, const 
 
 }  // namespace
 
-RecordedRows read_mat(const std::string& path, const RecordingColumns& columns, EarlierRow earlier) {
-  const auto content = open_mat(path);
+RecordedRows read_arrays(ArrayFile& file, const std::string& path, const RecordingColumns& columns,
+                         EarlierRow earlier) {
   const auto column = [&](const std::string& name, const UnitScale& scale) {
-    return read_column(*content, path, name, scale);
+    return read_column(file, path, name, scale);
   };
   const ColumnScales& scales = columns.scales;
   const Column t = column(columns.time, scales.time);
   const bool has_input = columns.input_column == InputColumn::kRequired ||
-                         (columns.input_column == InputColumn::kOptional && content->find(columns.input));
+                         (columns.input_column == InputColumn::kOptional && has_vector(file, columns.input));
   Column u = has_input ? column(columns.input, scales.input) : Column{};
   const bool has_target = !columns.target.empty();
   const Column target = has_target ? column(columns.target, scales.position) : Column{};
   Column supply{"supply", std::vector<double>(t.values.size(), 1.0)};
   const Column x1 = column(columns.position, scales.position);
   const std::string& load = columns.load_position;
-  const bool has_load = !load.empty() && (columns.load_position_required || content->find(load));
+  const bool has_load = !load.empty() && (columns.load_position_required || has_vector(file, load));
   const Column x2 = has_load ? column(load, scales.load_position) : Column{};
-  if (has_input) require_length(path, u, t);
-  require_length(path, x1, t);
-  if (has_load) require_length(path, x2, t);
+  if (has_input) require_length(file, path, u, t);
+  require_length(file, path, x1, t);
+  if (has_load) require_length(file, path, x2, t);
   if (!columns.voltage.empty() && (has_input || has_target)) {
     supply = column(columns.voltage, scales.voltage);
-    require_length(path, supply, t);
+    require_length(file, path, supply, t);
     for (std::size_t i = 0; i < u.values.size(); ++i) u.values[i] *= supply.values[i];
   }
-  if (has_target) require_length(path, target, t);
+  if (has_target) require_length(file, path, target, t);
   RecordedRows rows;
   rows.path = path;
-  rows.is_text = false;
+  rows.row = file.row();
   for (std::size_t i = 0; i < t.values.size(); ++i) {
     const auto sample = static_cast<std::int64_t>(i) + 1;
     if (!std::isnan(t.values[i]) && !rows.admits(t.values[i], sample, earlier, t.name)) continue;

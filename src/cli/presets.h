@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+
+namespace gapscope::cli {
+
+/// How a drive's own tools write recordings; the table is presets.inc.
+struct DrivePreset {
+  const char* name;
+  const char* what;
+  const char* time;  ///< names that it may have, with | between them
+  const char* time_unit;
+  const char* input;
+  const char* input_unit;
+  int input_register;
+  const char* position;
+  const char* position_unit;
+  int bits;  ///< of the encoder; 0: not known
+  const char* voltage;
+  const char* voltage_unit;
+  const char* note;  ///< what to know of it
+};
+
+std::span<const DrivePreset> drive_presets();
+
+/// Everything that was not given beside it, as the preset has it.
+/// @throws ConfigError where the file has none of its columns
+RecordingArguments with_preset(RecordingArguments arguments);
+
+}  // namespace gapscope::cli

@@ -1,0 +1,217 @@
+// JSON as test benches of servos write it. One of: a list of objects, alone or as a member ("entries") of an
+// object whose other numbers hold for all of them; an object of lists of numbers; an object on every line.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
+#include "gapscope/base/statistics.h"
+#include "recording/limits.h"
+#include "recording/log_file.h"
+
+namespace gapscope::internal::recording {
+namespace {
+
+constexpr std::uintmax_t kLargestText = std::uintmax_t{1} << 30;
+
+/// What a name stands for.
+struct JsonColumn {
+  enum { kOfRows, kList, kForAll } kind = kOfRows;
+  std::size_t rows = 0, columns = 0;  ///< of a list; of a table of numbers
+  double value = kNaN;                ///< for all rows
+};
+
+class JsonFile : public ArrayFile {
+ public:
+  JsonFile(std::string path, const std::string& position) : path_(std::move(path)) {
+    read_text();
+    reading([&] { look(position); });
+  }
+
+  const char* noun() const override { return "column"; }
+  const char* row() const override { return "entry"; }
+
+  std::optional<StoredArray> find(const std::string& name) override {
+    const auto found = columns_.find(name);
+    if (found == columns_.end()) return {};
+    const JsonColumn& c = found->second;
+    if (c.kind != JsonColumn::kList) return StoredArray{name, "", {rows_}};
+    return c.columns > 0 ? StoredArray{name, "", {c.rows, c.columns}, true} : StoredArray{name, "", {c.rows}};
+  }
+
+  std::vector<std::string> names() override {
+    std::vector<std::string> all;
+    for (const auto& [name, column] : columns_) all.push_back(name);
+    return all;
+  }
+
+  std::vector<double> numbers(const std::string& name, std::size_t count) override {
+    const JsonColumn& c = columns_.at(name);
+    if (c.kind == JsonColumn::kForAll) return std::vector<double>(rows_, c.value);
+    std::vector<double> values;
+    reading([&] {
+      if (c.kind == JsonColumn::kList)
+        read_list(name, values);
+      else
+        for_each_row([&](const MessageNumbers& row) {
+          const double* const value = row.find(name);
+          if (!value)
+            throw ConfigError(path_, fmt::format("entry {} has no {}, expected it in every one",
+                                                 values.size() + 1, shown(name)));
+          values.push_back(*value);
+        });
+    });
+    if (values.size() == count) return values;
+    throw ConfigError(path_, fmt::format("the column {} has {} numbers, expected {}, in each row as many",
+                                         shown(name), values.size(), count));
+  }
+
+ private:
+  void read_text() {
+    const std::uintmax_t size = std::filesystem::file_size(path_);
+    if (size > kLargestText)
+      throw ConfigError(path_,
+                        fmt::format("has {} bytes, expected at most {} of a JSON (write a CSV or .npz)", size,
+                                    kLargestText));
+    text_.resize(static_cast<std::size_t>(size));
+    std::ifstream file(path_, std::ios::binary);
+    file.read(text_.data(), static_cast<std::streamsize>(text_.size()));
+    text_.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  }
+
+  /// What is wrong with the text is told with its line.
+  template <class Read>
+  void reading(Read read) const {
+    try {
+      read();
+    } catch (const DamagedBytes& damaged) {
+      const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(damaged.at, text_.size()));
+      throw ConfigError(path_, 1 + std::count(text_.begin(), end, '\n'),
+                        fmt::format("is no whole JSON: byte {} {}", damaged.at, damaged.what));
+    }
+  }
+
+  void look(const std::string& position) {
+    JsonCursor json(text_);
+    is_list_ = json.peek() == '[';
+    if (is_list_)
+      json.skip();
+    else
+      look_at_members(json, position);
+    by_line_ = json.peek() == '{' && !is_list_;
+    if (by_line_)
+      columns_.clear(), table_.clear();
+    else if (json.peek() != '\0')
+      json.fail("the end of the text");
+    if (is_list_ || by_line_ || !table_.empty()) look_at_rows();
+  }
+
+  /// Of an object: its lists, and its numbers that hold for all rows.
+  void look_at_members(JsonCursor& json, const std::string& position) {
+    bool has_position = false;
+    json.object([&](const std::string& key) {
+      if (json.peek() != '[') {
+        MessageNumbers constants;
+        flatten(json, key, constants);
+        for (const auto& [name, value] : constants.all())
+          columns_.insert_or_assign(name, JsonColumn{JsonColumn::kForAll, 0, 0, value});
+        return;
+      }
+      look_at_list(json, key, position, has_position);
+    });
+  }
+
+  void look_at_list(JsonCursor& json, const std::string& key, const std::string& position,
+                    bool& has_position) {
+    JsonColumn list{JsonColumn::kList};
+    bool objects = false, here = false;
+    json.array([&] {
+      const char next = json.peek();
+      if (list.rows++ > 0 || next == '"') return json.skip();
+      objects = next == '{';
+      if (objects) {
+        MessageNumbers row;
+        flatten(json, "", row);
+        row.finish();
+        here = row.find(position) != nullptr;
+      } else if (next == '[') {
+        json.array([&] { ++list.columns, json.skip(); });
+      } else {
+        json.number();
+      }
+    });
+    if (list.rows > kMostSamples) json.fail(fmt::format("at most {} elements of a list", kMostSamples));
+    if (!objects)
+      columns_.insert_or_assign(key, list), rows_ = std::max(rows_, list.rows);
+    else if (table_.empty() || (here && !has_position))
+      table_ = key, has_position = here;
+  }
+
+  /// Of the rows: how many, and what they have.
+  void look_at_rows() {
+    rows_ = 0;
+    for_each_row([&](const MessageNumbers& row) {
+      constexpr std::size_t kEnough = 200;
+      if (++rows_ > kMostSamples)
+        throw ConfigError(path_, fmt::format("has more than {} entries, expected fewer", kMostSamples));
+      if (rows_ > kEnough) return;
+      for (const auto& [name, value] : row.all()) columns_.insert_or_assign(name, JsonColumn{});
+    });
+  }
+
+  template <class Take>
+  void for_each_row(Take take) const {
+    MessageNumbers row;
+    JsonCursor json(text_);
+    const auto one = [&] {
+      row.clear();
+      flatten(json, "", row);
+      row.finish();
+      take(row);
+    };
+    if (by_line_) {
+      while (json.peek() != '\0') one();
+    } else if (is_list_) {
+      json.array(one);
+    } else {
+      json.object([&](const std::string& key) {
+        if (key == table_)
+          json.array(one);
+        else
+          json.skip();
+      });
+    }
+  }
+
+  void read_list(const std::string& name, std::vector<double>& values) const {
+    JsonCursor json(text_);
+    const auto one = [&] { values.push_back(json.number()); };
+    json.object([&](const std::string& key) {
+      if (key != name) return json.skip();
+      json.array([&] {
+        if (json.peek() == '[')
+          json.array(one);
+        else
+          one();
+      });
+    });
+  }
+
+  std::string path_, text_;
+  std::map<std::string, JsonColumn> columns_;
+  std::string table_;  ///< the member that is the list of rows
+  bool is_list_ = false, by_line_ = false;
+  std::size_t rows_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ArrayFile> open_json(const std::string& path, const RecordingColumns& columns) {
+  return std::make_unique<JsonFile>(path, columns.position);
+}
+
+}  // namespace gapscope::internal::recording

@@ -1,0 +1,94 @@
+// What common drives write, in one command.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/executable.h"
+#include "inspection/rows.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::Workplace;
+
+struct PresetCase {
+  const char *name, *header;
+  double time, input, position;  ///< recorded units for one of SI
+  double voltage;                ///< recorded, constant; 0: none
+  bool unsigned_input;
+  std::vector<const char*> declared;
+};
+void PrintTo(const PresetCase& c, std::ostream* out) { *out << c.name; }
+
+class Preset : public ::testing::TestWithParam<PresetCase> {};
+
+TEST_P(Preset, ReadsTheDrivesOwnColumns) {
+  const PresetCase& c = GetParam();
+  const testing::Rows rows = testing::rig();
+  std::string text = std::string(c.header) + "\n";
+  for (std::size_t i = 0; i < rows.t.size(); ++i) {
+    double u = std::round(c.input * rows.u[i]);
+    if (c.unsigned_input && u < 0.0) u += 65536.0;
+    const double x = c.position > 600.0 ? std::round(c.position * rows.x1[i]) : c.position * rows.x1[i];
+    text += fmt::format("{:.9g},{},{:.9g}{}\n", c.time * rows.t[i], u, x,
+                        c.voltage > 0.0 ? fmt::format(",{}", c.voltage) : "");
+  }
+  Workplace place;
+  place.file("log.csv", text);
+  const auto init = place.run(std::string("init log.csv --model gap --preset ") + c.name);
+  EXPECT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(init.out, HasSubstr("preset      "));
+  const std::string yaml = testing::text_of(place.folder() / "log.yaml");
+  for (const char* declared : c.declared) EXPECT_THAT(yaml, HasSubstr(declared));
+  const auto check = place.run(std::string("check log.csv --preset ") + c.name);
+  EXPECT_THAT(check.out, HasSubstr("at 1000 Hz, uniform"));
+  EXPECT_THAT(check.out, HasSubstr("as a motor in rad may move"));
+  place.file("other.csv", "a,b,c\n1,2,3\n");
+  EXPECT_THAT(place.run(std::string("check other.csv --preset ") + c.name).err,
+              HasSubstr("expected one of them for the preset"));
+}
+
+const std::vector<PresetCase> kPresetCases = {
+    {"dynamixel",
+     "timestamp,present_pwm,present_position,present_input_voltage",
+     1.0,
+     500.0,
+     4096.0 / 6.283185307,
+     74.0,
+     true,
+     {"voltage: \"present_input_voltage\"",
+      "units: {input: \"0.00113\", position: \"counts\", voltage: \"0.1\"}", "registers: {input: 16}",
+      "encoder: {bits: 12}"}},
+    {"feetech",
+     "time,present_load,present_position,present_voltage",
+     1.0,
+     800.0,
+     4096.0 / 6.283185307,
+     120.0,
+     false,
+     {"input: \"permille\"", "encoder: {bits: 12}"}},
+    {"odrive",
+     "t,iq_measured,pos_estimate",
+     1.0,
+     100.0,
+     1.0 / 6.283185307,
+     0.0,
+     false,
+     {"units: {input: \"A\", position: \"rev\"}"}},
+    {"moteus", "t,q_current,position", 1.0, 100.0, 1.0 / 6.283185307, 0.0, false, {"position: \"rev\""}},
+    {"twincat",
+     "Time,ActTorque,ActPos",
+     1000.0,
+     900.0,
+     57.29577951,
+     0.0,
+     false,
+     {"units: {time: \"ms\", input: \"permille\", position: \"deg\"}"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, Preset, ::testing::ValuesIn(kPresetCases),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace gapscope
