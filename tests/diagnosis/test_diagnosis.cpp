@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "blind/blind_pair.h"
+#include "diagnosis/among.h"
 #include "diagnosis/one_inertia.h"
 #include "diagnosis/study.h"
 #include "gapscope/base/errors.h"
@@ -18,14 +19,6 @@ namespace {
 Diagnosis diagnosis_of(const blind::BlindPair& pair, const DiagnosisOptions& options = {}) {
   const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
   return diagnose(train, held_out, pair.sheet, options);
-}
-
-/// These are the only candidates.
-DiagnosisOptions among(const std::vector<std::string>& candidates) {
-  DiagnosisOptions options;
-  for (const EffectEntry* e : effect_table())
-    if (!contains(candidates, e->name)) options.excluded.emplace_back(e->name);
-  return options;
 }
 
 TEST(Diagnosis, SaysThatItWasNotRun) {
@@ -158,7 +151,7 @@ TEST(Diagnosis, TellsLookAlikesApartByMoreThanOthers) {
 
 TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereTheOtherRecordingAsksForTooLittle) {
   const Diagnosis d = diagnosis_of(blind::blind_pair("heavy", "encoder_eccentricity", 0.117, 442492),
-                                   among({"encoder_eccentricity", "quadratic_drag"}));
+                                   test::among({"encoder_eccentricity", "quadratic_drag"}));
   EXPECT_EQ(d.effects, std::vector<std::string>{"encoder_eccentricity"}) << d.sentence;
   EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(),
                           [](const std::string& w) { return w.find("first half") != std::string::npos; }));
@@ -166,7 +159,7 @@ TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereTheOtherRecordingAsksForTooLittle) {
 
 TEST(Diagnosis, AcceptsNoRefusedFirstStepForReachingTheFloorAlone) {
   const Diagnosis d = diagnosis_of(blind::blind_pair("heavy", "input_jitter", 0.504, 650033),
-                                   among({"measurement_lag", "quadratic_drag"}));
+                                   test::among({"measurement_lag", "quadratic_drag"}));
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kUnknown) << d.sentence;
 }
 
@@ -194,7 +187,7 @@ TEST(Diagnosis, ReadsTheSizeAndThePhaseOfAnEccentricityOffTheRecording) {
 // Few candidates and a short recording: this is what ThreadSanitizer looks at.
 TEST(Diagnosis, GivesTheSameAnswerForAnyNumberOfThreads) {
   const blind::BlindPair pair = blind::blind_pair("geared", {"actuator_lag"}, 0.6, 500004, 2.0);
-  DiagnosisOptions options = among({"actuator_lag", "input_delay", "quadratic_drag"});
+  DiagnosisOptions options = test::among({"actuator_lag", "input_delay", "quadratic_drag"});
   options.fit.starts = options.threads = 1;
   const Diagnosis one = diagnosis_of(pair, options);
   ASSERT_EQ(one.ranking.size(), 3u);
@@ -252,7 +245,7 @@ TEST(Diagnosis, FindsTwoEffectsOneAfterTheOther) {
 // The load seemed to start elsewhere without friction, and that outweighed all else in what was fitted.
 TEST(Diagnosis, FindsASecondEffectWhereTheFirstHasMovedTheLoadsStart) {
   const std::vector<std::string> both{"motor_coulomb_friction", "encoder_eccentricity"};
-  const Diagnosis d = diagnosis_of(blind::blind_pair("paper", both, 0.303, 716012), among(both));
+  const Diagnosis d = diagnosis_of(blind::blind_pair("paper", both, 0.303, 716012), test::among(both));
   EXPECT_EQ(d.effects, both) << d.sentence;
 }
 
@@ -260,7 +253,7 @@ TEST(Diagnosis, FitsHalfOfWhatIsHeldOutWhereOnlyThatShowsTheSecondEffect) {
   const std::vector<std::string> both{"motor_coulomb_friction", "encoder_eccentricity"};
   const Diagnosis d =
       diagnosis_of(blind::blind_pair("geared", both, 0.536, 717007),
-                   among({"motor_coulomb_friction", "encoder_eccentricity", "shaft_compliance"}));
+                   test::among({"motor_coulomb_friction", "encoder_eccentricity", "shaft_compliance"}));
   EXPECT_EQ(d.effects, both) << d.sentence;
   EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(),
                           [](const std::string& w) { return w.find("first half") != std::string::npos; }));
