@@ -90,7 +90,6 @@ void require_without(const Configuration& c, const Value& place, const char* eff
 void read_mass(const Section& section, const Value& mass, Configuration& c, AnchorConfig& anchor) {
   anchor.mass = mass.number(kMass);
   anchor.arm = section.require("arm", "the distance of the mass from the axis [m]").number(kArm);
-  if (const auto angle = section.find("hangs_at")) anchor.hangs_at = read_setting(*angle, kHangs);
   if (anchor.hangs_at.estimate && std::isnan(anchor.hangs_at.value)) anchor.hangs_at.value = 0.0;
   if (const auto gravity = section.find("gravity")) anchor.gravity = gravity->number(kGravity);
   if (!c.coordinates.rotational())
@@ -112,6 +111,7 @@ void read_anchor(const Section& root, Configuration& c) {
   const Section section(*given, {"mass", "arm", "hangs_at", "gravity", "inertia", "friction"});
   AnchorConfig anchor;
   anchor.hangs_at = about_zero();
+  if (const auto angle = section.find("hangs_at")) anchor.hangs_at = read_setting(*angle, kHangs);
   const auto mass = section.find("mass"), inertia = section.find("inertia"),
              friction = section.find("friction");
   if (!mass && !inertia && !friction)

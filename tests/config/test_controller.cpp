@@ -59,7 +59,7 @@ TEST(Controller, IsRefusedWhereItCannotServe) {
       refusal([] { commanded("{input: duty}", "{position: {gain: 1}}"); }),
       HasSubstr("c.yaml:4: controller stands without the target, expected recording: columns: {target"));
   EXPECT_THAT(refusal([] { commanded("{target: goal}", "{force: {gain: 1}}"); }),
-              HasSubstr("c.yaml:4: unknown key 'force' in controller, expected position"));
+              HasSubstr("c.yaml:4: unknown key 'force' in controller, expected one of position, velocity"));
   EXPECT_THAT(refusal([] { commanded("{target: goal}", "{position: {derivative: 1}}"); }), HasSubstr("gain"));
   EXPECT_THAT(refusal([] { commanded("{target: x1}", "{position: {gain: 1}}"); }),
               HasSubstr("uses the column x1 twice"));

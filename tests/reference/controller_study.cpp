@@ -1,10 +1,13 @@
 // Is a controller's gain found from target and position alone, where a known mass gives the scale, and is it
 // said with what it is confounded where nothing does? Random servos of the independent plant under its own
 // cascade of P and P. study_controller [first seed] [number of drives] [anchored|free] [verbose]
+// And a real servo with a pendulum: study_controller xl330 FOLDER
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <string>
 
@@ -83,9 +86,9 @@ ReferenceModel servo_model(const Servo& s, std::uint64_t seed) {
   model.structure.has_load = false;
   estimate(model, kMotorInertia, s.drive.motor_inertia * log_uniform(g, 0.5, 2.0));
   estimate(model, kMotorDamping, s.drive.motor_damping * log_uniform(g, 0.5, 2.0));
-  model.effects.push_back(effect(
-      "motor_coulomb_friction",
-      {ParameterSetting::sought(s.drive.effects.motor.friction.level_nm * log_uniform(g, 0.5, 2.0))}));
+  model.effects.push_back(
+      effect("motor_coulomb_friction",
+             {ParameterSetting::sought(s.drive.effects.motor.friction.level_nm * log_uniform(g, 0.5, 2.0))}));
   if (const double arm = s.drive.effects.load.unbalance_nm; arm > 0.0)
     model.effects.push_back(
         effect("load_unbalance",
@@ -124,7 +127,78 @@ void count(const FitSummary& found, const std::map<std::string, double>& truth,
   }
 }
 
+/// A servo as it was recorded: duty, a register without its sign, and the voltage of the supply.
+Recording recorded_servo(const std::string& path, bool by_target) {
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  Recording r;
+  r.file = path.substr(path.rfind('/') + 1);
+  auto rows = std::make_shared<CommandRows>();
+  for (double t, goal, x, duty, volts; std::getline(in, line);) {
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &t, &goal, &x, &duty, &volts) != 5) continue;
+    rows->t.push_back(t), rows->target.push_back(goal), rows->position.push_back(x);
+    rows->supply.push_back(volts);
+    r.u.push_back((duty > 32767 ? duty - 65536 : duty) / 885.0 * volts);
+  }
+  r.x1 = rows->position, r.stamps = rows->t;
+  r.start = r.stamps.front();
+  r.dt = (r.stamps.back() - r.start) / static_cast<double>(r.size() - 1);
+  r.quantum = 2.0 * kPi / 4096.0;
+  if (by_target) r.command = rows;
+  return r;
+}
+
+constexpr double kMass = 0.49, kArm = 0.1;  // of the pendulum [kg], [m]
+
+/// What `anchor: {mass: 0.49, arm: 0.1}` makes of a servo with friction that grows with its load.
+ReferenceModel anchored_servo() {
+  ReferenceModel model;
+  model.structure.has_load = false;
+  estimate(model, kMotorInertia, 1.5 * kMass * kArm * kArm);
+  estimate(model, kMotorDamping, 0.04);
+  estimate(model, kTorqueConstant, 0.1);
+  model.parameters[kMotorInertia].low = kMass * kArm * kArm, model.parameters[kMotorInertia].high = 0.49;
+  ParameterSetting phase = ParameterSetting::sought(0.0);
+  phase.low = -0.5, phase.high = 0.5;
+  model.effects = {
+      effect("load_dependent_friction", {ParameterSetting::sought(0.01), ParameterSetting::sought(0.1)}),
+      effect("load_unbalance",
+             {ParameterSetting::known(kMass * 9.80665 * kArm), phase, ParameterSetting::known(1.0)})};
+  return model;
+}
+
+FitSummary fit_servo(const std::string& folder, const std::string& kp, const ReferenceModel& model) {
+  std::vector<Recording> recordings;
+  for (const char* motion : {"sin_sin", "sin_time_square", "up_and_down"})
+    recordings.push_back(
+        recorded_servo(folder + "/" + motion + "_kp" + kp + ".csv", model.controller.has_value()));
+  std::vector<MotorTrace> traces;
+  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
+  return fit(traces, model);
+}
+
+/// The torque constant from duty times volts, then the gain from target and position with that constant.
+void real_servo(const std::string& folder) {
+  for (const char* kp : {"400", "100"}) {
+    const FitSummary by_duty = fit_servo(folder, kp, anchored_servo());
+    fmt::print("kp {} from duty x volts\n{}\n", kp, by_duty.full_report());
+    ReferenceModel model = anchored_servo();
+    model.parameters[kTorqueConstant] = ParameterSetting::known(by_duty.find("torque_constant")->value);
+    ControllerModel& c = model.controller.emplace();
+    for (ParameterSetting& number : c.numbers) number.value = 0.0;
+    c.numbers[at::kGain] = ParameterSetting::sought();
+    c.fixed.saturation = 1.0;
+    fmt::print("kp {} from target, the gain withheld\n{}\n", kp, fit_servo(folder, kp, model).full_report());
+    std::fflush(stdout);
+  }
+}
+
 int main_study(int argc, char** argv) {
+  if (argc > 2 && std::string(argv[1]) == "xl330") {
+    real_servo(argv[2]);
+    return 0;
+  }
   const std::uint64_t first = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1;
   const int drives = argc > 2 ? std::atoi(argv[2]) : 30;
   const bool anchored = argc <= 3 || std::string(argv[3]) != "free", verbose = argc > 4;
