@@ -109,7 +109,10 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
   facts.rate = 1.0 / s.median;
   facts.shortest_step = s.shortest, facts.longest_step = s.longest;
   constexpr double kUnlikeLosses = 0.15;
-  if (const double off = off_a_pc_tick(m.rows); off > kUnlikeLosses) return pc_clock(m, off);
+  if (const double off = off_a_pc_tick(m.rows); off > kUnlikeLosses) {
+    facts.coarse_clock = true;
+    return pc_clock(m, off);
+  }
   if (!m.rows.skipped.empty()) return skipped_rows(m);
   if (facts.rate < kSlowest || facts.rate > kFastest)
     return {kTimeRule, Severity::kSpoils,
