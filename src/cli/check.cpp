@@ -10,6 +10,7 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/inspection/inspection.h"
+#include "gapscope/report/recording_picture.h"
 #include "gapscope/results/inspection_result.h"
 
 namespace gapscope::cli {
@@ -19,6 +20,7 @@ struct CheckArguments {
   RecordingArguments recording;
   std::vector<std::string> further;  ///< recordings, read alike
   std::string output;
+  std::string picture;  ///< PNG to draw; empty: none
   std::string purpose;  ///< gap, fit or diagnosis; empty: all
   bool json = false;
 };
@@ -40,6 +42,20 @@ Purpose purpose_of(const std::string& word) {
                          : Purpose::kDiagnosis;
 }
 
+/// What was seen, with what is not fine below the title.
+void draw(const std::string& file, const Inspection& inspection, const RecordingArguments& r,
+          const RecordingConfig& recording) {
+  std::vector<std::string> lines;
+  for (const Finding& f : inspection.findings)
+    if (f.severity == Severity::kSpoils) lines.push_back(f.rule + ": " + f.found);
+  if (lines.empty()) lines.emplace_back("nothing spoils the estimates");
+  const std::string found = require_file_name(file, {r.file}, [](const std::string&) { return false; });
+  write_text(file,
+             recording_picture(read_recording(r.file, recording.reading_for(UnevenRows::kStamped)),
+                               inspection.coordinates, lines),
+             found);
+}
+
 Inspection check_recording(const CheckArguments& a, const RecordingArguments& r) {
   const auto look = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
   if (!a.output.empty()) look();  // before the work
@@ -48,6 +64,7 @@ Inspection check_recording(const CheckArguments& a, const RecordingArguments& r)
   judge_for(purpose_of(a.purpose), inspection);
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, look());
+  if (!a.picture.empty()) draw(a.picture, inspection, r, *c.recording);
   fmt::print("{}", a.json ? json : inspection.report());
   return inspection;
 }
@@ -85,9 +102,10 @@ void tell_together(const std::vector<Inspection>& seen) {
 
 void check_all(const CheckArguments& a) {
   const std::vector<RecordingArguments> all = asked(a);
-  if (all.size() > 1 && (a.json || !a.output.empty()))
+  if (all.size() > 1 && (a.json || !a.output.empty() || !a.picture.empty()))
     throw ConfigError(
-        "gapscope: several files or axes have a report each, expected one with --json and --output");
+        "gapscope: several files or axes have a report each, expected one with --json, --picture and "
+        "--output");
   bool spoilt = false;
   std::vector<Inspection> seen;
   for (const RecordingArguments& one : all) {
@@ -114,6 +132,10 @@ void add_check(CommandLine& app) {
       .value("QUESTION")
       .one_of({"gap", "fit", "diagnosis"});
   command.add_option("-o,--output", arguments->output, "file to write the findings into (JSON)")
+      .value("FILE");
+  command
+      .add_option("--picture", arguments->picture,
+                  "PNG of what was seen: u and x1 over time, uneven steps, x1 over u (rows in order of time)")
       .value("FILE");
   command.add_flag("--json", arguments->json, "the same JSON on standard output instead of the text");
   command.footer(

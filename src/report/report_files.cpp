@@ -34,8 +34,14 @@ std::string png_of(const std::string& name, const cv::Mat& image) {
   return {bytes.get(), size};
 }
 
+void write_bytes(const fs::path& path, const std::string& bytes) {
+  write_whole_file(path.string(), [&](std::ostream& out) { out << bytes; });
+}
+
+}  // namespace
+
 /// The library below has its own words for a machine that is too small.
-std::string drawn(const FigureData& figure) {
+std::string picture_bytes(const FigureData& figure) {
   try {
     return png_of(figure.file, draw(figure));
   } catch (const cv::Exception& error) {
@@ -44,17 +50,11 @@ std::string drawn(const FigureData& figure) {
   }
 }
 
-void write_bytes(const fs::path& path, const std::string& bytes) {
-  write_whole_file(path.string(), [&](std::ostream& out) { out << bytes; });
-}
-
-}  // namespace
-
 std::vector<Picture> write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
                                         const std::string& text) {
   std::vector<Picture> pictures(figures.size());
   parallel_for(figures.size(), 0, [&](std::size_t i) {
-    if (figures[i].missing.empty()) pictures[i] = {figures[i].file, drawn(figures[i])};
+    if (figures[i].missing.empty()) pictures[i] = {figures[i].file, picture_bytes(figures[i])};
   });
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const fs::path path = fs::path(folder) / figures[i].file;

@@ -58,9 +58,13 @@ TEST(Check, JudgesForTheQuestionAndSeveralFilesTogether) {
   const auto both = place.run("check good.csv good.csv --for diagnosis");
   EXPECT_EQ(both.status, 0) << both.out;
   EXPECT_THAT(both.out, HasSubstr("together    all 2 recordings ask the drive the same"));
+  EXPECT_EQ(place.run("check wrong.csv --picture seen.png").status, 3);
+  EXPECT_THAT(testing::text_of(place.folder() / "seen.png"), ::testing::StartsWith("\x89PNG"));
+  EXPECT_EQ(place.run("check good.csv --picture seen.png").status, 2) << "nothing is overwritten";
   const auto json = place.run("check wrong.csv --for gap --json");
   EXPECT_EQ(nlohmann::json::parse(json.out)["asked_for"], "gap");
-  EXPECT_THAT(place.run("check good.csv wrong.csv --json").err, HasSubstr("expected one with --json"));
+  EXPECT_THAT(place.run("check good.csv wrong.csv --json").err,
+              HasSubstr("expected one with --json, --picture"));
 }
 
 }  // namespace
