@@ -1,6 +1,7 @@
 // `check`: what a recording is worth before anything is estimated from it.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/inspection/inspection.h"
+#include "gapscope/report/recording_picture.h"
 #include "gapscope/results/inspection_result.h"
 
 namespace gapscope::cli {
@@ -16,7 +18,10 @@ namespace {
 
 struct CheckArguments {
   RecordingArguments recording;
+  std::vector<std::string> further;  ///< recordings, read alike
   std::string output;
+  std::string picture;  ///< PNG to draw; empty: none
+  std::string purpose;  ///< gap, fit or diagnosis; empty: all
   bool json = false;
 };
 
@@ -30,29 +35,86 @@ Configuration reading_of(const RecordingArguments& r) {
   return c;
 }
 
-bool check_recording(const CheckArguments& a, const RecordingArguments& r) {
+Purpose purpose_of(const std::string& word) {
+  return word == "gap"   ? Purpose::kGap
+         : word == "fit" ? Purpose::kFit
+         : word.empty()  ? Purpose::kAll
+                         : Purpose::kDiagnosis;
+}
+
+/// What was seen, with what is not fine below the title.
+void draw(const std::string& file, const Inspection& inspection, const RecordingArguments& r,
+          const RecordingConfig& recording) {
+  std::vector<std::string> lines;
+  for (const Finding& f : inspection.findings)
+    if (f.severity == Severity::kSpoils) lines.push_back(f.rule + ": " + f.found);
+  if (lines.empty()) lines.emplace_back("nothing spoils the estimates");
+  const std::string found = require_file_name(file, {r.file}, [](const std::string&) { return false; });
+  write_text(file,
+             recording_picture(read_recording(r.file, recording.reading_for(UnevenRows::kStamped)),
+                               inspection.coordinates, lines),
+             found);
+}
+
+Inspection check_recording(const CheckArguments& a, const RecordingArguments& r) {
   const auto look = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
   if (!a.output.empty()) look();  // before the work
   const Configuration c = reading_of(r);
-  const Inspection inspection =
-      inspect(r.file, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
+  Inspection inspection = inspect(r.file, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
+  judge_for(purpose_of(a.purpose), inspection);
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, look());
+  if (!a.picture.empty()) draw(a.picture, inspection, r, *c.recording);
   fmt::print("{}", a.json ? json : inspection.report());
-  return inspection.spoilt();
+  return inspection;
 }
 
-void check_axes(const CheckArguments& a) {
-  const auto all = a.recording.each_axis();
-  if (all.size() > 1 && (a.json || !a.output.empty()))
-    throw ConfigError(
-        "gapscope: --axis all has a report for each axis, expected one axis with --json and --output");
-  bool spoilt = false;
-  for (const RecordingArguments& one : all) {
-    if (all.size() > 1)
-      fmt::print("{}axis        {}\n", &one == all.data() ? "" : "\n", printable(one.axis, 60));
-    spoilt |= check_recording(a, one);
+/// Each recording, and of each the axes that are asked for.
+std::vector<RecordingArguments> asked(const CheckArguments& a) {
+  std::vector<RecordingArguments> all = a.recording.each_axis();
+  for (const std::string& file : a.further) {
+    RecordingArguments one = a.recording;
+    one.file = file;
+    for (RecordingArguments& axis : one.each_axis()) all.push_back(std::move(axis));
   }
+  return all;
+}
+
+/// Whether two recordings ask the drive the same.
+bool alike(const RecordingFacts& a, const RecordingFacts& b) {
+  constexpr double kNear = 0.1;
+  const auto near = [](double x, double y) {
+    return std::abs(x - y) <= kNear * std::max(std::abs(x), std::abs(y));
+  };
+  return near(a.input_peak, b.input_peak) && near(a.input_frequency, b.input_frequency) &&
+         near(a.travel, b.travel);
+}
+
+void tell_together(const std::vector<Inspection>& seen) {
+  for (std::size_t i = 1; i < seen.size(); ++i)
+    if (!alike(seen[0].facts, seen[i].facts)) return;
+  if (seen.size() > 1)
+    fmt::print(
+        "\n{:<12}all {} recordings ask the drive the same (peak and frequency of u, travel)\n{:<12}-> record "
+        "one with another waveform or amplitude, to be held out: it tells more causes apart\n",
+        "together", seen.size(), "");
+}
+
+void check_all(const CheckArguments& a) {
+  const std::vector<RecordingArguments> all = asked(a);
+  if (all.size() > 1 && (a.json || !a.output.empty() || !a.picture.empty()))
+    throw ConfigError(
+        "gapscope: several files or axes have a report each, expected one with --json, --picture and "
+        "--output");
+  bool spoilt = false;
+  std::vector<Inspection> seen;
+  for (const RecordingArguments& one : all) {
+    if (!seen.empty()) fmt::print("\n");
+    if (!one.axis.empty() && all.size() > 1) fmt::print("{:<12}{}\n", "axis", printable(one.axis, 60));
+    seen.push_back(check_recording(a, one));
+    spoilt |= seen.back().spoilt();
+  }
+  if (purpose_of(a.purpose) == Purpose::kDiagnosis && a.recording.axis.empty()) tell_together(seen);
   if (spoilt) throw ExitStatus{kSpoiltRecording};
 }
 
@@ -62,7 +124,18 @@ void add_check(CommandLine& app) {
   auto arguments = std::make_shared<CheckArguments>();
   CommandLine command = app.add_command("check", "What a recording is worth: look before you estimate");
   add_recording_arguments(command, arguments->recording);
+  command.add_option("MORE", arguments->further, "further recordings of the drive, read alike")
+      .values(0, 1000);
+  command
+      .add_option("--for", arguments->purpose,
+                  "question that it is judged for: gap, fit or diagnosis (default: all of them)")
+      .value("QUESTION")
+      .one_of({"gap", "fit", "diagnosis"});
   command.add_option("-o,--output", arguments->output, "file to write the findings into (JSON)")
+      .value("FILE");
+  command
+      .add_option("--picture", arguments->picture,
+                  "PNG of what was seen: u and x1 over time, uneven steps, x1 over u (rows in order of time)")
       .value("FILE");
   command.add_flag("--json", arguments->json, "the same JSON on standard output instead of the text");
   command.footer(
@@ -81,7 +154,7 @@ void add_check(CommandLine& app) {
       "JSON keys carry their units [s, Hz, rad, units of u].\n"
       "Exit status: 0 nothing spoils the estimates, 3 something does, else as for every command.\n\n"
       "Example: gapscope check drive.csv --input i_q --position theta -o drive_check.json");
-  command.action([arguments] { check_axes(*arguments); });
+  command.action([arguments] { check_all(*arguments); });
 }
 
 }  // namespace gapscope::cli

@@ -75,11 +75,13 @@ std::string sum_of(const Inspection& inspection) {
     notes += f.severity == Severity::kNote;
   }
   const std::size_t all = inspection.findings.size();
+  const bool any = inspection.purpose == Purpose::kAll;
+  const std::string asked = any ? "" : fmt::format(", for {}", to_string(inspection.purpose));
   if (spoiling.empty())
-    return fmt::format("{} checks: {} passed, {}", all, all - notes,
+    return fmt::format("{} checks{}: {} passed, {}", all, asked, all - notes,
                        notes == 1 ? "1 note" : fmt::format("{} notes", notes));
-  return fmt::format("{} of {} checks found what spoils the estimates: {}", spoiling.size(), all,
-                     fmt::join(spoiling, ", "));
+  return fmt::format("{} of {} checks{} found what spoils {}: {}", spoiling.size(), all, asked,
+                     any ? "the estimates" : "the answer", fmt::join(spoiling, ", "));
 }
 
 }  // namespace

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/recording/lost_rows.h"
 #include "inspection/rules.h"
 
 namespace gapscope::internal::inspection {
 namespace {
 
-constexpr double kPause = 1.5;    ///< steps longer than this many median steps have lost a sample
 constexpr double kSlowest = 5.0;  ///< rate below which t is hardly in seconds [Hz]
 constexpr double kFastest = 1e6;  ///< … above which
 
@@ -27,11 +27,7 @@ Steps steps_of(const recording::RecordedRows& rows) {
   s.shortest = *shortest, s.longest = *longest;
   s.longest_row = static_cast<std::size_t>(longest - all.begin());
   s.median = median(all);
-  for (const double step : all) {
-    if (step <= kPause * s.median) continue;
-    ++s.pauses;
-    s.missing += std::round(step / s.median) - 1.0;
-  }
+  for (const Loss& loss : losses_of(rows.t)) ++s.pauses, s.missing += static_cast<double>(loss.lost);
   return s;
 }
 
@@ -109,7 +105,10 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
   facts.rate = 1.0 / s.median;
   facts.shortest_step = s.shortest, facts.longest_step = s.longest;
   constexpr double kUnlikeLosses = 0.15;
-  if (const double off = off_a_pc_tick(m.rows); off > kUnlikeLosses) return pc_clock(m, off);
+  if (const double off = off_a_pc_tick(m.rows); off > kUnlikeLosses) {
+    facts.coarse_clock = true;
+    return pc_clock(m, off);
+  }
   if (!m.rows.skipped.empty()) return skipped_rows(m);
   if (facts.rate < kSlowest || facts.rate > kFastest)
     return {kTimeRule, Severity::kSpoils,

@@ -8,34 +8,49 @@
 namespace gapscope {
 namespace {
 
-/// Steps longer than this many median steps have lost a row, as `check` says, too.
-constexpr double kLossBegins = 1.5;
+constexpr double kLossBegins = 1.5;  ///< usual steps
+constexpr std::size_t kAround = 10;  ///< steps to either side that are looked at
 
-/// Calls for each step with a loss: its row and how many rows it would have had.
-template <class Take>
-void for_each_loss(const Recording& r, Take take) {
-  if (r.stamps.size() < 2) return;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < r.stamps.size(); ++i) steps.push_back(r.stamps[i] - r.stamps[i - 1]);
-  const double usual = median(steps);
-  for (std::size_t i = 0; i < steps.size(); ++i)
-    if (steps[i] > kLossBegins * usual) take(i, std::max(std::round(steps[i] / usual), 2.0));
+/// The median of the steps around one, without it.
+double usual_around(std::span<const double> steps, std::size_t i) {
+  std::vector<double> near;
+  const std::size_t first = i < kAround ? 0 : i - kAround, last = std::min(i + kAround + 1, steps.size());
+  for (std::size_t j = first; j < last; ++j)
+    if (j != i) near.push_back(steps[j]);
+  return near.empty() ? steps[i] : median(std::move(near));
 }
 
 }  // namespace
 
+std::vector<Loss> losses_of(std::span<const double> t) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+  std::vector<Loss> losses;
+  if (steps.empty()) return losses;
+  const double usual = median(steps);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i] <= kLossBegins * usual) continue;
+    const double here = std::max(usual, usual_around(steps, i));
+    if (steps[i] <= kLossBegins * here) continue;
+    const double rows = std::min(std::max(std::round(steps[i] / here), 2.0), 2e9);
+    losses.push_back({i, static_cast<std::size_t>(rows) - 1});
+  }
+  return losses;
+}
+
 std::size_t lost_rows(const Recording& r) {
   std::size_t lost = 0;
-  for_each_loss(r, [&](std::size_t, double rows) { lost += static_cast<std::size_t>(rows) - 1; });
+  for (const Loss& loss : losses_of(r.stamps)) lost += loss.lost;
   return lost;
 }
 
 std::size_t bridge_lost_rows(Recording& r) {
   std::size_t bridged = 0;
-  for_each_loss(r, [&](std::size_t i, double rows) {
-    r.u[i] += (r.u[i + 1] - r.u[i]) * (rows - 1.0) / (2.0 * rows);
-    bridged += static_cast<std::size_t>(rows) - 1;
-  });
+  for (const Loss& loss : losses_of(r.stamps)) {
+    const double rows = static_cast<double>(loss.lost) + 1.0;
+    r.u[loss.row] += (r.u[loss.row + 1] - r.u[loss.row]) * (rows - 1.0) / (2.0 * rows);
+    bridged += loss.lost;
+  }
   return bridged;
 }
 

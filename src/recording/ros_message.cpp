@@ -18,7 +18,7 @@ std::string bare(std::string_view type) {
   return std::string(type.substr(0, first)) + "/" + std::string(type.substr(last + 1));
 }
 
-std::string_view trimmed(std::string_view s) {
+std::string_view without_blanks(std::string_view s) {
   const auto first = s.find_first_not_of(" \t\r"), last = s.find_last_not_of(" \t\r");
   return first == s.npos ? std::string_view() : s.substr(first, last - first + 1);
 }
@@ -133,9 +133,9 @@ RosDefinition::RosDefinition(const std::string& type, std::string_view definitio
     const auto end = std::min(definition.find('\n', at), definition.size());
     std::string_view line = definition.substr(at, end - at);
     at = end + 1;
-    line = trimmed(line.substr(0, line.find('#')));
+    line = without_blanks(line.substr(0, line.find('#')));
     if (line.starts_with("MSG:"))
-      types_[current = bare(trimmed(line.substr(4)))];
+      types_[current = bare(without_blanks(line.substr(4)))];
     else if (!line.empty() && !line.starts_with("===") && !line.starts_with("IDL:"))
       add_field(types_[current], line);
   }
@@ -153,10 +153,10 @@ RosDefinition::RosDefinition(const std::string& type, std::string_view definitio
 void RosDefinition::add_field(std::vector<Field>& fields, std::string_view line) const {
   const auto gap = line.find_first_of(" \t");
   if (gap == line.npos) throw DamagedBytes{0, "has the line " + shown(line) + ", expected a type and a name"};
-  std::string_view type = line.substr(0, gap), name = trimmed(line.substr(gap));
+  std::string_view type = line.substr(0, gap), name = without_blanks(line.substr(gap));
   if (name.substr(0, name.find_first_of(" \t\"'")).find('=') != name.npos) return;
   if (const auto rest = name.find_first_of(" \t"); rest != name.npos) {
-    if (trimmed(name.substr(rest)).starts_with('=')) return;
+    if (without_blanks(name.substr(rest)).starts_with('=')) return;
     name = name.substr(0, rest);
   }
   Field f;

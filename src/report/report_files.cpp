@@ -19,16 +19,6 @@ namespace fs = std::filesystem;
 /// Of the image: 1600 px at scale 1 are a column wide [1/m].
 double pixels_per_metre(const FigureData& figure) { return figure.scale * kColumnPixels / kColumnWidth; }
 
-/// The library below has its own words for a machine that is too small.
-std::string drawn(const FigureData& figure) {
-  try {
-    return png_bytes(figure.file, draw(figure), pixels_per_metre(figure));
-  } catch (const cv::Exception& error) {
-    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
-    throw;
-  }
-}
-
 void write_bytes(const fs::path& path, const std::string& bytes) {
   write_whole_file(path.string(), [&](std::ostream& out) { out << bytes; });
 }
@@ -43,13 +33,23 @@ void put_or_remove(const fs::path& path, const std::string& bytes) {
 
 }  // namespace
 
+/// The library below has its own words for a machine that is too small.
+std::string picture_bytes(const FigureData& figure) {
+  try {
+    return png_bytes(figure.file, draw(figure), pixels_per_metre(figure));
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
+    throw;
+  }
+}
+
 std::vector<Picture> write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
                                         const std::string& text, const FigureFormats& formats) {
   std::vector<Picture> pictures(figures.size());
   std::vector<std::string> drawings(figures.size());
   parallel_for(figures.size(), 0, [&](std::size_t i) {
     if (!figures[i].missing.empty()) return;
-    pictures[i] = {figures[i].file, drawn(figures[i])};
+    pictures[i] = {figures[i].file, picture_bytes(figures[i])};
     if (formats.svg) drawings[i] = draw_as_svg(figures[i]);
   });
   for (std::size_t i = 0; i < figures.size(); ++i) {

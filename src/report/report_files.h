@@ -9,6 +9,9 @@
 
 namespace gapscope::internal::report {
 
+/// A figure as the bytes of a PNG.
+std::string picture_bytes(const FigureData& figure);
+
 /// Draws the figures into a folder, each as its PNG and what else is asked for, side by side on all cores,
 /// and writes report.md beside them; removes those of an earlier result that are missing now.
 /// @returns the pictures, those that are missing without a name

@@ -24,6 +24,7 @@ void fields(Archive& archive, RecordingFacts& f) {
   archive("skipped_rows", f.skipped_rows);
   archive("uniform", f.uniform);
   archive("missing_samples", f.missing_samples);
+  archive("coarse_clock", f.coarse_clock);
   archive("start_s", f.start);
   archive("duration_s", f.duration);
   archive("rate_hz", f.rate);
@@ -63,6 +64,11 @@ void fields(Archive& archive, InspectionDocument& d) {
   archive("file", i.file);
   archive("version", d.version);
   coordinates_field(archive, i.coordinates);
+  archive.choice("asked_for", i.purpose,
+                 Words<Purpose>{{Purpose::kAll, "all"},
+                                {Purpose::kGap, "gap"},
+                                {Purpose::kFit, "fit"},
+                                {Purpose::kDiagnosis, "diagnosis"}});
   archive("spoilt", spoilt);
   archive.list("findings", i.findings);
   archive.single("facts", i.facts);

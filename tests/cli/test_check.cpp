@@ -42,5 +42,30 @@ TEST(Check, ASpoiltRecordingEndsWithThreeAndSaysWhatToDo) {
   EXPECT_EQ(nlohmann::json::parse(json.out)["spoilt"], true);
 }
 
+TEST(Check, JudgesForTheQuestionAndSeveralFilesTogether) {
+  Workplace place;
+  testing::Rows rows = testing::rig();
+  place.file("good.csv", rows.csv());
+  for (double& u : rows.u) u = -u;
+  place.file("wrong.csv", rows.csv());
+  const auto gap = place.run("check wrong.csv --for gap");
+  EXPECT_EQ(gap.status, 0) << gap.out;
+  EXPECT_THAT(gap.out, HasSubstr("16 checks, for gap: "));
+  EXPECT_THAT(gap.out, HasSubstr("for a gap read from impacts x1 is enough"));
+  const auto fit = place.run("check good.csv wrong.csv --for fit");
+  EXPECT_EQ(fit.status, 3);
+  EXPECT_THAT(fit.out, HasSubstr("1 of 16 checks, for fit found what spoils the answer: sign"));
+  const auto both = place.run("check good.csv good.csv --for diagnosis");
+  EXPECT_EQ(both.status, 0) << both.out;
+  EXPECT_THAT(both.out, HasSubstr("together    all 2 recordings ask the drive the same"));
+  EXPECT_EQ(place.run("check wrong.csv --picture seen.png").status, 3);
+  EXPECT_THAT(testing::text_of(place.folder() / "seen.png"), ::testing::StartsWith("\x89PNG"));
+  EXPECT_EQ(place.run("check good.csv --picture seen.png").status, 2) << "nothing is overwritten";
+  const auto json = place.run("check wrong.csv --for gap --json");
+  EXPECT_EQ(nlohmann::json::parse(json.out)["asked_for"], "gap");
+  EXPECT_THAT(place.run("check good.csv wrong.csv --json").err,
+              HasSubstr("expected one with --json, --picture"));
+}
+
 }  // namespace
 }  // namespace gapscope

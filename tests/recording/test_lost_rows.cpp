@@ -36,6 +36,15 @@ TEST(LostRows, AreNoneOnAGridOrWithJitterAlone) {
   EXPECT_EQ(lost_rows(r), 0u);
 }
 
+TEST(LostRows, AreNoneWhereALoopSlowsDownForAWhile) {
+  Recording r;
+  for (int i = 0; i < 200; ++i) {
+    r.stamps.push_back(i < 80 ? 5.3e-3 * i : 0.424 + 3.4e-3 * (i - 80));
+    r.u.push_back(0.0), r.x1.push_back(0.0);
+  }
+  EXPECT_EQ(lost_rows(r), 0u);
+}
+
 TEST(LostRows, AreBridgedOnRequestAlone) {
   std::string text = "t,u,x1\n";
   for (int i = 0; i < 100; ++i)

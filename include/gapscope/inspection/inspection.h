@@ -32,6 +32,7 @@ struct RecordingFacts {
   int skipped_rows = 0;                              ///< rows that do not
   bool uniform = false;                              ///< time, as the detector expects it
   int missing_samples = 0;                           ///< that the pauses have room for
+  bool coarse_clock = false;                         ///< stamps are whole ticks of 15.6 ms
   double start = kNaN, duration = kNaN;              ///< [s]
   double rate = kNaN;                                ///< one over the median step [Hz]
   double shortest_step = kNaN, longest_step = kNaN;  ///< [s]
@@ -56,14 +57,20 @@ struct RecordingFacts {
   double rest_share = kNaN;       ///< of the time in which x1 stands still [-]
 };
 
+/// What a recording is wanted for.
+enum class Purpose { kAll, kGap, kFit, kDiagnosis };
+
+const char* to_string(Purpose purpose);  ///< "all", "gap", "fit", "diagnosis"
+
 /// What a recording says about itself before anything is estimated from it.
 struct Inspection {
   std::string file;  ///< as it was named
   Coordinates coordinates;
   RecordingFacts facts;
   std::vector<Finding> findings;
-  bool spoilt() const;         ///< whether any finding is kSpoils
-  std::string report() const;  ///< a line for each finding and each advice, and the sum: terminal
+  Purpose purpose = Purpose::kAll;  ///< that they are judged for
+  bool spoilt() const;              ///< whether any finding is kSpoils
+  std::string report() const;       ///< a line for each finding and each advice, and the sum: terminal
 };
 
 /// Puts every question to a recording. Only t, u and x1 are looked at. Rows that do not go forward in time
@@ -72,5 +79,8 @@ struct Inspection {
 /// @param coordinates  of a translation: the position is in m
 /// @throws ConfigError where read_recording() would for another reason than time.
 Inspection inspect(const std::string& path, const ReadOptions& options = {}, Coordinates coordinates = {});
+
+/// What spoils the answers to other questions alone becomes a note, which says so.
+void judge_for(Purpose purpose, Inspection& inspection);
 
 }  // namespace gapscope

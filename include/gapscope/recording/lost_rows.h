@@ -1,11 +1,25 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #include "gapscope/recording/recording.h"
 
 namespace gapscope {
 
-/// How many rows are missing between the others: what each step of the stamps has room for beside its own, by
-/// the median step. 0 for rows on a grid.
+/// A step that has room for more rows than the two at its ends.
+struct Loss {
+  std::size_t row = 0;   ///< before it
+  std::size_t lost = 0;  ///< rows
+};
+
+/// The steps that are longer than 1.5 usual ones. Usual is the median of all steps, or that of the twenty
+/// around where it is longer: a loop that slows down for a while has lost nothing.
+/// @param t  times of rows, rising [s]
+std::vector<Loss> losses_of(std::span<const double> t);
+
+/// How many rows are missing between the others; 0 for rows on a grid.
 std::size_t lost_rows(const Recording& recording);
 
 /// Rows that were lost took their inputs with them, and u is held over each step: the input of the row before
