@@ -108,6 +108,7 @@ Remark worse_than_still(double ratio) {
 }
 
 Remark at_bound(const std::string& key, double value, const std::string& unit) {
+  if (unit == "-") return {"at_bound", "{} ended at its bound {:.4g}.", {key, value}};
   return {"at_bound", "{} ended at its bound {:.4g} {}.", {key, value, RemarkUnit{unit}}};
 }
 Remark no_trace(const std::string& key) {

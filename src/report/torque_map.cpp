@@ -44,11 +44,14 @@ class MapRow {
  public:
   MapRow(const DiagnosisResult& r, const Sampled& s, bool both) : r_(r), s_(s), both_(both) {}
 
-  void add(FigureData& figure, const std::string& over, const Axis& x, const std::vector<double>& of) const {
+  /// @param with_curve  of what was added: where that is a function of the variable
+  void add(FigureData& figure, const std::string& over, const Axis& x, const std::vector<double>& of,
+           bool with_curve = true) const {
     const double peak = 1.05 * peak_of(s_.before), left = 1.05 * peak_of(s_.after);
     figure.panels.push_back(scatter("Nominal model, over " + over, x, of, s_.before, peak));
     if (!both_) return;
-    for (const bool forward : {true, false}) add_curve(figure.panels.back(), of, forward);
+    for (const bool forward : {true, false})
+      if (with_curve) add_curve(figure.panels.back(), of, forward);
     const bool own = left < kOwnScale * peak;
     figure.panels.push_back(
         scatter("W" + with_added(r_).substr(1) + ", over " + over + (own ? ", to its own scale" : ""), x, of,
@@ -146,7 +149,7 @@ FigureData diagnosis_torque_map(const DiagnosisResult& r) {
   row.add(figure, "the " + angle_word(r),
           {angle_word(r) + " " + position_name(r), length_unit(r), {}, {}, {}}, s.position);
   if (!goes_with_speed(r)) over_speed();
-  row.add(figure, "the input", {"input $u$", input_unit(r), {}, {}, {}}, s.input);
+  row.add(figure, "the input", {"input $u$", input_unit(r), {}, {}, {}}, s.input, false);
   if (both) figure.width = 3200.0, figure.columns = 2;
   figure.reading = cycles_reading(r);
   return figure;
