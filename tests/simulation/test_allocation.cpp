@@ -72,7 +72,7 @@ long allocations_of_a_run(const PlantModel<T>& model, long& events) {
   const long before = allocations;
   stepper.reset({});
   for (const double v : u) {
-    stepper.step(v);
+    stepper.step(T(v));
     sum += value_of(stepper.measured());
     stepper.inject(T(1e-9), T(1e-9));
   }
@@ -90,7 +90,7 @@ long allocations_of_uneven_steps(const PlantModel<T>& model) {
   const long before = allocations;
   stepper.reset({});
   for (std::size_t i = 0; i < u.size(); ++i)
-    stepper.step(u[i], (0.5 + 0.25 * static_cast<double>(i % 5)) / kRate);
+    stepper.step(T(u[i]), (0.5 + 0.25 * static_cast<double>(i % 5)) / kRate);
   return allocations - before;
 }
 

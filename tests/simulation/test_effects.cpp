@@ -151,7 +151,7 @@ std::vector<Jet<4>> differentiated(const EffectEntry& e, const std::vector<doubl
   std::vector<Jet<4>> x1;
   for (const double input : u) {
     x1.push_back(stepper.measured());
-    stepper.step(input);
+    stepper.step(Jet<4>(input));
   }
   return x1;
 }

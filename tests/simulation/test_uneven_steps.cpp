@@ -56,7 +56,7 @@ std::vector<T> in_their_own_steps(const PlantModel<T>& model, const Rows& rows) 
   std::vector<T> x1;
   for (std::size_t i = 0; i < rows.u.size(); ++i) {
     x1.push_back(stepper.measured());
-    stepper.step(rows.u[i], rows.length[i] * kFine);
+    stepper.step(T(rows.u[i]), rows.length[i] * kFine);
   }
   EXPECT_TRUE(stepper.healthy());
   return x1;
