@@ -81,7 +81,7 @@ Parameter parameter_of_controller(int index, const ParameterSetting& setting, co
   const ControllerNumberSpec& spec = kControllerNumbers[index];
   DriveController c = start;
   Parameter p;
-  p.id = controller_number(index);
+  p.id = number_of_controller(index);
   p.key = spec.key, p.unit = spec.unit;
   if (index == controller_place::kGain && c.kind == ControllerKind::kCascade) p.unit = "1/s";
   p.estimated = setting.estimate;

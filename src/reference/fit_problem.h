@@ -25,7 +25,7 @@ class ModelNumbers {
   T& operator[](ParameterId id) { return values_[place_of(id)]; }
   const T& operator[](ParameterId id) const { return values_[place_of(id)]; }
   const T& drive(int place) const { return values_[static_cast<std::size_t>(place)]; }
-  const T& controller(int place) const { return values_[place_of(controller_number(place))]; }
+  const T& controller(int place) const { return values_[place_of(number_of_controller(place))]; }
   std::span<const T> effect(std::size_t e, std::size_t count) const {
     return std::span<const T>(values_).subspan(kBeforeEffects + e * kMostEffectParameters, count);
   }

@@ -93,8 +93,8 @@ class DriveInLoop {
 
 }  // namespace
 
-Recording simulate_closed_loop(const PlantModel<double>& model, const DriveController& controller,
-                               std::span<const double> target, const SimulationOptions& options) {
+Recording simulate_under_controller(const PlantModel<double>& model, const DriveController& controller,
+                                    std::span<const double> target, const SimulationOptions& options) {
   GAPSCOPE_REQUIRE(options.rate > 0.0 && controller.delay >= 0.0);
   Recording r;
   r.dt = 1.0 / options.rate;

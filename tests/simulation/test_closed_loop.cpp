@@ -49,7 +49,7 @@ Recording own_loop(const independent_plant::LoopRun& like, const DriveController
   for (const auto& t : like.target) target.push_back(t.x);
   SimulationOptions options;
   options.rate = kLoopRate;
-  return simulate_closed_loop(plant_model(loop_rig(), {}), controller, target, options);
+  return simulate_under_controller(plant_model(loop_rig(), {}), controller, target, options);
 }
 
 double farthest_apart(const std::vector<double>& a, const std::vector<double>& b, std::size_t from = 0) {
@@ -81,9 +81,9 @@ TEST(ClosedLoop, UpdatesBetweenTheRowsFromTheModelsOwnPosition) {
   SimulationOptions slow, fast;
   slow.rate = 100.0, fast.rate = 1000.0;
   DriveController c = cascade(0.0004, kInfinity);
-  const Recording few = simulate_closed_loop(plant_model(loop_rig(), {}), c, target, slow);
+  const Recording few = simulate_under_controller(plant_model(loop_rig(), {}), c, target, slow);
   target.assign(2000, 0.3);
-  const Recording many = simulate_closed_loop(plant_model(loop_rig(), {}), c, target, fast);
+  const Recording many = simulate_under_controller(plant_model(loop_rig(), {}), c, target, fast);
   for (std::size_t i = 0; i < few.size(); ++i) EXPECT_NEAR(few.x1[i], many.x1[10 * i], 1e-9) << i;
 }
 
