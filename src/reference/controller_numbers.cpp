@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "gapscope/plant/effect_hooks.h"
 
 namespace gapscope::internal::reference {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr double kLongestDelay = 50.0;     ///< derived bound [samples]
 constexpr double kShortestDelay = 1e-3;    ///< the same: at 0 itself a change of it has one side [samples]
 constexpr double kFirstDelay = 0.1;        ///< where a search begins at least [samples]
+constexpr double kSameRate = 1e-6;         ///< rates that differ by less are one [-]
 constexpr double kControllerSpan = 100.0;  ///< derived bounds of the other numbers over their starts
 
 /// The recordings under a controller.
@@ -25,6 +27,21 @@ void set_inputs(FitProblem& problem, const DriveController& controller) {
   problem.inputs = made;
   problem.recordings = made->recordings;
   problem.controller = controller;
+}
+
+/// The effect that delays the input, and does nothing else.
+const EffectEntry* pure_delay() {
+  for (const EffectEntry* entry : effect_table())
+    if (hooks_of<double>(*entry).delay != nullptr && entry->parameters.size() == 1) return entry;
+  return nullptr;
+}
+
+/// Whether its updates are those of the rows, of every recording.
+bool updates_at_rows(const FitProblem& problem, const DriveController& controller) {
+  const auto at_rows = [&](const MotorTrace& t) {
+    return t.even() && std::abs(controller.rate * t.dt - 1.0) < kSameRate;
+  };
+  return controller.rate == 0.0 || std::all_of(problem.recordings.begin(), problem.recordings.end(), at_rows);
 }
 
 /// The inertia that the motor sees while in contact; NaN where it is not given.
@@ -64,7 +81,7 @@ Parameter parameter_of_controller(int index, const ParameterSetting& setting, co
   const ControllerNumberSpec& spec = kControllerNumbers[index];
   DriveController c = start;
   Parameter p;
-  p.id = controller_number(index);
+  p.id = number_of_controller(index);
   p.key = spec.key, p.unit = spec.unit;
   if (index == controller_place::kGain && c.kind == ControllerKind::kCascade) p.unit = "1/s";
   p.estimated = setting.estimate;
@@ -89,6 +106,8 @@ void command_inputs(FitProblem& problem, const ReferenceModel& model) {
   const ControllerModel& given = *model.controller;
   DriveController controller = given.at_start();
   set_inputs(problem, controller);
+  const bool delays = controller.delay > 0.0 || given.numbers[controller_place::kDelay].estimate;
+  if (delays && updates_at_rows(problem, controller)) problem.delays = pure_delay();
   const int leading = leading_number(controller.kind);
   if (std::isfinite(given.numbers[static_cast<std::size_t>(leading)].value)) return;
   gapscope::controller_number(controller, leading) = suggested_leading(problem, model);

@@ -25,7 +25,7 @@ class ModelNumbers {
   T& operator[](ParameterId id) { return values_[place_of(id)]; }
   const T& operator[](ParameterId id) const { return values_[place_of(id)]; }
   const T& drive(int place) const { return values_[static_cast<std::size_t>(place)]; }
-  const T& controller(int place) const { return values_[place_of(controller_number(place))]; }
+  const T& controller(int place) const { return values_[place_of(number_of_controller(place))]; }
   std::span<const T> effect(std::size_t e, std::size_t count) const {
     return std::span<const T>(values_).subspan(kBeforeEffects + e * kMostEffectParameters, count);
   }
@@ -77,6 +77,7 @@ struct FitProblem {
   std::vector<int> free;              ///< indices of the estimated ones
   std::vector<const EffectEntry*> effects;
   std::optional<DriveController> controller;  ///< that makes the inputs, at its start
+  const EffectEntry* delays = nullptr;        ///< where each update is at a row: what delays it exactly
   std::shared_ptr<const StartInputs> inputs;  ///< that the recordings have then
   bool load_may_stick = false, motor_may_stick = false;
   double stiffest = kInfinity;  ///< rate beyond which a trial is refused [1/s]
@@ -115,6 +116,7 @@ struct FitProblem {
     model.load_sticks = load_may_stick;
     for (std::size_t e = 0; e < effects.size(); ++e)
       add_effect(model, *effects[e], n.effect(e, effects[e]->parameters.size()));
+    if (delays) add_effect(model, *delays, std::span<const T>(&n.controller(controller_place::kDelay), 1));
     return model;
   }
 
@@ -125,6 +127,7 @@ struct FitProblem {
     c.kind = controller->kind, c.rate = controller->rate;
     c.saturation = controller->saturation, c.dead_band = controller->dead_band;
     for (int i = 0; i < kControllerNumberCount; ++i) gapscope::controller_number(c, i) = n.controller(i);
+    if (delays) c.delay = T(0.0);
     return c;
   }
 

@@ -22,7 +22,7 @@ struct ParameterId {
   bool operator==(const ParameterId&) const = default;
 };
 constexpr ParameterId drive_number(int place) { return {ParameterId::kDrive, place}; }
-constexpr ParameterId controller_number(int place) { return {ParameterId::kController, place}; }
+constexpr ParameterId number_of_controller(int place) { return {ParameterId::kController, place}; }
 ParameterSetting& setting_of(ReferenceModel& model, ParameterId id);
 
 /// Where the other body, the one without the encoder, may be at the first sample.

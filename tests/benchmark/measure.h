@@ -20,7 +20,7 @@ constexpr double kAmplitude = 0.6;  ///< [unit of u]
 template <class T>
 void play(DriveStepper<T>& stepper, std::span<const double> u) {
   stepper.reset({});
-  for (const double v : u) stepper.step(v);
+  for (const double v : u) stepper.step(T(v));
   benchmark::DoNotOptimize(stepper.state());
 }
 

@@ -25,7 +25,7 @@ BlindDrive pendulum(double gravity = kPendulum) {
 }
 
 /// A cascade of P and P, its speed the difference of the readings.
-ControllerSettings servo(double dead_time = 0.0) {
+ControllerSettings servo_loop(double dead_time = 0.0) {
   return {.rate = 1000.0,
           .position_gain = kSlope,
           .speed_forward = 0.0,
@@ -86,7 +86,7 @@ void expect_near(const FitSummary& summary, const char* key, double truth, doubl
 }
 
 TEST(FittedController, HasTheGainOfTheDrivesOwn) {
-  const FitSummary summary = fit_one(under_target(pendulum(), servo()), servo_model());
+  const FitSummary summary = fit_one(under_target(pendulum(), servo_loop()), servo_model());
   EXPECT_TRUE(contains(summary, "controller.velocity.gain", kServoGain)) << summary.full_report();
   EXPECT_TRUE(contains(summary, "motor_damping", 0.062)) << summary.full_report();
   EXPECT_LT(summary.find("controller.velocity.gain")->std, 0.01 * kServoGain);
@@ -96,7 +96,7 @@ TEST(FittedController, HasTheGainOfTheDrivesOwn) {
 /// Its target's slope is taken from update to update, the drive's own is that of the moment: half an update
 /// apart, which its derivative and its delay take, not its gain.
 TEST(FittedController, OfThePositionHasItsGain) {
-  ControllerSettings settings = servo();
+  ControllerSettings settings = servo_loop();
   settings.speed_forward = 1.0;
   ReferenceModel model = servo_model();
   model.controller->fixed.kind = ControllerKind::kPosition;
@@ -111,7 +111,7 @@ TEST(FittedController, OfThePositionHasItsGain) {
 TEST(FittedController, HasItsDelay) {
   ReferenceModel model = servo_model();
   model.controller->numbers[at::kDelay] = ParameterSetting::sought(0.001);
-  const FitSummary summary = fit_one(under_target(pendulum(), servo(0.0033)), model);
+  const FitSummary summary = fit_one(under_target(pendulum(), servo_loop(0.0033)), model);
   expect_near(summary, "controller.delay", 0.0033, 0.02);
   expect_near(summary, "controller.velocity.gain", kServoGain, 0.01);
 }
@@ -120,7 +120,7 @@ TEST(FittedController, IsToldWithWhatItCannotBeToldApart) {
   ReferenceModel model = servo_model();
   model.effects.clear();
   estimate(model, kMotorInertia, 2e-3);
-  const FitSummary summary = fit_one(under_target(pendulum(0.0), servo()), model);
+  const FitSummary summary = fit_one(under_target(pendulum(0.0), servo_loop()), model);
   const std::string told = warnings_of(summary);
   for (const char* key : {"controller.velocity.gain", "motor_inertia", "motor_damping"}) {
     EXPECT_FALSE(summary.find(key)->identifiable) << key;
@@ -133,14 +133,14 @@ TEST(FittedController, IsToldWithWhatItCannotBeToldApart) {
 TEST(FittedController, HasTheScaleOfAKnownMass) {
   ReferenceModel model = servo_model();
   estimate(model, kMotorInertia, 2e-3);
-  const FitSummary summary = fit_one(under_target(pendulum(), servo()), model);
+  const FitSummary summary = fit_one(under_target(pendulum(), servo_loop()), model);
   expect_near(summary, "controller.velocity.gain", kServoGain, 0.01);
   expect_near(summary, "motor_inertia", 8.78e-4, 0.02);
 }
 
 /// From the first row on, where its integral begins.
 TEST(FittedController, HasItsIntegral) {
-  ControllerSettings settings = servo();
+  ControllerSettings settings = servo_loop();
   settings.integral_s = 0.05;
   ReferenceModel model = servo_model();
   model.controller->numbers[at::kSpeedIntegral] = ParameterSetting::sought(0.5);
