@@ -10,6 +10,7 @@
 #include "config/configuration_reader.h"
 #include "config/controller_reader.h"
 #include "config/data_reader.h"
+#include "config/detector_reader.h"
 #include "config/field_reader.h"
 #include "config/model_reader.h"
 #include "config/setting.h"
@@ -24,53 +25,6 @@ namespace {
 
 constexpr const char* kNameForm =
     "a plain folder name of letters, digits, '_', '-' and '.', not beginning with '.' or '-'";
-
-/// `bound: auto`, a number, or {from_model: {input_limit, load_force_bound}}.
-void read_bound(const Value& bound, DetectorConfig& detector) {
-  detector.line = bound.line();
-  if (detector.frozen && !(bound.is_text() && bound.text() == "auto"))
-    bound.fail_expecting("auto, as detector.frozen asks what the data alone tell");
-  if (bound.is_map()) {
-    const Section from(
-        Section(bound, {"from_model"}).require("from_model", "{input_limit, load_force_bound}"),
-        {"input_limit", "load_force_bound"});
-    detector.from_model =
-        BoundKnowledge{from.require("input_limit", "the largest |u|").number({1e-12, 1e12, "unit of u"}),
-                       from.require("load_force_bound", "G, a bound of the unknown forces [N m]")
-                           .number({0.0, 1e12, "N m"})};
-  } else if (!bound.is_text()) {
-    bound.fail_expecting(
-        "auto, a number [rad/s^2] or {from_model: {input_limit: ..., load_force_bound: ...}}");
-  } else if (bound.text() != "auto") {
-    detector.bound = bound.number({1e-9, 1e12, "rad/s^2"});
-  }
-}
-
-/// `method:` agrees with the bound: `paper` needs one, the others take theirs from the data.
-void require_bound_for_method(const Value& method, const DetectorConfig& detector) {
-  const bool given = detector.bound || detector.from_model;
-  if (detector.method == DetectorMethod::kPaper && !given)
-    method.fail(
-        "is paper without a bound, expected bound: a number [rad/s^2] or {from_model: ...} beside it");
-  if (detector.method != DetectorMethod::kAuto && detector.method != DetectorMethod::kPaper && given)
-    method.fail(fmt::format("is {} beside a bound, expected paper or bound: auto", method.text()));
-  if (detector.frozen && detector.method != DetectorMethod::kAuto &&
-      detector.method != DetectorMethod::kImpact)
-    method.fail(fmt::format("is {} beside frozen, expected auto or impact", method.text()));
-}
-
-DetectorConfig read_detector(const Value& value) {
-  const Section section(value, {"method", "bound", "frozen"});
-  DetectorConfig detector;
-  detector.line = value.line();
-  if (const auto frozen = section.find("frozen")) detector.frozen = frozen->truth();
-  if (const auto bound = section.find("bound")) read_bound(*bound, detector);
-  if (const auto method = section.find("method")) {
-    detector.method = static_cast<DetectorMethod>(method->word({"auto", "impact", "lost_motion", "paper"}));
-    require_bound_for_method(*method, detector);
-  }
-  return detector;
-}
 
 /// Eq. (13) needs three numbers of the model.
 void require_bound_from_model(const Configuration& c) {

@@ -17,7 +17,7 @@ struct WrittenParameter {
   std::optional<std::pair<double, double>> bounds;
   std::optional<std::pair<std::optional<double>, double>> prior;  ///< value and std
   Value place;
-  bool guess = false;  ///< the value is one
+  bool guess = false;                  ///< the value is one
   std::optional<Value> given_at = {};  ///< "motor" or "load": the side of the gear that the numbers hold at
 };
 

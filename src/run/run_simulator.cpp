@@ -37,8 +37,7 @@ void note_start(const Recording& simulated, const Recording& drive, Coordinates 
 void require_there(const Configuration& c, const RecordedFile& file) {
   if (std::error_code unreachable; std::filesystem::exists(file.path, unreachable)) return;
   const std::string what = fmt::format(
-      "there is no simulated recording {}, expected a file with what the simulator answers",
-      file.given);
+      "there is no simulated recording {}, expected a file with what the simulator answers", file.given);
   if (file.line != 0) throw ConfigError(c.file, file.line, what);
   throw ConfigError("gapscope: --simulated: " + what);
 }
