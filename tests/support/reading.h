@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -17,7 +18,7 @@ inline std::string text_of(const std::filesystem::path& path) {
 }
 
 /// What is wrong with the input, in the words of the action; empty where it takes it.
-template <class Action>
+template <std::invocable Action>
 std::string refusal(Action action) {
   try {
     action();
