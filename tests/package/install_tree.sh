@@ -9,7 +9,7 @@ cmp "$work/tree/share/gapscope/schemas/result.schema.json" <("$work/tree/bin/gap
 
 # The example asks for the estimators, which need no library for figures, files, stores or hashes.
 build_project "$source/docs/example" example "$work/tree" -DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON \
-  -DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON -DCMAKE_DISABLE_FIND_PACKAGE_yaml-cpp=ON -DCMAKE_DISABLE_FIND_PACKAGE_tinyxml2=ON -DCMAKE_DISABLE_FIND_PACKAGE_SQLite3=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenSSL=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON -DCMAKE_DISABLE_FIND_PACKAGE_yaml-cpp=ON -DCMAKE_DISABLE_FIND_PACKAGE_tinyxml2=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenSSL=ON
 says '^gap 2[123]\.[0-9]+ mrad' "$work/example/measure_gap" "$source/configs/03_recording.csv"
 says '^gap \[rad\] .* 0\.021[789]' "$work/example/fit_drive" "$source/configs/03_recording.csv"
 says '12000 samples' "$work/example/simulate_drive" "$work/drive.csv"
