@@ -39,10 +39,9 @@ struct SearchEffort {
   std::size_t lines = 3;     ///< of the residual torque that periodic effects begin with and that are told
   std::size_t branches = 2;  ///< first steps that are followed where the best is unsure
   std::size_t most_effects = 4;
-  /// Work after which no further step is begun [nominal fits]: the last right step of a pair began at 15 at
-  /// most
-  /// (`study_diagnosis`, pair, from 884001, 884101 and 884201), while what nothing explains would be looked
-  /// for in every branch, from 40 on.
+  /// Work after which no further step is begun [nominal fits]: the last right step of nine pairs began at 8
+  /// at most (`study_diagnosis`, pair, from 884001, 884101 and 884201), while what nothing explains would be
+  /// looked for in every branch, from 40 on.
   double most_nominal_fits = 20.0;
 };
 
