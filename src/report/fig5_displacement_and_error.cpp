@@ -32,7 +32,7 @@ std::string at_bound(const ReportView& view) {
   return " (L = " + quantity(bound, view.length_unit + "/s²") + ")";
 }
 
-std::string reading(const ReportView& view) {
+std::string error_reading(const ReportView& view) {
   const std::size_t used = view.accepted().size();
   std::vector<double> magnitudes;
   for (const double e : view.error->error) magnitudes.push_back(std::abs(e));
@@ -77,7 +77,7 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
   error.series.push_back(view.over_time("", thin, view.error->error, view.window));
   figure.panels = {displacement, error};
   figure.panels[0].x_labels = false;
-  figure.reading = reading(view);
+  figure.reading = error_reading(view);
   return figure;
 }
 
