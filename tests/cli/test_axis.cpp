@@ -22,6 +22,25 @@ std::string two_axes() {
   return text;
 }
 
+TEST(Axis, NoneIsWrittenAboveTheMachinesFolderOrOverAnother) {
+  Workplace place;
+  place.file("up.csv", "t,.._u,.._q,a b_u,a b_q,a_b_u,a_b_q\n0,0,0,0,0,0,0\n");
+  place.file("up.yaml",
+             "recording: {file: up.csv, columns: {input: \"{axis}_u\", position: \"{axis}_q\"}}\n"
+             "model: {parameters: {motor_inertia: 8.78e-4, torque_constant: 0.172}}\n");
+  const auto before = place.content();
+  for (const char* command : {"run up.yaml --axis .. -o out/deep", "run up.yaml --axis all -o out/deep"}) {
+    const auto refused = place.run(command);
+    EXPECT_EQ(refused.status, 2) << command;
+    EXPECT_THAT(refused.err, HasSubstr("can have no folder")) << command;
+  }
+  EXPECT_EQ(place.content(), before);
+  place.file("up.csv", "t,a b_u,a b_q,a_b_u,a_b_q\n0,0,0,0,0\n");
+  const auto refused = place.run("run up.yaml --axis all -o out");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("two axes would share the folder a_b"));
+}
+
 TEST(Axis, EachHasAReportAndAllHaveOneTable) {
   Workplace place;
   place.file("robot.csv", two_axes());
