@@ -11,6 +11,13 @@ namespace gapscope::internal::recording {
 namespace {
 
 constexpr std::size_t kMostNumbers = 10'000;  ///< of one message
+constexpr std::size_t kLongestName = 1000;    ///< of a number, with its path: each of a message has its own
+
+void require_short(const std::string& name) {
+  if (name.size() > kLongestName)
+    throw DamagedBytes{
+        0, fmt::format("has a name of {} characters, expected at most {}", name.size(), kLongestName)};
+}
 
 struct Element {
   std::string_view list;
@@ -38,12 +45,14 @@ void MessageNumbers::clear() {
 void MessageNumbers::add(const std::string& path, double value) {
   if (numbers_.size() == kMostNumbers)
     throw DamagedBytes{0, fmt::format("has more than {} numbers, expected at most that many", kMostNumbers)};
+  require_short(path);
   numbers_.emplace_back(path, value);
 }
 
 void MessageNumbers::add_name(const std::string& path, std::string name) {
-  if ((path == "name" || path == "names" || path == "joint_names") && names_.size() < kMostNumbers)
-    names_.push_back(std::move(name));
+  if ((path != "name" && path != "names" && path != "joint_names") || names_.size() == kMostNumbers) return;
+  require_short(name);
+  names_.push_back(std::move(name));
 }
 
 const double* MessageNumbers::find(const std::string& path) const {

@@ -1,6 +1,9 @@
 #include "run/fitted_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "gapscope/base/errors.h"
 
 namespace gapscope::internal::run {
 namespace {
@@ -31,14 +34,20 @@ std::string settle_controller(const Configuration& c, std::vector<Recording>& fi
   std::vector<MotorTrace> traces;
   for (const Recording& r : fitted) traces.push_back(r.motor_trace());
   const FitSummary found = fit(traces, c.reference_model(), c.fit);
+  if (found.status == FitStatus::kFailed)
+    throw ConfigError(
+        c.file,
+        "has a controller to estimate, but the fit of the model as it is found no numbers for it, "
+        "expected controller: with numbers, or a model nearer to the drive");
   const DriveController controller = fitted_controller(*c.controller, found);
   command_anew(controller, fitted);
   command_anew(controller, held_out);
-  std::string text =
-      "the controller that the diagnosis takes as known is that of a fit of the model as it is:";
+  std::vector<std::string> numbers;
   for (const FittedParameter& p : found.parameters)
-    if (p.estimated && p.key.starts_with("controller.")) text += " " + told(p);
-  return text;
+    if (p.estimated && p.key.starts_with("controller.")) numbers.push_back(told(p));
+  return fmt::format(
+      "the controller that the diagnosis takes as known is that of a fit of the model as it is{}: {}",
+      found.converged() ? "" : ", which has not converged", fmt::join(numbers, ", "));
 }
 
 }  // namespace gapscope::internal::run
