@@ -41,24 +41,16 @@ void write_fitted_model(const std::string& folder, const Configuration& c, const
   write_text(path, fit_yaml(c, *result.reference, trace_name(0, first.file), first.motor_trace()));
 }
 
-/// What is stored need not be held twice: the report reads it from there.
-void forget_samples(RunResult& r) {
-  r.recordings = {};
-  if (r.model_free) r.model_free->traces = {}, r.model_free->map.reset();
-  if (r.reference) r.reference->traces = {};
-}
-
 /// The folder is replaced only when everything is in it.
 void write_outcome(ReportFolder& report, const Configuration& c, const FigureFormats& figures,
                    RunOutcome& outcome) {
   report.keep_diagnosis(outcome.result.version, outcome.result.sources);
   if (!report.dropped().empty()) outcome.warnings.push_back(report.dropped());
   add_card(report.path(), outcome.result);
-  write_run_result(report.path(), outcome.result);
+  write_fitted_model(report.path(), c, outcome.result);
+  outcome.result = write_run_result(report.path(), std::move(outcome.result));
   write_timing(report.path(), outcome.timing);
   write_text(report.path() + "/resolved.yaml", outcome.result.configuration);
-  write_fitted_model(report.path(), c, outcome.result);
-  forget_samples(outcome.result);
   write_report(report.path(), report.dropped(), figures);
   stop_point();
   report.commit();

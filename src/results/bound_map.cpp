@@ -25,7 +25,7 @@ void write_bound_map(const std::string& path, const BoundMap& map) {
 }
 
 void read_bound_map(const std::string& path, BoundMap& map) {
-  std::istringstream in(text_of_table(path, "map"));
+  std::ifstream in = open_table(path, "map");
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;

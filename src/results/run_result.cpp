@@ -21,6 +21,7 @@ using internal::results::JsonReader;
 using internal::results::JsonWriter;
 using internal::results::kSchema;
 using internal::results::StoredRecording;
+using internal::results::TraceSet;
 
 /// What the contract of the file promises; another state is a bug of the caller.
 void require_consistent(const GapEstimate& g) {
@@ -34,11 +35,11 @@ void require_consistent(const GapEstimate& g) {
 /// The trace of each recording, nullptr where it has none. Recordings of one name take the traces of that
 /// name in turn.
 template <class Part>
-auto traces_by_recording(const std::vector<Recording>& recordings, const std::optional<Part>& part) {
+auto traces_by_recording(const std::vector<Recording>& recordings, std::optional<Part>& part) {
   using Trace = typename decltype(part->traces)::value_type;
-  std::vector<const Trace*> found(recordings.size(), nullptr);
+  std::vector<Trace*> found(recordings.size(), nullptr);
   if (!part) return found;
-  for (const Trace& trace : part->traces) {
+  for (Trace& trace : part->traces) {
     std::size_t i = 0;
     while (i < recordings.size() && (found[i] || recordings[i].file != trace.file)) ++i;
     if (i == recordings.size()) throw std::logic_error("the trace of " + trace.file + " has no recording");
@@ -55,8 +56,9 @@ void make_folder(const fs::path& folder) {
   if (error) throw std::runtime_error(folder.string() + ": cannot be created: " + error.message());
 }
 
-StoredRecording store_recording(const std::string& folder, std::size_t index, const Recording& recording,
-                                const ErrorTrace* error, const FitTrace* fit) {
+/// Takes the samples along, so that a long recording is held once.
+StoredRecording store_recording(const std::string& folder, std::size_t index, Recording& recording,
+                                ErrorTrace* error, FitTrace* fit) {
   StoredRecording stored;
   stored.trace = trace_name(index, recording.file);
   stored.samples = static_cast<int>(recording.size());
@@ -65,13 +67,17 @@ StoredRecording store_recording(const std::string& folder, std::size_t index, co
   stored.recording = {recording.file,    recording.start,     recording.dt, {}, {}, {}, {},
                       recording.quantum, recording.resampling};
   stored.recording.encoder = recording.encoder;
-  internal::results::write_trace(folder + "/" + stored.trace, recording, error, fit);
+  TraceSet set;
+  set.recording = std::move(recording);
+  if (error) set.error = std::move(*error);
+  if (fit) set.fit = std::move(*fit);
+  internal::results::write_trace(folder + "/" + stored.trace, set);
   return stored;
 }
 
 void load_recording(const std::string& folder, const StoredRecording& stored, RunResult& run) {
   const std::string path = internal::results::trace_path(folder, stored.trace);
-  internal::results::TraceSet set;
+  TraceSet set;
   set.recording = stored.recording;
   set.error.file = set.fit.file = stored.recording.file;
   set.fit.encoder = stored.recording.encoder;
@@ -115,21 +121,26 @@ void require_events(const JsonReader& reader, const Document& document) {
 
 }  // namespace
 
-void write_run_result(const std::string& folder, const RunResult& result) {
+RunResult write_run_result(const std::string& folder, RunResult result) {
   if (result.model_free) require_consistent(*result.model_free);
-  const auto errors = traces_by_recording(result.recordings, result.model_free);
-  const auto fits = traces_by_recording(result.recordings, result.reference);
-  if (!result.recordings.empty()) make_folder(fs::path(folder) / "traces");
   Document document;
-  document.run = result;
-  for (std::size_t i = 0; i < result.recordings.size(); ++i)
-    document.recordings.push_back(store_recording(folder, i, result.recordings[i], errors[i], fits[i]));
-  if (result.model_free && result.model_free->map && !result.recordings.empty())
+  document.run = std::move(result);
+  RunResult& run = document.run;
+  const auto errors = traces_by_recording(run.recordings, run.model_free);
+  const auto fits = traces_by_recording(run.recordings, run.reference);
+  if (!run.recordings.empty()) make_folder(fs::path(folder) / "traces");
+  for (std::size_t i = 0; i < run.recordings.size(); ++i)
+    document.recordings.push_back(store_recording(folder, i, run.recordings[i], errors[i], fits[i]));
+  if (run.model_free && run.model_free->map && !run.recordings.empty())
     internal::results::write_bound_map(folder + "/traces/" + internal::results::kBoundMapName,
-                                       *result.model_free->map);
+                                       *run.model_free->map);
+  run.recordings.clear();
+  if (run.model_free) run.model_free->traces.clear();
+  if (run.reference) run.reference->traces.clear();
   JsonWriter writer;
   fields(writer, document);
   save(folder + "/result.json", writer);
+  return std::move(document.run);
 }
 
 RunResult read_run_result(const std::string& folder) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
 
@@ -120,7 +119,9 @@ Columns filled_columns(const TraceSet& set) {
   return filled;
 }
 
-std::string text_of(const TraceSet& set) {
+constexpr std::size_t kPiece = std::size_t{1} << 20;  ///< of a table that is held before it is written [B]
+
+void write_rows(std::ostream& out, const TraceSet& set) {
   const Columns columns = filled_columns(set);
   std::string text = "t_s";
   for (const NumberColumn& column : columns.numbers) text += std::string(",") + column.name;
@@ -131,8 +132,11 @@ std::string text_of(const TraceSet& set) {
     for (const NumberColumn& column : columns.numbers) append(text += ',', column.of(set)[i]);
     for (const ModeColumn& column : columns.modes) (text += ',') += to_string(column.of(set)[i]);
     text += '\n';
+    if (text.size() < kPiece) continue;
+    out << text;
+    text.clear();
   }
-  return text;
+  out << text;
 }
 
 /// Cuts the next field off a line.
@@ -216,14 +220,8 @@ void settle_stamps(Recording& r) {
 
 void write_trace(const std::string& path, const TraceSet& set) {
   std::ofstream out(path, std::ios::binary);
-  out << text_of(set);
+  write_rows(out, set);
   if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
-}
-
-void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
-                 const FitTrace* fit) {
-  write_trace(path,
-              TraceSet{recording, error ? *error : ErrorTrace{}, fit ? *fit : FitTrace{}, {}, {}, {}, {}});
 }
 
 std::string trace_path(const std::string& folder, const std::string& name) {
@@ -234,7 +232,7 @@ std::string trace_path(const std::string& folder, const std::string& name) {
   return folder + "/" + name;
 }
 
-std::string text_of_table(const std::string& path, const char* what) {
+std::ifstream open_table(const std::string& path, const char* what) {
   namespace fs = std::filesystem;
   std::error_code problem;
   const fs::file_status there = fs::status(path, problem);
@@ -245,18 +243,15 @@ std::string text_of_table(const std::string& path, const char* what) {
     throw ConfigError(path, "is larger than 16 GiB" + expected);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw ConfigError(path, "cannot be read" + expected);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return in;
 }
 
 void read_trace(const std::string& path, TraceSet& set) {
-  const std::string text = text_of_table(path, "trace");
-  if (text.empty()) throw ConfigError(path, "is empty, expected a stored trace");
-  std::string_view rest = text;
+  std::ifstream in = open_table(path, "trace");
   Columns columns;
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::size_t end = rest.find('\n');
-    const std::string_view row = rest.substr(0, end);
-    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+  int line = 0;
+  for (std::string row; std::getline(in, row);) {
+    ++line;
     try {
       if (line == 1)
         columns = columns_of_header(row, set.recording.encoder);
@@ -266,6 +261,7 @@ void read_trace(const std::string& path, TraceSet& set) {
       throw ConfigError(path, line, error.what());
     }
   }
+  if (line == 0) throw ConfigError(path, "is empty, expected a stored trace");
   try {
     settle_stamps(set.recording);
   } catch (const std::invalid_argument& error) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -21,16 +22,13 @@ struct TraceSet {
 };
 
 /// Writes the filled columns only; an undefined number is an empty field.  @throws std::runtime_error
-void write_trace(const std::string& path, const Recording& recording, const ErrorTrace* error,
-                 const FitTrace* fit);
-
 void write_trace(const std::string& path, const TraceSet& set);
 
 /// Where a trace that a stored result names is.  @throws ConfigError for a place outside the folder's traces.
 std::string trace_path(const std::string& folder, const std::string& name);
 
-/// All of a stored table.  @throws ConfigError unless it is a regular file of a size that is stored
-std::string text_of_table(const std::string& path, const char* what);
+/// A stored table to read from.  @throws ConfigError unless it is a regular file of a size that is stored
+std::ifstream open_table(const std::string& path, const char* what);
 
 /// Fills the columns of a set.  @throws ConfigError with file and line for a damaged file.
 void read_trace(const std::string& path, TraceSet& set);

@@ -47,9 +47,10 @@ std::string trace_name(std::size_t index, const std::string& recording_file);
 /// for each column of time, a field for each bound: |e_x| over its floor) into an existing folder. The
 /// columns of a trace are t_s, u, x1_rad, x2_rad, e_x_rad, w1_hat_rad_s, fit_x1_rad, fit_predicted_x1_rad
 /// (where the encoder is on the load fit_predicted_x2_rad), fit_x2_rad, mode, fit_mode, those that are
-/// filled. Numbers come out shortest and read back the same.
+/// filled. Numbers come out shortest and read back the same. Returned is the result without its samples
+/// (recordings and traces): moved in, a long recording is held once.
 /// @throws std::runtime_error naming what cannot be written.
-void write_run_result(const std::string& folder, const RunResult& result);
+RunResult write_run_result(const std::string& folder, RunResult result);
 void write_timing(const std::string& folder, const Timing& timing);
 
 /// Reads back exactly what write_run_result() wrote.  @throws ConfigError for another schema or a damaged
