@@ -23,12 +23,15 @@ Ticks ticks_of_step(double low, double high, double step, int power) {
 Ticks round_ticks(double low, double high, int most) {
   if (!(high > low)) return {1.0, 0, {low}};
   int power = static_cast<int>(std::floor(std::log10((high - low) / most))) - 1;
+  Ticks finer;
   for (;; ++power) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double step = digit * std::pow(10.0, power);
-      if ((high - low) / step > most + 1.0) continue;
+      if ((high - low) / step > 2.5 * most + 1.0) continue;  // not even the finer ones of a single tick
       Ticks ticks = ticks_of_step(low, high, step, power);
-      if (static_cast<int>(ticks.values.size()) <= most) return ticks;
+      const bool single = ticks.values.size() < 2 && finer.values.size() > 1;
+      if (static_cast<int>(ticks.values.size()) <= most) return single ? finer : ticks;
+      finer = std::move(ticks);
     }
   }
 }

@@ -15,7 +15,8 @@ struct Ticks {
   std::vector<double> values;  ///< all multiples of the step within [low, high]
 };
 
-/// The finest round step that puts at most `most` (≥ 2) ticks on [low, high].
+/// The finest round step that puts at most `most` (≥ 2) ticks on [low, high]; up to two more where the next
+/// coarser one would leave a single tick, which tells no scale.
 Ticks round_ticks(double low, double high, int most);
 
 /// Round places on a logarithmic axis: these multiples of the powers of ten.

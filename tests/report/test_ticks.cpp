@@ -18,7 +18,8 @@ TEST(Ticks, AreRoundWithinTheRangeAndNotTooMany) {
     const double digit = ticks.step / std::pow(10.0, std::floor(std::log10(ticks.step * 1.0000001)));
     EXPECT_TRUE(std::abs(digit - 1) < 1e-6 || std::abs(digit - 2) < 1e-6 || std::abs(digit - 5) < 1e-6)
         << ticks.step;
-    EXPECT_LE(ticks.values.size(), static_cast<std::size_t>(most));
+    EXPECT_LE(ticks.values.size(), static_cast<std::size_t>(most) + 2);
+    EXPECT_GE(ticks.values.size(), 2u) << "a single tick tells no scale";
     for (const double v : ticks.values) {
       EXPECT_GE(v, low - 1e-9 * (high - low));
       EXPECT_LE(v, high + 1e-9 * (high - low));
@@ -32,6 +33,11 @@ TEST(Ticks, AreTheFinestThatFit) {
   EXPECT_DOUBLE_EQ(round_ticks(0.0, 10.0, 10).step, 2.0);
   EXPECT_DOUBLE_EQ(round_ticks(0.0, 10.0, 5).step, 5.0);
   EXPECT_DOUBLE_EQ(round_ticks(-0.11, 0.13, 5).step, 0.05);
+}
+
+TEST(Ticks, AreMoreThanOneEvenWhereThereIsNoRoom) {
+  EXPECT_EQ(round_ticks(-0.18, 0.18, 2).values.size(), 3u);
+  EXPECT_DOUBLE_EQ(round_ticks(-0.18, 0.18, 2).step, 0.1);
 }
 
 TEST(Ticks, IncludeLimitsThatAreRound) {
