@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -92,6 +93,21 @@ TEST(Coasting, ImpactsWithinAHalfPeriodOfTheMotionAreNoEchoesWhereTheTorqueTurns
 TEST(Coasting, AContactThatRingsUntilItIsLostTellsNoTravelOfTheLoad) {
   const CoastingSubject s(810371);  // 24 % too large by the motor's speed at t1
   EXPECT_NE(s.read().verdict, GapVerdict::kBacklash);
+}
+
+TEST(Coasting, AMotorThatComesToRestWithinTheGapTellsNoGap) {
+  const CoastingSubject s(3380020, independent_plant::Waveform::kTrapezoid);  // 11 % too small from its rest
+  const GapEstimate estimate = s.read();
+  EXPECT_NE(estimate.verdict, GapVerdict::kBacklash);
+  EXPECT_EQ(std::ranges::count_if(estimate.events, &GapEvent::accepted), 0);
+  EXPECT_NE(detect_gap({&s.trace, 1}, {.frozen = true}).verdict, GapVerdict::kBacklash);
+}
+
+TEST(Coasting, AMotorThatRestsAtItsLoadIsStillReadWhereTheTorqueRestsToo) {
+  const CoastingSubject s(3380044, independent_plant::Waveform::kTrapezoid);
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
 }
 
 }  // namespace
