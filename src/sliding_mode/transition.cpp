@@ -175,7 +175,8 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
   read_release(t, context, law, time);
   if (t.refusal != Refusal::kNone) return t;
   const auto begin = static_cast<std::size_t>(std::max((t.t1_last - trace.start) / trace.dt, 0.0)) + 1;
-  if (may_rest_alone(context, reversal, begin, time.core)) t.refusal = Refusal::kRestsAlone;
+  const RestBeforeFlight passage{reversal, begin, time.core};
+  if (may_rest_alone(trace, context.facts, {&passage, 1})) t.refusal = Refusal::kRestsAlone;
   return t;
 }
 

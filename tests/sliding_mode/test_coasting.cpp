@@ -73,6 +73,22 @@ TEST(SharedLaw, FindsTheLawThatStretchesShareAndTheStateInEach) {
   EXPECT_NEAR(rest.drive(), 3.0, 0.05);
 }
 
+TEST(SharedLaw, FrictionThatWouldDriveIsNoneWhereItIsToBePassive) {
+  std::vector<double> u, x1;
+  for (int i = 0; i < 400; ++i) {
+    const double t = 1e-3 * i;
+    u.push_back(1.0);
+    x1.push_back(1.5 * t * t + 0.4 * t * t * t);  // gains acceleration under a constant torque
+  }
+  const MotorTrace trace{"driven", 0.0, 1e-3, u, x1};
+  const std::vector<LawStretch> stretches{{10, 10, 390, 1}};
+  EXPECT_LT(SharedLaw(trace, stretches).viscous(), -0.1);
+  const SharedLaw passive(trace, stretches, SharedLaw::Friction::kPassive);
+  EXPECT_GE(passive.viscous(), 0.0);
+  EXPECT_GE(passive.dry(), 0.0);
+  EXPECT_GT(passive.rms(), 10.0 * SharedLaw(trace, stretches).rms());
+}
+
 TEST(Coasting, ALoadThatMovesIsReadWithTheFrictionThatItsEngagedFlankShows) {
   const CoastingSubject s(
       830004);  // travels 0.35 of the gap; 6 % too small by the motor's deceleration at t1
@@ -88,6 +104,13 @@ TEST(Coasting, ImpactsWithinAHalfPeriodOfTheMotionAreNoEchoesWhereTheTorqueTurns
   const GapEstimate estimate = s.read();
   ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
   EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
+}
+
+TEST(Coasting, ALoadThatHardlyMovesIsReadWithinWhatItMayHaveMoved) {
+  const CoastingSubject s(877043);  // 0.001 of the gap; at some of the possible t1 it rests
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.01 * s.c.drive.gap);
 }
 
 TEST(Coasting, AContactThatRingsUntilItIsLostTellsNoTravelOfTheLoad) {
