@@ -80,14 +80,9 @@ std::size_t first_settled(const PeriodTable& table, double quantum) {
   return first;
 }
 
-/// What the motion gains from one period to the next is no part of it: the mean must end where it begins.
-void remove_drift(PeriodTable& table, std::size_t first) {
-  const auto bins = static_cast<double>(table.phases());
-  const double drift =
-      (table.offsets.back() - table.offsets[first]) / static_cast<double>(table.rows.size() - first - 1);
-  for (auto& row : table.rows)
-    for (std::size_t b = 0; b < row.size(); ++b)
-      row[b] -= drift * ((static_cast<double>(b) + 0.5) / bins - 0.5);
+/// What the motion gains from one period to the next [rad].
+double drift_of(const PeriodTable& table, std::size_t first) {
+  return (table.offsets.back() - table.offsets[first]) / static_cast<double>(table.rows.size() - first - 1);
 }
 
 /// Mean of the periods from `first` on; the variance between them, of one sample [rad²].
@@ -122,15 +117,15 @@ FoldedMotion fold(const MotorTrace& trace) {
   f.periods = table.rows.size() - first;
   f.dt = period / static_cast<double>(table.phases());
   f.start = trace.start + (table.begin + static_cast<double>(first) * table.length) * trace.dt;
-  remove_drift(table, first);
   const double between = average(table, first, f.mean), rounding = f.quantum * f.quantum / 12.0;
   // Periods that read alike to the last count share their rounding: averaging does not help.
   f.noise = std::sqrt(between > 0.5 * rounding ? between / static_cast<double>(f.periods) : rounding);
   if (between < kDithered * rounding) f.rounding = std::sqrt(rounding);
+  const double drift = drift_of(table, first);
   const double origin = table.begin + static_cast<double>(first) * table.length;
   for (std::size_t tile = 0; tile < FoldedMotion::kTiles; ++tile)
     for (std::size_t b = 0; b < f.mean.size(); ++b) {
-      f.tiled_x1.push_back(f.mean[b]);
+      f.tiled_x1.push_back(f.mean[b] + drift * static_cast<double>(tile));
       f.tiled_u.push_back(
           between_samples(trace.u, origin + (static_cast<double>(b) + 0.5) * f.dt / trace.dt));
     }

@@ -16,7 +16,9 @@ struct FoldedMotion {
   double rounding = 0.0;     ///< error that all periods share where the motion is slow: 0 with dither [rad]
   double noise = 0.0;        ///< standard deviation of a sample of the mean [rad]
   std::vector<double> mean;  ///< one period of x1, its own mean removed [rad]
-  std::vector<double> tiled_u, tiled_x1;  ///< kTiles periods, for a detector that expects a motion
+  /// kTiles periods, each as much farther on as the motion gains in one: a line taken off instead would make
+  /// a motor that rests seem to creep, and change every way that it goes.
+  std::vector<double> tiled_u, tiled_x1;
 
   static constexpr std::size_t kTiles = 4;
   MotorTrace trace(const std::string& file) const;

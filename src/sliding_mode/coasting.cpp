@@ -159,9 +159,12 @@ void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std
   if (std::isnan(best.gap)) return;
   Laws rigid = laws;
   rigid.contact = 0.0;
-  const double spring = best.gap - way(trace, rigid, c, k, t.event.t1).gap;
-  const double t1 = std::max(std::abs(way(trace, laws, c, k, t.t1_first).gap - best.gap),
-                             std::abs(way(trace, laws, c, k, t.t1_last).gap - best.gap));
+  const auto differs = [&](const LoadWay& other) {  // a load that rested then has travelled nothing
+    return std::isnan(other.gap) ? best.travel : std::abs(other.gap - best.gap);
+  };
+  const double spring = differs(way(trace, rigid, c, k, t.event.t1));
+  const double t1 =
+      std::max(differs(way(trace, laws, c, k, t.t1_first)), differs(way(trace, laws, c, k, t.t1_last)));
   t.event.gap = best.gap;
   t.load_travel = best.travel;
   t.half_width = std::hypot(t.impact_half_width + t1, doubt, std::hypot(spring, kTravelDoubt * best.travel));

@@ -227,13 +227,11 @@ GapEstimate detect_paper(std::span<const MotorTrace> recordings, std::span<const
 
 /// Few passages say that the load moved into them: that the torque changes its sign then tells no release.
 bool load_rests(std::span<const ImpactAnalysis> analyses) {
-  using internal::sliding_mode::Refusal;
   std::size_t moving = 0, all = 0;
   for (const ImpactAnalysis& a : analyses)
     for (const auto& t : a.passages) {
       ++all;
-      moving += t.refusal == Refusal::kThrownOff || t.refusal == Refusal::kLoadMoving ||
-                t.refusal == Refusal::kSameFlank;
+      moving += internal::sliding_mode::speaks_of_moving_load(t.refusal);
     }
   return static_cast<double>(moving) <= kFewMovingLoads * static_cast<double>(all);
 }

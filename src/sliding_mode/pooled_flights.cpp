@@ -15,6 +15,31 @@ constexpr double kRest = 0.12;                  ///< of the flight, to either si
 constexpr double kWide = 0.08;                  ///< … that x1 is averaged over where it turns round
 constexpr std::size_t kMostRows = 3000;
 
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1>;
+
+struct ConstrainedFit {
+  SmallVector solution;
+  double left = kInfinity;  ///< squared error [rad²]
+};
+
+/// Least squares with every coefficient behind the first at most zero: friction and the impact slow down.
+ConstrainedFit solve_passive(const SmallMatrix& A, const SmallVector& y) {
+  ConstrainedFit best;
+  const Eigen::Index bounded = A.cols() - 1;
+  for (unsigned dropped = 0; dropped < 1u << bounded; ++dropped) {
+    SmallMatrix some = A;
+    for (Eigen::Index k = 0; k < bounded; ++k)
+      if (dropped >> k & 1u) some.col(k + 1).setZero();
+    const SmallVector solution = some.colPivHouseholderQr().solve(y);
+    const bool passive = (solution.tail(bounded).array() <= 0.0).all();
+    const double left = (some * solution - y).squaredNorm();
+    if (passive && left < best.left) best = {solution, left};
+    if (passive && dropped == 0) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<TorqueTurn> torque_turns(const MotorTrace& trace) {
@@ -63,6 +88,7 @@ PooledFlights::PooledFlights(const MotorTrace& trace, const std::vector<TorqueTu
     for (PooledStretch& s : stretches_) s.speed /= typical;
     half_ = std::max<std::size_t>(1, static_cast<std::size_t>(duration_ / 40.0));
   }
+  lay_tracks();
   lay_columns();
 }
 
@@ -152,17 +178,26 @@ void PooledFlights::lay_columns() {
     if (time.norm() > 0.0) time.normalize();
   }
   project(residual_);
-  basis_.resize(n, 3);
-  Eigen::Index kept = 0;
-  for (Eigen::VectorXd& column : shared) {
+  basis_ = Eigen::MatrixXd::Zero(n, 3);
+  triangle_.setZero();
+  along_.setZero();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Eigen::VectorXd& column = shared[static_cast<std::size_t>(k)];
     const double whole = column.norm();
     project(column);
     for (int pass = 0; pass < 2; ++pass)
-      for (Eigen::Index c = 0; c < kept; ++c) column -= basis_.col(c) * basis_.col(c).dot(column);
-    if (column.norm() > 1e-9 * whole) basis_.col(kept++) = column.normalized();
+      for (Eigen::Index c = 0; c < k; ++c) {
+        const double part = basis_.col(c).dot(column);
+        column -= basis_.col(c) * part;
+        triangle_(c, k) += part;
+      }
+    triangle_(k, k) = column.norm();
+    if (column.norm() > 1e-9 * whole) basis_.col(k) = column.normalized();
   }
-  basis_.conservativeResize(n, kept);
-  for (Eigen::Index c = 0; c < kept; ++c) residual_ -= basis_.col(c) * basis_.col(c).dot(residual_);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    along_(c) = basis_.col(c).dot(residual_);
+    residual_ -= basis_.col(c) * along_(c);
+  }
   smooth_sse_ = residual_.squaredNorm();
 }
 
@@ -170,27 +205,91 @@ double PooledFlights::freedom() const {
   return static_cast<double>(rows_.size()) - 2.0 * static_cast<double>(stretches_.size()) - 5.0;
 }
 
-PooledKink PooledFlights::trial(const KinkShape& shape, double gap) const {
+void PooledFlights::lay_tracks() {
+  for (const PooledStretch& s : stretches_) {
+    Track track;
+    double farthest = -kInfinity;
+    for (std::size_t i = s.turn.zero; i < s.turn.next && i <= s.last; ++i) {
+      track.way.push_back(s.turn.direction * (smooth(i, half_) - s.rest));
+      track.farthest.push_back(farthest = std::max(farthest, track.way.back()));
+    }
+    tracks_.push_back(std::move(track));
+  }
+}
+
+std::vector<double> PooledFlights::crossings(double distance) const {
+  std::vector<double> times;
+  for (std::size_t p = 0; p < stretches_.size(); ++p) {
+    const auto& [way, farthest] = tracks_[p];
+    const auto i = static_cast<std::size_t>(std::ranges::lower_bound(farthest, distance) - farthest.begin());
+    const auto at = static_cast<double>(stretches_[p].turn.zero + i);
+    times.push_back(i == way.size() ? kNaN
+                    : i == 0        ? at
+                                    : at - (way[i] - distance) / std::max(way[i] - way[i - 1], 1e-300));
+  }
+  return times;
+}
+
+/// What a kink of unit strength adds to x1, without what each passage has of its own.
+Eigen::VectorXd PooledFlights::kink_column(const KinkShape& shape, const std::vector<double>& times) const {
   Eigen::VectorXd column = Eigen::VectorXd::Zero(residual_.size());
   for (std::size_t p = 0; p < stretches_.size(); ++p) {
-    const double time = crossing(stretches_[p], gap);
-    if (std::isnan(time)) continue;
+    if (std::isnan(times[p])) continue;
     for (Eigen::Index r = begins_[p]; r < begins_[p + 1]; ++r) {
-      const double since = static_cast<double>(rows_[static_cast<std::size_t>(r)].sample) - time;
+      const double since = static_cast<double>(rows_[static_cast<std::size_t>(r)].sample) - times[p];
       if (since > 0.0) column(r) = stretches_[p].turn.direction * stretches_[p].speed * shape(since);
     }
   }
-  const double whole = column.squaredNorm();
   project(column);
+  return column;
+}
+
+PooledKink PooledFlights::trial(const KinkShape& shape, double gap) const {
+  Eigen::VectorXd column = kink_column(shape, crossings(gap));
+  const double whole = column.squaredNorm();
   for (Eigen::Index c = 0; c < basis_.cols(); ++c) column -= basis_.col(c) * basis_.col(c).dot(column);
   const double left = column.squaredNorm();
-  if (!(left > 1e-9 * whole)) return {shape, gap, 0.0, smooth_sse_};
+  if (!(left > 1e-9 * whole)) return {shape, false, gap, 0.0, smooth_sse_};
   const double with = column.dot(residual_);
-  return {shape, gap, with / left, std::max(smooth_sse_ - with * with / left, 0.0)};
+  return {shape, false, gap, with / left, std::max(smooth_sse_ - with * with / left, 0.0)};
 }
 
 PooledKink PooledFlights::best(const KinkShape& shape, double low, double high, double step) const {
   return least_sse([&](double gap) { return trial(shape, gap); }, low, high, step, 0.1 * step);
+}
+
+PooledKink PooledFlights::trial_impact(const KinkShape& shape, bool brakes, double gap) const {
+  const std::vector<double> times = crossings(gap);
+  std::vector<Eigen::VectorXd> columns{kink_column(shape, times)};
+  if (brakes) columns.push_back(kink_column({2}, times));
+  const Eigen::Index all = 3 + std::ssize(columns);
+  SmallMatrix A = SmallMatrix::Zero(all, all);
+  SmallVector y = SmallVector::Zero(all);
+  A.topLeftCorner(3, 3) = triangle_;
+  y.head(3) = along_;
+  double left = smooth_sse_;
+  for (Eigen::Index k = 3; k < all; ++k) {  // made orthogonal to those before it
+    Eigen::VectorXd& column = columns[static_cast<std::size_t>(k - 3)];
+    const double scale = std::max(column.norm(), 1e-300);
+    column /= scale;
+    for (Eigen::Index c = 0; c < k; ++c) {
+      const auto before = c < 3 ? Eigen::VectorXd(basis_.col(c)) : columns[static_cast<std::size_t>(c - 3)];
+      A(c, k) = before.dot(column);
+      column -= before * A(c, k);
+    }
+    A(k, k) = column.norm();
+    column *= A(k, k) > 1e-5 ? 1.0 / A(k, k) : 0.0;  // what the others imitate says nothing
+    y(k) = column.dot(residual_);
+    left -= y(k) * y(k);
+    A.col(k) *= scale;
+  }
+  const ConstrainedFit fit = solve_passive(A, y);
+  return {shape, brakes, gap, fit.solution(3), std::max(left, 0.0) + fit.left};
+}
+
+PooledKink PooledFlights::best_impact(const KinkShape& shape, bool brakes, double low, double high,
+                                      double step) const {
+  return least_sse([&](double gap) { return trial_impact(shape, brakes, gap); }, low, high, step, 0.1 * step);
 }
 
 }  // namespace gapscope::internal::sliding_mode

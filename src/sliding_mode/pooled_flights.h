@@ -32,6 +32,7 @@ struct PooledStretch {
 /// One kink in all passages at the same distance from rest, and the law of the free motor before it.
 struct PooledKink {
   KinkShape shape;
+  bool brakes = false;     ///< from the kink on, the load also holds the motor back all the time
   double gap = 0.0;        ///< distance from rest [rad]
   double amplitude = 0.0;  ///< of x1, along the passage, per speed
   double sse = 0.0;        ///< [rad²]
@@ -53,6 +54,9 @@ class PooledFlights {
   /// Least squares with a kink of this shape, the distances low … high tried.
   PooledKink best(const KinkShape& shape, double low, double high, double step) const;
   PooledKink trial(const KinkShape& shape, double gap) const;
+  /// … of an impact: friction does not drive, neither the motor's nor that of the load which it takes along.
+  PooledKink best_impact(const KinkShape& shape, bool brakes, double low, double high, double step) const;
+  PooledKink trial_impact(const KinkShape& shape, bool brakes, double gap) const;
   double duration() const {
     return duration_;
   }  ///< median from the zero of the torque to the gap tried [samples]
@@ -66,16 +70,25 @@ class PooledFlights {
   bool prepare(const TorqueTurn& turn, double gap);
   void lay_columns();
   void project(Eigen::VectorXd& column) const;
+  void lay_tracks();
+  std::vector<double> crossings(double distance) const;  ///< of all passages [samples]
+  Eigen::VectorXd kink_column(const KinkShape& shape, const std::vector<double>& times) const;
 
   const MotorTrace& trace_;
   double noise_;
   std::size_t half_ = 1;  ///< samples that x1 is smoothed over to either side
   std::vector<double> sums_;
   std::vector<PooledStretch> stretches_;
+  struct Track {                        // of a passage, from the zero of the torque on
+    std::vector<double> way, farthest;  // of the smoothed x1 from its rest, and so far [rad]
+  };
+  std::vector<Track> tracks_;
   std::vector<Row> rows_;
   std::vector<Eigen::Index> begins_;
-  Eigen::MatrixXd local_;  ///< orthonormal within each passage: 1 and t
-  Eigen::MatrixXd basis_;  ///< orthonormal: what all share
+  Eigen::MatrixXd local_;     ///< orthonormal within each passage: 1 and t
+  Eigen::MatrixXd basis_;     ///< orthonormal: what all share
+  Eigen::Matrix3d triangle_;  ///< … by which they are made of it
+  Eigen::Vector3d along_;     ///< x1 along it
   Eigen::VectorXd residual_;
   double smooth_sse_ = 0.0, duration_ = 0.0;
 };

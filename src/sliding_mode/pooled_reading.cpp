@@ -6,6 +6,7 @@
 
 #include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/arrival.h"
 #include "sliding_mode/pooled_flights.h"
 #include "sliding_mode/words.h"
 
@@ -45,6 +46,7 @@ constexpr double kRounding = 0.3;  ///< standard deviation of the level of rest,
 /// 80 multisine).
 constexpr double kFewestPooledQuanta = 25.0;
 constexpr double kWidestPooled = 0.095;  ///< of the 95 % interval of a gap that is told, either way
+constexpr double kBeforeImpact = 0.9;    ///< of the gap: until there the motor surely flies
 constexpr double kDithers = 0.4;         ///< noise in quanta, from which on samples are independent
 
 /// What the window that ends behind one tried gap shows. All in rad but stands_out.
@@ -55,6 +57,7 @@ struct GapCandidate {
   double beyond = 0.0;           ///< how far x1 goes on after the zero of the torque
   double slid = 0.0;             ///< how far x1 goes on while the torque vanishes
   KinkShape shape;
+  bool brakes = false;
   double doubt = 0.0;  ///< of the gap, by the shape of the kink and the length of the window
 };
 
@@ -95,7 +98,8 @@ void widen(const PooledFlights& flights, std::span<const PooledKink> kinks, doub
     c.low = std::min(c.low, k.gap), c.high = std::max(c.high, k.gap);
     for (const double way : {-step, step})
       for (double g = k.gap + way;
-           std::abs(g - k.gap) < 0.15 * k.gap && flights.trial(k.shape, g).sse < limit; g += way)
+           std::abs(g - k.gap) < 0.15 * k.gap && flights.trial_impact(k.shape, k.brakes, g).sse < limit;
+           g += way)
         c.low = std::min(c.low, g), c.high = std::max(c.high, g);
   }
 }
@@ -108,7 +112,9 @@ std::optional<GapCandidate> try_gap(const PooledRecording& s, double gap) {
     return {};
   std::vector<PooledKink> kinks;
   for (const KinkShape& shape : abrupt_shapes(flights.duration()))
-    kinks.push_back(flights.best(shape, 0.75 * gap, 1.12 * gap, 0.025 * gap));
+    for (const bool brakes : {false, true})
+      if (!brakes || shape.first == 0.0)  // bounces brake
+        kinks.push_back(flights.best_impact(shape, brakes, 0.75 * gap, 1.12 * gap, 0.025 * gap));
   const auto best = std::ranges::min_element(kinks, {}, &PooledKink::sse);
   const double noise = s.facts.noise * s.facts.noise, speed = gap / flights.duration();
   const double left = best->sse / flights.freedom() / noise;
@@ -118,7 +124,7 @@ std::optional<GapCandidate> try_gap(const PooledRecording& s, double gap) {
       std::min({flights.smooth_sse(), flights.best({2}, 0.5 * gap, 1.12 * gap, 0.04 * gap).sse,
                 flights.best({3}, 0.3 * gap, 1.12 * gap, 0.04 * gap).sse});
   GapCandidate c;
-  c.tried = gap, c.gap = best->gap, c.shape = best->shape;
+  c.tried = gap, c.gap = best->gap, c.shape = best->shape, c.brakes = best->brakes;
   c.stands_out = (smooth - best->sse) / noise / correlated(s, speed);
   if (c.stands_out < kKinkStandsOut) return {};
   c.beyond = median_of(flights, &PooledStretch::beyond);
@@ -168,8 +174,26 @@ PooledKink one_way(const PooledRecording& s, const GapCandidate& c, int directio
   for (const TorqueTurn& t : s.turns)
     if (t.direction == direction) turns.push_back(t);
   const PooledFlights flights(s.trace, turns, s.facts.noise, c.tried);
-  if (flights.passages() < kFewestFlights || flights.freedom() < kFewestFreedom) return {c.shape, kNaN};
-  return flights.best(c.shape, 0.75 * c.tried, 1.12 * c.tried, 0.025 * c.tried);
+  if (flights.passages() < kFewestFlights || flights.freedom() < kFewestFreedom)
+    return {c.shape, c.brakes, kNaN};
+  return flights.best_impact(c.shape, c.brakes, 0.75 * c.tried, 1.12 * c.tried, 0.025 * c.tried);
+}
+
+/// The rest that each passage begins from, and its flight.
+std::vector<RestBeforeFlight> rests_of(const PooledRecording& s, const GapCandidate& c) {
+  const PooledFlights flights(s.trace, s.turns, s.facts.noise, c.tried);
+  const double tolerance = s.facts.quantum + 2.0 * s.facts.noise;
+  std::vector<RestBeforeFlight> rests;
+  for (const PooledStretch& stretch : flights.stretches()) {
+    std::size_t first = stretch.turn.zero;
+    while (first > 0 && std::abs(s.trace.x1[first] - stretch.rest) <= tolerance) --first;
+    const double end = flights.crossing(stretch, kBeforeImpact * c.gap);
+    if (std::isnan(end)) continue;
+    rests.push_back({{stretch.turn.direction, first, stretch.turn.zero, stretch.rest, c.gap},
+                     stretch.first,
+                     static_cast<std::size_t>(end)});
+  }
+  return rests;
 }
 
 void keep_events(const PooledRecording& s, const GapCandidate& c, GapEstimate& estimate) {
@@ -194,6 +218,7 @@ std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::Sign
   const PooledRecording s{trace, facts, torque_turns(trace)};
   const auto c = agreed(s);
   if (!c || c->beyond > kMostBeyond * c->gap || c->slid > kMostSlid * c->gap) return {};
+  if (may_rest_alone(trace, facts, rests_of(s, *c))) return {};
   const double up = one_way(s, *c, 1).gap, down = one_way(s, *c, -1).gap;
   if (std::isnan(up) || std::isnan(down)) return {};
   GapEstimate e;

@@ -5,16 +5,25 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
+
+/// Least squares of A·x = y with only the columns that `used` names (bit c: column c), the others at zero.
+Eigen::Vector3d solve_columns(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, unsigned used) {
+  Eigen::MatrixXd some = A;
+  for (int c = 0; c < 3; ++c)
+    if (!(used >> c & 1u)) some.col(c).setZero();
+  return some.colPivHouseholderQr().solve(y);
+}
 
 double sign_at(const LawStretch& s, std::size_t i) { return i < s.reversal ? -s.direction : s.direction; }
 
 }  // namespace
 
-SharedLaw::SharedLaw(const MotorTrace& trace, std::vector<LawStretch> stretches)
-    : trace_(&trace), stretches_(std::move(stretches)) {
+SharedLaw::SharedLaw(const MotorTrace& trace, std::vector<LawStretch> stretches, Friction friction)
+    : trace_(&trace), friction_(friction), stretches_(std::move(stretches)) {
   GAPSCOPE_REQUIRE(!stretches_.empty());
   for (const LawStretch& s : stretches_) reduced_.push_back(reduce(s));
   solve(std::vector<bool>(stretches_.size(), true));
@@ -68,7 +77,15 @@ void SharedLaw::solve(const std::vector<bool>& used) {
   }
   const Eigen::Vector3d scale = A.colwise().norm().transpose().cwiseMax(1e-300);
   A = A * scale.cwiseInverse().asDiagonal();
-  const Eigen::Vector3d scaled = A.colPivHouseholderQr().solve(y);
+  Eigen::Vector3d scaled = solve_columns(A, y, 0b111);
+  if (friction_ == Friction::kPassive && !(scaled(1) <= 0.0 && scaled(2) <= 0.0)) {
+    double least = kInfinity;
+    for (const unsigned columns : {0b101u, 0b011u, 0b001u}) {
+      const Eigen::Vector3d some = solve_columns(A, y, columns);
+      const double left = (A * some - y).norm();
+      if (some(1) <= 0.0 && some(2) <= 0.0 && left < least) least = left, scaled = some;
+    }
+  }
   rms_ = (A * scaled - y).norm() / std::sqrt(freedom);
   shared_ = scaled.cwiseQuotient(scale);
 }

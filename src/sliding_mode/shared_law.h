@@ -21,9 +21,14 @@ struct LawStretch {
 /// differentiated.
 class SharedLaw {
  public:
+  enum class Friction {
+    kAny,      ///< whatever fits: what is left out of the law may take either sign
+    kPassive,  ///< neither the viscous nor the dry one drives
+  };
   /// @param stretches  at least one, each of at least kFewestRows samples
-  SharedLaw(const MotorTrace& trace, std::vector<LawStretch> stretches);
+  SharedLaw(const MotorTrace& trace, std::vector<LawStretch> stretches, Friction friction = Friction::kAny);
   static constexpr std::size_t kFewestRows = 12;
+  static constexpr int kLocal = 2, kShared = 3;  ///< numbers that are fitted: in each stretch, and once
 
   /// The same without every `groups`-th stretch, beginning with the one of that index.
   SharedLaw without(std::size_t group, std::size_t groups) const;
@@ -44,7 +49,7 @@ class SharedLaw {
   State state(std::size_t stretch, double time) const;
 
  private:
-  static constexpr int kLocal = 2, kShared = 3, kAll = kLocal + kShared + 1;  // and x1 itself
+  static constexpr int kAll = kLocal + kShared + 1;  // and x1 itself
   using Reduced = Eigen::Matrix<double, kAll, kAll>;
   struct Integrals {  // from the first sample of the stretch
     double u1 = 0.0, u2 = 0.0, x = 0.0, s1 = 0.0, s2 = 0.0;
@@ -54,6 +59,7 @@ class SharedLaw {
   void solve(const std::vector<bool>& used);
 
   const MotorTrace* trace_;
+  Friction friction_;
   std::vector<LawStretch> stretches_;
   std::vector<Reduced> reduced_;  // upper triangle of the regression of each stretch
   Eigen::Vector3d shared_;        // drive, −viscous, −dry

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/arrival.h"
 #include "sliding_mode/free_flight.h"
 #include "sliding_mode/impact_time.h"
 #include "sliding_mode/release.h"
@@ -33,8 +34,15 @@ const char* refusal_text(Refusal refusal) {
       return "the flank that was left is hit again";
     case Refusal::kThrownOff:
       return "the impact before it threw motor and load apart";
+    case Refusal::kRestsAlone:
+      return "the motor may have come to rest within the gap";
   }
   return "";
+}
+
+bool speaks_of_moving_load(Refusal refusal) {
+  return refusal == Refusal::kThrownOff || refusal == Refusal::kLoadMoving ||
+         refusal == Refusal::kSameFlank || refusal == Refusal::kRestsAlone;
 }
 
 Remark advice(Refusal refusal) {
@@ -55,6 +63,8 @@ Remark advice(Refusal refusal) {
     case Refusal::kThrownOff:
     case Refusal::kLoadMoving:
       return words::load_moves();
+    case Refusal::kRestsAlone:
+      return words::rests_alone();
     case Refusal::kNone:
       break;
   }
@@ -163,6 +173,10 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
     return t;
   }
   read_release(t, context, law, time);
+  if (t.refusal != Refusal::kNone) return t;
+  const auto begin = static_cast<std::size_t>(std::max((t.t1_last - trace.start) / trace.dt, 0.0)) + 1;
+  const RestBeforeFlight passage{reversal, begin, time.core};
+  if (may_rest_alone(trace, context.facts, {&passage, 1})) t.refusal = Refusal::kRestsAlone;
   return t;
 }
 

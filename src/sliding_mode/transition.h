@@ -24,10 +24,12 @@ enum class Refusal {
   kLoadMoving,   ///< the load's own travel is too uncertain
   kSameFlank,    ///< the flank that is hit is the one that was left: the load has only been caught up with
   kThrownOff,    ///< the impact before threw the bodies apart: they do not share a speed at t1
+  kRestsAlone,   ///< the motor may have come to rest within the gap, which its load left before
 };
 
 const char* refusal_text(Refusal refusal);  ///< for the remark of an event
-Remark advice(Refusal refusal);             ///< what to change where it is the commonest
+bool speaks_of_moving_load(Refusal refusal);
+Remark advice(Refusal refusal);  ///< what to change where it is the commonest
 
 /// One candidate passage: an impact, and the release before it.
 struct Transition {

@@ -8,6 +8,7 @@
 #include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "signals/encoder.h"
+#include "signals/folding.h"
 #include "sliding_mode/informative.h"
 #include "sliding_mode/visible_gap.h"
 #include "sliding_mode/words.h"
@@ -211,7 +212,9 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   const int only = only_direction(pool);
   const auto used = gaps_of(pool, only).size();
   const auto [gap, disagreement] = middle(pool);
-  const double random = scatter(pool) / std::sqrt((only == 0 ? 0.5 : 1.0) * static_cast<double>(used));
+  // The passages of a mean period come again in each of its copies: they are no more witnesses for that.
+  const double witnesses = static_cast<double>(used) / (pool.repeats ? signals::FoldedMotion::kTiles : 1.0);
+  const double random = scatter(pool) / std::sqrt(std::max((only == 0 ? 0.5 : 1.0) * witnesses, 1.0));
   const double systematic = kSystematic * median_of(pool, &Transition::half_width);
   const double sampling = 0.25 * median_of(pool, &Transition::speed) * pool.dt;
   estimate.verdict = GapVerdict::kBacklash;

@@ -65,6 +65,12 @@ Remark load_moves() {
           "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or lower "
           "the frequency"};
 }
+Remark rests_alone() {
+  return {
+      "rests_alone",
+      "the motor may have come to rest within the gap, after a load that coasted on; let the torque fall to "
+      "zero more slowly, so that the load stops while it is still pushed, or use a finer encoder"};
+}
 Remark more_periods() { return {"more_periods", "record more periods"}; }
 Remark few_passages_each_way(long plus, long minus, const Remark& advice) {
   return Remark("few_passages",
@@ -259,42 +265,6 @@ Remark free_run_without_play(std::span<const Play> levels, double free_run) {
          Remark("advice",
                 "; a gap that is passed without friction, hard stops and a soft drive look alike: free the "
                 "output and use the impacts");
-}
-
-Remark error_never_at_rest() {
-  return {"error_never_at_rest", "e_x is never at rest: the bound is below the engaged acceleration"};
-}
-Remark bound_above_gap_mode() {
-  return {"bound_above_gap_mode",
-          "no t1: the bound is above the gap-mode acceleration, only the impact shows"};
-}
-Remark bound_below_engaged() {
-  return {"bound_below_engaged",
-          "no t1: the bound is below the engaged acceleration before the reversal, and where contact is lost "
-          "e_x does not bend visibly; use a finer encoder or a higher bound"};
-}
-Remark flank_late(double percent) {
-  const char* const text =
-      "t1 comes {:.0f} % of the passage late: the bound is close to the gap-mode acceleration";
-  return {"flank_late", text, {percent}};
-}
-Remark passages_contradict() {
-  return {"passages_contradict",
-          "the passages contradict each other; record more periods of one steady motion"};
-}
-Remark reversals_read(double read, double half_periods, double bound) {
-  return {"reversals_read", "{:.0f} of {:.0f} reversals read with L = {:.3g}", {read, half_periods, bound}};
-}
-Remark paper_bound_misses(double bound, const Remark& reason) {
-  const char* const text =
-      "the bound of the source paper's eq. (13), one e_x with L = {:.3g} [rad/s²], would have missed the "
-      "passages: ";
-  return Remark("paper_bound_misses", text, {bound}) + reason;
-}
-Remark no_single_bound() { return {"no_single_bound", "; no single bound reads this recording, use auto"}; }
-Remark bound_to_try(double bound) { return {"bound_to_try", "; try L = {:.2g}", {bound}}; }
-Remark bounds_to_try(double smallest, double largest) {
-  return {"bounds_to_try", "; try L between {:.2g} and {:.2g}", {smallest, largest}};
 }
 
 }  // namespace gapscope::internal::sliding_mode::words

@@ -22,6 +22,7 @@ Remark load_hits_motor();
 Remark few_samples_around_impacts();
 Remark release_not_located();
 Remark load_moves();
+Remark rests_alone();
 Remark more_periods();
 
 Remark few_passages_each_way(long plus, long minus, const Remark& advice);

@@ -32,6 +32,20 @@ TEST(Folding, TheMeanEndsWhereItBeginsAlsoWhenTheMotionDrifts) {
   EXPECT_NEAR(seam, inside, 0.05 * std::abs(inside));
 }
 
+TEST(Folding, AMotionThatWandersIsAsSteepInTheMeanAsItIs) {
+  Periodic p;
+  p.quantum = 0.0;
+  const double creep = 2e-3;
+  const FoldedMotion f = fold(p.trace(6.0, creep));
+  ASSERT_GT(f.periods, 0u);
+  const auto off = [&](std::size_t i) {
+    const double t = f.start + (static_cast<double>(i) + 0.5) * f.dt;
+    return f.tiled_x1[i] - p.truth(t) - creep * t;
+  };
+  for (std::size_t i = 1; i < f.tiled_x1.size(); i += 50)
+    EXPECT_NEAR(off(i), off(0), 0.05 * creep * p.period);
+}
+
 TEST(Folding, PeriodsThatReadAlikeToTheLastCountShareTheirRounding) {
   Periodic p;
   p.period = 0.75;  // 750 samples: every period is rounded in the same way

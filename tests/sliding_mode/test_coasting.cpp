@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -72,6 +73,22 @@ TEST(SharedLaw, FindsTheLawThatStretchesShareAndTheStateInEach) {
   EXPECT_NEAR(rest.drive(), 3.0, 0.05);
 }
 
+TEST(SharedLaw, FrictionThatWouldDriveIsNoneWhereItIsToBePassive) {
+  std::vector<double> u, x1;
+  for (int i = 0; i < 400; ++i) {
+    const double t = 1e-3 * i;
+    u.push_back(1.0);
+    x1.push_back(1.5 * t * t + 0.4 * t * t * t);  // gains acceleration under a constant torque
+  }
+  const MotorTrace trace{"driven", 0.0, 1e-3, u, x1};
+  const std::vector<LawStretch> stretches{{10, 10, 390, 1}};
+  EXPECT_LT(SharedLaw(trace, stretches).viscous(), -0.1);
+  const SharedLaw passive(trace, stretches, SharedLaw::Friction::kPassive);
+  EXPECT_GE(passive.viscous(), 0.0);
+  EXPECT_GE(passive.dry(), 0.0);
+  EXPECT_GT(passive.rms(), 10.0 * SharedLaw(trace, stretches).rms());
+}
+
 TEST(Coasting, ALoadThatMovesIsReadWithTheFrictionThatItsEngagedFlankShows) {
   const CoastingSubject s(
       830004);  // travels 0.35 of the gap; 6 % too small by the motor's deceleration at t1
@@ -89,9 +106,31 @@ TEST(Coasting, ImpactsWithinAHalfPeriodOfTheMotionAreNoEchoesWhereTheTorqueTurns
   EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
 }
 
+TEST(Coasting, ALoadThatHardlyMovesIsReadWithinWhatItMayHaveMoved) {
+  const CoastingSubject s(877043);  // 0.001 of the gap; at some of the possible t1 it rests
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.01 * s.c.drive.gap);
+}
+
 TEST(Coasting, AContactThatRingsUntilItIsLostTellsNoTravelOfTheLoad) {
   const CoastingSubject s(810371);  // 24 % too large by the motor's speed at t1
   EXPECT_NE(s.read().verdict, GapVerdict::kBacklash);
+}
+
+TEST(Coasting, AMotorThatComesToRestWithinTheGapTellsNoGap) {
+  const CoastingSubject s(3380020, independent_plant::Waveform::kTrapezoid);  // 11 % too small from its rest
+  const GapEstimate estimate = s.read();
+  EXPECT_NE(estimate.verdict, GapVerdict::kBacklash);
+  EXPECT_EQ(std::ranges::count_if(estimate.events, &GapEvent::accepted), 0);
+  EXPECT_NE(detect_gap({&s.trace, 1}, {.frozen = true}).verdict, GapVerdict::kBacklash);
+}
+
+TEST(Coasting, AMotorThatRestsAtItsLoadIsStillReadWhereTheTorqueRestsToo) {
+  const CoastingSubject s(3380044, independent_plant::Waveform::kTrapezoid);
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
 }
 
 }  // namespace

@@ -81,6 +81,18 @@ TEST(PooledFlights, AMotorThatLeavesItsLoadWithoutTorqueIsNotReadFromWhereItCame
   EXPECT_FALSE(
       trapezoid(3320052).read());  // thrown off the flank by the spring of the contact: 16 % too small
   EXPECT_FALSE(trapezoid(3330047).read());  // its load goes on and leaves it: 34 % too small
+  EXPECT_FALSE(trapezoid(3387027).read());  // the same, more slowly: 10 % too small
+}
+
+TEST(PooledFlights, TheFrictionOfALightLoadIsToldFromItsImpact) {
+  const auto trapezoid = [](std::uint64_t seed) {
+    return PooledSubject(independent_plant::random_drive(seed, independent_plant::Waveform::kTrapezoid));
+  };
+  EXPECT_FALSE(trapezoid(3380026).read());     // 15 % too large by impacts alone
+  const PooledSubject s = trapezoid(3387020);  // 0.11 of the motor
+  const auto estimate = s.read();
+  ASSERT_TRUE(estimate);
+  EXPECT_NEAR(estimate->gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
 }
 
 TEST(PooledFlights, WithoutAGapNoKinkStandsOut) {
