@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine_plant/mujoco_plant.h"
 #include "gapscope/base/random.h"
 
 namespace gapscope::blind {
@@ -87,7 +88,7 @@ BlindPair blind_pair(const std::string& rig, const std::string& effect, double s
 }
 
 BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& effects, double severity,
-                     std::uint64_t seed, double duration) {
+                     std::uint64_t seed, double duration, BlindPlant plant) {
   auto g = random_stream(seed, "diagnosis excitation");
   independent_plant::BlindCase c = rig_case(rig);
   c.options.duration = duration;
@@ -105,7 +106,8 @@ BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& eff
     c.options.seed = noise;
     if (pair.train.x1.empty()) give();
     pair.excitations += "smwtzj"[kind % kWaveforms.size()];
-    return independent_plant::simulate_blind(c).recording;
+    return plant == BlindPlant::kMujoco ? engine_plant::mujoco_recording(c)
+                                        : independent_plant::simulate_blind(c).recording;
   };
   pair.train = record(first, 2 * seed);
   pair.held_out = record(first + other, 2 * seed + 1);

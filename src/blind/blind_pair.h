@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/config/blind_config.h"
 #include "gapscope/reference/fit.h"
 #include "independent_plant/severity.h"
 
@@ -33,6 +34,7 @@ BlindPair blind_pair(const std::string& rig, const std::string& effect, double s
 
 /// The same with any number of effects, each of that severity.
 BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& effects, double severity,
-                     std::uint64_t seed, double duration = kPairDuration);
+                     std::uint64_t seed, double duration = kPairDuration,
+                     BlindPlant plant = BlindPlant::kIndependent);
 
 }  // namespace gapscope::blind

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine_plant/mujoco_plant.h"
 #include "gapscope/base/random.h"
 #include "independent_plant/severity.h"
 
@@ -13,10 +14,13 @@ namespace {
 using Names = std::vector<std::string>;
 
 /// `backlash` has no place: every rig has a gap.
-Names effect_names(bool in_catalogue) {
+Names effect_names(bool in_catalogue, BlindPlant plant) {
   Names names;
+  const auto told = engine_plant::mujoco_effects();
   for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
-    if (e.in_catalogue == in_catalogue && e.name != "backlash") names.emplace_back(e.name);
+    if ((plant == BlindPlant::kIndependent || std::find(told.begin(), told.end(), e.name) != told.end()) &&
+        e.in_catalogue == in_catalogue && e.name != "backlash")
+      names.emplace_back(e.name);
   return names;
 }
 
@@ -37,7 +41,7 @@ std::string another_effect(const Names& names, const std::string& first, std::mt
 
 class Planner {
  public:
-  explicit Planner(const BlindConfig& config) : rigs_(config.rigs) {
+  explicit Planner(const BlindConfig& config) : rigs_(config.rigs), plant_(config.plant) {
     plan_part("calibration", config.calibration);
     plan_part("report", config.report);
     shuffle(config.calibration.first_seed, config.report.first_seed);
@@ -47,10 +51,10 @@ class Planner {
  private:
   void plan_part(const std::string& part, const BlindPartConfig& p) {
     seed_ = p.first_seed;
-    add(part, p.known, effect_names(true), false);
-    add(part, p.outside, effect_names(false), false);
+    add(part, p.known, effect_names(true, plant_), false);
+    add(part, p.outside, effect_names(false, plant_), false);
     add(part, p.none, {}, false);
-    add(part, p.pairs, effect_names(true), true);
+    add(part, p.pairs, effect_names(true, plant_), true);
   }
 
   void add(const std::string& part, int count, const Names& names, bool pairs) {
@@ -76,6 +80,7 @@ class Planner {
   }
 
   std::vector<std::string> rigs_;
+  BlindPlant plant_;
   std::uint64_t seed_ = 0;
 };
 

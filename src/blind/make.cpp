@@ -5,6 +5,7 @@
 #include "blind/blind_pair.h"
 #include "blind/case_plan.h"
 #include "blind/handing_out.h"
+#include "engine_plant/mujoco_plant.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/whole_file.h"
@@ -31,10 +32,10 @@ std::string sheet_of(const std::string& name, const blind::BlindPair& pair) {
 }
 
 /// Notes in the label what is drawn on the way.
-void write_case(const fs::path& folder, double duration, blind::PlannedCase& planned) {
+void write_case(const fs::path& folder, const BlindConfig& config, blind::PlannedCase& planned) {
   BlindLabel& label = planned.label;
-  const blind::BlindPair pair =
-      blind::blind_pair(label.rig, label.effects, label.severity, planned.seed, duration);
+  const blind::BlindPair pair = blind::blind_pair(label.rig, label.effects, label.severity, planned.seed,
+                                                  config.duration, config.plant);
   if (label.effects.size() == 1) label.cycles_per_turn = pair.cycles_per_turn;
   blind::write_motor_side(folder / (label.name + "_train.csv"), pair.train);
   blind::write_motor_side(folder / (label.name + "_held_out.csv"), pair.held_out);
@@ -46,6 +47,7 @@ void write_case(const fs::path& folder, double duration, blind::PlannedCase& pla
 
 void make_blind_check(const BlindConfig& config, const std::string& folder, const std::string& labels,
                       int threads, const BlindProgress& progress) {
+  if (config.plant == BlindPlant::kMujoco) engine_plant::require_mujoco();
   blind::require_labels_apart(folder, labels);
   const std::string resolved = resolved_yaml(config);
   blind::require_own_labels(labels, config.name, resolved);
@@ -54,7 +56,7 @@ void make_blind_check(const BlindConfig& config, const std::string& folder, cons
   std::atomic<std::size_t> done{0};
   parallel_for(cases.size(), threads, [&](std::size_t i) {
     stop_point();
-    write_case(handed_out.path(), config.duration, cases[i]);
+    write_case(handed_out.path(), config, cases[i]);
     if (const std::size_t count = ++done; progress) progress(count, cases.size());
   });
   BlindLabels stored{config.name, resolved, {}};

@@ -10,6 +10,8 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/plain_name.h"
+#include "gapscope/config/begun_model.h"
+#include "gapscope/diagnosis/begin.h"
 #include "gapscope/recording/axes.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/diagnosis_result.h"
@@ -44,8 +46,9 @@ std::string fitted_model(const Configuration& c, const Diagnosis& d, const Refer
                          const MotorTrace& recording) {
   if (d.traces.empty()) return model_yaml(c, fitted, "", recording);
   const MismatchTrace& t = d.traces.front();
-  return model_yaml(c, fitted, held_out_trace_name(0, t.file),
-                    {t.file, t.start, t.dt, t.u, t.x1, recording.quantum, t.stamps});
+  const MotorTrace held_out{t.file, t.start, t.dt, t.u, t.x1, recording.quantum, t.stamps};
+  return model_yaml(c, fitted, held_out_trace_name(0, t.file), held_out,
+                    begin_of(fitted, held_out, d.observer_hz));
 }
 
 void write_outcome(ReportFolder& report, const Configuration& c, DiagnosisResult& result,

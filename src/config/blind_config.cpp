@@ -36,6 +36,7 @@ using internal::config::Value;
 
 constexpr internal::config::Range kDurations{2.0, 100.0, "s"};
 const std::vector<std::string> kRigNames = {"paper", "geared", "heavy"};
+const std::vector<std::string> kPlantNames = {"independent", "mujoco"};
 
 std::vector<std::string> read_rigs(const Value& value) {
   std::vector<std::string> rigs;
@@ -54,16 +55,27 @@ void require_apart(const Value& at, const BlindPartConfig& a, const BlindPartCon
                         b.first_seed));
 }
 
+void require_inside(const Value& at, const BlindPartConfig& part) {
+  if (part.outside > 0)
+    at.fail(
+        fmt::format("has {} cases outside of the catalogue, expected none with plant: mujoco", part.outside));
+}
+
 }  // namespace
 
 BlindConfig load_blind_config(const std::string& path) {
   const Value document = internal::config::parse_document(internal::config::read_text(path), path);
-  const Section root(document, {"name", "calibration", "report", "rigs", "duration"});
+  const Section root(document, {"name", "calibration", "report", "rigs", "duration", "plant"});
   BlindConfig c;
   c.name = internal::config::read_name(root, path);
   if (const auto part = root.find("calibration")) internal::config::read_fields(*part, c.calibration);
   const Value report = root.require("report", "{first_seed: ..., known: ..., outside: ..., none: ...}");
   internal::config::read_fields(report, c.report);
+  if (const auto plant = root.find("plant"))
+    c.plant = plant->word(kPlantNames) == 0 ? BlindPlant::kIndependent : BlindPlant::kMujoco;
+  if (c.plant == BlindPlant::kMujoco)
+    require_inside(report, c.report),
+        require_inside(root.find("calibration").value_or(report), c.calibration);
   if (c.report.cases() == 0) report.fail("has no case, expected at least one");
   require_apart(report, c.calibration, c.report);
   const auto rigs = root.find("rigs");
@@ -93,6 +105,8 @@ std::string resolved_yaml(const BlindConfig& check) {
   write_part("calibration", check.calibration);
   write_part("report", check.report);
   out.entry("rigs", fmt::format("[{}]", fmt::join(check.rigs, ", ")));
+  // A check of the usual plant is the same text as before there was another one: its labels stay valid.
+  if (check.plant == BlindPlant::kMujoco) out.entry("plant", "mujoco");
   out.entry("duration", internal::config::yaml_number(check.duration), "s");
   return out.text();
 }

@@ -3,6 +3,7 @@
 
 #include "gapscope/base/require.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/config/begun_model.h"
 #include "gapscope/config/configuration.h"
 
 namespace gapscope {
@@ -113,18 +114,36 @@ ReferenceModel fitted_model(ReferenceModel model, const FitSummary& fit) {
 
 }  // namespace
 
-std::string model_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
-                       const MotorTrace& recording) {
+namespace {
+
+/// @param begin  null: not known
+std::string begun_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
+                       const MotorTrace& recording, const DriveState<double>* begin) {
   Configuration c = with_model(given, fitted);
   std::string input = "its input";
   if (!c.simulation) {
     c.simulation = trace.empty() ? simulation_of(recording) : replay_of(recording, trace);
-    begin_with(recording, c.model.structure, *c.simulation);
+    if (begin != nullptr)
+      c.simulation->initial = {begin->x1, begin->w1, begin->x2, begin->w2};
+    else
+      begin_with(recording, c.model.structure, *c.simulation);
     input = (trace.empty() ? "a sine like the input of " : "the input of ") + shown(recording.file);
   }
   set_plant(c);
   return yaml_of(c,
                  "The model as the diagnosis fitted it, under " + input + "; `gapscope simulate` runs it.");
+}
+
+}  // namespace
+
+std::string model_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
+                       const MotorTrace& recording) {
+  return begun_yaml(given, fitted, trace, recording, nullptr);
+}
+
+std::string model_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
+                       const MotorTrace& recording, const DriveState<double>& begin) {
+  return begun_yaml(given, fitted, trace, recording, &begin);
 }
 
 std::string experiment_yaml(const Configuration& given, const ReferenceModel& model,

@@ -182,7 +182,7 @@ SimulatorComparison Comparer::answer() {
   mend(fit, rows, c);
   const double dt = drive_.train.front().dt;
   for (SimulatorRow& row : c.rows)
-    if (row.differs) row.sentence = row_sentence(row, dt, options_.coordinates);
+    if (row.differs) row.sentence = row_sentence(row, c.rows, dt, options_.coordinates);
   c.sentence = comparison_sentence(c, options_.coordinates);
   return c;
 }

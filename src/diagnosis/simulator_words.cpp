@@ -54,6 +54,42 @@ std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// The step of a solver that leaves half of it in a number, if that is a half or a third of a sample or all
+/// of it; 0: it is none.
+double step_of_solver(double twice_half, double dt) {
+  constexpr double kNear = 0.15;  // of the step: as well as numbers of two fits tell it
+  for (const double parts : {1.0, 2.0, 3.0})
+    if (std::abs(twice_half * parts / dt - 1.0) < kNear) return dt / parts;
+  return 0.0;
+}
+
+/// An integrator that takes the damping implicitly gives the motor half a step of it as inertia.
+std::string implicitly_damped(const SimulatorRow& row, const std::vector<SimulatorRow>& rows, double dt) {
+  if (row.name != "motor_inertia") return "";
+  for (const SimulatorRow& other : rows) {
+    if (other.name != "motor_damping") continue;
+    const ComparedNumber& inertia = row.numbers.front();
+    const double step =
+        step_of_solver(2.0 * (inertia.simulator - inertia.drive) / other.numbers.front().simulator, dt);
+    if (step > 0.0)
+      return fmt::format(
+          " (an integrator that takes damping implicitly, as MuJoCo's Euler, adds half a step of it to the "
+          "inertia: this much at a step of {:.2g} ms)",
+          1e3 * step);
+  }
+  return "";
+}
+
+/// Semi-implicit Euler is half a step ahead.
+std::string ahead_by_half_a_step(double ahead, double dt) {
+  const double step = step_of_solver(2.0 * ahead, dt);
+  return step > 0.0 ? fmt::format(
+                          ", as a semi-implicit Euler method at a step of {:.2g} ms leaves it, being "
+                          "half a step ahead",
+                          1e3 * step)
+                    : "";
+}
+
 /// How many samples a delay is, where it is about a whole number of half ones: what a fixed step leaves.
 std::string in_steps(const SimulatorRow& row, double dt) {
   if (row.name != "input_delay" || row.numbers.empty()) return "";
@@ -63,7 +99,8 @@ std::string in_steps(const SimulatorRow& row, double dt) {
   return fmt::format(" ({} {:.2g} {} {}{})", whole ? "about" : "that is", std::abs(steps),
                      std::abs(std::abs(steps) - 1.0) < 0.05 ? "sample" : "samples",
                      steps > 0.0 ? "too much" : "too little",
-                     whole && std::abs(halves) <= 2.0
+                     steps < 0.0 && steps > -0.6 ? ahead_by_half_a_step(-steps * dt, dt)
+                     : whole && std::abs(halves) <= 2.0
                          ? ", as an input that acts a step late or an integrator of fixed step leave it"
                          : "");
 }
@@ -123,12 +160,14 @@ std::string likely_others(const SimulatorRow& row) {
 
 }  // namespace
 
-std::string row_sentence(const SimulatorRow& row, double dt, Coordinates coordinates) {
+std::string row_sentence(const SimulatorRow& row, const std::vector<SimulatorRow>& rows, double dt,
+                         Coordinates coordinates) {
   if (row.is_effect)
     return effect_row_sentence(row, coordinates) + in_steps(row, dt) + creeping(row) + likely_others(row);
   const ComparedNumber& n = row.numbers.front();
   return fmt::format("its {} is {} where the drive's is {}", readable(row.name),
-                     amount(n.simulator, n.unit, coordinates), amount(n.drive, n.unit, coordinates));
+                     amount(n.simulator, n.unit, coordinates), amount(n.drive, n.unit, coordinates)) +
+         implicitly_damped(row, rows, dt);
 }
 
 std::string comparison_sentence(const SimulatorComparison& c, Coordinates coordinates) {

@@ -59,14 +59,8 @@ std::string contact(const ExportSource& s, const MujocoDrive& d) {
   return text + "    </fixed>\n  </tendon>\n";
 }
 
-std::string actuators(const ExportSource& s, const MujocoDrive& d) {
-  std::string text =
-      fmt::format("  <actuator>\n    <general name=\"{0}_drive\" joint=\"{0}_motor\" gear=\"{1}\"", s.stem,
-                  d.torque_constant);
-  if (d.lag > 0.0) text += fmt::format(" dyntype=\"filter\" dynprm=\"{}\"", d.lag);
-  if (d.input_limit > 0.0)
-    text += fmt::format(" ctrllimited=\"true\" ctrlrange=\"{} {}\"", -d.input_limit, d.input_limit);
-  text += "/>\n";
+std::string constant_torques(const ExportSource& s, const MujocoDrive& d) {
+  std::string text;
   for (std::size_t body = 0; body < 2; ++body)
     if (d.constant[body] != 0.0)
       text += fmt::format(
@@ -74,7 +68,19 @@ std::string actuators(const ExportSource& s, const MujocoDrive& d) {
           "biasprm=\"{2} "
           "0 0\"/>\n",
           s.stem, body == 0 ? "motor" : "load", d.constant[body]);
-  return text + "  </actuator>\n";
+  return text;
+}
+
+/// The drive first, unless it has a state: MuJoCo asks for those without one before those with.
+std::string actuators(const ExportSource& s, const MujocoDrive& d) {
+  std::string drive = fmt::format("    <general name=\"{0}_drive\" joint=\"{0}_motor\" gear=\"{1}\"", s.stem,
+                                  d.torque_constant);
+  if (d.lag > 0.0) drive += fmt::format(" dyntype=\"filter\" dynprm=\"{}\"", d.lag);
+  if (d.input_limit > 0.0)
+    drive += fmt::format(" ctrllimited=\"true\" ctrlrange=\"{} {}\"", -d.input_limit, d.input_limit);
+  drive += "/>\n";
+  const std::string constant = constant_torques(s, d);
+  return "  <actuator>\n" + (d.lag > 0.0 ? constant + drive : drive + constant) + "  </actuator>\n";
 }
 
 std::string sensors(const ExportSource& s) {

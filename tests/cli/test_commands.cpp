@@ -224,7 +224,7 @@ TEST(Commands, TheModelOfADiagnosisRunsUnderTheInputThatWasHeldOut) {
                     run = text_of(place.folder() / "model.csv");
   EXPECT_LE(largest_difference(held_out, "u", run, "u"), 1e-12);
   EXPECT_LE(largest_difference(held_out, "x1", run, "x1"),
-            0.03);  // of 0.5 rad: the first speed is read off 0.1 s
+            0.003);  // of 0.5 rad
 }
 
 TEST(Commands, DetectAndFitLeaveTheOtherEstimateNull) {

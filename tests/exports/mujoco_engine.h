@@ -42,7 +42,7 @@ class MujocoEngineRun {
       mj_resetData(model_, data_);
     std::vector<double> x1 = {data_->qpos[0]};
     for (const double input : u) {
-      data_->ctrl[0] = input;
+      data_->ctrl[driven()] = input;
       mj_step(model_, data_);
       mj_checkPos(model_, data_);
       mj_checkVel(model_, data_);
@@ -54,6 +54,13 @@ class MujocoEngineRun {
   }
 
  private:
+  /// The first actuator that passes its ctrl on.
+  int driven() const {
+    int i = 0;
+    while (i + 1 < model_->nu && model_->actuator_gainprm[mjNGAIN * i] == 0.0) ++i;
+    return i;
+  }
+
   mjModel* model_ = nullptr;
   mjData* data_ = nullptr;
 };

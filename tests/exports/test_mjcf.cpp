@@ -181,6 +181,14 @@ TEST(Mjcf, CarriesTheEffectsThatItSaysItDoes) {
     }
 }
 
+/// MuJoCo asks for actuators with a state behind those without one.
+TEST(Mjcf, CarriesALagBesideAConstantTorque) {
+  Judged judged(rig_configuration(
+      kTwoBodies,
+      "  effects: [{actuator_lag: {time_constant_s: 2.0e-3}}, {constant_load_torque: {torque_nm: 0.01}}]\n"));
+  expect_foretold(judged);
+}
+
 TEST(Mjcf, NamesWhatItLeavesOutAndWhy) {
   const DriveExport drive = export_drive(
       rig_configuration(kTwoBodies,

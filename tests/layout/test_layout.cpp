@@ -36,7 +36,8 @@ const std::map<std::string, Names>& allowed_modules() {
         {"sliding_mode", {"base", "recording", "signals"}},  // the detector sees no model
         {"reference", {"base", "recording", "signals", "plant", "simulation"}},
         {"independent_plant", {"base", "recording"}},  // shares no code with what it checks
-        {"implant", {"base", "recording"}},            // nor does this
+        {"engine_plant", {"base", "recording", "independent_plant"}},
+        {"implant", {"base", "recording"}},  // nor does this
         {"results", {"base", "recording", "sliding_mode", "reference", "diagnosis", "inspection"}},
         {"report", {"base", "recording", "results"}},
     };
@@ -44,7 +45,7 @@ const std::map<std::string, Names>& allowed_modules() {
     for (const std::string& module : order) {
       if (!t.contains(module)) t[module] = above;
       if (module == "run" || module == "blind") t[module].insert("independent_plant");
-      if (module == "blind") t[module].insert("implant");
+      if (module == "blind") t[module].merge(Names{"implant", "engine_plant"});
       above.insert(module);
     }
     return t;
@@ -54,14 +55,23 @@ const std::map<std::string, Names>& allowed_modules() {
 
 /// Third-party headers (by prefix) and the only places that may include them.
 const std::vector<std::pair<std::string, Names>> kConfined = {
-    {"opencv2/", {"report"}},  {"png", {"report"}},
-    {"yaml-cpp/", {"config"}}, {"nlohmann/", {"config", "results"}},
-    {"CLI/", {"cli"}},         {"spdlog/", {"campaign", "cli"}},
-    {"matio", {"recording"}},  {"hdf5", {"recording"}},
-    {"zlib", {"recording"}},   {"sqlite3", {"campaign", "recording"}},
-    {"lz4", {"recording"}},    {"zstd", {"recording"}},
-    {"openssl/", {"results"}}, {"tbb/", {"base"}},
-    {"tinyxml2", {"config"}},  {"oneapi/", {"base"}},
+    {"opencv2/", {"report"}},
+    {"png", {"report"}},
+    {"yaml-cpp/", {"config"}},
+    {"nlohmann/", {"config", "results"}},
+    {"CLI/", {"cli"}},
+    {"spdlog/", {"campaign", "cli"}},
+    {"matio", {"recording"}},
+    {"hdf5", {"recording"}},
+    {"zlib", {"recording"}},
+    {"sqlite3", {"campaign", "recording"}},
+    {"lz4", {"recording"}},
+    {"zstd", {"recording"}},
+    {"mujoco/", {"engine_plant"}},
+    {"openssl/", {"results"}},
+    {"tbb/", {"base"}},
+    {"tinyxml2", {"config"}},
+    {"oneapi/", {"base"}},
 };
 
 struct Include {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kRate = 500.0, kDuration = 3.0;
 constexpr int kBits = 18;
-constexpr double kInertia = 8.78e-4, kTorqueConstant = 0.172;
+constexpr double kInertia = 8.78e-4, kTorqueConstant = 0.172, kUnbalancePhase = 0.7;
 
 /// Of one body or two: sines of changing size, then of another kind.
 std::vector<double> input(bool held_out, double peak) {
@@ -50,6 +50,9 @@ independent_plant::BlindDrive blind_drive(const SimulatedPair& p, std::uint64_t 
   d.effects.motor.cogging.periods_per_turn = 40.0 + static_cast<double>(seed % 5) * 6.0;
   d.effects.command.delay_s = knob(p, "input_delay", true);
   d.effects.command.lag_s = knob(p, "actuator_lag", true);
+  d.effects.load.unbalance_nm = knob(p, "load_unbalance", true);
+  d.effects.load.unbalance_phase_rad = kUnbalancePhase;
+  d.effects.load.constant_torque_nm = knob(p, "constant_load_torque", true);
   return d;
 }
 
@@ -57,9 +60,12 @@ independent_plant::BlindDrive blind_drive(const SimulatedPair& p, std::uint64_t 
 std::string simulator_yaml(const SimulatedPair& p) {
   std::string effects;
   for (const auto& [name, key] :
-       {std::pair("motor_coulomb_friction", "level_nm"), std::pair("actuator_lag", "time_constant_s")})
+       {std::pair("motor_coulomb_friction", "level_nm"), std::pair("actuator_lag", "time_constant_s"),
+        std::pair("load_unbalance", "amplitude_nm"), std::pair("constant_load_torque", "torque_nm")})
     if (const double amount = knob(p, name, false); amount > 0.0)
-      effects += fmt::format("{}{{{}: {{{}: {}}}}}", effects.empty() ? "" : ", ", name, key, amount);
+      effects += fmt::format(
+          "{}{{{}: {{{}: {}{}}}}}", effects.empty() ? "" : ", ", name, key, amount,
+          std::string(name) == "load_unbalance" ? fmt::format(", phase_rad: {}", kUnbalancePhase) : "");
   const std::string load = p.has_load
                                ? fmt::format(
                                      "mass_ratio: {}, gap: {}, load_damping: {}, load_coulomb_friction: {}, "
@@ -81,12 +87,11 @@ Recording by_engine(const SimulatedPair& p, const Recording& drive) {
       export_drive(parse_configuration(simulator_yaml(p), "theirs.yaml"), ExportFormat::kMjcf);
   testing::MujocoEngineRun engine(model.files[0].text);
   const auto inner = static_cast<std::size_t>(std::lround(drive.dt / p.step));
+  const auto late = static_cast<std::size_t>(std::lround(p.input_late / p.step));
   std::vector<double> fine;
-  for (std::size_t i = 0; i < drive.size() * inner; ++i) {
-    const std::size_t sample = i / inner;
-    fine.push_back(!p.shifted ? drive.u[sample] : sample == 0 ? 0.0 : drive.u[sample - 1]);
-  }
-  const std::vector<double> x1 = engine.motion(p.step, mjINT_EULER, fine);
+  for (std::size_t i = 0; i < drive.size() * inner; ++i)
+    fine.push_back(i < late ? 0.0 : drive.u[(i - late) / inner]);
+  const std::vector<double> x1 = engine.motion(p.step, p.runge_kutta ? mjINT_RK4 : mjINT_EULER, fine);
   if (x1.size() <= fine.size()) throw std::runtime_error("the engine's motion diverges");
   Recording r = drive;
   const double quantum = EncoderConfig::quantum_of(kBits);
@@ -134,7 +139,11 @@ void draw_knobs(Random& random, bool same, SimulatedPair& p) {
   }
   effect("motor_coulomb_friction", 0.005, 0.02, true);
   effect("cogging_torque", 0.003, 0.012, false);
-  effect("input_delay", 1.5e-3, 6e-3, false);
+  if (uniform(random, 0.0, 1.0) < 0.5)
+    effect("input_delay", 1.5e-3, 6e-3, true);
+  else
+    effect("actuator_lag", 1.5e-3, 6e-3, true);
+  effect(uniform(random, 0.0, 1.0) < 0.5 ? "load_unbalance" : "constant_load_torque", 4e-3, 1.2e-2, true);
 }
 
 ReferenceModel sheet_of(const SimulatedPair& p, std::uint64_t seed) {
@@ -167,14 +176,18 @@ SimulatedPair draw_pair(std::uint64_t seed, bool same) {
   auto random = random_stream(seed, "simulated_pair");
   SimulatedPair p;
   p.has_load = uniform(random, 0.0, 1.0) < 0.5;
-  p.step = uniform(random, 0.0, 1.0) < 0.5 ? 1e-3 : 1e-4;
-  p.shifted = !same && uniform(random, 0.0, 1.0) < 0.2;
+  constexpr double kSteps[] = {1e-4, 5e-4, 1e-3, 2e-3};
+  p.step = kSteps[static_cast<int>(uniform(random, 0.0, 4.0))];
+  p.runge_kutta = uniform(random, 0.0, 1.0) < 0.4;
+  const bool shifted = !same && uniform(random, 0.0, 1.0) < 0.2;
   draw_knobs(random, same, p);
-  if (p.shifted) {
-    if (p.find("input_delay") == nullptr) p.knobs.push_back({"input_delay", 0.0, 0.0});
-    for (Knob& k : p.knobs)
-      if (k.name == "input_delay")
-        k.simulator = 1.0 / kRate - p.step / 2.0;  // semi-implicit Euler is half a step ahead
+  if (shifted && p.find("input_delay") == nullptr && p.find("actuator_lag") == nullptr)
+    p.knobs.push_back({"input_delay", 0.0, 1.0 / kRate});
+  for (Knob& k : p.knobs) {
+    if (k.name != "input_delay" || k.simulator <= 0.0) continue;
+    const bool alike = k.simulator == k.drive;
+    k.simulator = p.input_late = p.step * std::max(1.0, std::round(k.simulator / p.step));
+    if (alike) k.drive = k.simulator;
   }
   const independent_plant::BlindSensor sensor = independent_plant::BlindSensor::with_bits(kBits, 0.5);
   const double peak = p.has_load ? 0.8 : 1.0;

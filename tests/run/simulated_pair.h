@@ -20,9 +20,10 @@ struct Knob {
 /// A drive by the independent plant, a simulator of it by MuJoCo's engine, both under the same inputs.
 struct SimulatedPair {
   bool has_load = false;
-  double step = 1e-3;       ///< of the engine [s]
-  bool shifted = false;     ///< the simulator gets its input a sample late
-  std::vector<Knob> knobs;  ///< withheld from the decision
+  double step = 1e-3;        ///< of the engine [s]
+  bool runge_kutta = false;  ///< else MuJoCo's semi-implicit Euler
+  double input_late = 0.0;   ///< of the simulator, in whole steps [s]
+  std::vector<Knob> knobs;   ///< withheld from the decision
   Recording train, held_out, simulated_train, simulated_held_out;
   ReferenceModel sheet;  ///< up to 20 % off the drive
 

@@ -19,17 +19,22 @@ struct BlindPartConfig {
   void fields(FieldVisitor& v);
 };
 
+/// What moves the drives of a check: the plant that shares no code with the diagnosis, or MuJoCo's engine.
+enum class BlindPlant { kIndependent, kMujoco };
+
 /// A blind check to be made:
 ///   name         of the check
 ///   calibration  the cases that probabilities are calibrated on: {first_seed, known, outside, none, pairs}
 ///   report       the cases that are counted, from other seeds
 ///   rigs         which of paper, geared, heavy (default: all)
 ///   duration     of each recording [s]
+///   plant        independent (default) or mujoco, which has some of the catalogue's effects and none outside
 struct BlindConfig {
   std::string name;
   BlindPartConfig calibration, report;
   std::vector<std::string> rigs;
   double duration = 6.0;
+  BlindPlant plant = BlindPlant::kIndependent;
 };
 
 /// @throws ConfigError "file:line: what is wrong, what was expected"

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/config/configuration.h"
+
+namespace gapscope {
+
+/// A model as a configuration that `simulate` runs, as model_yaml() has it, from a state that is known.
+std::string model_yaml(const Configuration& configuration, const ReferenceModel& model,
+                       const std::string& trace, const MotorTrace& recording,
+                       const DriveState<double>& begin);
+
+}  // namespace gapscope

@@ -1,0 +1,49 @@
+// What a row of the user's simulator says of the simulator's own steps.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "diagnosis/simulator_words.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kSample = 2e-3;  // s
+
+SimulatorRow number_row(const std::string& name, double drive, double simulator) {
+  SimulatorRow row;
+  row.name = name, row.differs = true;
+  row.numbers = {{name, "kg m^2", drive, simulator, {}, {}}};
+  return row;
+}
+
+SimulatorRow delay_row(double drive, double simulator) {
+  SimulatorRow row;
+  row.name = "input_delay", row.is_effect = row.differs = true;
+  row.numbers = {{"delay_s", "s", drive, simulator, {}, {}}};
+  return row;
+}
+
+std::string said(const SimulatorRow& row) {
+  const std::vector<SimulatorRow> rows = {row, number_row("motor_damping", 0.08, 0.08)};
+  return row_sentence(row, rows, kSample, Coordinates());
+}
+
+TEST(SimulatorWords, NameTheInertiaThatImplicitDampingAdds) {
+  EXPECT_THAT(said(number_row("motor_inertia", 2.0e-3, 2.04e-3)), HasSubstr("at a step of 1 ms"));
+  EXPECT_THAT(said(number_row("motor_inertia", 2.0e-3, 2.08e-3)), HasSubstr("at a step of 2 ms"));
+  for (const double other : {1.9e-3, 2.06e-3, 2.3e-3})
+    EXPECT_THAT(said(number_row("motor_inertia", 2.0e-3, other)), Not(HasSubstr("at a step of"))) << other;
+}
+
+TEST(SimulatorWords, NameTheHalfStepThatEulerIsAhead) {
+  EXPECT_THAT(said(delay_row(3.0e-3, 2.0e-3)), HasSubstr("at a step of 2 ms"));
+  EXPECT_THAT(said(delay_row(3.0e-3, 2.5e-3)), HasSubstr("at a step of 1 ms"));
+  EXPECT_THAT(said(delay_row(3.0e-3, 2.2e-3)), Not(HasSubstr("at a step of")));
+  EXPECT_THAT(said(delay_row(3.0e-3, 5.0e-3)), HasSubstr("a step late"));
+}
+
+}  // namespace
+}  // namespace gapscope::internal::diagnosis
