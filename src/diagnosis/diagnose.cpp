@@ -84,6 +84,7 @@ std::optional<ScoredModel> nominal_near(const Study& study, const Findings& foun
   if (found.candidates.empty() || !std::isfinite(found.candidates.front().score)) return {};
   ReferenceModel model = found.before.fitted.model;
   model.parameters = found.candidates.front().fitted.model.parameters;
+  model.controller = found.candidates.front().fitted.model.controller;
   FittedModel fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
   if (!(fitted.mean_cost < study.effort.far_better * found.before.fitted.mean_cost)) return {};
   return judge(nullptr, std::move(fitted), study.held_out, study.observer_hz);

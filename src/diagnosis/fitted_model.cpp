@@ -48,8 +48,12 @@ FittedModel fit_near(std::span<const MotorTrace> recordings, const ReferenceMode
 }
 
 ReferenceModel with_drive(ReferenceModel model, const ReferenceModel& drive) {
-  for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    if (!std::isnan(drive.parameters[i].value)) model.parameters[i].value = drive.parameters[i].value;
+  const auto take = [](auto& to, const auto& from) {
+    for (std::size_t i = 0; i < to.size(); ++i)
+      if (!std::isnan(from[i].value)) to[i].value = from[i].value;
+  };
+  take(model.parameters, drive.parameters);
+  if (model.controller && drive.controller) take(model.controller->numbers, drive.controller->numbers);
   return model;
 }
 

@@ -32,7 +32,7 @@ FittedModel fit_near(std::span<const MotorTrace> recordings, const ReferenceMode
                      const FitOptions& options, double observer_hz,
                      const reference::RefineEffort& effort = {});
 
-/// A model with the values of another drive: its own effects stay.
+/// A model with the values of another drive, its controller's among them: its own effects stay.
 ReferenceModel with_drive(ReferenceModel model, const ReferenceModel& drive);
 
 }  // namespace gapscope::internal::diagnosis

@@ -117,6 +117,8 @@ ReferenceModel all_fixed(ReferenceModel model) {
   for (ParameterSetting& p : model.parameters) p.estimate = false;
   for (ModelEffect& e : model.effects)
     for (ParameterSetting& p : e.parameters) p.estimate = false;
+  if (model.controller)
+    for (ParameterSetting& p : model.controller->numbers) p.estimate = false;
   return model;
 }
 
@@ -151,11 +153,12 @@ std::vector<Playback> play_from(const std::vector<reference::RecordingStart>& fr
                                 const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
                                 bool all) {
   const reference::ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
-  const auto [plant, starts] = fit.run_at({{}, from});
+  const reference::ModelRun run = fit.run_at({{}, from});
+  const PlantModel<double>& plant = run.plant;
   std::vector<Playback> playbacks(held_out.traces.size());
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
-    const DriveState<double>& state = starts[r];
-    const MotorTrace& trace = held_out.traces[r];
+    const DriveState<double>& state = run.starts[r];
+    const MotorTrace trace = run.under_own_input(held_out.traces[r], r);
     if (!play_scored(plant, state, trace, held_out.restart(r), observer_hz, playbacks[r])) return {};
     if (!all) continue;
     if (!play_slow(plant, state, trace, playbacks[r]) || !play_fast(plant, state, trace, playbacks[r]) ||

@@ -11,6 +11,7 @@
 #include "diagnosis/probability.h"
 #include "diagnosis/remark.h"
 #include "diagnosis/tell_budget.h"
+#include "diagnosis/under_controller.h"
 #include "diagnosis/where.h"
 #include "diagnosis/words.h"
 
@@ -142,7 +143,9 @@ std::vector<Rival> rivals_of(const std::vector<ScoredModel>& candidates, const S
     if (rivals.size() == 2 || !std::isfinite(c.score)) break;
     if (before.score - c.score < std::max(kRule.indistinct, kTelling.rival_share * decision.gain)) break;
     const bool contains_best = contained_effect(*c.entry) == candidates.front().entry;
-    if (!reads_counts(*c.entry) && !contains_best) rivals.push_back({c.entry->name, c.fitted.model});
+    if (reads_counts(*c.entry) || contains_best) continue;
+    rivals.push_back({c.entry->name, c.fitted.model});
+    rivals.back().model.controller.reset();  // the next experiment gives an input
   }
   if (rivals.size() < 2) rivals.clear();
   return rivals;
@@ -209,6 +212,7 @@ void tell_models(const Study& study, const Findings& found, const ScoredModel& n
         probability_shares(found.candidates, found.decision, study.options.known.outside_catalogue).outside;
   d.mismatch = mismatch_size(study, nominal, after);
   d.undetermined = undetermined_by(study, d.fitted);
+  d.closed_loop = judged_under_controller(study, nominal.fitted.model, d.fitted);
   d.measures = measures_of(study, before_played, after_played);
   d.where = place_of(before_played, study.held_out, km, study.options.coordinates, first);
   d.remaining = place_of(after_played, study.held_out, km, study.options.coordinates, nullptr);

@@ -18,13 +18,14 @@ std::vector<MotorTrace> simulated(const std::vector<Stretch>& stretches) {
 
 FreeRuns free_runs(const ReferenceModel& model, const std::vector<MotorTrace>& traces,
                    const std::vector<reference::RecordingStart>& starts) {
-  const auto [plant, states] = reference::ModelFit(traces, all_fixed(model), {}, 0.0).run_at({{}, starts});
+  const reference::ModelRun run = reference::ModelFit(traces, all_fixed(model), {}, 0.0).run_at({{}, starts});
   FreeRuns runs(traces.size());
   for (std::size_t r = 0; r < traces.size(); ++r) {
     const auto keep = [&](std::size_t, const DriveStepper<double>& stepper) {
       runs[r].push_back(stepper.measured());
     };
-    if (!reference::roll_out(plant, states[r], traces[r], reference::ObserverGains(), keep)) runs[r].clear();
+    if (!reference::roll_out(run.plant, run.starts[r], traces[r], reference::ObserverGains(), keep))
+      runs[r].clear();
   }
   return runs;
 }

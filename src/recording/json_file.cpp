@@ -189,14 +189,19 @@ class JsonFile : public ArrayFile {
 
   void read_list(const std::string& name, std::vector<double>& values) const {
     JsonCursor json(text_);
-    const auto one = [&] { values.push_back(json.number()); };
+    const std::size_t width = columns_.at(name).columns;
+    std::size_t in_row = 0;
+    const auto one = [&] { values.push_back(json.number()), ++in_row; };
     json.object([&](const std::string& key) {
       if (key != name) return json.skip();
       json.array([&] {
-        if (json.peek() == '[')
-          json.array(one);
-        else
-          one();
+        in_row = 0;
+        if (width == 0) return one();
+        json.array(one);
+        if (in_row != width)
+          throw DamagedBytes{
+              json.at(), fmt::format("ends a row of {} numbers in {}, expected {} as in the first", in_row,
+                                     shown(name), width)};
       });
     });
   }

@@ -16,12 +16,33 @@ namespace {
 
 constexpr const char *kTime = "t", *kStamp = "stamp", *kLogged = "log_time", *kPublished = "publish_time";
 
+/// A topic may have channels of several types: each has its own.
+struct ChannelReader {
+  LogChannel channel;
+  std::unique_ptr<MessageReader> reader;
+
+  bool reads(const LogChannel& c) const {
+    return c.encoding == channel.encoding && c.type == channel.type && c.definition == channel.definition;
+  }
+};
+
 /// What is known of a topic before a column is asked for.
 struct Topic {
-  std::unique_ptr<MessageReader> reader;
+  std::vector<ChannelReader> readers;
   std::string flaw;  ///< why its messages are not read
   std::set<std::string> names;
   std::size_t looked_at = 0;
+
+  /// @throws DamagedBytes for a channel that is not read
+  const MessageReader& reader_for(const LogChannel& c) {
+    constexpr std::size_t kMostTypes = 100;
+    for (const ChannelReader& r : readers)
+      if (r.reads(c)) return *r.reader;
+    if (readers.size() == kMostTypes)
+      throw DamagedBytes{0, fmt::format("has messages of more than {} types, expected fewer", kMostTypes)};
+    readers.push_back({c, reader_of(c)});
+    return *readers.back().reader;
+  }
 };
 
 /// Of times [ns] that may be anything.
@@ -98,10 +119,10 @@ class LogFile : public ArrayFile {
   }
 
   /// Takes a message of a topic that is read apart.
-  void take_apart(const LogMessage& m, const Topic& topic, MessageNumbers& numbers, std::size_t which) const {
+  void take_apart(const LogMessage& m, Topic& topic, MessageNumbers& numbers, std::size_t which) const {
     numbers.clear();
     try {
-      topic.reader->read(m.bytes, numbers);
+      topic.reader_for(*m.channel).read(m.bytes, numbers);
       numbers.finish();
     } catch (const DamagedBytes& damaged) {
       throw ConfigError(path_, fmt::format("message {} of {} {} (at its byte {})", which, m.channel->topic,
@@ -119,9 +140,9 @@ class LogFile : public ArrayFile {
         throw ConfigError(path_, fmt::format("has more than {} topics, expected fewer", kMostTopics));
       if (!topic.flaw.empty() || ++topic.looked_at > kEnough) return;
       try {
-        if (!topic.reader) topic.reader = reader_of(*m.channel);
+        const MessageReader& reader = topic.reader_for(*m.channel);
         numbers.clear();
-        topic.reader->read(m.bytes, numbers);
+        reader.read(m.bytes, numbers);
         numbers.finish();
         for (const auto& [name, value] : numbers.all()) topic.names.insert(name);
       } catch (const DamagedBytes& damaged) {
@@ -161,8 +182,8 @@ class LogFile : public ArrayFile {
 
   /// Calls for every message that is a sample.
   template <class Take>
-  void each(Take take) const {
-    const Topic& topic = topics_.at(topic_);
+  void each(Take take) {
+    Topic& topic = topics_.at(topic_);
     MessageNumbers numbers;
     std::size_t which = 0;
     log_->for_each([&](const LogMessage& m) {

@@ -47,8 +47,7 @@ std::size_t lost_rows(const Recording& r) {
 std::size_t bridge_lost_rows(Recording& r) {
   std::size_t bridged = 0;
   for (const Loss& loss : losses_of(r.stamps)) {
-    const double rows = static_cast<double>(loss.lost) + 1.0;
-    r.u[loss.row] += (r.u[loss.row + 1] - r.u[loss.row]) * (rows - 1.0) / (2.0 * rows);
+    bridge(loss, r.u);
     bridged += loss.lost;
   }
   return bridged;

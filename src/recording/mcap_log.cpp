@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
 constexpr std::uint64_t kLargestRecord = 256u << 20;  ///< that is read or unpacked at once [bytes]
+constexpr std::uint64_t kMostKept = 64u << 20;        ///< of all schemas and channels together [bytes]
 enum Opcode : unsigned char { kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kDataEnd = 15 };
 
 /// The fields of a record.  @throws DamagedBytes where they are longer than it
@@ -61,8 +62,9 @@ class McapLog : public MessageLog {
     std::string record(kMagic.size(), '\0');
     if (!file.read(record.data(), static_cast<std::streamsize>(record.size())) || record != kMagic)
       throw ConfigError(path_, "does not begin as an MCAP, expected one (\"\\x89MCAP0\\r\\n\" at byte 0)");
-    schemas_.clear(), channels_.clear();
-    for (std::uint64_t at = kMagic.size(); read_record(file, at, record, take);) at += 9 + record.size();
+    schemas_.clear(), channels_.clear(), kept_ = 0;
+    for (std::uint64_t at = kMagic.size(); read_record(file, at, record, take);)
+      ;
   }
 
  private:
@@ -72,8 +74,14 @@ class McapLog : public MessageLog {
         fmt::format("is damaged at byte {}: {}, expected a whole MCAP (mcap recover FILE -o OUT)", at, what));
   }
 
+  /// Attachments, indices and the like are passed over, however long.
+  static bool is_read(unsigned char opcode) {
+    return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk;
+  }
+
+  /// @param at  of the record; becomes that of the next one
   /// @returns whether messages may follow
-  bool read_record(std::ifstream& file, std::uint64_t at, std::string& record,
+  bool read_record(std::ifstream& file, std::uint64_t& at, std::string& record,
                    const std::function<void(const LogMessage&)>& take) {
     std::string head(9, '\0');
     if (size_ - at < head.size() || !file.read(head.data(), 9))
@@ -83,13 +91,19 @@ class McapLog : public MessageLog {
     const std::uint64_t length = fields.number(8);
     if (length > size_ - at - 9)
       fail(at, fmt::format("a record of {} bytes, of which {} are there", length, size_ - at - 9));
+    if (opcode == kDataEnd) return false;
+    if (opcode == 0) fail(at, "a record of no kind");
+    if (!is_read(opcode)) {
+      if (!file.seekg(static_cast<std::streamoff>(length), std::ios::cur))
+        fail(at, "it cannot be read there");
+      at += 9 + length;
+      return true;
+    }
     if (length > kLargestRecord)
       fail(at, fmt::format("a record of {} bytes, more than {}", length, kLargestRecord));
     record.resize(static_cast<std::size_t>(length));
     if (!file.read(record.data(), static_cast<std::streamsize>(length))) fail(at, "it cannot be read there");
     try {
-      if (opcode == kDataEnd) return false;
-      if (opcode == 0) throw DamagedBytes{0, "a record of no kind"};
       if (opcode == kChunk)
         read_chunk(record, take);
       else
@@ -97,7 +111,15 @@ class McapLog : public MessageLog {
     } catch (const DamagedBytes& damaged) {
       fail(at, damaged.what);
     }
+    at += 9 + length;
     return true;
+  }
+
+  /// Counts what stays in memory: definitions shrink well, and a small chunk can hold a lot of them.
+  void keep(std::uint64_t bytes) {
+    kept_ += bytes;
+    if (kept_ > kMostKept)
+      throw DamagedBytes{0, fmt::format("schemas and channels of more than {} bytes", kMostKept)};
   }
 
   void read_chunk(std::string_view record, const std::function<void(const LogMessage&)>& take) {
@@ -124,6 +146,7 @@ class McapLog : public MessageLog {
   void read_plain(unsigned char opcode, std::string_view record,
                   const std::function<void(const LogMessage&)>& take) {
     Fields fields(record);
+    if (opcode == kSchema || opcode == kChannel) keep(record.size());
     if (opcode == kSchema) {
       const auto id = fields.number(2);
       Schema s{fields.text(), fields.text(), {}};
@@ -137,6 +160,7 @@ class McapLog : public MessageLog {
             0, fmt::format("the channel {} of a schema {} that is not there", shown(c.topic), schema)};
       const Schema& s = schemas_[schema];
       c.type = s.name;
+      keep(s.name.size() + s.definition.size());
       if (s.encoding == "ros2msg" || s.encoding == "ros1msg") c.definition = s.definition;
       channels_.emplace(id, std::move(c));  // one that is there already is the same, and is pointed at
     } else if (opcode == kMessage) {
@@ -154,6 +178,7 @@ class McapLog : public MessageLog {
   std::map<std::uint64_t, Schema> schemas_;
   std::map<std::uint64_t, LogChannel> channels_;
   std::string chunk_;
+  std::uint64_t kept_ = 0;  ///< [bytes]
 };
 
 }  // namespace

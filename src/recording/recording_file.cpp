@@ -83,12 +83,17 @@ double sampling_interval(const RecordedRows& table) {
 namespace internal::recording {
 namespace {
 
-CommandRows command_of(const RecordedRows& table) { return {table.t, table.target, table.x1, table.supply}; }
+CommandRows command_of(const RecordedRows& table, const ReadOptions& options) {
+  CommandRows rows = {table.t, table.target, table.x1, table.supply, options.gain_times};
+  const bool bridges = options.lost_rows == LostRows::kBridged && !options.resample_rate;
+  if (bridges) rows.bridged = losses_of(table.t);
+  return rows;
+}
 
 /// The input is what the controller made of the target.
-void command(const DriveController& controller, RecordedRows& table) {
-  table.command = std::make_shared<const CommandRows>(command_of(table));
-  table.u = commanded_input(controller, *table.command);
+void command(const ReadOptions& options, RecordedRows& table) {
+  table.command = std::make_shared<const CommandRows>(command_of(table, options));
+  table.u = commanded_input(*options.controller, *table.command);
 }
 
 }  // namespace
@@ -96,7 +101,7 @@ void command(const DriveController& controller, RecordedRows& table) {
 RecordedRows read_window(const std::string& path, const ReadOptions& options, EarlierRow earlier) {
   RecordedRows table = read_rows(path, options.columns, earlier);
   require_samples(table, table.size(), "");
-  if (options.controller && !options.columns.reads_input()) command(*options.controller, table);
+  if (options.controller && !options.columns.reads_input()) command(options, table);
   if (options.window) cut_to_window(table, *options.window);
   return table;
 }
@@ -157,8 +162,8 @@ RecordingColumns RecordingColumns::read_from_load() const {
 std::optional<InputComparison> compare_with_controller(const std::string& path, const ReadOptions& options) {
   if (!options.controller || !options.columns.reads_input()) return {};
   const RecordedRows table = internal::recording::read_window(path, options);
-  return compare_inputs(table.u,
-                        commanded_input(*options.controller, internal::recording::command_of(table)));
+  const CommandRows rows = internal::recording::command_of(table, options);
+  return compare_inputs(table.u, commanded_input(*options.controller, rows));
 }
 
 Recording read_recording(const std::string& path, const ReadOptions& options) {
@@ -168,7 +173,7 @@ Recording read_recording(const std::string& path, const ReadOptions& options) {
   Recording r = options.resample_rate ? internal::recording::resample(table, *options.resample_rate)
                                       : internal::recording::recording_of(std::move(table), options.uneven);
   if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
-  if (options.lost_rows == LostRows::kBridged) bridge_lost_rows(r);
+  if (options.lost_rows == LostRows::kBridged && !r.command) bridge_lost_rows(r);
   r.file = std::filesystem::path(path).filename().string();
   r.open_end = open_end;
   r.quantum = quantum;

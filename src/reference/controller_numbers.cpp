@@ -21,7 +21,7 @@ void set_inputs(FitProblem& problem, const DriveController& controller) {
   made->recordings.assign(problem.recordings.begin(), problem.recordings.end());
   for (MotorTrace& trace : made->recordings) {
     GAPSCOPE_REQUIRE(trace.command != nullptr);
-    made->u.push_back(commanded_input(controller, *trace.command, trace.command_first, trace.size()));
+    made->u.push_back(commanded_input(controller, trace));
     trace.u = made->u.back();
   }
   problem.inputs = made;
@@ -66,6 +66,7 @@ void bound_delay(Parameter& p, double dt) {
   if (std::isnan(p.low)) p.low = kShortestDelay * dt;
   if (std::isnan(p.high)) p.high = std::max(kLongestDelay * dt, 3.0 * p.start);
   p.low = std::max(p.low, kShortestDelay * dt);
+  p.high = std::max(p.high, p.low);
 }
 
 void bound_gain(Parameter& p, double size, bool leading) {

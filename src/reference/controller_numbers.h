@@ -10,7 +10,7 @@ namespace gapscope::internal::reference {
 /// @throws std::logic_error for a recording without a command
 void command_inputs(FitProblem& problem, const ReferenceModel& model);
 
-/// The numbers of the controller behind those of the effects. Bounds that are not given: a leading number
+/// The numbers of the controller behind those of the drive. Bounds that are not given: a leading number
 /// within a hundred times of its start, the others from 0 on, a delay to 50 samples.
 void add_controller(FitProblem& problem, const ControllerModel& model);
 

@@ -225,8 +225,9 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   for (const MotorTrace& r : recordings) problem.floors.push_back(signals::encoder_floor(r));
   const std::array<double, kDriveParameterCount> sizes = suggested(problem.rough, model);
   add_drive(problem, model, sizes);
-  add_effects(problem, model, scales(problem, sizes));
+  const ScaleContext context = scales(problem, sizes);
   if (model.controller) add_controller(problem, *model.controller);
+  add_effects(problem, model, context);
   for (std::size_t i = 0; i < problem.parameters.size(); ++i)
     if (problem.parameters[i].estimated) problem.free.push_back(static_cast<int>(i));
   std::vector<double> q;

@@ -134,8 +134,7 @@ struct FitProblem {
   /// What that controller makes of the target of recording r.
   template <class T>
   std::vector<T> commanded(const ModelNumbers<T>& n, std::size_t r) const {
-    const MotorTrace& trace = recordings[r];
-    return commanded_input(controller_of(n), *trace.command, trace.command_first, trace.size());
+    return commanded_input(controller_of(n), recordings[r]);
   }
 
   /// Initial state from all four solver numbers of a recording.

@@ -138,9 +138,13 @@ ReferenceModel ModelFit::model_at(const FitPoint& at) const {
 }
 
 ModelRun ModelFit::run_at(const FitPoint& at) const {
-  ModelRun run{problem_->plant_model(problem_->numbers(at.q.data())), {}};
+  const ModelNumbers<double> numbers = problem_->numbers(at.q.data());
+  ModelRun run{problem_->plant_model(numbers), {}};
   for (const RecordingStart& start : at.starts)
     run.starts.push_back(problem_->state(start, 0.5 * run.plant.drive.gap, start.q.data()));
+  if (problem_->controller)
+    for (std::size_t r = 0; r < problem_->recordings.size(); ++r)
+      run.inputs.push_back(problem_->commanded(numbers, r));
   return run;
 }
 

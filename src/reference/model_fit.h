@@ -91,6 +91,15 @@ struct SineStart {
 struct ModelRun {
   PlantModel<double> plant;
   std::vector<DriveState<double>> starts;
+  std::vector<std::vector<double>> inputs =
+      {};  ///< that its controller makes of the targets; without one empty
+
+  /// A recording under the input that the model takes.
+  MotorTrace under_own_input(const MotorTrace& recording, std::size_t r) const {
+    MotorTrace trace = recording;
+    if (!inputs.empty()) trace.u = inputs[r];
+    return trace;
+  }
 };
 
 /// Σ weight · parameter.

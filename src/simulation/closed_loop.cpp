@@ -28,6 +28,9 @@ class DriveInLoop {
     stepper_.reset(options.initial);
   }
 
+  /// What acts until the first output of the controller does.
+  void begin_with(double u) { u_ = u; }
+
   const DriveStepper<double>& drive() const { return stepper_; }
 
   double read() {
@@ -38,8 +41,8 @@ class DriveInLoop {
   }
 
   /// At a row of which the reading is x: one of its own, where an update falls on it.
-  void row(double target, double x) {
-    target_ = target, impulse_ = 0.0, row_began_ = now_;
+  void row(double target, double x, double supply = 1.0) {
+    target_ = target, supply_ = supply, impulse_ = 0.0, row_began_ = now_;
     if (controller_.rate == 0.0 || next_update() < now_ + kOneInstant) update(x);
     act();
   }
@@ -74,8 +77,8 @@ class DriveInLoop {
       u_ = coming_.front().u;
   }
   void advance(double to) {
-    stepper_.step(u_, to - now_);
-    impulse_ += u_ * (to - now_);
+    stepper_.step(u_ * supply_, to - now_);
+    impulse_ += u_ * supply_ * (to - now_);
     now_ = to;
     if (!stepper_.healthy())
       throw std::runtime_error("the simulated motion diverges: expected a stable drive and controller");
@@ -87,7 +90,7 @@ class DriveInLoop {
   Encoder encoder_;
   std::mt19937_64 noise_;
   std::deque<Command> coming_;
-  double now_ = 0.0, u_ = 0.0, target_ = 0.0, impulse_ = 0.0, row_began_ = 0.0;
+  double now_ = 0.0, u_ = 0.0, supply_ = 1.0, target_ = 0.0, impulse_ = 0.0, row_began_ = 0.0;
   long updates_ = 0;
 };
 
@@ -118,6 +121,28 @@ Recording simulate_under_controller(const PlantModel<double>& model, const Drive
   rows->supply.assign(target.size(), 1.0);
   r.command = rows;
   return r;
+}
+
+std::vector<double> positions_under_controller(const PlantModel<double>& model,
+                                               const DriveController& declared, const MotorTrace& recording,
+                                               const DriveState<double>& start) try {
+  GAPSCOPE_REQUIRE(recording.command != nullptr);
+  const CommandRows& rows = *recording.command;
+  const DriveController controller = controller_during(rows, declared);
+  SimulationOptions options;
+  options.rate = 1.0 / recording.dt, options.initial = start, options.encoder = {};
+  DriveInLoop loop(model, controller, options);
+  const std::size_t first = recording.command_first;
+  loop.begin_with(commanded_input(declared, rows, first, 1).front() / rows.supply[first]);
+  std::vector<double> positions;
+  for (std::size_t i = 0; i < recording.size(); ++i) {
+    positions.push_back(loop.read());
+    loop.row(rows.target[first + i], positions.back(), rows.supply[first + i]);
+    if (i + 1 < recording.size()) loop.until(recording.elapsed(i + 1));
+  }
+  return positions;
+} catch (const std::runtime_error&) {
+  return {};
 }
 
 }  // namespace gapscope

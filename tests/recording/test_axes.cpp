@@ -25,6 +25,12 @@ TEST(Axes, AreFoundByTheNameOfThePosition) {
   EXPECT_THAT(recorded_axes(csv.path(), named("joint{axis}_pos")), ElementsAre("2", "10"));
 }
 
+TEST(Axes, AreNotLookedForInComments) {
+  const TemporaryFile csv(
+      "# joint7_pos, joint8_pos, of a bench, more, and more\n  # again\nt, joint1_pos\n0, 0\n");
+  EXPECT_THAT(recorded_axes(csv.path(), named("joint{axis}_pos")), ElementsAre("1"));
+}
+
 TEST(Axes, AreReadOneByOne) {
   ReadOptions options;
   options.columns = columns_of_axis(named("{axis}.position", "{axis}.effort"), "wrist");

@@ -40,6 +40,30 @@ TEST(DriveController, ActsLater) {
                                             0.25 * 1.0 - 0.75 * 1.0, -0.25 * 1.0 - 0.75 * 0.5}));
 }
 
+TEST(DriveController, MayHaveHadAnotherGain) {
+  DriveController c;
+  c.gain = 2.0, c.integral = 1.0;
+  CommandRows rows = {
+      kTimes, {1.0, 1.0, 1.0, 0.0, 0.0}, {0.0, 0.25, 0.5, 0.5, 0.25}, std::vector<double>(5, 1.0)};
+  rows.gain_times = 0.25;
+  const std::vector<double> quarter = commanded_input(c, rows);
+  c.gain = 0.5, rows.gain_times = 1.0;
+  EXPECT_EQ(quarter, commanded_input(c, rows));
+}
+
+/// Between 0.2 and 0.6 s three rows are missing: the input is the mean of a line from there to the next one.
+TEST(DriveController, IsDrawnOverLostRowsWhereTheyAreBridged) {
+  DriveController c;
+  c.gain = 1.0;
+  CommandRows rows = {
+      {0.0, 0.1, 0.2, 0.6, 0.7}, {1, 1, 1, 5, 5}, {0, 0, 0, 0, 0}, std::vector<double>(5, 1.0)};
+  EXPECT_THAT(commanded_input(c, rows), ElementsAre(1, 1, 1, 5, 5));
+  rows.bridged = {{2, 3}};
+  EXPECT_THAT(commanded_input(c, rows), ElementsAre(1, 1, 1 + 4 * 3.0 / 8.0, 5, 5));
+  EXPECT_THAT(commanded_input(c, rows, 1, 4), ElementsAre(1, 1 + 4 * 3.0 / 8.0, 5, 5));
+  EXPECT_THAT(commanded_input(c, rows, 3, 2), ElementsAre(5, 5));
+}
+
 TEST(DriveController, UpdatesAtItsOwnRateBetweenTheRows) {
   DriveController c;
   c.gain = 1.0, c.rate = 20.0;  // at 0, 0.05, 0.1, …; the position is linear between the rows

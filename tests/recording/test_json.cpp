@@ -67,6 +67,16 @@ TEST(Json, ReadsListsOfNumbersAndTables) {
               HasSubstr("the column 'q' is of size 60 x 2, expected a vector of real numbers (one of its"));
 }
 
+/// One row of the table has a number too few, the next one too many: all in all as many as there should be.
+TEST(Json, RefusesRowsOfOtherLengthsWhoseTotalAgrees) {
+  std::string ragged = lists();
+  const std::string rows = "[1,-1],[2,-2]";
+  ragged.replace(ragged.find(rows), rows.size(), "\n[1],[2,-2,7]");
+  const std::string what = testing::refusal([&] { read_json(ragged, columns_named("t", "u", "q[:, 1]")); });
+  EXPECT_THAT(what, HasSubstr("r.json:2: is no whole JSON"));
+  EXPECT_THAT(what, HasSubstr("ends a row of 1 numbers in 'q', expected 2 as in the first"));
+}
+
 TEST(Json, RefusesAMalformedFileWithPlaceAndRemedy) {
   const auto cut = [](const char* at, std::size_t more) {
     return [=](std::string& b) { b.resize(b.find(at) + more); };

@@ -7,6 +7,7 @@ namespace {
 using testing::columns_named;
 using ::testing::HasSubstr;
 using testing::put;
+using testing::TemporaryFile;
 using testing::written_file;
 
 Recording read_log(const std::string& file, const std::string& time, const std::string& position,
@@ -123,6 +124,46 @@ TEST(Mcap, RefusesAMalformedFileWithPlaceAndRemedy) {
   };
   testing::expect_refused(written_file("joints.mcap"), ".mcap",
                           columns_named("t", "elbow.effort", "elbow.position"), cases);
+}
+
+/// An attachment of a camera or a whole firmware is nobody's damage, and is not read.
+TEST(Mcap, PassesOverALargeAttachment) {
+  std::string log = testing::text_of(written_file("joints.mcap"));
+  const std::size_t at = record_of(log, kMessageRecord, 3);
+  constexpr char kAttachmentRecord = 9;
+  std::string head(1, kAttachmentRecord);
+  head.resize(9);
+  put(head, 1, (256u << 20) + 1, 8);
+  const TemporaryFile file(log.substr(0, at) + head, "large.mcap");
+  {
+    std::fstream sparse(file.path(), std::ios::binary | std::ios::in | std::ios::out);
+    sparse.seekp(static_cast<std::streamoff>(at) + 9 + (256 << 20) + 1);
+    sparse << log.substr(at);
+  }
+  const Recording r = read_recording(file.path(), columns_named("t", "elbow.effort", "elbow.position"));
+  EXPECT_EQ(r.x1, read_log("joints.mcap", "t", "elbow.position").x1);
+}
+
+/// A second channel of the topic with messages in JSON: each is read as what it is.
+TEST(Mcap, ReadsEachChannelOfATopicByItsOwnType) {
+  std::string log = testing::text_of(written_file("joints.mcap"));
+  const std::size_t at = record_of(log, kMessageRecord, 3);
+  const auto record = [](char opcode, const std::string& content) {
+    std::string r(9, opcode);
+    put(r, 1, content.size(), 8);
+    return r + content;
+  };
+  const auto text = [](const std::string& t) {
+    std::string length(4, '\0');
+    put(length, 0, t.size(), 4);
+    return length + t;
+  };
+  const std::string id("\x63\0", 2), no_schema("\0\0", 2), times(4 + 8 + 8, '\0');
+  const std::string channel = id + no_schema + text("/joint_states") + text("json") + std::string(4, '\0');
+  log.insert(at, record(kChannelRecord, channel) + record(kMessageRecord, id + times + "{\"state\": 3}"));
+  const TemporaryFile file(log, "two.mcap");
+  const Recording r = read_recording(file.path(), columns_named("t", "elbow.effort", "elbow.position"));
+  EXPECT_EQ(r.x1, read_log("joints.mcap", "t", "elbow.position").x1);
 }
 
 TEST(Mcap, RefusesADamagedChunkWithPlaceAndRemedy) {

@@ -4,6 +4,7 @@
 
 #include "gapscope/recording/controller.h"
 #include "independent_plant/closed_loop.h"
+#include "reference/model_fit.h"
 #include "reference/rigs.h"
 
 namespace gapscope {
@@ -60,6 +61,23 @@ TEST(CommandedInput, IsWhatTheDrivesOwnControllerSent) {
   DriveController other = same_servo(0.0);
   other.gain *= 2.0;
   EXPECT_GT(compare_inputs(loop.run.recording.u, commanded(loop, other)).left, 0.05);
+}
+
+/// Bounds below what a sample can show are narrowed to one value, not turned round.
+TEST(CommandedInput, OfAVeryShortDelayKeepsItsBoundsInOrder) {
+  const LoopRun loop = under_control(0.0);
+  const CommandRows rows = rows_of(loop);
+  MotorTrace trace = loop.run.recording.motor_trace();
+  trace.command = &rows;
+  ReferenceModel model = known_model(one_body());
+  model.structure.has_load = false;
+  ParameterSetting& delay =
+      model.controller.emplace(ControllerModel::known(same_servo(0.0))).numbers[controller_place::kDelay];
+  delay.estimate = true, delay.low = 0.0, delay.high = 1e-7;
+  const internal::reference::ModelFit fit({&trace, 1}, model, {}, 2.5);
+  const Interval bounds = fit.bounds(internal::reference::number_of_controller(controller_place::kDelay));
+  EXPECT_LE(bounds.low, bounds.high);
+  EXPECT_LE(bounds.high, 1e-3 * trace.dt);
 }
 
 TEST(CommandedInput, FitsTheDriveThatItMoved) {

@@ -76,6 +76,20 @@ TEST(ClosedLoop, RecordsWhatTheControllerMadeOfIt) {
   EXPECT_LT(farthest_apart(made, own.u, 2), 1e-9);
 }
 
+/// Nothing that was recorded after the first row but the targets and the volts counts.
+TEST(ClosedLoop, GoesOnFromTheFirstRowOfARecordingAlone) {
+  const DriveController c = cascade(0.0, kInfinity);
+  const Recording own = own_loop(independent_loop(0.0, kInfinity), c);
+  CommandRows rows = *own.command;
+  rows.supply.assign(rows.t.size(), 0.5), rows.gain_times = 2.0;
+  for (std::size_t i = 1; i < rows.t.size(); ++i) rows.position[i] = 17.0;
+  MotorTrace beside = own.motor_trace();
+  beside.command = &rows;
+  const std::vector<double> again = positions_under_controller(plant_model(loop_rig(), {}), c, beside, {});
+  ASSERT_EQ(again.size(), own.size());
+  EXPECT_LT(farthest_apart(again, own.x1), 1e-9);
+}
+
 TEST(ClosedLoop, UpdatesBetweenTheRowsFromTheModelsOwnPosition) {
   std::vector<double> target(200, 0.3);
   SimulationOptions slow, fast;

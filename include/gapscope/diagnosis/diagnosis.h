@@ -132,6 +132,19 @@ struct DiagnosisStep {
   std::vector<RankedEffect> ranking;
 };
 
+/// A held-out recording beside the model under the drive's controller: the command goes in, the position
+/// comes out.
+struct ClosedLoopRun {
+  std::string file;
+  double before = kNaN, after = kNaN;  ///< rms of the position error, all the way [rad]
+};
+
+/// What users of a drive see that holds a position.
+struct ClosedLoop {
+  double before = kNaN, after = kNaN;  ///< rms over all recordings [rad]; NaN: the motion diverges
+  std::vector<ClosedLoopRun> recordings;
+};
+
 /// Errors beside one held-out recording, for figures. Columns of equal length.
 struct MismatchTrace {
   std::string file;
@@ -179,7 +192,8 @@ struct Diagnosis {
   std::vector<DetectableEffect> detectable;
 
   std::vector<Rival> rivals;  ///< models between which these recordings do not decide well; empty: they do
-  NextExperiment next_experiment;  ///< that would; left to the caller, as it takes time
+  NextExperiment next_experiment;         ///< that would; left to the caller, as it takes time
+  std::optional<ClosedLoop> closed_loop;  ///< where a controller is at work that is known
 
   std::string brief_report() const;  ///< one line: log, command line
 };
@@ -203,6 +217,7 @@ struct DiagnosisOptions {
   Coordinates coordinates;            ///< of a translation: rad and N·m mean m and N in texts
   ShaftTurns turns;                   ///< of a rotation; along a slide nothing is known to turn
   std::function<void(const std::string&)> progress = [](const std::string&) {};
+  std::optional<DriveController> controller = {};  ///< that made u of the commands, where the model has none
 };
 
 /// Why does the fitted model not move like the recorded drive?

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/recording/loss.h"
 
 namespace gapscope {
 
@@ -121,7 +122,17 @@ struct CommandRows {
   std::vector<double> target;    ///< [rad]; [rad/s] for a controller of the speed
   std::vector<double> position;  ///< [rad]
   std::vector<double> supply;    ///< that multiplies what the controller asks for [V]; 1 without
+  double gain_times = 1.0;       ///< the controller's leading number then, over the declared one [-]
+  std::vector<Loss> bridged =
+      {};  ///< lost rows over which the input is drawn to the next one; others hold it
 };
+
+/// The controller that was at work while rows were recorded.
+template <class T>
+ControllerOf<T> controller_during(const CommandRows& rows, ControllerOf<T> controller) {
+  controller_number(controller, leading_number(controller.kind)) *= rows.gain_times;
+  return controller;
+}
 
 namespace internal::recording {
 
@@ -131,13 +142,16 @@ template <class T>
 class RunningController {
  public:
   RunningController(const ControllerOf<T>& numbers, const CommandRows& rows)
-      : c_(numbers), rows_(rows), law_(c_) {
+      : c_(controller_during(rows, numbers)), rows_(rows), law_(c_) {
     output_ = update_at(rows_.t.front());
   }
 
   const T& output() const { return output_; }
   /// When the next output begins to act [s].
   T next_change() const { return next_update() + c_.delay; }
+  RunningController(const RunningController&) = delete;
+  RunningController& operator=(const RunningController&) = delete;
+
   void update() {
     output_ = update_at(next_update());
     ++updates_;
@@ -159,7 +173,7 @@ class RunningController {
     return law_.update(time, rows_.target[row_], T(x));
   }
 
-  const ControllerOf<T>& c_;
+  ControllerOf<T> c_;
   const CommandRows& rows_;
   ControllerLaw<T> law_;
   std::size_t row_ = 0, updates_ = 0;
@@ -192,6 +206,8 @@ std::vector<T> commanded_input(const ControllerOf<T>& controller, const CommandR
     const T held = at == from ? running.output() : T((impulse + (to - at) * running.output()) / (to - from));
     u[i - first] = held * rows.supply[i];
   }
+  for (const Loss& loss : rows.bridged)
+    if (loss.row >= first && loss.row + 1 < first + count) bridge({loss.row - first, loss.lost}, u);
   return u;
 }
 std::vector<double> commanded_input(const DriveController& controller, const CommandRows& rows);

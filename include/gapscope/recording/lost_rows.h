@@ -4,15 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "gapscope/recording/loss.h"
 #include "gapscope/recording/recording.h"
 
 namespace gapscope {
-
-/// A step that has room for more rows than the two at its ends.
-struct Loss {
-  std::size_t row = 0;   ///< before it
-  std::size_t lost = 0;  ///< rows
-};
 
 /// The steps that are longer than 1.5 usual ones. Usual is the median of all steps, or that of the twenty
 /// around where it is longer: a loop that slows down for a while has lost nothing.

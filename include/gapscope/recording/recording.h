@@ -41,6 +41,12 @@ struct MotorTrace {
   }
 };
 
+/// What a controller makes of the rows of a recording that has a command.
+template <class T>
+std::vector<T> commanded_input(const ControllerOf<T>& controller, const MotorTrace& recording) {
+  return commanded_input(controller, *recording.command, recording.command_first, recording.size());
+}
+
 /// A recording, simulated or recorded. All filled columns have the same length.
 struct Recording {
   std::string file;        ///< name of the file (or of the simulation)

@@ -64,6 +64,7 @@ struct ReadOptions {
   LostRows lost_rows = LostRows::kHeld;             ///< of rows with their own times
   EncoderSide encoder = EncoderSide::kMotor;        ///< whose position the column `position` is
   std::optional<DriveController> controller;  ///< makes the input of the target, where that was recorded
+  double gain_times = 1.0;                    ///< its leading number in this file, over that one [-]
 };
 
 /// Fewer samples than this are no recording.

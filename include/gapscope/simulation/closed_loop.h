@@ -15,4 +15,14 @@ namespace gapscope {
 Recording simulate_under_controller(const PlantModel<double>& model, const DriveController& controller,
                                     std::span<const double> target, const SimulationOptions& options);
 
+/// The same beside a recording that has a command: from its first row on the model follows its targets, under
+/// its supply and without the encoder's noise and resolution. Nothing of the recorded position comes in
+/// later.
+/// @param controller  as it is declared: the recording says by how much its gain was another
+/// @param start       of the drive, at the first row
+/// @returns the position that the encoder would read at each row [rad]; empty where the motion diverges
+std::vector<double> positions_under_controller(const PlantModel<double>& model,
+                                               const DriveController& controller, const MotorTrace& recording,
+                                               const DriveState<double>& start);
+
 }  // namespace gapscope

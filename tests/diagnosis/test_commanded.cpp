@@ -1,0 +1,103 @@
+// A servo that tells its target and its position alone, under a controller that is known or not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "diagnosis/among.h"
+#include "independent_plant/closed_loop.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::ElementsAre;
+namespace at = controller_place;
+
+constexpr double kServoInertia = 8.78e-4, kServoConstant = 0.172, kServoDamping = 0.062;
+constexpr double kServoSlope = 40.0, kServoGain = 0.05, kArmTorque = 0.1;
+
+/// A drive of the independent plant with an arm, and with dry friction that its model lacks.
+Recording servo_recording(std::uint64_t seed, double travel) {
+  independent_plant::BlindDrive drive;
+  drive.load = independent_plant::BlindLoad::kNone;
+  drive.motor_inertia = kServoInertia, drive.torque_constant = kServoConstant,
+  drive.motor_damping = kServoDamping;
+  drive.effects.load.unbalance_nm = kArmTorque;
+  drive.effects.motor.friction.level_nm = 0.03;
+  const independent_plant::LoopRun loop = simulate_closed_loop(
+      drive, {.course = independent_plant::Course::kSines, .travel = travel, .speed = 4.0},
+      {.rate = 500.0, .position_gain = kServoSlope, .speed_forward = 0.0, .speed_gain = kServoGain},
+      independent_plant::BlindSensor::with_bits(16), {}, {.duration = 4.0, .seed = seed, .tolerance = 1e-8});
+  auto rows = std::make_shared<CommandRows>();
+  rows->t = loop.stamps, rows->position = loop.run.recording.x1;
+  for (const auto& target : loop.target) rows->target.push_back(target.x);
+  rows->supply.assign(rows->t.size(), 1.0);
+  Recording r = loop.run.recording;
+  r.command = rows;
+  return r;
+}
+
+DriveController firmware(double gain) {
+  DriveController c;
+  c.kind = ControllerKind::kCascade;
+  c.gain = kServoSlope, c.speed_gain = gain;
+  return c;
+}
+
+/// Damping estimated; the arm gives the scale.
+ReferenceModel servo_sheet() {
+  ReferenceModel model;
+  model.structure.has_load = false;
+  model.parameters[place::kMotorInertia] = ParameterSetting::sought(1.2 * kServoInertia);
+  model.parameters[place::kTorqueConstant] = ParameterSetting::known(kServoConstant);
+  model.parameters[place::kMotorDamping] = ParameterSetting::sought(0.8 * kServoDamping);
+  ModelEffect arm{find_effect("load_unbalance"), {}};
+  arm.parameters = {ParameterSetting::known(kArmTorque), ParameterSetting::known(0.0),
+                    ParameterSetting::known(1.0)};
+  model.effects = {arm};
+  return model;
+}
+
+Diagnosis diagnosed(const ReferenceModel& sheet, double gain_of_inputs) {
+  Recording train = servo_recording(5, 2.0), held_out = servo_recording(6, 1.5);
+  for (Recording* r : {&train, &held_out}) r->u = commanded_input(firmware(gain_of_inputs), r->motor_trace());
+  DiagnosisOptions options = test::among({"motor_coulomb_friction", "quadratic_drag"});
+  options.threads = 1;
+  options.controller = firmware(gain_of_inputs);
+  const MotorTrace fitted[] = {train.motor_trace()}, judged[] = {held_out.motor_trace()};
+  return diagnose(fitted, judged, sheet, options);
+}
+
+TEST(CommandedServo, IsJudgedUnderItsController) {
+  const Diagnosis d = diagnosed(servo_sheet(), kServoGain);
+  EXPECT_THAT(d.effects, ElementsAre("motor_coulomb_friction"));
+  ASSERT_TRUE(d.closed_loop);
+  ASSERT_EQ(d.closed_loop->recordings.size(), 1u);
+  EXPECT_LT(d.closed_loop->after, 0.1 * d.closed_loop->before);
+  EXPECT_LT(d.closed_loop->after, 3.0 * d.mismatch.floor);
+}
+
+/// The fit of a model without friction takes another gain; with what is found it is that of the firmware.
+TEST(CommandedServo, HasItsGainEstimatedAnewWithEachStep) {
+  ReferenceModel sheet = servo_sheet();
+  ControllerModel& c = sheet.controller.emplace(ControllerModel::known(firmware(kServoGain)));
+  c.numbers[at::kSpeedGain] = ParameterSetting::sought(1.3 * kServoGain);
+  const Diagnosis d = diagnosed(sheet, 1.3 * kServoGain);
+  EXPECT_THAT(d.effects, ElementsAre("motor_coulomb_friction"));
+  ASSERT_TRUE(d.fitted.controller);
+  EXPECT_NEAR(d.fitted.controller->numbers[at::kSpeedGain].value, kServoGain, 0.02 * kServoGain);
+  ASSERT_TRUE(d.closed_loop);
+  EXPECT_LT(d.closed_loop->after, 3.0 * d.mismatch.floor);
+}
+
+/// A recorded input was made by nobody that is known.
+TEST(CommandedServo, IsNotJudgedInALoopThatIsNotKnown) {
+  Recording train = servo_recording(5, 2.0);
+  train.u = commanded_input(firmware(kServoGain), train.motor_trace());
+  train.command.reset();
+  DiagnosisOptions options = test::among({"motor_coulomb_friction"});
+  options.controller = firmware(kServoGain);
+  const MotorTrace fitted[] = {train.motor_trace()};
+  EXPECT_FALSE(diagnose(fitted, {}, servo_sheet(), options).closed_loop);
+}
+
+}  // namespace
+}  // namespace gapscope
