@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/rule.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
@@ -57,9 +58,8 @@ std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates
 /// The step of a solver that leaves half of it in a number, if that is a half or a third of a sample or all
 /// of it; 0: it is none.
 double step_of_solver(double twice_half, double dt) {
-  constexpr double kNear = 0.15;  // of the step: as well as numbers of two fits tell it
   for (const double parts : {1.0, 2.0, 3.0})
-    if (std::abs(twice_half * parts / dt - 1.0) < kNear) return dt / parts;
+    if (std::abs(twice_half * parts / dt - 1.0) < kRule.part) return dt / parts;
   return 0.0;
 }
 
