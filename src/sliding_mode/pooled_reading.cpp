@@ -46,7 +46,7 @@ constexpr double kRounding = 0.3;  ///< standard deviation of the level of rest,
 /// 80 multisine).
 constexpr double kFewestPooledQuanta = 25.0;
 constexpr double kWidestPooled = 0.095;  ///< of the 95 % interval of a gap that is told, either way
-constexpr double kBeforeImpact = 0.9;    ///< of the gap: until there the motor surely flies
+constexpr double kSurelyFree = 0.9;      ///< of the gap: until there the motor surely flies
 constexpr double kDithers = 0.4;         ///< noise in quanta, from which on samples are independent
 
 /// What the window that ends behind one tried gap shows. All in rad but stands_out.
@@ -187,7 +187,7 @@ std::vector<RestBeforeFlight> rests_of(const PooledRecording& s, const GapCandid
   for (const PooledStretch& stretch : flights.stretches()) {
     std::size_t first = stretch.turn.zero;
     while (first > 0 && std::abs(s.trace.x1[first] - stretch.rest) <= tolerance) --first;
-    const double end = flights.crossing(stretch, kBeforeImpact * c.gap);
+    const double end = flights.crossing(stretch, kSurelyFree * c.gap);
     if (std::isnan(end)) continue;
     rests.push_back({{stretch.turn.direction, first, stretch.turn.zero, stretch.rest, c.gap},
                      stretch.first,
