@@ -40,7 +40,7 @@ std::string confounded_with(const FitSummary& found, Coordinates coordinates) {
   return said;
 }
 
-std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
+std::vector<MotorTrace> motor_traces(const std::vector<Recording>& recordings) {
   std::vector<MotorTrace> traces;
   for (const Recording& r : recordings) traces.push_back(r.motor_trace());
   return traces;
@@ -72,7 +72,7 @@ SettledController settle_controller(const Configuration& c, std::vector<Recordin
   const bool commands = c.recording && !c.recording->reading.columns.reads_input();
   if (!commands || !c.recording->reading.controller) return {};
   if (!c.controller || !c.controller->estimates()) return {c.recording->reading.controller, {}, ""};
-  const FitSummary found = fit(traces_of(fitted), c.reference_model(), c.fit);
+  const FitSummary found = fit(motor_traces(fitted), c.reference_model(), c.fit);
   if (found.status == FitStatus::kFailed)
     throw ConfigError(
         c.file,
@@ -97,7 +97,7 @@ SettledController settle_controller(const Configuration& c, std::vector<Recordin
 std::string controller_found(const Configuration& c, const ReferenceModel& diagnosed,
                              const std::vector<Recording>& fitted) {
   if (!diagnosed.controller) return {};
-  const FitSummary found = fit(traces_of(fitted), diagnosed, c.fit);
+  const FitSummary found = fit(motor_traces(fitted), diagnosed, c.fit);
   if (found.status == FitStatus::kFailed) return {};
   return "the controller with what the diagnosis has added: " + numbers_told(found) +
          (is_determined(found) ? "" : confounded_with(found, c.coordinates));
