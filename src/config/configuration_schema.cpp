@@ -5,6 +5,7 @@
 
 #include "config/anchor_reader.h"
 #include "config/controller_reader.h"
+#include "config/data_reader.h"
 #include "config/model_reader.h"
 #include "config/parameter_setting.h"
 #include "config/schema_parts.h"
@@ -66,9 +67,15 @@ Json model_schema() {
 }
 
 Json files_or_file(const std::string& doc) {
-  Json list = list_schema(text_schema(""), "");
+  MapSchema named;
+  named.add("name", text_schema("of the file"));
+  named.add("gain_times",
+            number_schema(kGainTimes, "the controller's gain in this recording, over that of controller:"));
+  named.required = {"name"};
+  const Json file = one_of({text_schema(""), named.schema("a recording made with another gain")}, "");
+  Json list = list_schema(file, "");
   list["minItems"] = 1;
-  return one_of({text_schema(""), list}, doc);
+  return one_of({text_schema(""), named.schema("a recording made with another gain"), list}, doc);
 }
 
 Json recording_schema() {

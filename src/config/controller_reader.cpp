@@ -156,11 +156,23 @@ Json law_schema(const LawKeys& keys, const std::string& doc) {
   return law.schema(doc);
 }
 
+/// A gain of its own has a recording only under a controller.
+void require_controlled(const Configuration& c, bool controlled) {
+  const RecordingConfig& r = *c.recording;
+  for (const auto* files : {&r.files, &r.held_out, &r.simulated})
+    for (const RecordedFile& file : *files)
+      if (file.gain_times != 1.0 && (!controlled || files == &r.simulated))
+        throw ConfigError(c.file, file.line,
+                          "gain_times stands beside " + file.given +
+                              ", expected it beside a recording under a controller: that is given");
+}
+
 }  // namespace
 
 void read_controller(const Section& root, Configuration& c) {
   const auto controller = root.find("controller");
   const bool target = c.recording && !c.recording->reading.columns.target.empty();
+  if (c.recording) require_controlled(c, controller.has_value());
   if (!controller && !target) return;
   if (!controller)
     throw ConfigError(

@@ -28,6 +28,12 @@ ReadOptions RecordingConfig::reading_for(UnevenRows uneven) const {
   return options;
 }
 
+ReadOptions RecordingConfig::reading_of(const RecordedFile& file, UnevenRows uneven) const {
+  ReadOptions options = reading_for(uneven);
+  options.gain_times = file.gain_times;
+  return options;
+}
+
 std::string RecordingConfig::simulated_problem() const {
   if (simulated.empty() || simulated.size() == files.size() ||
       (!held_out.empty() && simulated.size() == files.size() + held_out.size()))
@@ -48,18 +54,31 @@ namespace {
 const std::vector<std::string> kSimulationKeys = {"rate",    "duration", "seed",  "excitation",
                                                   "initial", "noise",    "plant", "model"};
 
+/// A name, or one beside the controller's gain during that recording.
+RecordedFile read_file(const Value& item, const std::string& folder) {
+  RecordedFile file;
+  Value name = item;
+  if (item.is_map()) {
+    const Section section(item, {"name", "gain_times"});
+    name = section.require("name", "a file");
+    if (const auto times = section.find("gain_times")) file.gain_times = times->number(kGainTimes);
+  }
+  if (!name.is_text()) name.fail_expecting("a file or a list of files");
+  file.given = name.text();
+  file.path = (std::filesystem::path(folder) / file.given).lexically_normal().string();
+  file.line = name.line();
+  return file;
+}
+
 std::vector<RecordedFile> read_files(const Value& value, const std::string& folder,
                                      std::set<std::string>& seen) {
-  std::vector<Value> names = value.is_list() ? value.items() : std::vector<Value>{value};
-  if (names.empty()) value.fail("is an empty list, expected a file or a list of files");
+  const std::vector<Value> items = value.is_list() ? value.items() : std::vector<Value>{value};
+  if (items.empty()) value.fail("is an empty list, expected a file or a list of files");
   std::vector<RecordedFile> files;
-  for (const Value& name : names) {
-    if (!name.is_text()) name.fail_expecting("a file or a list of files");
-    const std::string given = name.text();
-    const std::filesystem::path path = (std::filesystem::path(folder) / given).lexically_normal();
-    if (!seen.insert(path.string()).second)
-      name.fail(fmt::format("names {} a second time, expected each recording once", given));
-    files.push_back({given, path.string(), name.line()});
+  for (const Value& item : items) {
+    files.push_back(read_file(item, folder));
+    if (!seen.insert(files.back().path).second)
+      item.fail(fmt::format("names {} a second time, expected each recording once", files.back().given));
   }
   return files;
 }

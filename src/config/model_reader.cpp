@@ -93,12 +93,12 @@ void put_behind_gear(WrittenModel& model, const std::optional<Value>& recording,
     const int power = power_of_gear(kDriveParameters[i].unit);
     const double ratio = told_gear(recording);
     if (power == 0) side.fail("stands beside a ratio, expected a quantity with a unit: a ratio has no side");
+    if (!at_motor) continue;  // as all numbers are
     if (!coordinates.rotational()) side.fail("stands on a slide, expected the number as it is for the slide");
     if (ratio == 0.0)
       side.fail(
           "needs the gear, expected recording: gear_ratio: {position: turns of the motor for one of the "
           "axis}");
-    if (!at_motor) continue;
     const double factor = std::pow(ratio, power);
     if (p->value) *p->value *= factor;
     if (p->bounds) p->bounds->first *= factor, p->bounds->second *= factor;

@@ -30,7 +30,10 @@ std::string joined(const std::vector<std::string>& parts) {
 void write_files(YamlWriter& out, const char* key, const std::vector<RecordedFile>& files) {
   if (files.empty()) return;
   std::vector<std::string> list;
-  for (const RecordedFile& file : files) list.push_back(yaml_text(file.given));
+  for (const RecordedFile& file : files)
+    list.push_back(file.gain_times == 1.0 ? yaml_text(file.given)
+                                          : fmt::format("{{name: {}, gain_times: {}}}", yaml_text(file.given),
+                                                        yaml_number(file.gain_times)));
   out.entry(key, "[" + joined(list) + "]");
 }
 

@@ -95,6 +95,7 @@ void lose_rows(LoopRun& loop, const LoopRecorder& recorder, std::uint64_t seed) 
   const std::vector<bool> arrives = arriving_rows(loop.stamps.size(), recorder, seed);
   keep(loop.stamps, arrives);
   keep(loop.target, arrives);
+  keep(loop.supply, arrives);
   for (auto* column : {&loop.run.recording.u, &loop.run.recording.x1, &loop.run.recording.x2,
                        &loop.run.truth.x1, &loop.run.truth.w1, &loop.run.truth.x2, &loop.run.truth.w2})
     keep(*column, arrives);
@@ -117,11 +118,14 @@ LoopRun simulate_closed_loop(const BlindDrive& drive, const ReferenceMotion& ref
   CommandLine line;
   std::mt19937_64 noise = random_stream(options.seed, "blind current");
   LoopRun loop;
+  double supply = 1.0;
   for (const Instant& i : instants(settings, recorder, options)) {
     rig.advance(i.t);
     const double x = rig.read();
     if (i.turn) {
-      const double u = controller.step(i.t, x, course.at(i.t)), from = i.t + settings.dead_time_s;
+      const double duty = controller.step(i.t, x, course.at(i.t));
+      if (settings.supply_sag > 0.0) supply = 1.0 - settings.supply_sag * std::abs(duty) / settings.limit;
+      const double u = duty * supply, from = i.t + settings.dead_time_s;
       line.send(from, u);
       rig.send(from, u);
     }
@@ -132,6 +136,7 @@ LoopRun simulate_closed_loop(const BlindDrive& drive, const ReferenceMotion& ref
     rows.note(rig, u, x);
     loop.stamps.push_back(i.t);
     loop.target.push_back(course.at(i.t));
+    loop.supply.push_back(supply);
   }
   loop.run = rows.finished(rig);
   lose_rows(loop, recorder, options.seed);

@@ -30,6 +30,7 @@ struct LoopRun {
   BlindRun run;
   std::vector<double> stamps;  ///< [s]
   std::vector<Target> target;  ///< of the controller, at the stamps
+  std::vector<double> supply;  ///< that the commands were multiplied by, at the stamps [-]
 };
 
 /// The drive under a controller that reads its encoder and follows a reference. `options.rate` says nothing

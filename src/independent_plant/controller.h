@@ -17,7 +17,8 @@ struct ControllerSettings {
   double filter_s = 0.0;          ///< time constant of ŵ [s]
   double dead_time_s = 0.0;       ///< from a reading to its command
   double limit = kInfinity;       ///< of |u|; the integral stands still there [unit of u]
-  double jitter_s = 0.0;          ///< every turn late by a uniform share of it, < 1/rate
+  double supply_sag = 0.0;  ///< share of the supply that a command at the limit takes: it is a duty then
+  double jitter_s = 0.0;    ///< every turn late by a uniform share of it, < 1/rate
 };
 
 /// Gains for a body of this inertia.

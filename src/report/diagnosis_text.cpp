@@ -40,6 +40,23 @@ std::string measures_table(const DiagnosisResult& r) {
   return text + "\n";
 }
 
+std::string closed_loop_table(const DiagnosisResult& r) {
+  if (!r.diagnosis.closed_loop) return "";
+  const ClosedLoop& c = *r.diagnosis.closed_loop;
+  const std::string unit = r.coordinates.position_unit();
+  std::string text =
+      "\n## The drive under its controller\n\nThe command goes in, the position comes out; each held-out "
+      "recording all the way, rms of the position error.\n\n| recording | nominal model | with all that was "
+      "added |\n|---|---|---|\n";
+  const auto row = [&](const std::string& name, double before, double after) {
+    text +=
+        fmt::format("| {} | {} | {} |\n", name, quantity(before, unit), quantity_beside(after, before, unit));
+  };
+  for (const ClosedLoopRun& run : c.recordings) row(run.file, run.before, run.after);
+  if (c.recordings.size() > 1) row("all", c.before, c.after);
+  return text;
+}
+
 /// A harmonic that is not there, or a period that is the once per turn.
 bool is_left_out(const NamedValue& p) {
   return (p.key.find("_harmonic") != std::string::npos && p.value == 0.0) ||
@@ -189,8 +206,9 @@ std::string experiment_table(const DiagnosisResult& r) {
 
 std::string diagnosis_text(const DiagnosisResult& r) {
   return fmt::format("\n## What the simulation lacks\n\n**{}**\n", r.diagnosis.sentence) +
-         simulator_table(r) + budget_table(r) + measures_table(r) + ranking_table(r) + steps_table(r) +
-         periodic_table(r) + blame_table(r) + law_table(r) + detectable_table(r) + experiment_table(r) +
+         simulator_table(r) + budget_table(r) + measures_table(r) + closed_loop_table(r) + ranking_table(r) +
+         steps_table(r) + periodic_table(r) + blame_table(r) + law_table(r) + detectable_table(r) +
+         experiment_table(r) +
          "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
 }
 

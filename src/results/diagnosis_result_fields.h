@@ -180,6 +180,20 @@ void fields(Archive& archive, MismatchMeasure& m) {
 }
 
 template <class Archive>
+void fields(Archive& archive, ClosedLoopRun& r) {
+  archive("file", r.file);
+  archive("before_rad", r.before);
+  archive("after_rad", r.after);
+}
+
+template <class Archive>
+void fields(Archive& archive, ClosedLoop& c) {
+  archive("before_rad", c.before);
+  archive("after_rad", c.after);
+  archive.list("recordings", c.recordings);
+}
+
+template <class Archive>
 void fields(Archive& archive, BlameShift& b) {
   archive("unit", b.unit);
   archive("without", b.without);
@@ -251,6 +265,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.single("remaining", g.remaining);
   archive("sentence", g.sentence);
   archive.list("measures", g.measures);
+  archive.seldom("closed_loop", g.closed_loop);
   archive.named("blame", g.blame, &BlameShift::key);
   archive("observer_hz", g.observer_hz);
   archive("warnings", g.warnings);

@@ -41,7 +41,7 @@ Recording read_one(const RecordedFile& file, const Configuration& c, UnevenRows 
         c.file, file.line,
         fmt::format("there is no recording {}, expected a file (relative to this configuration)",
                     file.given));
-  return read_recording(file.path, c.recording->reading_for(uneven));
+  return read_recording(file.path, c.recording->reading_of(file, uneven));
 }
 
 /// The plant of a configuration in the terms of the independent code.
@@ -97,7 +97,7 @@ void note_time(const Recording& r, LostRows how, std::vector<std::string>& notes
 /// Where input and target both were recorded, the first is taken and the second tells of the controller.
 void note_controller(const RecordedFile& file, const Configuration& c, UnevenRows uneven,
                      std::vector<std::string>& notes) {
-  const ReadOptions options = c.recording->reading_for(uneven);
+  const ReadOptions options = c.recording->reading_of(file, uneven);
   const auto compared = compare_with_controller(file.path, options);
   if (!options.controller) return;
   if (!compared)

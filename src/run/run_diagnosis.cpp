@@ -20,7 +20,7 @@ std::vector<std::string> spoiling(const Configuration& c, const std::vector<Reco
   std::vector<std::string> warnings;
   for (const RecordedFile& file : files)
     for (const Finding& f :
-         inspect(file.path, c.recording->reading_for(UnevenRows::kStamped), c.coordinates).findings)
+         inspect(file.path, c.recording->reading_of(file, UnevenRows::kStamped), c.coordinates).findings)
       if (f.severity == Severity::kSpoils && f.rule != kReversalsRule)
         warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
   return warnings;
@@ -52,16 +52,23 @@ DiagnosisRecordings load_for_diagnosis(const Configuration& c, const Progress& p
   DiagnosisRecordings all{load_recordings(c, UnevenRows::kStamped, progress), {}};
   require_possible_experiment(c, all.train.recordings.front().dt);
   all.held_out = load_held_out(c, progress);
-  const std::string found =
+  const internal::run::SettledController settled =
       internal::run::settle_controller(c, all.train.recordings, all.held_out.recordings);
-  if (!found.empty()) all.train.warnings.push_back(found);
+  all.controller = settled.known, all.sought = settled.sought;
+  if (!settled.said.empty()) all.train.warnings.push_back(settled.said);
   return all;
 }
 
 Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings& recordings,
                               const DiagnosisOptions& options) {
-  return diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
-                  internal::run::settled_model(c), options);
+  DiagnosisOptions asked = options;
+  asked.controller = recordings.controller;
+  Diagnosis d = diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
+                         internal::run::diagnosed_model(c, recordings.sought), asked);
+  const std::string found = internal::run::controller_found(c, d.fitted, recordings.train.recordings);
+  if (!found.empty()) d.warnings.push_back(found);
+  d.fitted.controller.reset();
+  return d;
 }
 
 DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& options) {

@@ -84,7 +84,7 @@ SimulatorComparison compare_simulated(const Configuration& c, const DiagnosisRec
   DiagnosisOptions asked = options;
   asked.known.detectable = false;
   asked.progress = [&](const std::string& what) { options.progress("simulator: " + what); };
-  const Diagnosis of_simulator = diagnose(simulated_train, simulated_held_out, settled_model(c), asked);
+  const Diagnosis of_simulator = diagnose(simulated_train, simulated_held_out, diagnosed_model(c, {}), asked);
   SimulatorComparison compared = compare_with_simulator(
       {train, held_out, simulated_train, simulated_held_out, drive, of_simulator}, options);
   compared.files = simulated.files;

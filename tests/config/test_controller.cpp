@@ -52,6 +52,29 @@ TEST(Controller, ComesBackFromTheResolvedText) {
     }
 }
 
+TEST(Controller, MayHaveHadAnotherGainInOneRecording) {
+  const std::string text =
+      "recording:\n  file: [a.csv, {name: b.csv, gain_times: 0.25}]\n  held_out: {name: c.csv, gain_times: "
+      "4}\n"
+      "  columns: {target: goal}\ncontroller: {position: {gain: 1.15}}\n";
+  const Configuration c = parse_configuration(text, "c.yaml");
+  const RecordingConfig& r = *c.recording;
+  EXPECT_EQ(r.reading_of(r.files[0], UnevenRows::kStamped).gain_times, 1.0);
+  EXPECT_EQ(r.reading_of(r.files[1], UnevenRows::kStamped).gain_times, 0.25);
+  EXPECT_EQ(r.reading_of(r.held_out[0], UnevenRows::kStamped).gain_times, 4.0);
+  EXPECT_EQ(resolved_yaml(parse_configuration(resolved_yaml(c), "c.yaml")), resolved_yaml(c));
+}
+
+TEST(Controller, HasNoOtherGainWhereThereIsNone) {
+  const auto refused = [](const std::string& file) {
+    return refusal([&] { parse_configuration("recording:\n  file: " + file + "\n", "c.yaml"); });
+  };
+  EXPECT_THAT(refused("{name: b.csv, gain_times: 2}"),
+              HasSubstr("c.yaml:2: gain_times stands beside b.csv, expected it beside a recording under"));
+  EXPECT_THAT(refused("{name: b.csv, gain_times: 0}"), HasSubstr("gain_times"));
+  EXPECT_THAT(refused("{gain_times: 2}"), HasSubstr("name"));
+}
+
 TEST(Controller, IsRefusedWhereItCannotServe) {
   EXPECT_THAT(refusal([] { commanded("{target: goal}", ""); }),
               HasSubstr("c.yaml:2: recording.columns has a target, expected controller:"));

@@ -39,6 +39,12 @@ TEST(GivenAt, TheMotorIsAskedForAndTheAxisBehindTheGearIsMeant) {
   EXPECT_DOUBLE_EQ(parameter(c, place::kContactStiffness).value, 250.0);
 }
 
+TEST(GivenAt, TheLoadTakesNoGear) {
+  const Configuration c = parse_configuration(
+      geared("    load_coulomb_friction: {value: 0.3, given_at: load}\n", "window: [0, 1]"), "c.yaml");
+  EXPECT_EQ(c.model.parameters[place::kLoadCoulombFriction].value, 0.3);
+}
+
 TEST(GivenAt, WhatItDoesNotSayIsRefusedWithWhatWasExpected) {
   const auto refused = [](const std::string& text) {
     return testing::refusal([&] { parse_configuration(text, "c.yaml"); });

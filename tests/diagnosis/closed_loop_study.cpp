@@ -1,7 +1,7 @@
 // The diagnosis on drives of one body of the independent plant, recorded as real drives are: in closed loop,
 // at constant speed, or under a given command.
-//   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open] [--effect NAME|none] [-j
-//   THREADS]
+//   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open|commanded] [--effect NAME|none]
+//                     [-j THREADS]
 // Effects follow from the seed unless one is given; "none" lacks nothing. Prints a line a case and counts
 // with Wilson limits.
 #include <fmt/format.h>
@@ -40,9 +40,10 @@ Order read_order(int argc, char** argv) {
     if (key == "--write") order.folder = value;
     if (key == "-j") order.threads = std::atoi(argv[i + 1]);
     if (key == "--kind")
-      order.driven = value == "constant" ? Driven::kConstantSpeed
-                     : value == "open"   ? Driven::kOpen
-                                         : Driven::kLoop;
+      order.driven = value == "constant"    ? Driven::kConstantSpeed
+                     : value == "open"      ? Driven::kOpen
+                     : value == "commanded" ? Driven::kCommanded
+                                            : Driven::kLoop;
   }
   return order;
 }
@@ -88,6 +89,9 @@ std::string told(const Diagnosis& d) {
   text += fmt::format("; {:.1f} Hz, {:.2g} of {:.2g}, left {:.2g}, floor {:.2g}; {:.3g} floors in x1",
                       d.budget.band_hz, d.mismatch.before_torque, d.mismatch.input_torque, d.budget.remains,
                       d.mismatch.floor_torque, d.mismatch.before / d.mismatch.floor);
+  if (d.closed_loop)
+    text += fmt::format("; in closed loop {:.3g} to {:.3g} mrad", 1e3 * d.closed_loop->before,
+                        1e3 * d.closed_loop->after);
   for (std::size_t i = 0; i < std::min<std::size_t>(2, d.ranking.size()); ++i)
     text += fmt::format("; refit {} {:.2f}", d.ranking[i].effect, d.ranking[i].shrink);
   return text;
@@ -96,6 +100,7 @@ std::string told(const Diagnosis& d) {
 Answer examine(const test::LoopCase& c) {
   DiagnosisOptions options;
   options.threads = 1;
+  options.controller = c.controller;
   const MotorTrace train[] = {c.train.motor_trace()}, held_out[] = {c.held_out.motor_trace()};
   const double begin = test::thread_seconds();
   const Diagnosis d = diagnose(train, held_out, c.sheet, options);

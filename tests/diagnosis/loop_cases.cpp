@@ -26,6 +26,9 @@ struct EncoderAndRate {
   double rate;
 };
 constexpr std::array<EncoderAndRate, 4> kElectronics{{{12, 200.0}, {14, 500.0}, {16, 1000.0}, {20, 2000.0}}};
+constexpr std::array<EncoderAndRate, 5> kServos{
+    {{12, 100.0}, {12, 200.0}, {14, 200.0}, {14, 500.0}, {16, 500.0}}};
+constexpr double kVoltStep = 0.01;  ///< in which the supply is read [-]
 constexpr std::array kCourses{Course::kSCurve, Course::kTriangle, Course::kTrapezoid, Course::kSines,
                               Course::kPickAndPlace};
 constexpr std::array kCourseNames{"constant", "S", "triangle", "trapezoid", "sines", "places"};
@@ -53,11 +56,39 @@ struct Bench {
   Session train, held_out;
 };
 
-BlindRun recorded(const Bench& b, const Session& session) {
+LoopRun in_loop(const Bench& b, const Session& session) {
   BlindOptions options = b.c.options;
   options.seed = session.seed;
-  if (b.driven == Driven::kOpen) return simulate_blind(b.c.drive, session.excitation, b.c.sensor, options);
-  return simulate_closed_loop(b.c.drive, session.motion, b.controller, b.c.sensor, b.recorder, options).run;
+  return simulate_closed_loop(b.c.drive, session.motion, b.controller, b.c.sensor, b.recorder, options);
+}
+
+BlindRun recorded(const Bench& b, const Session& session) {
+  if (b.driven != Driven::kOpen) return in_loop(b, session).run;
+  BlindOptions options = b.c.options;
+  options.seed = session.seed;
+  return simulate_blind(b.c.drive, session.excitation, b.c.sensor, options);
+}
+
+/// The firmware's law as its user would declare it.
+DriveController declared_controller(const ControllerSettings& s) {
+  DriveController c;
+  c.kind = s.filter_s > 0.0 ? ControllerKind::kPosition : ControllerKind::kCascade;
+  c.gain = s.position_gain, c.speed_gain = s.speed_gain;  // of a P alone the latter is 1
+  c.delay = s.dead_time_s, c.saturation = s.limit;
+  return c;
+}
+
+/// What such a servo tells: target, position and volts; u is made of them.
+Recording commanded(const Bench& b, const Session& session) {
+  LoopRun loop = in_loop(b, session);
+  auto rows = std::make_shared<CommandRows>();
+  rows->t = loop.stamps, rows->position = loop.run.recording.x1;
+  for (const Target& target : loop.target) rows->target.push_back(target.x);
+  for (const double v : loop.supply) rows->supply.push_back(kVoltStep * std::round(v / kVoltStep));
+  Recording r = loop.run.recording;
+  r.command = rows;
+  r.u = commanded_input(declared_controller(b.controller), *rows);
+  return r;
 }
 
 void draw_motion(std::mt19937_64& g, Driven driven, ReferenceMotion& m) {
@@ -90,11 +121,32 @@ void draw_controller(std::mt19937_64& g, Bench& b) {
   if (uniform(g, 0.0, 1.0) < 0.25) b.recorder.input = RecordedInput::kCurrent;
 }
 
-void draw_drive(std::mt19937_64& g, BlindCase& c) {
+/// A P of the position, with a filter that lets no speed through, or a cascade of two.
+void draw_servo(std::mt19937_64& g, Bench& b) {
+  const BlindDrive& d = b.c.drive;
+  const double rate = b.c.options.rate, time_constant = d.motor_inertia / d.motor_damping;
+  ControllerSettings& c = b.controller;
+  if (uniform(g, 0.0, 1.0) < 0.5) {
+    const double omega = 1.0 / (2.0 * uniform(g, 0.4, 1.2) * time_constant);
+    c.speed_gain = 1.0, c.filter_s = 1e12;
+    c.position_gain = omega * omega * d.motor_inertia / d.torque_constant;
+  } else {
+    c = tuned_controller(d.motor_inertia, d.torque_constant, log_uniform(g, 3.0, rate / 25.0), rate);
+    c.integral_s = kInfinity, c.filter_s = 0.0;
+  }
+  c.rate = rate, c.speed_forward = 0.0;
+  c.dead_time_s = uniform(g, 0.0, 1.0) / rate;
+  c.supply_sag = uniform(g, 0.05, 0.25);
+  b.recorder.lead_s = std::ceil(uniform(g, 0.5, 1.5) * rate) / rate;
+}
+
+void draw_drive(std::mt19937_64& g, Driven driven, BlindCase& c) {
   c.drive.load = BlindLoad::kNone;
   c.drive.motor_inertia = log_uniform(g, 4e-4, 4e-3);
-  c.drive.motor_damping = c.drive.motor_inertia / log_uniform(g, 0.1, 2.0);
-  const EncoderAndRate electronics = pick(g, kElectronics);
+  const bool servo = driven == Driven::kCommanded;
+  c.drive.motor_damping =
+      c.drive.motor_inertia / (servo ? log_uniform(g, 0.03, 0.15) : log_uniform(g, 0.1, 2.0));
+  const EncoderAndRate electronics = servo ? pick(g, kServos) : pick(g, kElectronics);
   c.options = {electronics.rate, kDuration, 0, kFastTolerance};
   const bool noisy = uniform(g, 0.0, 1.0) < 0.5;
   c.sensor = BlindSensor::with_bits(electronics.bits, noisy ? uniform(g, 0.3, 1.0) : 0.0);
@@ -200,8 +252,8 @@ bool acts_before_the_current(const std::string& effect) {
 Bench drawn_bench(std::mt19937_64& g, Driven driven, std::uint64_t seed) {
   Bench b;
   b.driven = driven;
-  draw_drive(g, b.c);
-  draw_controller(g, b);
+  draw_drive(g, driven, b.c);
+  driven == Driven::kCommanded ? draw_servo(g, b) : draw_controller(g, b);
   for (Session* session : {&b.train, &b.held_out}) {
     draw_motion(g, driven, session->motion);
     draw_command(g, b.c.drive, session->excitation);
@@ -237,8 +289,10 @@ LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed)
   result.missing = effect == "none" ? missing_share(b) : give_to_size(b, effect, share);
   result.set_up = in_words(b);
   result.drive = b.c.drive;
-  result.train = recorded(b, b.train).recording;
-  result.held_out = recorded(b, b.held_out).recording;
+  const bool servo = driven == Driven::kCommanded;
+  result.train = servo ? commanded(b, b.train) : recorded(b, b.train).recording;
+  result.held_out = servo ? commanded(b, b.held_out) : recorded(b, b.held_out).recording;
+  if (servo) result.controller = declared_controller(b.controller);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ enum class Driven {
   kLoop,           ///< by a controller that follows a reference
   kConstantSpeed,  ///< the same, at one speed
   kOpen,           ///< by a given command
+  kCommanded,      ///< as kLoop, by a servo that tells target, position and volts alone
 };
 
 /// A drive of one body on the independent plant, which has an effect that its sheet does not tell of.
@@ -24,6 +26,7 @@ struct LoopCase {
   std::string set_up;  ///< in words
   independent_plant::BlindDrive drive;
   Recording train, held_out;
+  std::optional<DriveController> controller;  ///< that made u of the commands
   ReferenceModel sheet;  ///< inertia and viscous damping to be estimated, off by up to 30 %
 };
 
@@ -33,8 +36,11 @@ const std::vector<std::string>& loop_effects(Driven driven);
 /// Drawn from the seed: inertia 4e-4 to 4e-3 kg·m², J/d 0.1 to 2 s; an encoder of 12 bit read at 200 Hz, 14
 /// at 500, 16 at 1000 or 20 at 2000 Hz; speed loops that cross 1 at 3 to 20 Hz, P or PI, with or without a
 /// position loop, with dead time and a limit; references of 2 to 15 rad and 3 to 15 rad/s, another one for
-/// what is held out; recordings of 8 s that begin in motion. The effect's size is chosen for `missing` to be
-/// a log-uniform share from 10 to 60 %, as near as its severity can bring it.
+/// what is held out; recordings of 8 s that begin in motion. A servo that tells its target has 12 to 16 bit
+/// at 100 to 500 Hz, a P of the position (J/d 0.03 to 0.15 s) or a cascade of two, a delay up to a sample,
+/// and a supply that sags by 5 to 25 % at the limit, read in steps of 1 %; all but the effect is known of it.
+/// The effect's size is chosen for `missing` to be a log-uniform share from 10 to 60 %, as near as its
+/// severity can bring it.
 LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed);
 
 }  // namespace gapscope::test

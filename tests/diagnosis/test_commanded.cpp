@@ -56,7 +56,7 @@ ReferenceModel servo_sheet() {
   return model;
 }
 
-Diagnosis diagnosed(const ReferenceModel& sheet, double gain_of_inputs) {
+Diagnosis diagnosed_servo(const ReferenceModel& sheet, double gain_of_inputs) {
   Recording train = servo_recording(5, 2.0), held_out = servo_recording(6, 1.5);
   for (Recording* r : {&train, &held_out}) r->u = commanded_input(firmware(gain_of_inputs), r->motor_trace());
   DiagnosisOptions options = test::among({"motor_coulomb_friction", "quadratic_drag"});
@@ -67,7 +67,7 @@ Diagnosis diagnosed(const ReferenceModel& sheet, double gain_of_inputs) {
 }
 
 TEST(CommandedServo, IsJudgedUnderItsController) {
-  const Diagnosis d = diagnosed(servo_sheet(), kServoGain);
+  const Diagnosis d = diagnosed_servo(servo_sheet(), kServoGain);
   EXPECT_THAT(d.effects, ElementsAre("motor_coulomb_friction"));
   ASSERT_TRUE(d.closed_loop);
   ASSERT_EQ(d.closed_loop->recordings.size(), 1u);
@@ -80,7 +80,7 @@ TEST(CommandedServo, HasItsGainEstimatedAnewWithEachStep) {
   ReferenceModel sheet = servo_sheet();
   ControllerModel& c = sheet.controller.emplace(ControllerModel::known(firmware(kServoGain)));
   c.numbers[at::kSpeedGain] = ParameterSetting::sought(1.3 * kServoGain);
-  const Diagnosis d = diagnosed(sheet, 1.3 * kServoGain);
+  const Diagnosis d = diagnosed_servo(sheet, 1.3 * kServoGain);
   EXPECT_THAT(d.effects, ElementsAre("motor_coulomb_friction"));
   ASSERT_TRUE(d.fitted.controller);
   EXPECT_NEAR(d.fitted.controller->numbers[at::kSpeedGain].value, kServoGain, 0.02 * kServoGain);

@@ -44,6 +44,7 @@ DiagnosisResult sample() {
       {"torque_ripple", {"ratio", "-", kThird}, {{"periods_per_turn", "1/rev", 24.0}}, "", "", 0.1},
       {"actuator_lag", {"time_constant_s", "s", kNaN}, {}, "input_delay", "it acts alike", kNaN}};
   d.measures = {{"free run", "rad", 1.0, kThird, kNaN}};
+  d.closed_loop = ClosedLoop{0.0142, kNaN, {{"a.csv", kThird, 0.00754}}};
   RankedEffect first;
   first.effect = "cogging_torque";
   first.probability = 0.9;
@@ -172,6 +173,12 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.detectable[1].hidden_by, "input_delay");
   EXPECT_EQ(b.detectable[1].why, "it acts alike");
   EXPECT_EQ(b.outside_probability, 0.05);
+  ASSERT_TRUE(b.closed_loop);
+  EXPECT_EQ(b.closed_loop->before, 0.0142);
+  EXPECT_TRUE(std::isnan(b.closed_loop->after));
+  ASSERT_EQ(b.closed_loop->recordings.size(), 1u);
+  EXPECT_EQ(b.closed_loop->recordings[0].before, kThird);
+  EXPECT_EQ(b.closed_loop->recordings[0].file, "a.csv");
   ASSERT_EQ(b.laws.size(), 1u);
   EXPECT_EQ(b.laws[0].variable, "speed");
   EXPECT_EQ(b.laws[0].parameters[0].value, kThird);

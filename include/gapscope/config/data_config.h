@@ -18,9 +18,10 @@ namespace gapscope {
 
 /// A recording named in a configuration.
 struct RecordedFile {
-  std::string given;  ///< as it is written there
-  std::string path;   ///< relative to the configuration's own folder, so that it can be opened
-  int line = 0;       ///< of the configuration
+  std::string given;        ///< as it is written there
+  std::string path;         ///< relative to the configuration's own folder, so that it can be opened
+  int line = 0;             ///< of the configuration
+  double gain_times = 1.0;  ///< the controller's gain in it, over that of `controller:` [-]
 };
 
 /// `recording:` – data from files. Several are never concatenated.
@@ -41,6 +42,8 @@ struct RecordingConfig {
 
   /// For an estimator that needs a grid (kRefused), or for one that takes uneven rows as they are (kStamped).
   ReadOptions reading_for(UnevenRows uneven) const;
+  /// The same for one of its files, whose controller may have had another gain.
+  ReadOptions reading_of(const RecordedFile& file, UnevenRows uneven) const;
 };
 
 /// `simulation.initial:` – the state at the first sample.

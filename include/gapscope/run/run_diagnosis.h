@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/run/run_pipeline.h"
 
@@ -8,6 +10,9 @@ namespace gapscope {
 /// What a diagnosis is made from.
 struct DiagnosisRecordings {
   LoadedRecordings train, held_out;
+  std::optional<DriveController> controller = {};  ///< that made the inputs
+  std::optional<ControllerModel> sought =
+      {};  ///< controller that each step estimates anew; none: it is known
 };
 
 /// Reads what is fitted and what is held out.  @throws ConfigError, Interrupted
