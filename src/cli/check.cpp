@@ -103,9 +103,10 @@ void tell_together(const std::vector<Inspection>& seen) {
 void check_all(const CheckArguments& a) {
   const std::vector<RecordingArguments> all = asked(a);
   if (all.size() > 1 && (a.json || !a.output.empty() || !a.picture.empty()))
-    throw ConfigError(
-        "gapscope: several files or axes have a report each, expected one with --json, --picture and "
-        "--output");
+    throw ConfigError(fmt::format(
+        "gapscope: --json, --picture and --output are of one report, expected one file and one axis "
+        "beside them instead of {}",
+        all.size()));
   bool spoilt = false;
   std::vector<Inspection> seen;
   for (const RecordingArguments& one : all) {

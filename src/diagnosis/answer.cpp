@@ -192,6 +192,8 @@ std::string step_without_model(const GapEstimate& g) {
   const bool open = g.verdict == GapVerdict::kInconclusive, loop = g.lost_motion.read();
   if (g.reason.code() == "encoder_on_load")
     return "For a reading without a model, record the motor's position as well.";
+  if (open && g.reason.codes().find("bounds_to_try") != std::string::npos)
+    return "Set detector: bound as the reason says, or to auto, which reads with a bank of bounds.";
   if (open && !loop)
     return "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell "
            "at the reversals, the output free.";

@@ -56,6 +56,8 @@ const std::vector<FileKind>& kinds() {
       {".svdx", "a project of TwinCAT's scope", nullptr, "export it as CSV (TC3 Scope Export Tool)"},
       {".gz", "compressed", nullptr, "gunzip FILE"},
       {".zip", "an archive", nullptr, "unzip FILE"},
+      {".yaml", "a configuration", nullptr, "name the recording itself"},
+      {".yml", "a configuration", nullptr, "name the recording itself"},
   };
   return all;
 }

@@ -144,7 +144,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   figure.reading =
       fmt::format("{} comes first of {} candidates", readable(ranking.front().effect), ranking.size());
   if (ranking.size() > 1) figure.reading += fmt::format(", {} second", readable(ranking[1].effect));
-  figure.reading += ".";
+  figure.reading += budget_decides(r.diagnosis) ? ", each alone; the error budget decides." : ".";
   return figure;
 }
 

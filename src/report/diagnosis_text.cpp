@@ -88,6 +88,9 @@ std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
 /// What the probabilities are worth here.
 std::string probability_words(const Diagnosis& d) {
   if (!std::isfinite(d.outside_probability)) return "";
+  if (budget_decides(d))
+    return " What each does alone, to the free run, did not decide here: the error budget did, and no "
+           "probabilities were learned for it.";
   if (d.mismatch.floor_from == FloorSource::kRepeatability)
     return " It is judged by its repeatability floor, for which no probabilities were learned: the verdict "
            "rests on the held-out errors alone.";
@@ -99,7 +102,8 @@ std::string probability_words(const Diagnosis& d) {
 
 std::string ranking_table(const DiagnosisResult& r) {
   if (r.diagnosis.ranking.empty()) return "";
-  const bool learned = r.diagnosis.mismatch.floor_from != FloorSource::kRepeatability;
+  const bool learned =
+      r.diagnosis.mismatch.floor_from != FloorSource::kRepeatability && !budget_decides(r.diagnosis);
   std::string text =
       "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive; "
       "`gapscope effects --laws` has the law of each and what its parameters mean." +

@@ -99,6 +99,12 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   return figure;
 }
 
+bool budget_decides(const Diagnosis& d) {
+  const auto is_added = [](const BudgetRung& rung) { return rung.added; };
+  return std::any_of(d.budget.rungs.begin(), d.budget.rungs.end(), is_added) && !d.ranking.empty() &&
+         d.ranking.front().effect != d.effects.front();
+}
+
 std::string budget_table(const DiagnosisResult& r) {
   const ErrorBudget& b = r.diagnosis.budget;
   if (!b.exists()) return "";

@@ -10,6 +10,10 @@ namespace gapscope::internal::report {
 /// The error budget as a waterfall: what each law takes of the held-out residual torque, down to the floors.
 FigureData diagnosis_budget(const DiagnosisResult& result);
 
+/// Whether its laws were added where the candidates' own refits begin with another effect: then these did not
+/// decide.
+bool budget_decides(const Diagnosis& diagnosis);
+
 /// The same as a table; nothing for a drive that has none.
 std::string budget_table(const DiagnosisResult& result);
 

@@ -194,7 +194,7 @@ FigureData estimates(const ReportView& view) {
   if (figure.panels.empty())
     return missing_figure(figure.file, figure.title, "there is no estimate of a gap");
   figure.reading = accuracy(view.run);
-  if (figure.reading.empty()) figure.reading = "The true gap is not known here.";
+  if (figure.reading.empty()) figure.reading = without_estimate(view.run);
   if (has_passages(view)) figure.reading += passages_reading(view);
   return figure;
 }

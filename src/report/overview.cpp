@@ -55,7 +55,7 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   borrow(sheet, figures, "residuals.png", 0, 420.0);
   if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");
   sheet.reading = accuracy(view.run) + (accuracy(view.run).empty() ? "" : " ") + fit_quality(view.run);
-  if (sheet.reading.empty()) sheet.reading = "The true gap is not known here.";
+  if (sheet.reading.empty()) sheet.reading = without_estimate(view.run);
   if (!drawn.empty()) sheet.reading += " " + drawn;
   return sheet;
 }

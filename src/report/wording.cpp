@@ -209,6 +209,11 @@ std::string accuracy(const RunResult& run) {
   return text;
 }
 
+std::string without_estimate(const RunResult& run) {
+  return std::isfinite(run.simulated_gap) ? "No estimate stands beside the gap of the simulated plant."
+                                          : "The true gap is not known here.";
+}
+
 std::string fit_quality(const RunResult& run) {
   if (!run.reference || !std::isfinite(run.reference->rmse)) return "";
   const FitSummary& fit = *run.reference;

@@ -45,6 +45,7 @@ const FittedParameter* parameter(const RunResult& run, const std::string& key);
 
 /// How far each estimate is from the true gap, where that is known; else empty.
 std::string accuracy(const RunResult& run);
+std::string without_estimate(const RunResult& run);  ///< in its place
 
 /// How well the free run of the fitted model meets the recording; empty without a fit.
 std::string fit_quality(const RunResult& run);

@@ -110,6 +110,15 @@ TEST(Answer, OfAModelThatCoastingBeatsAsksForTheSignFirst) {
   EXPECT_THAT(of(nullptr, &rejected).next.front(), HasSubstr("sign and the unit of u"));
 }
 
+TEST(Answer, OfABoundThatReadsNothingIsTheBoundToTry) {
+  GapEstimate g = undecided();
+  g.reason = Remark("bound_above_gap_mode", "no t1") +
+             Remark("bounds_to_try", "; try L between {:.2g} and {:.2g}", {3.0, 6.0});
+  const Answer a = of(&g, nullptr);
+  ASSERT_FALSE(a.next.empty());
+  EXPECT_NE(a.next.front().find("Set detector: bound"), std::string::npos) << a.next.front();
+}
+
 TEST(Answer, TellsTheLostMotionThatWasMeasuredWhateverItMeans) {
   GapEstimate open;
   open.verdict = GapVerdict::kInconclusive;

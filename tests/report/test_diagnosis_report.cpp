@@ -114,6 +114,26 @@ TEST(DiagnosisReport, NamesTheFloorAndWhereItComesFrom) {
   EXPECT_EQ(text.find("0.57"), std::string::npos) << "learned on other drives";
 }
 
+TEST(DiagnosisReport, WhereTheBudgetDecidesTheCandidatesAreToldToBeEachAlone) {
+  DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
+  r.diagnosis.outside_probability = 0.57;
+  BudgetRung rung;
+  rung.law = rung.effect = "load_unbalance", rung.added = true;
+  rung.before = 0.1, rung.after = 0.02;
+  r.diagnosis.budget.nominal = 0.1, r.diagnosis.budget.remains = 0.02, r.diagnosis.budget.input = 1.0;
+  r.diagnosis.budget.rungs = {rung};
+  r.diagnosis.effects = {"load_unbalance"};
+  const std::string alone = "did not decide here: the error budget did", odds = "0.57";
+  std::string text = internal::report::diagnosis_text(r);
+  EXPECT_NE(text.find(alone), std::string::npos);
+  EXPECT_EQ(text.find(odds), std::string::npos) << "that of another question";
+  EXPECT_NE(internal::report::diagnosis_ranking(r).reading.find("the error budget decides"), std::string::npos);
+  r.diagnosis.effects = {"cogging_torque"};
+  text = internal::report::diagnosis_text(r);
+  EXPECT_EQ(text.find(alone), std::string::npos) << "both begin with the same";
+  EXPECT_NE(text.find(odds), std::string::npos);
+}
+
 TEST(DiagnosisReport, TheCaptionKnowsOfTheLineThatTheTableLists) {
   DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
   r.diagnosis.where.periods_per_turn = kNaN;
