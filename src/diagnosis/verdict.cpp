@@ -33,15 +33,25 @@ void tell_law(const Study& study, const std::optional<LawSearch>& law, Diagnosis
 /// Whether the drive lacks nothing that the recordings could show.
 bool lacks_nothing(const Findings& found) { return found.candidates.empty() && at_floor(found.before); }
 
+/// Whether effects could be one function of one variable in pieces: three and more, not all of that variable.
+bool may_be_pieces(const Additions& added) {
+  constexpr std::size_t kPieces = 3;
+  const auto same = [&](const Addition& a) {
+    return variable_of(*a.entry) == variable_of(*added.effects.front().entry);
+  };
+  return added.effects.size() >= kPieces && !std::all_of(added.effects.begin(), added.effects.end(), same);
+}
+
 /// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
-/// them they are no causes. Their cause stays open where one of another variable than the first does nearly
-/// as well, or one of a variable of theirs takes what they leave.
+/// them, or comes to the floor like three of several variables, they are no causes. Their cause stays open
+/// where one of another variable than the first does nearly as well, or one of a variable of theirs takes
+/// what they leave.
 Diagnosis report_effects(const Study& study, const Findings& found, const Additions& added) {
   const ScoredModel& nominal = nominal_of(found, added);
-  const auto instead =
-      at_floor(added.after) || added.explained ? std::nullopt : search_last_resort(study, nominal);
+  const bool at_end = at_floor(added.after) || added.explained;
+  const auto instead = at_end && !may_be_pieces(added) ? std::nullopt : search_last_resort(study, nominal);
   const double better = instead ? lead_over(*instead, added.after) : -kInfinity;
-  if (better > kRule.tells_apart) {
+  if (better > kRule.tells_apart || (at_end && instead && at_floor(instead->after))) {
     Diagnosis d = report_back(study, found, {});
     tell_law(study, instead, d);
     return d;
@@ -49,7 +59,7 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
   Diagnosis d = report_back(study, found, added);
   const auto on_top = search_last_resort(study, added.after);
   const bool another =
-      instead && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
+      !at_end && instead && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
   if ((another && better > -kRule.indistinct) || (on_top && continues_one(*on_top, added))) {
     d.verdict = DiagnosisVerdict::kHelps;
     for (AddedEffect& a : d.added) a.established = false;

@@ -32,6 +32,10 @@ TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloorOrNearIt) {
   EXPECT_TRUE(borne_out(before, two(true, model(0.3, 1.1, 1.0), 0.4)));
   EXPECT_FALSE(borne_out(before, two(true, model(1.7, 2.5, 4.0), 0.4))) << "a second step that is not clear";
   EXPECT_FALSE(borne_out(before, two(true, model(3.0, 40.0, 600.0)))) << "a fifth is left";
+  EXPECT_FALSE(borne_out(before, two(true, model(2.0, 5.0, 20.0)))) << "two steps, and a fortieth is left";
+  ScoredModel drifting = model(2.0, 5.0, 20.0);
+  drifting.median_innovation = 1.1;
+  EXPECT_TRUE(borne_out(before, two(true, drifting))) << "predicted to the floor";
   EXPECT_FALSE(borne_out(before, two(false, model(0.3, 1.1, 1.0)))) << "no second step was taken";
 }
 
