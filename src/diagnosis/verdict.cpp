@@ -35,11 +35,10 @@ bool lacks_nothing(const Findings& found) { return found.candidates.empty() && a
 
 /// Whether effects could be one function of one variable in pieces: three and more, not all of that variable.
 bool may_be_pieces(const Additions& added) {
-  constexpr std::size_t kPieces = 3;
   const auto same = [&](const Addition& a) {
     return variable_of(*a.entry) == variable_of(*added.effects.front().entry);
   };
-  return added.effects.size() >= kPieces && !std::all_of(added.effects.begin(), added.effects.end(), same);
+  return added.effects.size() > 2 && !std::all_of(added.effects.begin(), added.effects.end(), same);
 }
 
 /// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
