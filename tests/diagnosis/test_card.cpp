@@ -45,8 +45,11 @@ TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
   for (const std::string& line : {card.mismatch, card.place, card.cause, card.helps, card.next})
     EXPECT_THAT(line, HasSubstr("`gapscope diagnose CONFIG`"));
   EXPECT_TRUE(std::isnan(card.torque));
-  const Diagnosis d = slide_diagnosis();
+  Diagnosis d = slide_diagnosis();
+  d.fitted.parameters[place::kMassRatio].value = 1.0;
   EXPECT_EQ(card_of(facts_of(nullptr, &d)).gap, "Not estimated here; told by `gapscope run CONFIG`.");
+  d.fitted.parameters[place::kMassRatio].value = 0.0;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, HasSubstr("one body"));
 }
 
 TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
