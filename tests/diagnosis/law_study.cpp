@@ -70,7 +70,8 @@ StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
   row.verdict = to_string(d.verdict);
   row.before = d.mismatch.before / d.mismatch.floor;
   row.group = static_cast<int>(d.effects.size());
-  row.details = fmt::format("[{}] leaves {:.3g}", fmt::join(d.effects, " "), d.mismatch.after / d.mismatch.floor);
+  row.details =
+      fmt::format("[{}] leaves {:.3g}", fmt::join(d.effects, " "), d.mismatch.after / d.mismatch.floor);
   if (d.laws.empty()) return row;
   const LastResortLaw& law = d.laws.front();
   row.first = law.law;

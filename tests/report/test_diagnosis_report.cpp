@@ -127,7 +127,8 @@ TEST(DiagnosisReport, WhereTheBudgetDecidesTheCandidatesAreToldToBeEachAlone) {
   std::string text = internal::report::diagnosis_text(r);
   EXPECT_NE(text.find(alone), std::string::npos);
   EXPECT_EQ(text.find(odds), std::string::npos) << "that of another question";
-  EXPECT_NE(internal::report::diagnosis_ranking(r).reading.find("the error budget decides"), std::string::npos);
+  EXPECT_NE(internal::report::diagnosis_ranking(r).reading.find("the error budget decides"),
+            std::string::npos);
   r.diagnosis.effects = {"cogging_torque"};
   text = internal::report::diagnosis_text(r);
   EXPECT_EQ(text.find(alone), std::string::npos) << "both begin with the same";
