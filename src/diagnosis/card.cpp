@@ -17,6 +17,7 @@ namespace {
 
 using internal::diagnosis::as_sentence;
 using internal::diagnosis::enumerated;
+using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
 using internal::diagnosis::without_asides;
@@ -62,15 +63,8 @@ std::string gap_verdict(const CardFacts& f) {
   return (*good ? " Within your tolerance of " : " Outside your tolerance of ") + limit + ".";
 }
 
-bool is_one_body(const Diagnosis* d) {
-  return d != nullptr && d->fitted.parameters[place::kMassRatio].value == 0.0 &&
-         !d->fitted.parameters[place::kMassRatio].estimate;
-}
-
 std::string gap_line(const CardFacts& f) {
-  if (f.answer == nullptr && is_one_body(f.diagnosis))
-    return "The model is one body and has none; whether the recording shows one: `gapscope detect CONFIG`.";
-  if (f.answer == nullptr) return "Not estimated here; told by `gapscope run CONFIG`.";
+  if (f.answer == nullptr) return gap_not_estimated(f.diagnosis);
   const bool known = f.answer->trust != AnswerTrust::kNone;
   return as_sentence(known ? f.answer->sentence : without_asides(f.answer->sentence)) +
          fmt::format(" Trust: {}.", to_string(f.answer->trust)) + gap_verdict(f);

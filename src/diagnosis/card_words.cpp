@@ -40,6 +40,14 @@ std::string as_sentence(std::string text) {
   return text;
 }
 
+std::string gap_not_estimated(const Diagnosis* diagnosis) {
+  if (diagnosis == nullptr) return "Not estimated here; told by `gapscope run CONFIG`.";
+  const ParameterSetting& ratio = diagnosis->fitted.parameters[place::kMassRatio];
+  return ratio.value == 0.0 && !ratio.estimate ? "The model is one body and has none; whether the recording "
+                                                 "shows one: `gapscope detect CONFIG`."
+                                               : "Not estimated here; told by `gapscope run CONFIG`.";
+}
+
 std::string without_asides(std::string text) {
   for (std::size_t open = text.find(" ("); open != text.npos; open = text.find(" (", open)) {
     std::size_t at = open + 1;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
+#include "gapscope/diagnosis/diagnosis.h"
 
 /// How a card writes numbers and lists.
 namespace gapscope::internal::diagnosis {
@@ -29,6 +30,9 @@ std::string enumerated(const std::vector<std::string>& items, const char* last =
 
 /// The same with a capital letter, and a full stop at its end.
 std::string as_sentence(std::string text);
+
+/// Of a gap that a diagnosis does not estimate: who tells it. A null pointer: there is no diagnosis either.
+std::string gap_not_estimated(const Diagnosis* diagnosis);
 
 /// Without what stands in brackets: the detail of a report has it.
 std::string without_asides(std::string text);

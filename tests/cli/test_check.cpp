@@ -64,7 +64,7 @@ TEST(Check, JudgesForTheQuestionAndSeveralFilesTogether) {
   const auto json = place.run("check wrong.csv --for gap --json");
   EXPECT_EQ(nlohmann::json::parse(json.out)["asked_for"], "gap");
   EXPECT_THAT(place.run("check good.csv wrong.csv --json").err,
-              HasSubstr("expected one with --json, --picture"));
+              HasSubstr("expected one file and one axis beside them instead of 2"));
 }
 
 }  // namespace
