@@ -164,11 +164,12 @@ bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
 bool borne_out(const ScoredModel& nominal, const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
   if (a.explained || at_floor(a.after)) return true;
-  // Away from the floor each of the two leaves less than a part, or the prediction error comes to its floor.
-  const bool taken = shrink_of(nominal.median_free, a.after.median_free) > 1.0 - kRule.part * kRule.part ||
-                     (a.after.median_innovation < kRule.floor_ratio &&
-                      shrink_of(nominal.median_free, a.after.median_free) > 1.0 - kRule.part);
-  return taken && a.steps.front().decision.margin >= kRule.clear;
+  // Away from the floor each of the two leaves less than a part, unless the prediction error comes to its
+  // floor.
+  const bool predicted = a.after.median_innovation < kRule.floor_ratio;
+  const double left = predicted ? kRule.part : kRule.part * kRule.part;
+  return a.steps.front().decision.margin >= kRule.clear &&
+         shrink_of(nominal.median_free, a.after.median_free) > 1.0 - left;
 }
 
 std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most) {
