@@ -10,10 +10,10 @@
 namespace gapscope {
 namespace {
 
-/// GAPSCOPE_BLIND_CASES sets the number of cases, 5 if it is not set.
+/// GAPSCOPE_BLIND_CASES sets the number of cases, 4 if it is not set.
 int cases_wanted() {
   const char* given = std::getenv("GAPSCOPE_BLIND_CASES");
-  return given != nullptr ? std::max(4, std::atoi(given)) : 5;
+  return given != nullptr ? std::max(4, std::atoi(given)) : 4;
 }
 
 TEST(BlindCheck, OfSmallRecordingsNamesMostEffectsAndBlamesNothingWhereNothingIs) {

@@ -117,7 +117,6 @@ TEST(Init, IrregularTimeIsResampledForTheDetectorAndWhatSpoilsIsWrittenDown) {
     rows.t[i] += 1e-4 * static_cast<double>(i % 3);
     rows.u[i] = -rows.u[i];
   }
-  rows.erase(2500, rows.t.size() - 2500);  // a fit with the wrong sign ends nowhere for long
   place.file("r.csv", "when,u,x1" + rows.csv().substr(6));
   const auto init = place.run("init r.csv --time when");
   EXPECT_EQ(init.status, 0) << init.err;
@@ -127,7 +126,6 @@ TEST(Init, IrregularTimeIsResampledForTheDetectorAndWhatSpoilsIsWrittenDown) {
   EXPECT_THAT(yaml, HasSubstr("columns: {time: \"when\""));
   EXPECT_THAT(yaml, HasSubstr(", for: detector}"));
   EXPECT_EQ(place.run("detect r.yaml").status, 0);
-  EXPECT_EQ(place.run("run r.yaml").status, 0);
 }
 
 TEST(Init, ARealAxisFromTheFileToTheDiagnosis) {

@@ -49,8 +49,7 @@ TEST(Detectable, ThreeTimesAsMuchIsNamedAndAThirdIsNot) {
   const double level = of(of_none(), "motor_coulomb_friction").smallest.value,
                drag = of(of_none(), "quadratic_drag").smallest.value;
   const DiagnosisOptions few =
-      test::among({"motor_coulomb_friction", "stribeck_friction", "friction_asymmetry", "quadratic_drag",
-                   "viscous_drift", "cogging_torque"});
+      test::among({"motor_coulomb_friction", "friction_asymmetry", "quadratic_drag", "cogging_torque"});
   for (const double factor : {1.0 / 3.0, 3.0}) {
     MotorEffects friction, dragging, cogs;
     friction.friction.level_nm = factor * level;

@@ -86,11 +86,9 @@ TEST(Diagnosis, SpreadsTheSquaredErrorOverEachQuantity) {
 }
 
 TEST(Diagnosis, BlamesNoNeighbourWhenTheEffectAndItsLookAlikesAreNoCandidates) {
-  DiagnosisOptions options;
-  options.excluded = {"motor_coulomb_friction", "input_dead_zone", "stribeck_friction",
-                      "presliding_friction"};
-  for (const EffectEntry* law : last_resort_table())
-    options.excluded.emplace_back(law->name);  // blame nothing
+  const DiagnosisOptions options =
+      test::among({"friction_asymmetry", "quadratic_drag", "load_dependent_friction", "cogging_torque",
+                   "torque_saturation", "supply_sag", "actuator_lag", "contact_adhesion"});
   const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "input_dead_zone", 0.7, 500003), options);
   EXPECT_NE(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
   EXPECT_NE(d.verdict, DiagnosisVerdict::kNone) << d.sentence;
