@@ -58,6 +58,8 @@ struct Answer {
   bool wrong_later = false;  ///< a cause that was established after the first and is none
   double floors = kNaN;      ///< torque that is missing, over its floor
   double seconds = 0.0;
+  int redrawn = 0;
+  bool refused = false;  ///< the diagnosis takes no such recording
 
   bool is_effect() const { return verdict == DiagnosisVerdict::kEffect; }
 };
@@ -97,6 +99,11 @@ std::string told(const Diagnosis& d) {
   return text;
 }
 
+std::string in_words(const test::LoopCase& c) {
+  const std::string again = c.redrawn == 0 ? "" : fmt::format("; drawn {} times", 1 + c.redrawn);
+  return fmt::format("{} {} ({:.0f} % missing; {}{})", c.seed, c.effect, 100.0 * c.missing, c.set_up, again);
+}
+
 Answer examine(const test::LoopCase& c) {
   DiagnosisOptions options;
   options.threads = 1;
@@ -114,8 +121,20 @@ Answer examine(const test::LoopCase& c) {
   for (std::size_t i = 1; i < d.added.size(); ++i)
     a.wrong_later = a.wrong_later || (d.added[i].established && !holds(d.added[i].group, c.effect));
   a.floors = d.mismatch.before / d.mismatch.floor;
-  a.line = fmt::format("{} {} ({:.0f} % missing; {}): {}; {:.1f} s", c.seed, c.effect, 100.0 * c.missing,
-                       c.set_up, told(d), a.seconds);
+  a.line = fmt::format("{}: {}; {:.1f} s", in_words(c), told(d), a.seconds);
+  return a;
+}
+
+/// One case that is refused is no end of a study.
+Answer answer_to(const test::LoopCase& c) {
+  Answer a;
+  try {
+    a = examine(c);
+  } catch (const std::exception& refusal) {
+    a.seed = c.seed, a.truth = c.effect, a.refused = true;
+    a.line = fmt::format("{}: refused: {}", in_words(c), refusal.what());
+  }
+  a.redrawn = c.redrawn;
   return a;
 }
 
@@ -130,7 +149,12 @@ void count(const char* what, const std::vector<Answer>& answers, Property proper
 
 void print_counts(const std::vector<Answer>& answers) {
   std::vector<Answer> lacking, whole;
-  for (const Answer& a : answers) (a.truth == "none" ? whole : lacking).push_back(a);
+  int refused = 0, redrawn = 0;
+  for (const Answer& a : answers) {
+    refused += a.refused, redrawn += a.redrawn;
+    if (!a.refused) (a.truth == "none" ? whole : lacking).push_back(a);
+  }
+  fmt::print("{} refused, {} drives drawn anew since they stood still\n", refused, redrawn);
   std::erase_if(lacking, [](const Answer& a) { return !(a.floors > 2.0); });
   const auto says = [](DiagnosisVerdict verdict) {
     return [=](const Answer& a) { return a.verdict == verdict; };
@@ -186,7 +210,7 @@ int main(int argc, char** argv) {
   std::vector<Answer> answers(order.count);
   std::mutex writing;
   parallel_for(order.count, order.threads, [&](std::size_t i) {
-    answers[i] = examine(case_of(order, order.first + i));
+    answers[i] = answer_to(case_of(order, order.first + i));
     const std::lock_guard lock(writing);
     fmt::print("{}\n", answers[i].line);
     std::fflush(stdout);

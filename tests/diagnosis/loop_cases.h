@@ -24,6 +24,7 @@ struct LoopCase {
   double missing =
       0.0;  ///< rms of the held-out torque that inertia and viscous damping leave, over the input's
   std::string set_up;  ///< in words
+  int redrawn = 0;     ///< drives of this seed that stood still under their effect and are no case
   independent_plant::BlindDrive drive;
   Recording train, held_out;
   std::optional<DriveController> controller;  ///< that made u of the commands
@@ -40,7 +41,8 @@ const std::vector<std::string>& loop_effects(Driven driven);
 /// at 100 to 500 Hz, a P of the position (J/d 0.03 to 0.15 s) or a cascade of two, a delay up to a sample,
 /// and a supply that sags by 5 to 25 % at the limit, read in steps of 1 %; all but the effect is known of it.
 /// The effect's size is chosen for `missing` to be a log-uniform share from 10 to 60 %, as near as its
-/// severity can bring it.
+/// severity can bring it. A drive that then travels less than a tenth of its way without the effect, in
+/// either recording, is drawn anew.
 LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed);
 
 }  // namespace gapscope::test
