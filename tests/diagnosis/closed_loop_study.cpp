@@ -1,7 +1,7 @@
 // The diagnosis on drives of one body of the independent plant, recorded as real drives are: in closed loop,
 // at constant speed, or under a given command.
 //   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open|commanded] [--effect NAME|none]
-//                     [-j THREADS]
+//                     [--volt-step SHARE] [-j THREADS]
 // Effects follow from the seed unless one is given; "none" lacks nothing. Prints a line a case and counts
 // with Wilson limits.
 #include <fmt/format.h>
@@ -28,6 +28,7 @@ struct Order {
   Driven driven = Driven::kLoop;
   std::string effect, folder;
   int threads = 0;
+  double volt_step = 0.01;  ///< in which a servo's supply is read [-]
 };
 
 Order read_order(int argc, char** argv) {
@@ -38,6 +39,7 @@ Order read_order(int argc, char** argv) {
     if (key == "--count") order.count = std::strtoull(argv[i + 1], nullptr, 10);
     if (key == "--effect") order.effect = value;
     if (key == "--write") order.folder = value;
+    if (key == "--volt-step") order.volt_step = std::atof(argv[i + 1]);
     if (key == "-j") order.threads = std::atoi(argv[i + 1]);
     if (key == "--kind")
       order.driven = value == "constant"    ? Driven::kConstantSpeed
@@ -188,7 +190,7 @@ void print_counts(const std::vector<Answer>& answers) {
 test::LoopCase case_of(const Order& order, std::uint64_t seed) {
   const std::vector<std::string>& effects = test::loop_effects(order.driven);
   return test::loop_case(order.driven, order.effect.empty() ? effects[seed % effects.size()] : order.effect,
-                         seed);
+                         seed, order.volt_step);
 }
 
 void write_cases(const Order& order) {

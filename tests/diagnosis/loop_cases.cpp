@@ -29,12 +29,12 @@ DriveController declared_controller(const ControllerSettings& s) {
 }
 
 /// What such a servo tells: target, position and volts; u is made of them.
-Recording commanded(const Bench& b, const Session& session) {
+Recording commanded(const Bench& b, const Session& session, double volt_step) {
   LoopRun loop = in_loop(b, session);
   auto rows = std::make_shared<CommandRows>();
   rows->t = loop.stamps, rows->position = loop.run.recording.x1;
   for (const Target& target : loop.target) rows->target.push_back(target.x);
-  for (const double v : loop.supply) rows->supply.push_back(kVoltStep * std::round(v / kVoltStep));
+  for (const double v : loop.supply) rows->supply.push_back(volt_step * std::round(v / volt_step));
   Recording r = loop.run.recording;
   r.command = rows;
   r.u = commanded_input(declared_controller(b.controller), *rows);
@@ -141,7 +141,7 @@ const std::vector<std::string>& loop_effects(Driven driven) {
   return driven == Driven::kConstantSpeed ? periodic : all;
 }
 
-LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed) {
+LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed, double volt_step) {
   std::mt19937_64 g = random_stream(seed, "closed loop study");
   LoopCase result;
   result.seed = seed, result.effect = effect;
@@ -157,8 +157,8 @@ LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed)
   result.set_up = in_words(b);
   result.drive = b.c.drive;
   const bool servo = driven == Driven::kCommanded;
-  result.train = servo ? commanded(b, b.train) : recorded(b, b.train).recording;
-  result.held_out = servo ? commanded(b, b.held_out) : recorded(b, b.held_out).recording;
+  result.train = servo ? commanded(b, b.train, volt_step) : recorded(b, b.train).recording;
+  result.held_out = servo ? commanded(b, b.held_out, volt_step) : recorded(b, b.held_out).recording;
   if (servo) result.controller = declared_controller(b.controller);
   return result;
 }
