@@ -7,7 +7,8 @@ namespace gapscope::internal::reference {
 namespace {
 
 constexpr int kWindows = 24;  ///< the recordings are cut into about so many, for the scatter of scores
-constexpr int kPhases = 16;   ///< places of the counts within a quantum that are tried
+constexpr int kPlaces = 21;   ///< of the counts under the motion that are tried, on a lattice with
+constexpr int kLattice = 8;   ///< this generator: both are Fibonacci numbers
 constexpr std::size_t kMostLags = 2000;
 
 /// One recording's part: its residuals and Jacobian, and where its columns go.
@@ -46,11 +47,23 @@ Eigen::MatrixXd window_scores(const Part& part, Eigen::Index length, int& count)
   return sum;
 }
 
+/// How the counts lie under a motion, in quanta: where they begin, and by how much the whole travel is
+/// longer. The fitted motion rests and turns at counts, since the fit has drawn it there; the true one need
+/// not, and two such places that are off by the same would be no error but in the initial state.
+struct CountPlace {
+  double phase = 0.0, stretch = 0.0;
+};
+
+CountPlace count_place(int j, int of, int generator) {
+  return {j / double(of), (generator * j % of) / double(of) - 0.5};
+}
+
 /// The error of an encoder on the fitted motion, for counts that lie anywhere, in floors. Noise before the
 /// quantiser spreads its error; the first harmonic falls by exp(−2π² (noise/quantum)²).
 struct Quantiser {
   double quantum = 0.0, floor = 1.0;
-  double size = 0.0;  ///< of an error of one quantum [floor]; 0: nothing of it is left
+  double size = 0.0;               ///< of an error of one quantum [floor]; 0: nothing of it is left
+  double low = 0.0, travel = 1.0;  ///< of the motion
 
   Quantiser(const Eigen::VectorXd& residuals, const MotorTrace& recording, double recording_floor)
       : quantum(recording.quantum), floor(recording_floor) {
@@ -59,13 +72,16 @@ struct Quantiser {
     const double noise = std::sqrt(std::max(0.0, square - quantum * quantum / 12.0)) / quantum;
     size = std::exp(-2.0 * kPi * kPi * noise * noise) * quantum / floor;
     if (size < 1e-3) size = 0.0;
+    const auto [least, most] = std::minmax_element(recording.x1.begin(), recording.x1.end());
+    low = *least, travel = std::max(*most - *least, quantum);
   }
 
-  Eigen::VectorXd error(const Eigen::VectorXd& residuals, const MotorTrace& recording, double phase) const {
+  Eigen::VectorXd error(const Eigen::VectorXd& residuals, const MotorTrace& recording,
+                        CountPlace place) const {
     Eigen::VectorXd e(residuals.size());
     for (Eigen::Index i = 0; i < e.size(); ++i) {
-      const double counts =
-          (recording.x1[static_cast<std::size_t>(i)] - residuals[i] * floor) / quantum + phase;
+      const double x = recording.x1[static_cast<std::size_t>(i)] - residuals[i] * floor;
+      const double counts = x / quantum + place.phase + place.stretch * (x - low) / travel;
       e[i] = (std::nearbyint(counts) - counts) * size;
     }
     return e;
@@ -77,10 +93,11 @@ Eigen::MatrixXd quantiser_scores(const Part& part, const MotorTrace& recording, 
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
   const Quantiser quantiser(part.residuals, recording, floor);
   if (quantiser.size == 0.0) return sum;
-  for (int j = 0; j < kPhases; ++j) {
+  for (int j = 0; j < kPlaces; ++j) {
     const Eigen::VectorXd score =
-        part.jacobian.transpose() * quantiser.error(part.residuals, recording, j / double(kPhases));
-    sum += score * score.transpose() / kPhases;
+        part.jacobian.transpose() *
+        quantiser.error(part.residuals, recording, count_place(j, kPlaces, kLattice));
+    sum += score * score.transpose() / kPlaces;
   }
   return sum;
 }
@@ -121,7 +138,7 @@ Correlation correlation_of(const FitProblem& problem, const std::vector<Eigen::V
     if (quantiser.size == 0.0) continue;
     for (int j = 0; j < kFewPhases; ++j)
       quantised +=
-          autocovariance(quantiser.error(residuals[r], recording, j / double(kFewPhases)), 1) / kFewPhases;
+          autocovariance(quantiser.error(residuals[r], recording, {j / double(kFewPhases)}), 1) / kFewPhases;
   }
   if (!(zero > 0.0)) return {0.0, 0.0, 0.0};
   return {one / zero, quantised / zero, 0.0};

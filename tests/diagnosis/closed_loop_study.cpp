@@ -1,7 +1,7 @@
 // The diagnosis on drives of one body of the independent plant, recorded as real drives are: in closed loop,
 // at constant speed, or under a given command.
 //   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open|commanded] [--effect NAME|none]
-//                     [-j THREADS]
+//                     [--volt-step SHARE] [-j THREADS]
 // Effects follow from the seed unless one is given; "none" lacks nothing. Prints a line a case and counts
 // with Wilson limits.
 #include <fmt/format.h>
@@ -28,6 +28,7 @@ struct Order {
   Driven driven = Driven::kLoop;
   std::string effect, folder;
   int threads = 0;
+  double volt_step = 0.01;  ///< in which a servo's supply is read [-]
 };
 
 Order read_order(int argc, char** argv) {
@@ -38,6 +39,7 @@ Order read_order(int argc, char** argv) {
     if (key == "--count") order.count = std::strtoull(argv[i + 1], nullptr, 10);
     if (key == "--effect") order.effect = value;
     if (key == "--write") order.folder = value;
+    if (key == "--volt-step") order.volt_step = std::atof(argv[i + 1]);
     if (key == "-j") order.threads = std::atoi(argv[i + 1]);
     if (key == "--kind")
       order.driven = value == "constant"    ? Driven::kConstantSpeed
@@ -58,6 +60,8 @@ struct Answer {
   bool wrong_later = false;  ///< a cause that was established after the first and is none
   double floors = kNaN;      ///< torque that is missing, over its floor
   double seconds = 0.0;
+  int redrawn = 0;
+  bool refused = false;  ///< the diagnosis takes no such recording
 
   bool is_effect() const { return verdict == DiagnosisVerdict::kEffect; }
 };
@@ -97,6 +101,11 @@ std::string told(const Diagnosis& d) {
   return text;
 }
 
+std::string in_words(const test::LoopCase& c) {
+  const std::string again = c.redrawn == 0 ? "" : fmt::format("; drawn {} times", 1 + c.redrawn);
+  return fmt::format("{} {} ({:.0f} % missing; {}{})", c.seed, c.effect, 100.0 * c.missing, c.set_up, again);
+}
+
 Answer examine(const test::LoopCase& c) {
   DiagnosisOptions options;
   options.threads = 1;
@@ -114,8 +123,20 @@ Answer examine(const test::LoopCase& c) {
   for (std::size_t i = 1; i < d.added.size(); ++i)
     a.wrong_later = a.wrong_later || (d.added[i].established && !holds(d.added[i].group, c.effect));
   a.floors = d.mismatch.before / d.mismatch.floor;
-  a.line = fmt::format("{} {} ({:.0f} % missing; {}): {}; {:.1f} s", c.seed, c.effect, 100.0 * c.missing,
-                       c.set_up, told(d), a.seconds);
+  a.line = fmt::format("{}: {}; {:.1f} s", in_words(c), told(d), a.seconds);
+  return a;
+}
+
+/// One case that is refused is no end of a study.
+Answer answer_to(const test::LoopCase& c) {
+  Answer a;
+  try {
+    a = examine(c);
+  } catch (const std::exception& refusal) {
+    a.seed = c.seed, a.truth = c.effect, a.refused = true;
+    a.line = fmt::format("{}: refused: {}", in_words(c), refusal.what());
+  }
+  a.redrawn = c.redrawn;
   return a;
 }
 
@@ -130,7 +151,12 @@ void count(const char* what, const std::vector<Answer>& answers, Property proper
 
 void print_counts(const std::vector<Answer>& answers) {
   std::vector<Answer> lacking, whole;
-  for (const Answer& a : answers) (a.truth == "none" ? whole : lacking).push_back(a);
+  int refused = 0, redrawn = 0;
+  for (const Answer& a : answers) {
+    refused += a.refused, redrawn += a.redrawn;
+    if (!a.refused) (a.truth == "none" ? whole : lacking).push_back(a);
+  }
+  fmt::print("{} refused, {} drives drawn anew since they stood still\n", refused, redrawn);
   std::erase_if(lacking, [](const Answer& a) { return !(a.floors > 2.0); });
   const auto says = [](DiagnosisVerdict verdict) {
     return [=](const Answer& a) { return a.verdict == verdict; };
@@ -164,7 +190,7 @@ void print_counts(const std::vector<Answer>& answers) {
 test::LoopCase case_of(const Order& order, std::uint64_t seed) {
   const std::vector<std::string>& effects = test::loop_effects(order.driven);
   return test::loop_case(order.driven, order.effect.empty() ? effects[seed % effects.size()] : order.effect,
-                         seed);
+                         seed, order.volt_step);
 }
 
 void write_cases(const Order& order) {
@@ -186,7 +212,7 @@ int main(int argc, char** argv) {
   std::vector<Answer> answers(order.count);
   std::mutex writing;
   parallel_for(order.count, order.threads, [&](std::size_t i) {
-    answers[i] = examine(case_of(order, order.first + i));
+    answers[i] = answer_to(case_of(order, order.first + i));
     const std::lock_guard lock(writing);
     fmt::print("{}\n", answers[i].line);
     std::fflush(stdout);

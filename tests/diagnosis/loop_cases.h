@@ -24,6 +24,7 @@ struct LoopCase {
   double missing =
       0.0;  ///< rms of the held-out torque that inertia and viscous damping leave, over the input's
   std::string set_up;  ///< in words
+  int redrawn = 0;     ///< drives of this seed that stood still under their effect and are no case
   independent_plant::BlindDrive drive;
   Recording train, held_out;
   std::optional<DriveController> controller;  ///< that made u of the commands
@@ -38,9 +39,10 @@ const std::vector<std::string>& loop_effects(Driven driven);
 /// position loop, with dead time and a limit; references of 2 to 15 rad and 3 to 15 rad/s, another one for
 /// what is held out; recordings of 8 s that begin in motion. A servo that tells its target has 12 to 16 bit
 /// at 100 to 500 Hz, a P of the position (J/d 0.03 to 0.15 s) or a cascade of two, a delay up to a sample,
-/// and a supply that sags by 5 to 25 % at the limit, read in steps of 1 %; all but the effect is known of it.
-/// The effect's size is chosen for `missing` to be a log-uniform share from 10 to 60 %, as near as its
-/// severity can bring it.
-LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed);
+/// and a supply that sags by 5 to 25 % at the limit, read in steps of 1 % or as given; all but the effect is
+/// known of it. The effect's size is chosen for `missing` to be a log-uniform share from 10 to 60 %, as near
+/// as its severity can bring it. A drive that then travels less than a tenth of its way without the effect,
+/// in either recording, is drawn anew.
+LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed, double volt_step = 0.01);
 
 }  // namespace gapscope::test

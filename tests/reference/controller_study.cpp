@@ -127,6 +127,15 @@ void count(const FitSummary& found, const std::map<std::string, double>& truth,
   }
 }
 
+void print(const std::map<std::string, Tally>& tallies) {
+  for (const auto& [key, t] : tallies) {
+    const Interval share = wilson(t.held, t.told);
+    fmt::print("{:<32} told {} held {} = {:.1f} % [{:.1f}, {:.1f}], error median {:.3f} %, 95 % {:.2f} %\n",
+               key, t.told, t.held, 100.0 * t.held / std::max(t.told, 1), 100.0 * share.low,
+               100.0 * share.high, 100.0 * median(t.errors), 100.0 * quantile(t.errors, 0.95));
+  }
+}
+
 /// A servo as it was recorded: duty, a register without its sign, and the voltage of the supply.
 Recording recorded_servo(const std::string& path, bool by_target) {
   std::ifstream in(path);
@@ -202,7 +211,7 @@ int main_study(int argc, char** argv) {
   const std::uint64_t first = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1;
   const int drives = argc > 2 ? std::atoi(argv[2]) : 30;
   const bool anchored = argc <= 3 || std::string(argv[3]) != "free", verbose = argc > 4;
-  std::map<std::string, Tally> tallies;
+  std::map<std::string, Tally> tallies, of_good;
   std::map<std::string, int> trusts;
   int confounded = 0;
   for (int i = 0; i < drives; ++i) {
@@ -212,13 +221,14 @@ int main_study(int argc, char** argv) {
     ++trusts[to_string(found.trust)];
     confounded += named(found, "controller.velocity.gain");
     if (verbose) fmt::print("{} {}", seed, to_string(found.trust));
-    count(found,
-          {{"controller.velocity.gain", s.controller.speed_gain},
-           {"controller.delay", s.controller.dead_time_s},
-           {"motor_inertia", s.drive.motor_inertia},
-           {"motor_damping", s.drive.motor_damping},
-           {"motor_coulomb_friction.level_nm", s.drive.effects.motor.friction.level_nm}},
-          tallies, verbose);
+    const std::map<std::string, double> truth = {
+        {"controller.velocity.gain", s.controller.speed_gain},
+        {"controller.delay", s.controller.dead_time_s},
+        {"motor_inertia", s.drive.motor_inertia},
+        {"motor_damping", s.drive.motor_damping},
+        {"motor_coulomb_friction.level_nm", s.drive.effects.motor.friction.level_nm}};
+    count(found, truth, tallies, verbose);
+    if (found.trust == FitTrust::kGood) count(found, truth, of_good, false);
     if (verbose) fmt::print("{}\n", named(found, "controller.velocity.gain") ? "  confounded" : "");
     std::fflush(stdout);
   }
@@ -226,12 +236,9 @@ int main_study(int argc, char** argv) {
   const Interval told = wilson(confounded, drives);
   fmt::print("gain said to be confounded {} of {} [{:.1f}, {:.1f}]\n", confounded, drives, 100.0 * told.low,
              100.0 * told.high);
-  for (const auto& [key, t] : tallies) {
-    const Interval share = wilson(t.held, t.told);
-    fmt::print("{:<32} told {} held {} = {:.1f} % [{:.1f}, {:.1f}], error median {:.3f} %, 95 % {:.2f} %\n",
-               key, t.told, t.held, 100.0 * t.held / std::max(t.told, 1), 100.0 * share.low,
-               100.0 * share.high, 100.0 * median(t.errors), 100.0 * quantile(t.errors, 0.95));
-  }
+  print(tallies);
+  fmt::print("of those whose trust is good\n");
+  print(of_good);
   return 0;
 }
 
