@@ -10,6 +10,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/plain_name.h"
+#include "gapscope/base/text.h"
 #include "gapscope/config/begun_model.h"
 #include "gapscope/diagnosis/begin.h"
 #include "gapscope/recording/axes.h"
@@ -94,6 +95,12 @@ void take_axis(const std::string& axis, Configuration& c) {
   c.recording->reading.columns = columns_of_axis(c.recording->reading.columns, axis);
 }
 
+/// Those that were not told before the work began.
+std::vector<std::string> without(std::vector<std::string> warnings, const std::vector<std::string>& told) {
+  std::erase_if(warnings, [&](const std::string& w) { return contains(told, w); });
+  return warnings;
+}
+
 void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   if (!a.axis.empty()) take_axis(a.axis, c);
   c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
@@ -107,13 +114,17 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = a.threads;
   options.progress = progress_on_terminal(a.quiet);
-  DiagnosisOutcome outcome = run_diagnosis(c, options);
+  std::vector<std::string> told;
+  DiagnosisOutcome outcome = run_diagnosis(c, options, [&](const std::string& warning) {
+    print_warnings({warning});
+    told.push_back(warning);
+  });
   DiagnosisResult& result = outcome.result;
   options.progress("drawing the report");
   report.keep_estimate(result.version, result.sources);
   write_outcome(report, c, result, outcome.first.motor_trace(), a.figures);
   if (!report.dropped().empty()) result.diagnosis.warnings.push_back(report.dropped());
-  print_warnings(result.diagnosis.warnings);
+  print_warnings(without(result.diagnosis.warnings, told));
   if (result.simulated) print_warnings(result.simulated->warnings);
   print_diagnosis(folder, result);
 }
