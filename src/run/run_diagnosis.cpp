@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/inspection/reach.h"
@@ -63,6 +64,10 @@ std::string other_way_round(const Configuration& c, const DiagnosisRecordings& r
 void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
                  Diagnosis& d) {
   if (d.rivals.size() < 2) return;
+  if (finish_requested()) {
+    if (!d.stopped) d.warnings.push_back("stopped before the experiment was looked for that would decide.");
+    return;
+  }
   options.progress("looking for the experiment that would tell");
   d.next_experiment = next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads);
   const InputFacts input = c.input_facts();
@@ -89,6 +94,10 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
   asked.controller = recordings.controller;
   Diagnosis d = diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
                          internal::run::diagnosed_model(c, recordings.sought), asked);
+  if (finish_requested()) {
+    d.fitted.controller.reset();
+    return d;
+  }
   const std::string found = internal::run::controller_found(c, d.fitted, recordings.train.recordings);
   if (!found.empty()) d.warnings.push_back(found);
   d.fitted.controller.reset();
@@ -118,7 +127,9 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   const std::vector<std::string> guesses = internal::run::guess_warnings(c);
   warnings.insert(warnings.end(), guesses.begin(), guesses.end());
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
-  if (!simulated.empty())
+  if (!simulated.empty() && finish_requested())
+    d.warnings.emplace_back("stopped before the simulator was looked at.");
+  else if (!simulated.empty())
     result.simulated = internal::run::compare_simulated(c, recordings, simulated, d, options);
   ask_further(c, recordings.train.recordings.front().motor_trace(), options, d);
   return {std::move(result), std::move(recordings.train.recordings.front())};
