@@ -183,7 +183,8 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
 
 /// Where torque_constant is a guess: one number with a unit of torque settles it.
 void suggest_anchor(YamlWriter& out, Coordinates coordinates) {
-  out.comment("No sheet tells torque_constant? Delete its line and give one number that you know, instead:");
+  out.comment(
+      "No sheet tells torque_constant? Delete its line and that of motor_inertia, and say what you know:");
   out.comment("anchor: {inertia: 8.8e-4}  # " + coordinates.unit("kg m^2") + ", of the motor's side" +
               (coordinates.rotational() ? "; or {mass: 0.49, arm: 0.1}  # kg, m" : ""));
 }

@@ -62,6 +62,15 @@ std::string shares(const CardFacts& f, const Card& card) {
   return enumerated(all) + (all.size() > 1 ? " bring it down " : " brings it down ") + fall(f, card);
 }
 
+/// "friction (20.5 N)": with the amount that the fit gave it, where that has a unit.
+std::string with_amount(const AddedEffect& a, Coordinates coordinates) {
+  if (a.parameters.empty() || a.parameters.front().unit == "-") return name_of(a);
+  const NamedValue& amount = a.parameters.front();
+  const std::string unit = coordinates.shown_unit(amount.unit);
+  if (unit.empty() || !std::isfinite(amount.value)) return name_of(a);
+  return fmt::format("{} ({})", name_of(a), SharedUnit(amount.value, unit)(amount.value));
+}
+
 /// Whether each effect has the torque that it leaves.
 bool has_rungs(const Diagnosis& d) {
   return d.added.size() > 1 && std::isfinite(d.mismatch.before_torque) &&
@@ -74,7 +83,7 @@ std::string rungs(const CardFacts& f, const Card& card) {
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
   std::vector<std::string> all;
   for (const AddedEffect& a : f.diagnosis->added)
-    all.push_back(torque(a.after_torque) + " with " + name_of(a));
+    all.push_back(torque(a.after_torque) + " with " + with_amount(a, f.coordinates));
   return fmt::format("from {} to {} ({} to {})", torque(card.torque), fmt::join(all, ", then "),
                      percent_text(card.percent), percent_text(card.percent_after));
 }
