@@ -62,6 +62,7 @@ Inspection check_recording(const CheckArguments& a, const RecordingArguments& r)
   if (!a.output.empty()) look();  // before the work
   const Configuration c = reading_of(r);
   Inspection inspection = inspect(r.file, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
+  if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(inspection);
   judge_for(purpose_of(a.purpose), inspection);
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, look());

@@ -244,7 +244,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
                               const std::optional<JointNumbers>& nominal) {
   const std::string& recording = config.files.front().path;
   ReadOptions& options = config.reading;
-  const Inspection seen = inspect(recording, options, coordinates);
+  Inspection seen = inspect(recording, options, coordinates);
+  if (encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(seen);
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
