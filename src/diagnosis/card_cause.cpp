@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/card_words.h"
+#include "diagnosis/effect_starts.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/text.h"
 
@@ -62,11 +63,21 @@ std::string shares(const CardFacts& f, const Card& card) {
   return enumerated(all) + (all.size() > 1 ? " bring it down " : " brings it down ") + fall(f, card);
 }
 
-/// "friction (20.5 N)": with the amount that the fit gave it, where that has a unit.
-std::string with_amount(const AddedEffect& a, Coordinates coordinates) {
-  if (a.parameters.empty() || a.parameters.front().unit == "-") return name_of(a);
+/// Whether an amount is the effect's alone: laws that contain a simpler one share its amount with it.
+bool has_own_amount(const AddedEffect& a, const std::vector<AddedEffect>& all) {
+  const EffectEntry* entry = find_effect(a.effect);
+  if (entry == nullptr || contained_effect(*entry) != nullptr) return false;
+  return std::none_of(all.begin(), all.end(), [&](const AddedEffect& other) {
+    const EffectEntry* o = find_effect(other.effect);
+    return o != nullptr && contained_effect(*o) == entry;
+  });
+}
+
+/// "friction (20.5 N)": with the amount that the fit gave it, where that has a unit and is its own.
+std::string with_amount(const AddedEffect& a, const CardFacts& f) {
+  if (a.parameters.empty() || !has_own_amount(a, f.diagnosis->added)) return name_of(a);
   const NamedValue& amount = a.parameters.front();
-  const std::string unit = coordinates.shown_unit(amount.unit);
+  const std::string unit = f.coordinates.shown_unit(amount.unit);
   if (unit.empty() || !std::isfinite(amount.value)) return name_of(a);
   return fmt::format("{} ({})", name_of(a), SharedUnit(amount.value, unit)(amount.value));
 }
@@ -83,7 +94,7 @@ std::string rungs(const CardFacts& f, const Card& card) {
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
   std::vector<std::string> all;
   for (const AddedEffect& a : f.diagnosis->added)
-    all.push_back(torque(a.after_torque) + " with " + with_amount(a, f.coordinates));
+    all.push_back(torque(a.after_torque) + " with " + with_amount(a, f));
   return fmt::format("from {} to {} ({} to {})", torque(card.torque), fmt::join(all, ", then "),
                      percent_text(card.percent), percent_text(card.percent_after));
 }

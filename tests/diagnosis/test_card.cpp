@@ -78,6 +78,8 @@ TEST(Card, TellsTheAmountOfWhatHelps) {
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).helps,
       StartsWith("From 10 N to 4 N with motor Coulomb friction (20.5 N), then 2 N with cogging torque ("));
+  d.added[1].effect = "friction_asymmetry", d.added[1].parameters = {{"level_nm", "N m", 20.54}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps, Not(HasSubstr("20.5"))) << "both share one amount";
 }
 
 TEST(Card, JudgesTheToleranceThatWasStated) {
