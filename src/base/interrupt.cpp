@@ -6,13 +6,25 @@
 
 namespace gapscope {
 namespace {
-std::atomic<bool> stop{false};
+std::atomic<bool> stop{false}, finish{false}, finish_first{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 }  // namespace
 
 void request_stop() noexcept { stop.store(true, std::memory_order_relaxed); }
 bool stop_requested() noexcept { return stop.load(std::memory_order_relaxed); }
 void clear_stop_request() noexcept { stop.store(false, std::memory_order_relaxed); }
+
+void request_finish() noexcept { finish.store(true, std::memory_order_relaxed); }
+bool finish_requested() noexcept { return finish.load(std::memory_order_relaxed); }
+
+FinishFirst::FinishFirst() noexcept { finish_first.store(true, std::memory_order_relaxed); }
+FinishFirst::~FinishFirst() {
+  finish_first.store(false, std::memory_order_relaxed);
+  finish.store(false, std::memory_order_relaxed);
+}
+bool may_finish_first() noexcept {
+  return finish_first.load(std::memory_order_relaxed) && !finish_requested();
+}
 
 void stop_point() {
   if (stop_requested()) throw Interrupted();

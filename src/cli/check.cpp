@@ -10,6 +10,7 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/inspection/inspection.h"
+#include "gapscope/inspection/reach.h"
 #include "gapscope/report/recording_picture.h"
 #include "gapscope/results/inspection_result.h"
 
@@ -61,6 +62,7 @@ Inspection check_recording(const CheckArguments& a, const RecordingArguments& r)
   if (!a.output.empty()) look();  // before the work
   const Configuration c = reading_of(r);
   Inspection inspection = inspect(r.file, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
+  if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(inspection);
   judge_for(purpose_of(a.purpose), inspection);
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, look());
@@ -100,6 +102,28 @@ void tell_together(const std::vector<Inspection>& seen) {
         "together", seen.size(), "");
 }
 
+MotionReach reach_of(const RecordingArguments& r) {
+  const Recording recording =
+      read_recording(r.file, reading_of(r).recording->reading_for(UnevenRows::kStamped));
+  const MotorTrace trace = recording.motor_trace();
+  return gapscope::reach_of({&trace, 1});
+}
+
+/// Of two recordings the one that takes the drive farther is to be fitted.
+void tell_order(const std::vector<RecordingArguments>& all) {
+  if (all.size() != 2) return;
+  const MotionReach reach[] = {reach_of(all[0]), reach_of(all[1])};
+  for (const std::size_t farther : {0U, 1U}) {
+    const std::string more = goes_farther(reach[1 - farther], reach[farther], all[0].coordinates());
+    if (more.empty()) continue;
+    fmt::print(
+        "\n{:<12}{} asks more of the drive ({})\n{:<12}-> fit it and hold the other one out: recording: "
+        "{{file: {}, held_out: {}}}\n",
+        "order", printable(all[farther].file, 200), more, "", printable(all[farther].file, 200),
+        printable(all[1 - farther].file, 200));
+  }
+}
+
 void check_all(const CheckArguments& a) {
   const std::vector<RecordingArguments> all = asked(a);
   if (all.size() > 1 && (a.json || !a.output.empty() || !a.picture.empty()))
@@ -115,7 +139,10 @@ void check_all(const CheckArguments& a) {
     seen.push_back(check_recording(a, one));
     spoilt |= seen.back().spoilt();
   }
-  if (purpose_of(a.purpose) == Purpose::kDiagnosis && a.recording.axis.empty()) tell_together(seen);
+  if (purpose_of(a.purpose) == Purpose::kDiagnosis && a.recording.axis.empty()) {
+    tell_together(seen);
+    if (!spoilt) tell_order(all);
+  }
   if (spoilt) throw ExitStatus{kSpoiltRecording};
 }
 

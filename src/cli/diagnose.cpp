@@ -10,6 +10,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/plain_name.h"
+#include "gapscope/base/text.h"
 #include "gapscope/config/begun_model.h"
 #include "gapscope/diagnosis/begin.h"
 #include "gapscope/recording/axes.h"
@@ -21,6 +22,8 @@
 
 namespace gapscope::cli {
 namespace {
+
+constexpr int kInterruptedWithReport = 130;  ///< as of any command that was interrupted
 
 struct DiagnoseArguments {
   ConfigArguments config;
@@ -94,6 +97,21 @@ void take_axis(const std::string& axis, Configuration& c) {
   c.recording->reading.columns = columns_of_axis(c.recording->reading.columns, axis);
 }
 
+/// Those that were not told before the work began.
+std::vector<std::string> without(std::vector<std::string> warnings, const std::vector<std::string>& told) {
+  std::erase_if(warnings, [&](const std::string& w) { return contains(told, w); });
+  return warnings;
+}
+
+/// A first Ctrl-C ends the search with what it has found; one that comes later ends the command.
+template <class Work>
+auto to_its_end_or_asked(bool& asked, const Work& work) {
+  const FinishFirst first;
+  auto outcome = work();
+  asked = finish_requested();
+  return outcome;
+}
+
 void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   if (!a.axis.empty()) take_axis(a.axis, c);
   c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
@@ -107,15 +125,22 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = a.threads;
   options.progress = progress_on_terminal(a.quiet);
-  DiagnosisOutcome outcome = run_diagnosis(c, options);
+  std::vector<std::string> told;
+  bool stopped = false;
+  const auto tell = [&](const std::string& warning) {
+    print_warnings({warning});
+    told.push_back(warning);
+  };
+  DiagnosisOutcome outcome = to_its_end_or_asked(stopped, [&] { return run_diagnosis(c, options, tell); });
   DiagnosisResult& result = outcome.result;
   options.progress("drawing the report");
   report.keep_estimate(result.version, result.sources);
   write_outcome(report, c, result, outcome.first.motor_trace(), a.figures);
   if (!report.dropped().empty()) result.diagnosis.warnings.push_back(report.dropped());
-  print_warnings(result.diagnosis.warnings);
+  print_warnings(without(result.diagnosis.warnings, told));
   if (result.simulated) print_warnings(result.simulated->warnings);
   print_diagnosis(folder, result);
+  if (stopped) throw ExitStatus{kInterruptedWithReport};
 }
 
 }  // namespace
@@ -173,6 +198,9 @@ void add_diagnose(CommandLine& app) {
       "in both\n"
       "with other amounts, and how far the error shrinks if the first line is mended. In the configuration:\n"
       "recording: {file: drive.csv, simulated: sim.csv}.\n"
+      "Ctrl-C ends the search after its present step: the report says that it was stopped and what it had "
+      "found by\n"
+      "then (exit status 130). A second one ends the command at once, and nothing is kept.\n"
       "The verdict is effect, none (the model is at the floor: that of the encoder or, where the drive "
       "repeats its\n"
       "motion far worse, that of its repeatability) or unknown (nothing in the catalogue explains it).\n\n"

@@ -23,9 +23,19 @@ namespace {
 
 constexpr int kFailed = 1, kWrongInput = 2, kInterrupted = 130;
 
-/// The first Ctrl-C asks, the second one does not wait for the answer.
-extern "C" void on_interrupt(int) {
+constexpr char kFinishing[] =
+    "\ngapscope: ends after the present step and reports what has been found; Ctrl-C again: at once, and "
+    "nothing is kept\n";
+
+/// The first Ctrl-C asks, the second one does not wait for the answer. A diagnosis is asked to come to an end
+/// before it is asked to stop.
+extern "C" void on_interrupt(int signal) {
   if (stop_requested()) _exit(kInterrupted);
+  if (signal == SIGINT && may_finish_first()) {
+    request_finish();
+    [[maybe_unused]] const auto told = write(STDERR_FILENO, kFinishing, sizeof kFinishing - 1);
+    return;
+  }
   request_stop();
 }
 

@@ -181,6 +181,14 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad"), begin.from);
 }
 
+/// Where torque_constant is a guess: one number with a unit of torque settles it.
+void suggest_anchor(YamlWriter& out, Coordinates coordinates) {
+  out.comment(
+      "No sheet tells torque_constant? Delete its line and that of motor_inertia, and say what you know:");
+  out.comment("anchor: {inertia: 8.8e-4}  # " + coordinates.unit("kg m^2") + ", of the motor's side" +
+              (coordinates.rotational() ? "; or {mass: 0.49, arm: 0.1}  # kg, m" : ""));
+}
+
 /// Coulomb friction, where it was read: a diagnosis then begins with what is missing beside it.
 void write_friction(YamlWriter& out, double friction, const std::string& from, Coordinates coordinates) {
   const char* const others = "`gapscope effects` lists what else a drive may have";
@@ -236,7 +244,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
                               const std::optional<JointNumbers>& nominal) {
   const std::string& recording = config.files.front().path;
   ReadOptions& options = config.reading;
-  const Inspection seen = inspect(recording, options, coordinates);
+  Inspection seen = inspect(recording, options, coordinates);
+  if (encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(seen);
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
@@ -264,8 +273,10 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
     internal::config::write_controller(out, ControllerModel::known(*config.reading.controller));
   out.entry("coordinates", coordinates.name());
   const bool one_body = choice.structure == StarterModel::kOneBody;
-  write_model(out, choice, begin_of(seen.facts, one_body, nominal), coordinates);
+  const Begin begin = begin_of(seen.facts, one_body, nominal);
+  write_model(out, choice, begin, coordinates);
   out.entry("detector", "{bound: auto}");
+  if (!(begin.numbers.torque_constant > 0.0)) suggest_anchor(out, coordinates);
   starter.yaml = out.text();
   return starter;
 }

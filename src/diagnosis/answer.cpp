@@ -84,13 +84,19 @@ Answer read(const Findings& f) {
   return a;
 }
 
+/// What binds most: what would have shown, or what the loop of the smallest torque leaves room for.
+double largest_gap(const GapEstimate& g) {
+  return std::fmin(g.smallest_visible_gap, g.lost_motion.gap_limit);
+}
+
 Answer denied(const Findings& f) {
-  const std::string least = f.coordinates.thousandths(f.model_free->smallest_visible_gap);
+  const double limit = largest_gap(*f.model_free);
+  const std::string least = f.coordinates.thousandths(limit);
   Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kGood, "", {}};
   const FittedParameter* gap = told_gap(f);
   if (gap == nullptr) {
     a.sentence = "There is no backlash above " + least + end_without_model(f);
-  } else if (gap->ci95.low > f.model_free->smallest_visible_gap) {
+  } else if (gap->ci95.low > limit) {
     a.trust = AnswerTrust::kLimited;
     a.sentence = "Without a model there is no backlash above " + least + ", but the fitted model says " +
                  with_interval(gap->value, gap->ci95, f.coordinates) + ".";
@@ -197,7 +203,15 @@ std::string step_without_model(const GapEstimate& g) {
   if (open && !loop)
     return "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell "
            "at the reversals, the output free.";
-  if (open || (g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kPlayAtZeroTorque))
+  const std::size_t levels = g.lost_motion.levels.size();
+  if (open && levels > 1)
+    return fmt::format(
+        "The recording has {} torque levels already, and the smallest bounds the gap: ramps at half of it "
+        "would "
+        "bring that limit down, as wind-up shrinks with the torque.",
+        levels);
+  if (open ||
+      (levels < 2 && g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kPlayAtZeroTorque))
     return "Repeat the ramps at half and at twice the torque: the part of the lost motion that grows with it "
            "is "
            "no gap.";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/card_cause.h"
 #include "diagnosis/card_words.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/text.h"
@@ -16,13 +17,13 @@ namespace gapscope {
 namespace {
 
 using internal::diagnosis::as_sentence;
-using internal::diagnosis::enumerated;
+using internal::diagnosis::cause_line;
 using internal::diagnosis::gap_not_estimated;
+using internal::diagnosis::helps_line;
+using internal::diagnosis::kToldByDiagnose;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
 using internal::diagnosis::without_asides;
-
-constexpr const char* kToldByDiagnose = "Told by `gapscope diagnose CONFIG`.";
 
 bool is_added(const Diagnosis& d) { return !d.added.empty(); }
 
@@ -138,103 +139,6 @@ std::string place_line(const CardFacts& f) {
   return as_sentence(f.diagnosis->where.headline);
 }
 
-std::vector<std::string> names(const Diagnosis& d, bool established) {
-  std::vector<std::string> all;
-  for (const AddedEffect& a : d.added)
-    if (a.established == established) all.push_back(internal::diagnosis::name_of(a));
-  return all;
-}
-
-/// Rivals of what was added with an open cause.
-std::vector<std::string> rivals(const Diagnosis& d) {
-  std::vector<std::string> all;
-  for (const AddedEffect& a : d.added)
-    for (const std::string& rival : a.group)
-      if (!a.established && rival != a.effect && !contains(d.effects, rival) &&
-          !contains(all, readable(rival)))
-        all.push_back(readable(rival));
-  return all;
-}
-
-std::string open_causes(const Diagnosis& d) {
-  const std::vector<std::string> open = names(d, false), others = rivals(d);
-  if (open.empty()) return "";
-  return enumerated(open) + (open.size() > 1 ? " help too, their cause" : " helps, its cause") + " is open" +
-         (others.empty() ? "" : ": it may as well be " + enumerated(others, "or"));
-}
-
-std::string cause_line(const CardFacts& f) {
-  if (f.diagnosis == nullptr) return kToldByDiagnose;
-  const Diagnosis& d = *f.diagnosis;
-  if (d.verdict == DiagnosisVerdict::kNone) return "Nothing is missing that this recording could show.";
-  const std::vector<std::string> causes = names(d, true);
-  std::string text = causes.empty() ? "" : enumerated(causes) + " (established)";
-  const std::string open = open_causes(d);
-  text += (text.empty() || open.empty() ? "" : "; ") + open;
-  return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text);
-}
-
-/// "cogging torque takes 64 % of the error above the floor"
-std::string share_of(const AddedEffect& a) {
-  const std::string name = internal::diagnosis::name_of(a);
-  return std::isfinite(a.shrink) ? fmt::format("{} ({:.0f} %)", name, 100.0 * a.shrink) : name;
-}
-
-/// "from 9.66 to 1.22 N (17.1 % to 2.16 %)"
-std::string fall(const CardFacts& f, const Card& card) {
-  const MismatchSize& m = f.diagnosis->mismatch;
-  if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
-    const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
-    return fmt::format("from {} to {} ({} to {})", torque.number(card.torque), torque(card.torque_after),
-                       percent_text(card.percent), percent_text(card.percent_after));
-  }
-  const SharedUnit error(m.before, f.coordinates.position_unit());
-  return fmt::format("from {} to {}", error.number(m.before), error(m.after));
-}
-
-std::string shares(const CardFacts& f, const Card& card) {
-  std::vector<std::string> all;
-  for (const AddedEffect& a : f.diagnosis->added) all.push_back(share_of(a));
-  return enumerated(all) + (all.size() > 1 ? " bring it down " : " brings it down ") + fall(f, card);
-}
-
-/// Whether each effect has the torque that it leaves.
-bool has_rungs(const Diagnosis& d) {
-  return d.added.size() > 1 && std::isfinite(d.mismatch.before_torque) &&
-         std::all_of(d.added.begin(), d.added.end(),
-                     [](const AddedEffect& a) { return std::isfinite(a.after_torque); });
-}
-
-/// "From 9.84 N to 4.19 N with friction, then 2.20 N with cogging torque (17.1 % to 3.8 %)"
-std::string rungs(const CardFacts& f, const Card& card) {
-  const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
-  std::vector<std::string> all;
-  for (const AddedEffect& a : f.diagnosis->added)
-    all.push_back(torque(a.after_torque) + " with " + internal::diagnosis::name_of(a));
-  return fmt::format("from {} to {} ({} to {})", torque(card.torque), fmt::join(all, ", then "),
-                     percent_text(card.percent), percent_text(card.percent_after));
-}
-
-std::string law_words(const LastResortLaw& law) {
-  return fmt::format("a free curve over the {} takes {:.0f} % of {} (compensation_{}.csv)", law.variable,
-                     100.0 * law.shrink, law.on_top_of.empty() ? "the error" : "what is left", law.law);
-}
-
-std::string helps_line(const CardFacts& f, const Card& card) {
-  if (f.diagnosis == nullptr) return kToldByDiagnose;
-  const Diagnosis& d = *f.diagnosis;
-  if (d.verdict == DiagnosisVerdict::kNone) return "Nothing has to: the model is as good as the recording.";
-  std::vector<std::string> parts;
-  if (is_added(d))
-    parts.push_back((has_rungs(d) ? rungs(f, card) : shares(f, card)) + "; `fitted.yaml` has " +
-                    (d.added.size() > 1 ? "them" : "it"));
-  for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law));
-  if (parts.empty()) return "Nothing of the catalogue does.";
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : " ") + as_sentence(part);
-  return text;
-}
-
 /// The step that the estimate asks for; what a diagnosis would say is known where there is one.
 std::string step_of_the_answer(const CardFacts& f) {
   const bool no_gap = f.reference != nullptr && f.reference->find("gap") == nullptr;
@@ -251,6 +155,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr)
     return "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why.";
   const Diagnosis& d = *f.diagnosis;
+  if (d.stopped) return "Run `gapscope diagnose CONFIG` to its end.";
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
   if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
   if (d.verdict == DiagnosisVerdict::kNone) return "None.";

@@ -121,9 +121,10 @@ Findings first_look(Study& study) {
     }
   }
   if (found.budget && rests_on_balance(*found.budget, found.before.fitted.model)) return found;
+  if (finish_requested()) return found;
   const auto catalogue = found.budget ? worth_refitting(study, *found.budget) : study.catalogue;
   found.candidates = candidates_of(study, found.before, catalogue);
-  if (std::optional<ScoredModel> better = nominal_near(study, found)) {
+  if (std::optional<ScoredModel> better = finish_requested() ? std::nullopt : nominal_near(study, found)) {
     found.before = std::move(*better);
     found.candidates.clear();
     if (at_floor(found.before)) return found;
@@ -211,7 +212,7 @@ void require_driven(const Study& study, const ScoredModel& model) {
 
 Findings investigate(Study& study) {
   Findings found = first_look(study);
-  if (asked_too_little(study, found))
+  if (!finish_requested() && asked_too_little(study, found))
     if (std::optional<Findings> wider = look_wider(study, found)) return std::move(*wider);
   return found;
 }
@@ -251,13 +252,20 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   if (!left.empty()) diagnosis.warnings.push_back("no effect is named: with it, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);
-  if (options.known.detectable || diagnosis.effects.empty()) tell_detectable(study, found, diagnosis);
+  if (finish_requested()) tell_stopped(study, added, !ladder.added.empty(), diagnosis);
+  if (!finish_requested() && (options.known.detectable || diagnosis.effects.empty()))
+    tell_detectable(study, found, diagnosis);
   if (!ladder.added.empty() && diagnosis.mismatch.after > diagnosis.mismatch.before)
     diagnosis.warnings.push_back(
         "in x1 the model with what was added errs more than the nominal one, other than in torque: a model "
         "that "
         "is too heavy hides in x1 what it lacks.");
-  if (study.is_exhausted())
+  if (diagnosis.stopped)
+    diagnosis.warnings.push_back(
+        "the search was stopped before its end: this is what it had found by then. Further steps, free-form "
+        "laws and the experiment that would decide were not looked for, and causes that hang on them stay "
+        "open.");
+  if (study.has_done_its_work())
     diagnosis.warnings.push_back(
         fmt::format("the search has taken the work of {:.0f} fits of the nominal model, after which it "
                     "begins no further step.",

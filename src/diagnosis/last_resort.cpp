@@ -6,6 +6,7 @@
 #include "diagnosis/law_variants.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/step.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
 
 namespace gapscope::internal::diagnosis {
@@ -261,7 +262,7 @@ double lead_over(const LawSearch& law, const ScoredModel& model) {
 }
 
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model, bool drive_known) {
-  if (at_floor(model) || !(model.fitted.mean_cost < kInfinity)) return {};
+  if (at_floor(model) || !(model.fitted.mean_cost < kInfinity) || finish_requested()) return {};
   LawSearch found;
   found.before = as_base(model);
   study.options.progress("laying free-form laws over what remains");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/require.h"
 #include "signals/encoder.h"
 #include "signals/period.h"
@@ -90,7 +91,9 @@ bool Study::is_excluded(const EffectEntry& entry) const {
   return std::find(options.excluded.begin(), options.excluded.end(), entry.name) != options.excluded.end();
 }
 
-bool Study::is_exhausted() const {
+bool Study::is_exhausted() const { return finish_requested() || has_done_its_work(); }
+
+bool Study::has_done_its_work() const {
   return static_cast<double>(*options.fit.work) >
          effort.most_nominal_fits * static_cast<double>(nominal_work);
 }

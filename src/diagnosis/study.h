@@ -20,7 +20,8 @@ struct Study {
   std::int64_t nominal_work = 0;  ///< samples that the first nominal fit has simulated
   ShaftTurns turns = {};          ///< none of a slide
 
-  bool is_exhausted() const;
+  bool is_exhausted() const;  ///< no further step begins: its work is done, or it was asked to finish
+  bool has_done_its_work() const;
   bool is_excluded(const EffectEntry& entry) const;
   /// Whether what the effect would turn with turns at all.
   bool can_turn(const EffectEntry& entry) const;

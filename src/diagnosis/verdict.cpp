@@ -95,4 +95,15 @@ Diagnosis verdict_on(const Study& study, const Findings& found, const Additions&
   return d;
 }
 
+void tell_stopped(const Study& study, const Additions& added, bool by_balance, Diagnosis& d) {
+  if (d.verdict == DiagnosisVerdict::kNone) return;
+  if (added.accepted && (at_floor(added.after) || added.explained) && !may_be_pieces(added)) return;
+  d.stopped = true;
+  if (!by_balance && d.verdict == DiagnosisVerdict::kEffect) {
+    d.verdict = DiagnosisVerdict::kHelps;
+    for (AddedEffect& a : d.added) a.established = false;
+  }
+  d.sentence = sentence_of(d, study.options.coordinates);
+}
+
 }  // namespace gapscope::internal::diagnosis

@@ -15,4 +15,8 @@ Diagnosis verdict_on(const Study& study, const Findings& found, const Additions&
 /// Whether a free-form law on top of effects is of a variable of theirs: they are a part of a function of it.
 bool continues_one(const LawSearch& law, const Additions& added);
 
+/// What a search that was asked to finish before its end may say: it names no cause away from the floor,
+/// since neither further steps nor laws of last resort had their turn. The torque balance has seen its end.
+void tell_stopped(const Study& study, const Additions& added, bool by_balance, Diagnosis& d);
+
 }  // namespace gapscope::internal::diagnosis

@@ -115,6 +115,11 @@ std::string law_sentence(const Diagnosis& d) {
   return text;
 }
 
+std::string stopped_sentence(const Diagnosis& d) {
+  return fmt::format("The search was stopped before it named anything: the held-out error is {}, {}.",
+                     ratio(d.mismatch.before / d.mismatch.floor, d), d.where.headline);
+}
+
 std::string unknown_sentence(const Diagnosis& d) {
   std::string text =
       fmt::format("Something is missing that the catalogue does not explain: the held-out error is {}, {}",
@@ -137,7 +142,7 @@ std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
       return fmt::format("Nothing is missing that this recording could show: the held-out error is {}.",
                          ratio(d.mismatch.before / d.mismatch.floor, d));
     case DiagnosisVerdict::kUnknown:
-      return unknown_sentence(d);
+      return d.stopped ? stopped_sentence(d) : unknown_sentence(d);
     case DiagnosisVerdict::kNotRun:
       break;
   }

@@ -42,6 +42,17 @@ const char* to_string(Purpose purpose) {
   return kNames[static_cast<int>(purpose)];
 }
 
+void judge_for_load_encoder(Inspection& inspection) {
+  for (Finding& f : inspection.findings) {
+    if (f.rule != kReversalsRule || f.severity != Severity::kSpoils) continue;
+    f.severity = Severity::kNote;
+    f.found = "of the detector alone, which reads impacts off the motor's position: on the load none shows";
+    f.advice =
+        "no other motion mends that: `gapscope fit` and `diagnose` take this side; for a reading without a "
+        "model record the motor's position as well";
+  }
+}
+
 void judge_for(Purpose purpose, Inspection& inspection) {
   inspection.purpose = purpose;
   if (purpose == Purpose::kAll) return;

@@ -247,6 +247,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   Diagnosis& g = d.result.diagnosis;
   archive("schema", d.schema);
   verdict_field(archive, g.verdict);
+  archive.seldom_choice("search", g.stopped, Words<bool>{{true, "stopped"}, {false, "ended"}}, false);
   archive.seldom("answer", d.result.answer);
   archive("effects", g.effects);
   archive("group", g.group);

@@ -1,12 +1,15 @@
 #include "gapscope/run/run_diagnosis.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <utility>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/inspection.h"
+#include "gapscope/inspection/reach.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
 #include "run/run_simulator.h"
@@ -35,10 +38,36 @@ std::vector<std::string> checked(const Configuration& c, const Progress& progres
   return warnings;
 }
 
+/// "a.csv", "[a.csv, b.csv]"
+std::string listed(const std::vector<RecordedFile>& files) {
+  std::vector<std::string> names;
+  for (const RecordedFile& f : files) names.push_back(f.given);
+  return names.size() == 1 ? names.front() : fmt::format("[{}]", fmt::join(names, ", "));
+}
+
+/// Where what is held out asks more of the drive than what is fitted; empty where it does not.
+std::string other_way_round(const Configuration& c, const DiagnosisRecordings& recordings) {
+  if (!c.recording || c.recording->held_out.empty()) return "";
+  const std::string farther = goes_farther(reach_of(recordings.train.motor_traces()),
+                                           reach_of(recordings.held_out.motor_traces()), c.coordinates);
+  if (farther.empty()) return "";
+  const std::string fitted = listed(c.recording->files), held_out = listed(c.recording->held_out);
+  return with_input_unit(
+      fmt::format("{}, held out, asks more of the drive than {}, which is fitted ({}): the model is judged "
+                  "where it was not fitted, which can take far longer and name something else; the other way "
+                  "round (file: {}, held_out: {}) is worth a diagnosis, too.",
+                  held_out, fitted, farther, held_out, fitted),
+      c.input_facts());
+}
+
 /// Where the recordings do not decide: what would.
 void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
                  Diagnosis& d) {
   if (d.rivals.size() < 2) return;
+  if (finish_requested()) {
+    if (!d.stopped) d.warnings.push_back("stopped before the experiment was looked for that would decide.");
+    return;
+  }
   options.progress("looking for the experiment that would tell");
   d.next_experiment = next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads);
   const InputFacts input = c.input_facts();
@@ -65,19 +94,28 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
   asked.controller = recordings.controller;
   Diagnosis d = diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
                          internal::run::diagnosed_model(c, recordings.sought), asked);
+  if (finish_requested()) {
+    d.fitted.controller.reset();
+    return d;
+  }
   const std::string found = internal::run::controller_found(c, d.fitted, recordings.train.recordings);
   if (!found.empty()) d.warnings.push_back(found);
   d.fitted.controller.reset();
   return d;
 }
 
-DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& options) {
+DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& options,
+                               const Progress& told_before) {
   const std::vector<FileHash> sources = sources_of(c);
   DiagnosisRecordings recordings = load_for_diagnosis(c, options.progress);
   const internal::run::SimulatedRecordings simulated =
       internal::run::load_simulated(c, recordings, options.progress);
   require_unchanged(c, sources);
   std::vector<std::string> warnings = std::move(recordings.train.warnings);
+  if (std::string order = other_way_round(c, recordings); !order.empty()) {
+    told_before(order);
+    warnings.push_back(std::move(order));
+  }
   for (const auto& more : {recordings.held_out.warnings, checked(c, options.progress)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   DiagnosisResult result{c.name, version(), resolved_yaml(c), c.coordinates,
@@ -89,7 +127,9 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   const std::vector<std::string> guesses = internal::run::guess_warnings(c);
   warnings.insert(warnings.end(), guesses.begin(), guesses.end());
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
-  if (!simulated.empty())
+  if (!simulated.empty() && finish_requested())
+    d.warnings.emplace_back("stopped before the simulator was looked at.");
+  else if (!simulated.empty())
     result.simulated = internal::run::compare_simulated(c, recordings, simulated, d, options);
   ask_further(c, recordings.train.recordings.front().motor_trace(), options, d);
   return {std::move(result), std::move(recordings.train.recordings.front())};

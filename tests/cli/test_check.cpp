@@ -42,6 +42,21 @@ TEST(Check, ASpoiltRecordingEndsWithThreeAndSaysWhatToDo) {
   EXPECT_EQ(nlohmann::json::parse(json.out)["spoilt"], true);
 }
 
+TEST(Check, SaysWhichOfTwoRecordingsIsToBeFitted) {
+  Workplace place;
+  place.file("usual.csv", testing::rig().csv());
+  place.file("strong.csv", testing::rig(sine(1.1628, 1.0)).csv());
+  for (const char* files : {"usual.csv strong.csv", "strong.csv usual.csv"}) {
+    const auto both = place.run(std::string("check ") + files + " --for diagnosis");
+    EXPECT_EQ(both.status, 0) << both.out;
+    EXPECT_THAT(both.out, HasSubstr("order       strong.csv asks more of the drive"));
+    EXPECT_THAT(both.out, HasSubstr("input up to 1.16 against 0.581 units of u"));
+    EXPECT_THAT(both.out, HasSubstr("recording: {file: strong.csv, held_out: usual.csv}"));
+  }
+  EXPECT_THAT(place.run("check usual.csv usual.csv --for diagnosis").out,
+              ::testing::Not(HasSubstr("asks more of the drive")));
+}
+
 TEST(Check, JudgesForTheQuestionAndSeveralFilesTogether) {
   Workplace place;
   testing::Rows rows = testing::rig();

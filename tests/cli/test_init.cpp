@@ -42,6 +42,7 @@ TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {
   EXPECT_THAT(yaml, HasSubstr("encoder: {bits: 18}"));
   EXPECT_THAT(yaml, HasSubstr("mass_ratio: 0"));
   EXPECT_THAT(yaml, HasSubstr("torque_constant: {value: 1, guess: true}  # GUESS"));
+  EXPECT_THAT(yaml, HasSubstr("# anchor: {inertia: 8.8e-4}"));
   EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.005"));  // 8.78e-4/0.172 = 5.1e-3 units of u s^2/rad
   EXPECT_THAT(yaml, Not(HasSubstr("SPOILS")));
 }

@@ -8,6 +8,7 @@
 namespace gapscope {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -132,11 +133,23 @@ TEST(Answer, TellsTheLostMotionThatWasMeasuredWhateverItMeans) {
   EXPECT_THAT(a.sentence,
               HasSubstr("The lost motion at zero torque is 33.8 mrad to 37.4 mrad, by torque level; the "
                         "gap is at most 35.3 mrad. Whether a gap or friction"));
-  EXPECT_THAT(a.next, ::testing::Contains(HasSubstr("at half and at twice the torque")));
+  EXPECT_THAT(a.next, ElementsAre(HasSubstr("has 2 torque levels already")));
   open.lost_motion.levels.pop_back();
+  EXPECT_THAT(of(&open, nullptr).next, ElementsAre(HasSubstr("at half and at twice the torque")));
   open.lost_motion.cause = LostMotionCause::kFriction, open.lost_motion.gap_limit = kNaN;
   EXPECT_THAT(of(&open, nullptr).sentence,
               HasSubstr("is 33.80 mrad (95 %: 33.00 to 34.60). It is friction and compliance."));
+}
+
+TEST(Answer, TheLoopOfTheSmallestTorqueBindsADenialThatAllowsMore) {
+  GapEstimate none;
+  none.verdict = GapVerdict::kNone;
+  none.smallest_visible_gap = 0.0517;
+  EXPECT_THAT(of(&none, nullptr).sentence, HasSubstr("no backlash above 51.7 mrad"));
+  none.lost_motion.value = 0.0029, none.lost_motion.gap_limit = 0.0031;
+  EXPECT_THAT(of(&none, nullptr).sentence, HasSubstr("no backlash above 3.1 mrad"));
+  none.smallest_visible_gap = 0.001;
+  EXPECT_THAT(of(&none, nullptr).sentence, HasSubstr("no backlash above 1 mrad"));
 }
 
 TEST(Answer, TakesTheModelWhereTheReadingIsInconclusiveOrWasNotAskedFor) {

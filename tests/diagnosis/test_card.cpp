@@ -71,6 +71,17 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
   EXPECT_DOUBLE_EQ(card.percent_after, 4.0);
 }
 
+TEST(Card, TellsTheAmountOfWhatHelps) {
+  Diagnosis d = slide_diagnosis();
+  d.added[0].parameters = {{"level_nm", "N m", 20.54}};
+  d.added[1].parameters = {{"share", "-", 0.2}};
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      StartsWith("From 10 N to 4 N with motor Coulomb friction (20.5 N), then 2 N with cogging torque ("));
+  d.added[1].effect = "friction_asymmetry", d.added[1].parameters = {{"level_nm", "N m", 20.54}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps, Not(HasSubstr("20.5"))) << "both share one amount";
+}
+
 TEST(Card, JudgesTheToleranceThatWasStated) {
   const Answer answer = sharp_answer();
   const Diagnosis d = slide_diagnosis();

@@ -232,5 +232,14 @@ TEST(Inspection, RefusesARateThatLeavesHardlyASample) {
               HasSubstr("after resampling, expected at least 50"));
 }
 
+TEST(LoadEncoder, IsAskedForNoMotionThatADetectorWouldNeed) {
+  Inspection seen = inspected(changed([](Rows& r) { r.erase(700, r.t.size() - 700); }));
+  ASSERT_EQ(finding(seen, kReversalsRule).severity, Severity::kSpoils);
+  judge_for_load_encoder(seen);
+  EXPECT_EQ(finding(seen, kReversalsRule).severity, Severity::kNote);
+  EXPECT_NE(finding(seen, kReversalsRule).advice.find("record the motor's position as well"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace gapscope

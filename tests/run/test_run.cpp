@@ -107,6 +107,37 @@ TEST(RunDiagnosis, SaysFirstWhatSpoilsARecordingBeItHeldOut) {
   EXPECT_THAT(warnings.front(), HasSubstr("again.csv: fresh samples: x1 changes in every 5th row only"));
 }
 
+/// The drive of drive.yaml under an input of the same form.
+void record_at(const Recorded& recorded, const char* name, const std::string& amplitude) {
+  std::string text = kSimulated;
+  text.replace(text.find("0.58"), 4, amplitude);
+  write_csv(recorded.at(name), simulated_recording(parse_configuration(text, "simulated.yaml")));
+}
+
+/// What a diagnosis tells before it begins.
+std::vector<std::string> told_before(const Configuration& c) {
+  std::vector<std::string> told;
+  const DiagnosisOutcome out =
+      run_diagnosis(c, without_candidates(c), [&](const std::string& warning) { told.push_back(warning); });
+  for (const std::string& warning : told)
+    EXPECT_THAT(out.result.diagnosis.warnings, ::testing::Contains(warning))
+        << "it stands in the report, too";
+  return told;
+}
+
+TEST(RunDiagnosis, SaysBeforehandThatTheOtherWayRoundAsksMoreOfTheDrive) {
+  const Recorded recorded;
+  EXPECT_THAT(told_before(recorded.configuration()), ElementsAre()) << "both are alike";
+  record_at(recorded, "again.csv", "0.29");
+  EXPECT_THAT(told_before(recorded.configuration()), ElementsAre()) << "what is fitted covers the other";
+  record_at(recorded, "again.csv", "1.16");
+  const std::vector<std::string> told = told_before(recorded.configuration());
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(told.front(), HasSubstr("again.csv, held out, asks more of the drive than drive.csv"));
+  EXPECT_THAT(told.front(), HasSubstr("input up to 1.16 against 0.58 units of u"));
+  EXPECT_THAT(told.front(), HasSubstr("(file: again.csv, held_out: drive.csv) is worth a diagnosis"));
+}
+
 TEST(RunDiagnosis, RefusesARecordingThatChangesWhileItIsRead) {
   const Recorded recorded;
   const Configuration c = recorded.configuration();

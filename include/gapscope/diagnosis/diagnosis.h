@@ -166,6 +166,7 @@ struct MismatchTrace {
 struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNotRun;
   std::string sentence = "diagnose() was not called.";
+  bool stopped = false;  ///< the search was asked to finish before its end; what it says is what it had found
   std::vector<std::string> effects;  ///< what was added, in order
   std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
   std::vector<AddedEffect> added;    ///< the same effects, each with what it takes
@@ -238,6 +239,8 @@ struct DiagnosisOptions {
 /// held out is then fitted with it, the second half judges, and a warning says so.
 ///
 /// With no held-out recordings the last third of each file is held out.
+///
+/// After request_finish() the search ends with its present step and says so (Diagnosis::stopped).
 /// @throws std::logic_error for an empty span or an unknown excluded effect; Interrupted.
 Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                    const ReferenceModel& model, const DiagnosisOptions& options = {});

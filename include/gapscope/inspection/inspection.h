@@ -83,4 +83,8 @@ Inspection inspect(const std::string& path, const ReadOptions& options = {}, Coo
 /// What spoils the answers to other questions alone becomes a note, which says so.
 void judge_for(Purpose purpose, Inspection& inspection);
 
+/// Of an encoder on the load: no detector reads a gap there, so what the motion lacks for one spoils nothing,
+/// and no motion is asked for.
+void judge_for_load_encoder(Inspection& inspection);
+
 }  // namespace gapscope

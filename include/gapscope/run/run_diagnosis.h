@@ -31,7 +31,11 @@ struct DiagnosisOutcome {
 /// Everything of `diagnose` but the writing: the recordings are read, looked at as `check` does and
 /// diagnosed; where they do not decide, the experiment that would is looked for. The answer of the user's
 /// simulator is laid beside them where the configuration names it.
+/// @param told_before  told the warning that is worth reading before the work begins: the recordings would
+///                     do better the other way round; it stands among the result's, too
 /// @throws ConfigError, also where a source changes meanwhile; Interrupted
-DiagnosisOutcome run_diagnosis(const Configuration& configuration, const DiagnosisOptions& options);
+DiagnosisOutcome run_diagnosis(
+    const Configuration& configuration, const DiagnosisOptions& options,
+    const Progress& told_before = [](const std::string&) {});
 
 }  // namespace gapscope

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "gapscope/base/coordinates.h"
+#include "gapscope/recording/recording.h"
+
+namespace gapscope {
+
+/// How far recordings take a drive: a model that is fitted to them is known that far.
+struct MotionReach {
+  double travel = 0.0;  ///< of x1, peak to peak [rad]
+  double speed = 0.0;   ///< that 99 % of the samples stay below, over 20 ms [rad/s]
+  double input = 0.0;   ///< the same of |u| [unit of u]; 0 where u is not known
+};
+
+/// The farthest of several recordings, each quantity for itself.
+MotionReach reach_of(std::span<const MotorTrace> recordings);
+
+/// In what the second goes clearly farther, with its numbers first: "speed up to 12.7 against 4.38 rad/s";
+/// empty where it does not, or where the first goes clearly farther in something else: then neither covers
+/// the other.
+std::string goes_farther(const MotionReach& first, const MotionReach& second, Coordinates coordinates);
+
+}  // namespace gapscope

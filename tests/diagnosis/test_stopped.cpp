@@ -1,0 +1,96 @@
+// What a diagnosis says that was asked to finish before its end.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "blind/blind_pair.h"
+#include "diagnosis/verdict.h"
+#include "gapscope/base/interrupt.h"
+#include "gapscope/diagnosis/card.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// One candidate, which is what is missing; asked to finish as soon as the progress says `at`.
+Diagnosis asked_at(const std::string& at) {
+  static const blind::BlindPair pair = blind::blind_pair("geared", "motor_coulomb_friction", 0.7, 500002);
+  DiagnosisOptions options;
+  for (const EffectEntry* e : effect_table())
+    if (e->name != std::string("motor_coulomb_friction")) options.excluded.emplace_back(e->name);
+  for (const EffectEntry* e : last_resort_table()) options.excluded.emplace_back(e->name);
+  options.progress = [&](const std::string& what) {
+    if (what == at) request_finish();
+  };
+  const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
+  const FinishFirst first;
+  return diagnose(train, held_out, pair.sheet, options);
+}
+
+TEST(FinishFirst, TakesOneRequestAndForgetsIt) {
+  EXPECT_FALSE(may_finish_first());
+  {
+    const FinishFirst first;
+    EXPECT_TRUE(may_finish_first());
+    request_finish();
+    EXPECT_TRUE(finish_requested());
+    EXPECT_FALSE(may_finish_first()) << "the next one stops";
+  }
+  EXPECT_FALSE(finish_requested());
+  EXPECT_NO_THROW(stop_point());
+}
+
+TEST(StoppedDiagnosis, OfTheNominalModelAloneTellsTheSizeAndNamesNothing) {
+  const Diagnosis d = asked_at("fitting the nominal model");
+  EXPECT_TRUE(d.stopped);
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kUnknown);
+  EXPECT_TRUE(d.ranking.empty() && d.effects.empty() && d.detectable.empty());
+  EXPECT_GT(d.mismatch.before, 2.0 * d.mismatch.floor);
+  EXPECT_THAT(d.sentence, HasSubstr("stopped before it named anything: the held-out error is"));
+  EXPECT_THAT(d.sentence, Not(HasSubstr("catalogue does not explain")));
+  EXPECT_THAT(d.warnings, ::testing::Contains(HasSubstr("stopped before its end")));
+  CardFacts facts;
+  facts.diagnosis = &d;
+  const Card card = card_of(facts);
+  EXPECT_EQ(card.cause, "Not told: the search was stopped before its end.");
+  EXPECT_EQ(card.helps, card.cause);
+  EXPECT_EQ(card.next, "Run `gapscope diagnose CONFIG` to its end.");
+}
+
+TEST(StoppedDiagnosis, EndsItsPresentStepAndStandsWhereThatExplainsAll) {
+  const Diagnosis d = asked_at("fitting motor_coulomb_friction, 1 of 1"), whole = asked_at("");
+  EXPECT_FALSE(d.stopped) << "nothing was left to look for";
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
+  EXPECT_EQ(d.sentence, whole.sentence);
+}
+
+TEST(StoppedDiagnosis, LeavesCausesOpenThatFurtherStepsCouldHaveTaken) {
+  using namespace internal::diagnosis;
+  const DiagnosisOptions options;
+  const Study study{{}, {}, {}, {}, kMeasure.slow_hz, 0.0, {}, options};
+  Diagnosis found;
+  found.verdict = DiagnosisVerdict::kEffect;
+  found.effects = found.group = {"cogging_torque"};
+  found.added = {{"cogging_torque", true, {"cogging_torque"}, kNaN, {}, 0.6, {}, 4.0}};
+  Additions added;
+  added.accepted = true;
+  added.after.median_free = added.after.median_innovation = 20.0;
+  Diagnosis open = found, balanced = found;
+  tell_stopped(study, added, false, open);
+  EXPECT_TRUE(open.stopped);
+  EXPECT_EQ(open.verdict, DiagnosisVerdict::kHelps);
+  EXPECT_FALSE(open.added.front().established);
+  EXPECT_THAT(open.sentence, HasSubstr("the cause stays open"));
+  tell_stopped(study, {}, true, balanced);
+  EXPECT_TRUE(balanced.stopped && balanced.added.front().established) << "the torque balance saw its end";
+  added.after.median_free = added.after.median_innovation = 1.0;
+  tell_stopped(study, added, false, found);
+  EXPECT_FALSE(found.stopped) << "at the floor";
+}
+
+}  // namespace
+}  // namespace gapscope

@@ -1,0 +1,74 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gapscope/inspection/reach.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// x1 = a sin(ω t), u = b cos(ω t), four seconds at 500 Hz.
+Recording swung(double a, double omega, double b) {
+  Recording r;
+  r.dt = 0.002;
+  for (int i = 0; i < 2000; ++i) {
+    r.x1.push_back(a * std::sin(omega * r.dt * i));
+    r.u.push_back(b * std::cos(omega * r.dt * i));
+  }
+  return r;
+}
+
+MotionReach reach(const Recording& r) {
+  const MotorTrace trace = r.motor_trace();
+  return reach_of({&trace, 1});
+}
+
+TEST(MotionReach, IsTheClosedFormOfASine) {
+  const MotionReach r = reach(swung(0.5, 6.0, 2.0));
+  EXPECT_NEAR(r.travel, 1.0, 1e-3);
+  EXPECT_NEAR(r.speed, 3.0, 0.01) << "a sine spends 1 % of its time above 0.9999 of its peak";
+  EXPECT_NEAR(r.input, 2.0, 1e-3);
+}
+
+TEST(MotionReach, OfSeveralIsTheFarthestOfEach) {
+  const Recording wide = swung(0.5, 2.0, 1.0), fast = swung(0.1, 30.0, 2.0);
+  const MotorTrace both[] = {wide.motor_trace(), fast.motor_trace()};
+  const MotionReach r = reach_of(both);
+  EXPECT_NEAR(r.travel, 1.0, 1e-3);
+  EXPECT_GT(r.speed, 2.5);
+  EXPECT_NEAR(r.input, 2.0, 1e-2);
+}
+
+TEST(MotionReach, ASpikeIsNoMotion) {
+  Recording spiked = swung(0.5, 6.0, 2.0);
+  spiked.u[700] = 100.0;
+  EXPECT_NEAR(reach(spiked).input, 2.0, 1e-3);
+}
+
+TEST(GoesFarther, TellsTheNumbersOfWhatIsClearlyMoreAndNothingElse) {
+  const MotionReach slow = reach(swung(0.5, 6.0, 2.0)), fast = reach(swung(0.5, 12.0, 2.0));
+  const std::string told = goes_farther(slow, fast, {});
+  EXPECT_THAT(told, HasSubstr("speed up to 5.98 against 3 rad/s"));
+  EXPECT_THAT(told, Not(HasSubstr("travel")));
+  EXPECT_EQ(goes_farther(fast, slow, {}), "") << "the fitted one covers the other";
+  EXPECT_THAT(goes_farther(slow, fast, Coordinates::kTranslation), HasSubstr("3 m/s"));
+}
+
+TEST(GoesFarther, IsSilentWhereBothAreAlikeOrNeitherCoversTheOther) {
+  const MotionReach usual = reach(swung(0.5, 6.0, 2.0));
+  EXPECT_EQ(goes_farther(usual, reach(swung(0.55, 6.5, 2.1)), {}), "");
+  EXPECT_EQ(goes_farther(usual, reach(swung(0.2, 30.0, 2.0)), {}), "") << "faster, but over half the travel";
+}
+
+TEST(GoesFarther, AnInputThatIsNotKnownDecidesNothing) {
+  MotionReach unknown = reach(swung(0.5, 6.0, 2.0));
+  unknown.input = 0.0;
+  EXPECT_THAT(goes_farther(unknown, reach(swung(1.0, 6.0, 2.0)), {}), HasSubstr("travel 2 against 1 rad"));
+}
+
+}  // namespace
+}  // namespace gapscope
