@@ -102,7 +102,7 @@ class MapRow {
       if (std::abs(residual[i]) > peak)
         outside.x.push_back(of[i]), outside.y.push_back(std::copysign(kEdge * peak, residual[i]));
     }
-    outside.label = fmt::format("{} of {} lie outside", outside.x.size(), drawn);
+    outside.label = fmt::format("{} of {} outside", outside.x.size(), drawn);
     if (!outside.x.empty()) panel.series.push_back(outside);
   }
 
