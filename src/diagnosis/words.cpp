@@ -22,11 +22,11 @@ struct Turned {
 constexpr Turned kTurned[] = {{"stribeck_friction", "stiction_ratio",
                                "friction that is lower at low speed (Stribeck friction, negative ratio)"}};
 
-/// " with 24 cycles per turn", " every 2.5 mm": tells lines of one law apart.
+/// " at 24 cycles per turn", " every 2.5 mm": tells lines of one law apart.
 std::string period_words(const AddedEffect& added, Coordinates coordinates) {
   for (const NamedValue& p : added.parameters) {
     if (p.key != "periods_per_turn" || !(p.value > 0.0)) continue;
-    if (coordinates.rotational()) return fmt::format(" with {:.4g} cycles per turn", p.value);
+    if (coordinates.rotational()) return fmt::format(" at {:.4g} cycles per turn", p.value);
     const double period = 2.0 * kPi / p.value;
     return " every " + SharedUnit(period, coordinates.position_unit())(period);
   }

@@ -112,7 +112,7 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
   f.coordinates = Coordinates::kRotation;
   d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
   EXPECT_EQ(card_of(f).cause,
-            "Cogging torque with 24 cycles per turn and cogging torque with 7.25 cycles per turn "
+            "Cogging torque at 24 cycles per turn and cogging torque at 7.25 cycles per turn "
             "(established).");
 }
 
