@@ -48,10 +48,10 @@ double informative_reach(const std::vector<double>& values, double least) {
   std::vector<double> sizes;
   for (const double v : values)
     if (std::isfinite(v)) sizes.push_back(std::abs(v));
-  if (sizes.empty()) return std::max(0.0, least);
+  if (sizes.empty()) return 0.0;
   const double all = *std::max_element(sizes.begin(), sizes.end());
-  const double most = std::max(quantile(std::move(sizes), kDrawn), least);
-  return all > kFar * most ? most : std::max(all, least);
+  const double most = std::max(quantile(std::move(sizes), kDrawn), std::min(least, all));
+  return all > kFar * most ? most : all;
 }
 
 }  // namespace gapscope::internal::report

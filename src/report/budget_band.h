@@ -19,7 +19,7 @@ std::vector<double> within_band(const ErrorBudget& budget, const MismatchTrace& 
 std::string band_words(const ErrorBudget& budget, const MismatchTrace& trace);
 
 /// How far an axis around zero reaches: to all values, or, where a few lie far away, to 99 % of them.
-/// @param least  and never less than that
+/// @param least  shown in any case, as far as there are values
 double informative_reach(const std::vector<double>& values, double least);
 
 }  // namespace gapscope::internal::report

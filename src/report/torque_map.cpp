@@ -53,10 +53,11 @@ class MapRow {
     std::vector<Series> curves;
     for (const bool forward : {true, false})
       if (both_ && with_curve) add_curve(curves, of, forward);
-    double least = known_or_zero(r_.diagnosis.budget.nominal);
+    double law = 0.0;
     for (const Series& curve : curves)
-      for (const double y : curve.y) least = std::max(least, std::abs(y));
-    const double peak = kRoom * informative_reach(s_.before, least);
+      for (const double y : curve.y) law = std::max(law, std::abs(y));
+    const double band = known_or_zero(r_.diagnosis.budget.nominal);
+    const double peak = kRoom * std::max(law, informative_reach(s_.before, std::max(law, band)));
     figure.panels.push_back(scatter("Nominal model" + band_ + ", over " + over, x, of, s_.before, peak));
     auto& drawn = figure.panels.back().series;
     drawn.insert(drawn.end(), curves.begin(), curves.end());

@@ -63,8 +63,8 @@ TEST(ResidualScale, ReachesToAllValuesUnlessAFewLieFarAway) {
   values[3] = -40.0, values[4] = kNaN;
   EXPECT_DOUBLE_EQ(informative_reach(values, 0.0), 1.0);
   EXPECT_DOUBLE_EQ(informative_reach(values, 3.0), 3.0) << "the law and the band are always shown";
-  EXPECT_DOUBLE_EQ(informative_reach(values, 50.0), 50.0);
-  EXPECT_DOUBLE_EQ(informative_reach({}, 2.0), 2.0);
+  EXPECT_DOUBLE_EQ(informative_reach(values, 50.0), 40.0) << "a frame without values shows nothing";
+  EXPECT_DOUBLE_EQ(informative_reach({}, 2.0), 0.0);
 }
 
 TEST(ResidualScale, TheBandIsThatOfTheBudget) {
@@ -111,6 +111,16 @@ TEST(ResidualScale, TheMapShowsTheLawOfACoarseEncoderAndCountsWhatLiesOutside) {
   }
   EXPECT_THAT(diagnosis_torque_map(r).panels[0].title, HasSubstr("Nominal model below 10 Hz, over"));
   EXPECT_THAT(diagnosis_traces(r).panels[1].title, HasSubstr("Residual torque below 10 Hz"));
+}
+
+TEST(ResidualScale, TheLawIsInTheFrameAndABandBeyondTheDataIsNot) {
+  DiagnosisResult r = coarse_result();
+  r.diagnosis.budget.nominal = 500.0;
+  for (double& torque : r.diagnosis.traces[0].torque_after)
+    torque -= 100.0;  // the law takes more than there was
+  const Panel panel = diagnosis_torque_map(r).panels[0];
+  EXPECT_GT(panel.y.range.high, 100.0);
+  EXPECT_LT(panel.y.range.high, 120.0);
 }
 
 TEST(ResidualScale, TheBudgetShowsItsFloorOrSaysThatItLiesOutside) {
