@@ -14,10 +14,14 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-std::vector<std::string> names(const Diagnosis& d, bool established) {
+std::string called(const AddedEffect& a, const CardFacts& f) {
+  return name_of(a, *f.diagnosis, f.coordinates);
+}
+
+std::vector<std::string> names(const CardFacts& f, bool established) {
   std::vector<std::string> all;
-  for (const AddedEffect& a : d.added)
-    if (a.established == established) all.push_back(name_of(a));
+  for (const AddedEffect& a : f.diagnosis->added)
+    if (a.established == established) all.push_back(called(a, f));
   return all;
 }
 
@@ -32,17 +36,46 @@ std::vector<std::string> rivals(const Diagnosis& d) {
   return all;
 }
 
-std::string open_causes(const Diagnosis& d) {
-  const std::vector<std::string> open = names(d, false), others = rivals(d);
+std::string open_causes(const CardFacts& f) {
+  const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
   if (open.empty()) return "";
   return enumerated(open) + (open.size() > 1 ? " help too, their cause" : " helps, its cause") + " is open" +
          (others.empty() ? "" : ": it may as well be " + enumerated(others, "or"));
 }
 
-/// "cogging torque takes 64 % of the error above the floor"
-std::string share_of(const AddedEffect& a) {
-  const std::string name = name_of(a);
-  return std::isfinite(a.shrink) ? fmt::format("{} ({:.0f} %)", name, 100.0 * a.shrink) : name;
+/// Whether an amount is the effect's alone: laws that contain a simpler one share its amount with it.
+bool has_own_amount(const AddedEffect& a, const std::vector<AddedEffect>& all) {
+  const EffectEntry* entry = find_effect(a.effect);
+  if (entry == nullptr || contained_effect(*entry) != nullptr) return false;
+  return std::none_of(all.begin(), all.end(), [&](const AddedEffect& other) {
+    const EffectEntry* o = find_effect(other.effect);
+    return o != nullptr && contained_effect(*o) == entry;
+  });
+}
+
+/// "20.5 N": the amount that the fit gave it; nothing where that has no unit or is not its own.
+std::string amount_of(const AddedEffect& a, const CardFacts& f) {
+  if (a.parameters.empty() || !has_own_amount(a, f.diagnosis->added)) return "";
+  const NamedValue& amount = a.parameters.front();
+  const std::string unit = f.coordinates.shown_unit(amount.unit);
+  if (unit.empty() || !std::isfinite(amount.value)) return "";
+  return SharedUnit(amount.value, unit)(amount.value);
+}
+
+/// "friction (20.5 N)"
+std::string with_amount(const AddedEffect& a, const CardFacts& f) {
+  const std::string amount = amount_of(a, f);
+  return called(a, f) + (amount.empty() ? "" : " (" + amount + ")");
+}
+
+/// "cogging torque (2 N, 64 %)": with what it takes of the error above the floor. Of a single effect with an
+/// amount the fall beside it says that.
+std::string with_share(const AddedEffect& a, const CardFacts& f) {
+  std::vector<std::string> asides;
+  if (const std::string amount = amount_of(a, f); !amount.empty()) asides.push_back(amount);
+  if (std::isfinite(a.shrink) && (asides.empty() || f.diagnosis->added.size() > 1))
+    asides.push_back(fmt::format("{:.0f} %", 100.0 * a.shrink));
+  return called(a, f) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, ", ")));
 }
 
 /// "from 9.66 to 1.22 N (17.1 % to 2.16 %)"
@@ -59,27 +92,8 @@ std::string fall(const CardFacts& f, const Card& card) {
 
 std::string shares(const CardFacts& f, const Card& card) {
   std::vector<std::string> all;
-  for (const AddedEffect& a : f.diagnosis->added) all.push_back(share_of(a));
+  for (const AddedEffect& a : f.diagnosis->added) all.push_back(with_share(a, f));
   return enumerated(all) + (all.size() > 1 ? " bring it down " : " brings it down ") + fall(f, card);
-}
-
-/// Whether an amount is the effect's alone: laws that contain a simpler one share its amount with it.
-bool has_own_amount(const AddedEffect& a, const std::vector<AddedEffect>& all) {
-  const EffectEntry* entry = find_effect(a.effect);
-  if (entry == nullptr || contained_effect(*entry) != nullptr) return false;
-  return std::none_of(all.begin(), all.end(), [&](const AddedEffect& other) {
-    const EffectEntry* o = find_effect(other.effect);
-    return o != nullptr && contained_effect(*o) == entry;
-  });
-}
-
-/// "friction (20.5 N)": with the amount that the fit gave it, where that has a unit and is its own.
-std::string with_amount(const AddedEffect& a, const CardFacts& f) {
-  if (a.parameters.empty() || !has_own_amount(a, f.diagnosis->added)) return name_of(a);
-  const NamedValue& amount = a.parameters.front();
-  const std::string unit = f.coordinates.shown_unit(amount.unit);
-  if (unit.empty() || !std::isfinite(amount.value)) return name_of(a);
-  return fmt::format("{} ({})", name_of(a), SharedUnit(amount.value, unit)(amount.value));
 }
 
 /// Whether each effect has the torque that it leaves.
@@ -110,9 +124,9 @@ std::string cause_line(const CardFacts& f) {
   if (f.diagnosis == nullptr) return kToldByDiagnose;
   const Diagnosis& d = *f.diagnosis;
   if (d.verdict == DiagnosisVerdict::kNone) return "Nothing is missing that this recording could show.";
-  const std::vector<std::string> causes = names(d, true);
+  const std::vector<std::string> causes = names(f, true);
   std::string text = causes.empty() ? "" : enumerated(causes) + " (established)";
-  const std::string open = open_causes(d);
+  const std::string open = open_causes(f);
   if (text.empty() && open.empty() && d.stopped) return "Not told: the search was stopped before its end.";
   text += (text.empty() || open.empty() ? "" : "; ") + open;
   return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text);

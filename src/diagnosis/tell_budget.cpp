@@ -27,9 +27,9 @@ double before_of(const view::Budget& budget, std::size_t rung) {
   return rung == 0 ? budget.nominal_rms : budget.rungs[rung - 1].rms;
 }
 
-const view::Share* share_of(const view::Budget& budget, const view::Law& law) {
+const view::Share* share_of(const view::Budget& budget, const view::Term& term) {
   const auto at = std::find_if(budget.shares.begin(), budget.shares.end(),
-                               [&](const view::Share& s) { return s.law == &law; });
+                               [&](const view::Share& s) { return is_of(s, term); });
   return at == budget.shares.end() ? nullptr : &*at;
 }
 
@@ -44,7 +44,7 @@ BudgetRung rung_of(const view::Budget& budget, std::size_t i, const std::vector<
   rung.share_ci95 = choice.evidence.interval;
   if (choice.law->line)
     rung.period = 2.0 * kPi / (choice.model.back().shape * std::max(1, choice.law->harmonic));
-  if (const view::Share* share = share_of(budget, *choice.law))
+  if (const view::Share* share = share_of(budget, choice.model.back()))
     rung.alone = share->alone.share, rung.last = share->last.share;
   return rung;
 }
@@ -90,7 +90,8 @@ std::vector<AddedEffect> added_effects(const view::Budget& budget, const TorqueS
   ErrorBudget floors;
   floors.encoder = budget.floors.encoder, floors.repeatability = budget.floors.repeatability;
   std::vector<AddedEffect> added;
-  for (const TorqueAddition& addition : ladder.added) {
+  for (std::size_t i = 0; i < ladder.added.size(); ++i) {
+    const TorqueAddition& addition = ladder.added[i];
     const view::Rung& rung = budget.rungs[addition.rung];
     AddedEffect a;
     a.effect = addition.group.front()->name;
@@ -102,7 +103,9 @@ std::vector<AddedEffect> added_effects(const view::Budget& budget, const TorqueS
     a.shrink = shrink_by(rung.choice().evidence.share, before, floor);
     a.shrink_ci95 = {shrink_by(share.low, before, floor), shrink_by(share.high, before, floor)};
     a.after_torque = rung.rms;
-    a.parameters = values_in(ladder.after.fitted.model, *addition.group.front());
+    const ModelEffect* effect = effect_of(ladder, i);
+    a.parameters = effect != nullptr ? effect_values(*effect)
+                                     : values_in(ladder.after.fitted.model, *addition.group.front());
     added.push_back(std::move(a));
   }
   return added;

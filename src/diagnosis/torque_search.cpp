@@ -102,6 +102,19 @@ std::optional<std::size_t> rung_of(const view::Budget& budget, const view::Law& 
   return {};
 }
 
+/// The same of a term: a law that comes more than once does so with lines of its own.
+std::optional<std::size_t> rung_of(const view::Budget& budget, const view::Term& term) {
+  const auto off = [&](std::size_t i) {
+    return std::abs(budget.rungs[i].choice().model.back().shape - term.shape);
+  };
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = 0; i < budget.rungs.size(); ++i)
+    if (budget.rungs[i].helps && budget.rungs[i].choice().law == term.law &&
+        (!nearest || off(i) < off(*nearest)))
+      nearest = i;
+  return nearest;
+}
+
 /// Whether the recordings show the simpler law that this one adds to: at one speed they show neither.
 bool shows_simpler(const view::Budget& budget, const view::Rung& rung, const view::Law& law) {
   if (law.simpler == nullptr || view::find_term(budget.nominal, law.simpler) != nullptr) return true;
@@ -153,15 +166,31 @@ std::vector<const EffectEntry*> group_of(const view::Budget& budget, const view:
 }
 
 void drop_what_vanished(TorqueSearch& search) {
-  auto& effects = search.after.fitted.model.effects;
-  std::erase_if(search.added, [&](const TorqueAddition& a) {
-    return std::any_of(effects.begin(), effects.end(),
-                       [&](const ModelEffect& e) { return e.entry == a.group.front() && has_vanished(e); });
-  });
-  std::erase_if(effects, has_vanished);
+  std::vector<TorqueAddition> kept;
+  for (std::size_t i = 0; i < search.added.size(); ++i) {
+    const ModelEffect* effect = effect_of(search, i);
+    if (effect == nullptr || !has_vanished(*effect)) kept.push_back(search.added[i]);
+  }
+  search.added = std::move(kept);
+  std::erase_if(search.after.fitted.model.effects, has_vanished);
 }
 
 }  // namespace
+
+const ModelEffect* effect_of(const TorqueSearch& search, std::size_t addition) {
+  const EffectEntry* entry = search.added[addition].group.front();
+  std::size_t behind = 0;  // further additions of the same effect
+  for (std::size_t i = addition + 1; i < search.added.size(); ++i)
+    if (search.added[i].group.front() == entry) ++behind;
+  const auto& effects = search.after.fitted.model.effects;
+  for (auto e = effects.rbegin(); e != effects.rend(); ++e)
+    if (e->entry == entry && behind-- == 0) return &*e;
+  return nullptr;
+}
+
+bool is_of(const view::Share& share, const view::Term& term) {
+  return share.law == term.law && !(std::abs(share.shape - term.shape) > 0.0);  // NaN: a law without a shape
+}
 
 bool follows_another(const view::Law& free_form, const EffectEntry& entry) {
   const std::string_view name = free_form.name;
@@ -229,12 +258,12 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
   for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
     const view::Law& law = *budget.addable[i].law;
     if (law.harmonic > 0) continue;  // the effect is there already
-    const std::optional<std::size_t> at = rung_of(budget, law);
+    const std::optional<std::size_t> at = rung_of(budget, budget.addable[i]);
     const EffectEntry& entry = *find_effect(law.effect);
     if (!at) continue;
     const view::Rung& rung = budget.rungs[*at];
     const auto share = std::find_if(budget.shares.begin(), budget.shares.end(),
-                                    [&](const view::Share& s) { return s.law == &law; });
+                                    [&](const view::Share& s) { return is_of(s, budget.addable[i]); });
     const bool needed = share == budget.shares.end() || share->last.share >= options.least_share;
     search.added.push_back(
         {*at, rung.named && needed && shows_simpler(budget, rung, law) && !free_law_as_good(rung, entry),

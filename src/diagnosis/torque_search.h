@@ -25,6 +25,9 @@ std::vector<const EffectEntry*> worth_refitting(const Study& study, const torque
 /// of the model, says most of the input and knows a law that helps.
 bool rests_on_balance(const torque_view::Budget& budget, const ReferenceModel& nominal);
 
+/// Whether a share is that of a term: a law that comes more than once does so with lines of its own.
+bool is_of(const torque_view::Share& share, const torque_view::Term& term);
+
 /// A rung of the ladder that stands for an effect of the catalogue, added to the model.
 struct TorqueAddition {
   std::size_t rung = 0;  ///< of the budget
@@ -41,6 +44,11 @@ struct TorqueSearch {
   std::vector<TorqueAddition> added;
   ScoredModel after;  ///< the nominal model with all of them
 };
+
+/// What an addition has become in the model, where each line of an effect is one of its own, in the order of
+/// the rungs; nullptr: an effect that contains it stands there.
+const ModelEffect* effect_of(const TorqueSearch& search, std::size_t addition);
+
 TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const torque_view::Budget& budget);
 
 }  // namespace gapscope::internal::diagnosis

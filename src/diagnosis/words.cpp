@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/last_resort.h"
 #include "gapscope/base/text.h"
@@ -20,6 +21,17 @@ struct Turned {
 };
 constexpr Turned kTurned[] = {{"stribeck_friction", "stiction_ratio",
                                "friction that is lower at low speed (Stribeck friction, negative ratio)"}};
+
+/// " at 24 cycles per turn", " every 2.5 mm": tells lines of one law apart.
+std::string period_words(const AddedEffect& added, Coordinates coordinates) {
+  for (const NamedValue& p : added.parameters) {
+    if (p.key != "periods_per_turn" || !(p.value > 0.0)) continue;
+    if (coordinates.rotational()) return fmt::format(" at {:.4g} cycles per turn", p.value);
+    const double period = 2.0 * kPi / p.value;
+    return " every " + SharedUnit(period, coordinates.position_unit())(period);
+  }
+  return "";
+}
 
 /// Where a recording cannot tell an effect from others.
 std::string likeness(std::vector<std::string> group) {
@@ -84,7 +96,7 @@ std::string error_fall(const Diagnosis& d) {
 std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
   std::vector<std::string> causes, open;
   for (const AddedEffect& a : d.added) {
-    const std::string name = name_of(a);
+    const std::string name = name_of(a, d, coordinates);
     a.established ? causes.push_back(name) : open.push_back(name + likeness(a.group));
   }
   const std::string fall = d.budget.exists() ? torque_fall(d, coordinates) : error_fall(d);
@@ -151,11 +163,13 @@ std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
 
 }  // namespace
 
-std::string name_of(const AddedEffect& added) {
+std::string name_of(const AddedEffect& added, const Diagnosis& d, Coordinates coordinates) {
   for (const Turned& t : kTurned)
     for (const NamedValue& p : added.parameters)
       if (added.effect == t.effect && p.key == t.parameter && p.value < 0.0) return t.words;
-  return readable(added.effect);
+  const auto is_same = [&](const AddedEffect& other) { return other.effect == added.effect; };
+  const bool again = std::count_if(d.added.begin(), d.added.end(), is_same) > 1;
+  return readable(added.effect) + (again ? period_words(added, coordinates) : "");
 }
 
 std::string sentence_of(const Diagnosis& d, Coordinates coordinates) {

@@ -9,7 +9,8 @@ namespace gapscope::internal::diagnosis {
 /// The answer in a sentence or two.
 std::string sentence_of(const Diagnosis& diagnosis, Coordinates coordinates);
 
-/// What an added effect is called, with what the sign of its parameters makes of it.
-std::string name_of(const AddedEffect& added);
+/// What an added effect is called, with what the sign of its parameters makes of it, and with its period
+/// where it was added more than once.
+std::string name_of(const AddedEffect& added, const Diagnosis& diagnosis, Coordinates coordinates);
 
 }  // namespace gapscope::internal::diagnosis

@@ -26,6 +26,12 @@ Interval with_room(Interval range, double share) {
   return {range.low - room, range.high + room};
 }
 
+/// "torque (mN·m, $K_m$ guessed)"
+std::string axis_label(const Axis& axis, const std::string& unit) {
+  if (unit.empty()) return axis.name;
+  return axis.name + " (" + unit + (axis.unit_note.empty() ? "" : ", " + axis.unit_note) + ")";
+}
+
 /// Every place, or every second, third, ... as far as their names stand clear of each other.
 void name_places(const Axis& axis, double length, bool upright, const Typesetter& typesetter,
                  AxisPlan& plan) {
@@ -39,7 +45,7 @@ void name_places(const Axis& axis, double length, bool upright, const Typesetter
     plan.ticks.values.push_back(axis.places[i].at);
     plan.names.push_back(axis.places[i].label);
   }
-  plan.label = axis.name + (axis.unit.empty() ? "" : " (" + axis.unit + ")");
+  plan.label = axis_label(axis, axis.unit);
 }
 
 double widest_label(const AxisPlan& plan, const Typesetter& typesetter) {
@@ -93,7 +99,7 @@ AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
   const AxisScale scale =
       axis_scale(axis.unit, std::max(std::abs(plan.range.low), std::abs(plan.range.high)));
   plan.factor = scale.factor;
-  plan.label = axis.name + (scale.unit.empty() ? "" : " (" + scale.unit + ")");
+  plan.label = axis_label(axis, scale.unit);
   const auto ticks = [&](int most) {
     return round_ticks(plan.range.low / plan.factor, plan.range.high / plan.factor, most);
   };

@@ -113,6 +113,8 @@ FigureData diagnosis_detectable(const DiagnosisResult& r) {
   Panel panel;
   panel.x = {"rms " + torque + " of that amount, of the input's", "%", decades(r, effects), {}, {}};
   panel.x.places = log_places(panel.x.range, {1.0});
+  if (!torque_note(r.input).empty())
+    panel.title = "Amounts in " + r.coordinates.shown_unit("N m") + ": " + torque_note(r.input);
   constexpr double kHalf = 0.3;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const double row = static_cast<double>(i), share = place_of(share_of_input(r, *effects[i]));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gapscope/base/text.h"
+#include "report/budget_band.h"
 #include "report/detectable.h"
 #include "report/diagnosis_words.h"
 #include "report/error_budget.h"
@@ -34,22 +35,20 @@ Series over_time(const std::string& label, const LineStyle& style, const Mismatc
   return s;
 }
 
-Panel time_panel(const std::string& title, const std::string& name, const std::string& unit,
-                 const MismatchTrace& t) {
+Panel time_panel(const std::string& title, const Axis& y, const MismatchTrace& t) {
   Panel panel;
   panel.title = title;
   panel.x = {
       "time $t$", "s", {t.time(std::min(t.scored_from, t.x1.size() - 1)), t.time(t.x1.size() - 1)}, {}, {}};
-  panel.y = {name, unit, {}, {}, {}};
+  panel.y = y;
   panel.height = 400.0;
   return panel;
 }
 
 /// A pair of lines, before and after; the one line alone where nothing was added.
-Panel pair_panel(const DiagnosisResult& r, const MismatchTrace& t, const std::string& title,
-                 const std::string& name, const std::string& unit, const std::vector<double>& before,
-                 const std::vector<double>& after) {
-  Panel panel = time_panel(title, name, unit, t);
+Panel pair_panel(const DiagnosisResult& r, const MismatchTrace& t, const std::string& title, const Axis& y,
+                 const std::vector<double>& before, const std::vector<double>& after) {
+  Panel panel = time_panel(title, y, t);
   panel.series.push_back(over_time(added(r) ? "nominal model" : "", before_style(), t, before));
   if (added(r)) panel.series.push_back(over_time(with_added(r), after_style(), t, after));
   return panel;
@@ -100,11 +99,15 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   figure.title = "Errors on held-out data";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
-  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs", position_name(r) + " − free run",
-                                     length_unit(r), t->error_before, t->error_after));
-  figure.panels.push_back(pair_panel(r, *t, "Residual " + torque_word(r), "residual " + torque_word(r),
-                                     torque_unit_of(r), t->torque_before, t->torque_after));
-  Panel input = time_panel("Held-out recording", "displacement " + position_name(r), length_unit(r), *t);
+  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs",
+                                     {position_name(r) + " − free run", length_unit(r), {}, {}, {}},
+                                     t->error_before, t->error_after));
+  const ErrorBudget& budget = r.diagnosis.budget;
+  figure.panels.push_back(pair_panel(r, *t, "Residual " + torque_word(r) + band_words(budget, *t),
+                                     residual_axis(r), within_band(budget, *t, t->torque_before),
+                                     within_band(budget, *t, t->torque_after)));
+  Panel input =
+      time_panel("Held-out recording", {"displacement " + position_name(r), length_unit(r), {}, {}, {}}, *t);
   input.series.push_back(over_time("", measured_style(), *t, t->x1));
   figure.panels.push_back(input);
   const MismatchSize& g = r.diagnosis.mismatch;

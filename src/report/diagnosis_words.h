@@ -4,6 +4,8 @@
 
 #include "gapscope/base/text.h"
 #include "gapscope/results/diagnosis_result.h"
+#include "report/figure_data.h"
+#include "report/wording.h"
 
 /// What the figures of a diagnosis call things.
 namespace gapscope::internal::report {
@@ -17,6 +19,11 @@ inline const MismatchTrace* shown_trace(const DiagnosisResult& r) {
 inline std::string length_unit(const DiagnosisResult& r) { return r.coordinates.position_unit(); }
 inline std::string torque_unit_of(const DiagnosisResult& r) { return r.coordinates.shown_unit("N m"); }
 inline std::string torque_word(const DiagnosisResult& r) { return r.coordinates.torque_word(); }
+/// Short where the unit needs a word: it stands beside a frame that is not high.
+inline Axis residual_axis(const DiagnosisResult& r) {
+  const std::string note = torque_note(r.input);
+  return {note.empty() ? "residual " + torque_word(r) : "residual", torque_unit_of(r), {}, {}, {}, {}, note};
+}
 inline bool reads_load(const DiagnosisResult& r) {
   return !r.diagnosis.traces.empty() && r.diagnosis.traces.front().encoder == EncoderSide::kLoad;
 }

@@ -14,7 +14,7 @@ DriveSignal drive_signal(const ReportView& view) {
     return {view.recording->u, {"input $u$", input_unit(view.run), {}, {}, {}}, "input"};
   const std::string name = view.run.coordinates.torque_word();
   return {times(view.recording->u, constant->value),
-          {name + " $K_m u$", torque_unit(view.run), {}, {}, {}},
+          {name + " $K_m u$", torque_unit(view.run), {}, {}, {}, {}, torque_note(view.run.input)},
           name};
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "gapscope/base/text.h"
+#include "report/diagnosis_words.h"
 #include "report/rich_text.h"
 #include "report/wording.h"
 
@@ -56,6 +57,15 @@ std::vector<Floor> floors_of(const ErrorBudget& b) {
   return floors;
 }
 
+/// A floor that lies farther than so many bars would leave no bar to look at.
+constexpr double kFarFloor = 2.0;
+
+double longest_bar(const ErrorBudget& b) {
+  double longest = std::max(b.nominal, b.remains);
+  for (const BudgetRung& rung : b.rungs) longest = std::max({longest, rung.before, rung.after});
+  return longest;
+}
+
 }  // namespace
 
 FigureData diagnosis_budget(const DiagnosisResult& r) {
@@ -70,7 +80,12 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   }
   Panel panel;
   panel.title = fmt::format("Error budget: rms below {} Hz (of the input's)", rounded(b.band_hz, 2));
-  panel.x = {"residual " + torque_of(r), budget_unit(r), {0.0, 1.02 * b.nominal}, {}, {}};
+  const std::vector<Floor> floors = floors_of(b);
+  const double end = longest_bar(b), reach = kFarFloor * end;
+  const bool seen = !floors.empty() && floors.front().size <= reach;
+  panel.x = residual_axis(r);
+  panel.x.name = "residual " + torque_of(r);
+  panel.x.range = {0.0, 1.02 * (seen ? std::max(end, floors.front().size) : end)};
   double row = 0.0;
   const auto add = [&](const std::string& text, double from, double to, double left, const Colour& colour) {
     panel.y.categories.push_back(typeset(text));
@@ -87,8 +102,7 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   };
   if (has(true)) panel.series.push_back(entry("taken by an effect that was added", kBlue));
   if (has(false)) panel.series.push_back(entry("taken by a law that this model cannot have", kGrey));
-  for (const Floor& floor : floors_of(b)) panel.x_marks.push_back({floor.size, guide_style(), floor.name});
-  if (panel.x_marks.size() > 1) panel.x_marks.resize(1);
+  if (seen) panel.x_marks.push_back({floors.front().size, guide_style(), floors.front().name});
   panel.height = 90.0 + 64.0 * row;
   figure.width = 2000.0;
   figure.panels.push_back(panel);
@@ -96,6 +110,9 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
       fmt::format("The residual {} falls from {} to {}, {} of what the input brings.", torque_of(r),
                   quantity(b.nominal, budget_unit(r)), quantity(b.remains, budget_unit(r)),
                   rounded(100.0 * b.remains / b.input, 2) + " %");
+  if (!seen && !floors.empty())
+    figure.reading += fmt::format(" The floor ({}), {}, lies outside of the figure.", floors.front().name,
+                                  quantity(floors.front().size, budget_unit(r)));
   return figure;
 }
 

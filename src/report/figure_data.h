@@ -66,6 +66,7 @@ struct Axis {
       categories{};                    ///< names of the places 0, 1, 2, ... (from above) instead of numbers
   std::vector<std::string> remarks{};  ///< at the right of each category
   std::vector<Place> places{};         ///< instead of round numbers
+  std::string unit_note{};             ///< what the unit rests on, behind it: "$K_m$ guessed"
 };
 
 struct Panel {

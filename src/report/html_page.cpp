@@ -21,14 +21,16 @@ summary{cursor:pointer;font-weight:600;font-size:1.15rem}
 .wide{overflow-x:auto}
 table{border-collapse:collapse;margin:.8rem 0;font-size:.92rem}
 th,td{text-align:left;vertical-align:top;padding:.3rem .6rem;border-bottom:1px solid var(--line)}
+.short{white-space:nowrap}
 th{cursor:pointer;color:var(--soft);white-space:nowrap}
 th[aria-sort=ascending]::after{content:" \2191"}
 th[aria-sort=descending]::after{content:" \2193"}
 tbody tr:hover{background:var(--card)}
 code{font-family:ui-monospace,"DejaVu Sans Mono",monospace;font-size:.92em}
-figure{margin:.6rem 0}
-img{max-width:100%;height:auto;background:#fff}
-@media print{body{max-width:none;padding:0;font-size:11pt}figure,.card,tr{break-inside:avoid}img{filter:none}th{white-space:normal}}
+figure{margin:.6rem 0;overflow-x:auto}
+img{display:block;width:100%;min-width:calc(var(--columns,1)*23rem);max-width:calc(var(--columns,1)*46rem);height:auto;background:#fff}
+@media(max-width:30rem){body{padding:.7rem}.card{padding:.7rem .8rem}}
+@media print{body{max-width:none;padding:0;font-size:11pt}figure,.card,tr{break-inside:avoid}h3,summary,thead{break-after:avoid}img{filter:none;min-width:0;max-width:min(100%,calc(var(--columns,1)*11cm))}.wide,figure{overflow:visible}th{white-space:normal}}
 )";
 
 /// Numbers sort by size, prefixes of units and powers of ten included, words as words. Printing unfolds.

@@ -71,10 +71,20 @@ std::vector<std::string> cells_of(const std::string& row) {
   return cells;
 }
 
-std::string row_html(const std::string& row, const char* element) {
+/// A number keeps its unit beside it: what is no longer than so many letters is not broken.
+constexpr std::ptrdiff_t kUnbroken = 20;
+
+bool is_unbroken(const std::string& cell) {
+  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };  // a letter
+  return cell.find(' ') != cell.npos && std::count_if(cell.begin(), cell.end(), begins) <= kUnbroken;
+}
+
+/// A row of headings (th) or of data (td).
+std::string row_html(const std::string& row, const std::string& element) {
   std::string text = "<tr>";
   for (const std::string& cell : cells_of(row))
-    text += fmt::format("<{0}>{1}</{0}>", element, html_line(cell));
+    text += fmt::format("<{0}{1}>{2}</{0}>", element,
+                        element == "td" && is_unbroken(cell) ? " class=\"short\"" : "", html_line(cell));
   return text + "</tr>\n";
 }
 
@@ -87,8 +97,9 @@ std::string picture_html(const std::string& line, const std::vector<Picture>& pi
                     file = line.substr(middle + 2, line.size() - middle - 3);
   for (const Picture& p : pictures)
     if (p.file == file)
-      return fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"></figure>\n",
-                         escaped(title), base64(p.png));
+      return fmt::format(
+          "<figure><img alt=\"{}\" style=\"--columns:{:.4g}\" src=\"data:image/png;base64,{}\"></figure>\n",
+          escaped(title), p.columns, base64(p.png));
   return fmt::format("<p>{}</p>\n", escaped(title));
 }
 

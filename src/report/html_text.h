@@ -9,6 +9,7 @@ namespace gapscope::internal::report {
 struct Picture {
   std::string file;
   std::string png;
+  double columns = 1.0;  ///< of a journal that it fills: below that its letters are too small to read
 };
 
 /// The bytes in base64.

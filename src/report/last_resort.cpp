@@ -68,8 +68,7 @@ Panel panel_of(const DiagnosisResult& r, const LastResortLaw& law, const std::st
   Panel panel;
   panel.title = title;
   panel.x = variable_axis(r, law);
-  panel.y = {
-      std::string("residual ") + r.coordinates.torque_word(), r.coordinates.shown_unit("N m"), {}, {}, {}};
+  panel.y = residual_axis(r);
   panel.height = 520.0;
   add_bins(law, with, panel);
   return panel;

@@ -49,7 +49,7 @@ std::vector<Picture> write_report_files(const std::string& folder, const std::ve
   std::vector<std::string> drawings(figures.size());
   parallel_for(figures.size(), 0, [&](std::size_t i) {
     if (!figures[i].missing.empty()) return;
-    pictures[i] = {figures[i].file, picture_bytes(figures[i])};
+    pictures[i] = {figures[i].file, picture_bytes(figures[i]), figures[i].width / kColumnPixels};
     if (formats.svg) drawings[i] = draw_as_svg(figures[i]);
   });
   for (std::size_t i = 0; i < figures.size(); ++i) {

@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "report/budget_band.h"
 #include "report/diagnosis_figures.h"
 #include "report/diagnosis_words.h"
 #include "report/wording.h"
@@ -11,6 +14,8 @@ namespace {
 
 constexpr std::size_t kPoints = 600;  ///< of a panel
 constexpr int kCurveBins = 40;
+constexpr double kEdge = 0.955;    ///< of the axis: where points that lie outside are marked
+constexpr double kRoom = 1.05;     ///< above what is drawn
 constexpr double kOwnScale = 0.2;  ///< of the peak before: what is smaller after is drawn to its own scale
 
 /// The held-out samples that are drawn.
@@ -19,39 +24,45 @@ struct Sampled {
   std::vector<bool> forward;
 };
 
-Sampled sampled(const MismatchTrace& t, bool both) {
+Sampled sampled(const ErrorBudget& budget, const MismatchTrace& t, bool both) {
   Sampled s;
+  const auto before = within_band(budget, t, t.torque_before);
+  const auto after = both ? within_band(budget, t, t.torque_after) : std::vector<double>(t.x1.size(), kNaN);
   const std::size_t step = std::max<std::size_t>(1, (t.x1.size() - t.scored_from) / kPoints);
   const std::size_t reach = std::max<std::size_t>(5, step / 2);  // of the difference that is the speed
   for (std::size_t i = std::max(t.scored_from + step, reach); i + reach < t.x1.size(); i += step) {
     const double speed = (t.x1[i + reach] - t.x1[i - reach]) / (t.time(i + reach) - t.time(i - reach));
     s.position.push_back(t.x1[i]), s.speed.push_back(speed), s.input.push_back(t.u[i]);
-    s.before.push_back(t.torque_before[i]), s.after.push_back(both ? t.torque_after[i] : kNaN);
+    s.before.push_back(before[i]), s.after.push_back(after[i]);
     s.forward.push_back(t.x1[i] >= t.x1[i - step]);
   }
   return s;
 }
 
-double peak_of(const std::vector<double>& values) {
-  double peak = 0.0;
-  for (const double v : values)
-    if (std::isfinite(v)) peak = std::max(peak, std::abs(v));
-  return peak;
-}
+double known_or_zero(double size) { return std::isfinite(size) ? size : 0.0; }
 
 /// The residual torque over one variable, before and after.
 class MapRow {
  public:
-  MapRow(const DiagnosisResult& r, const Sampled& s, bool both) : r_(r), s_(s), both_(both) {}
+  MapRow(const DiagnosisResult& r, const Sampled& s, const std::string& band, bool both)
+      : r_(r), s_(s), band_(band), both_(both) {}
 
   /// @param with_curve  of what was added: where that is a function of the variable
   void add(FigureData& figure, const std::string& over, const Axis& x, const std::vector<double>& of,
            bool with_curve = true) const {
-    const double peak = 1.05 * peak_of(s_.before), left = 1.05 * peak_of(s_.after);
-    figure.panels.push_back(scatter("Nominal model, over " + over, x, of, s_.before, peak));
-    if (!both_) return;
+    std::vector<Series> curves;
     for (const bool forward : {true, false})
-      if (with_curve) add_curve(figure.panels.back(), of, forward);
+      if (both_ && with_curve) add_curve(curves, of, forward);
+    double law = 0.0;
+    for (const Series& curve : curves)
+      for (const double y : curve.y) law = std::max(law, std::abs(y));
+    const double band = known_or_zero(r_.diagnosis.budget.nominal);
+    const double peak = kRoom * std::max(law, informative_reach(s_.before, std::max(law, band)));
+    figure.panels.push_back(scatter("Nominal model" + band_ + ", over " + over, x, of, s_.before, peak));
+    auto& drawn = figure.panels.back().series;
+    drawn.insert(drawn.end(), curves.begin(), curves.end());
+    if (!both_) return;
+    const double left = kRoom * informative_reach(s_.after, known_or_zero(r_.diagnosis.budget.remains));
     const bool own = left < kOwnScale * peak;
     figure.panels.push_back(
         scatter("W" + with_added(r_).substr(1) + ", over " + over + (own ? ", to its own scale" : ""), x, of,
@@ -64,7 +75,7 @@ class MapRow {
     Panel panel;
     panel.title = title;
     panel.x = x;
-    panel.y = {"residual " + torque_word(r_), torque_unit_of(r_), {}, {}, {}};
+    panel.y = residual_axis(r_);
     if (peak > 0.0) panel.y.range = {-peak, peak};
     panel.height = 520.0;
     Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}};
@@ -76,11 +87,28 @@ class MapRow {
     }
     for (Series& s : std::array{plus, minus})
       if (!s.x.empty()) panel.series.push_back(s);
+    add_outside(panel, of, residual, peak);
     return panel;
   }
 
+  /// What the scale leaves out, marked at the edge and counted.
+  static void add_outside(Panel& panel, const std::vector<double>& of, const std::vector<double>& residual,
+                          double peak) {
+    Series outside{"", {kInk, 2.0, {}}, {}, {}};
+    outside.joined = false, outside.marker = Marker::kCircle;
+    std::size_t drawn = 0;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      if (!std::isfinite(residual[i])) continue;
+      ++drawn;
+      if (std::abs(residual[i]) > peak)
+        outside.x.push_back(of[i]), outside.y.push_back(std::copysign(kEdge * peak, residual[i]));
+    }
+    outside.label = fmt::format("{} of {} outside", outside.x.size(), drawn);
+    if (!outside.x.empty()) panel.series.push_back(outside);
+  }
+
   /// What was added takes of it: means over bins of one direction.
-  void add_curve(Panel& panel, const std::vector<double>& of, bool forward) const {
+  void add_curve(std::vector<Series>& curves, const std::vector<double>& of, bool forward) const {
     const auto [low, high] = std::minmax_element(of.begin(), of.end());
     if (of.empty() || !(*high > *low)) return;
     std::array<double, kCurveBins> sums{}, counts{};
@@ -96,11 +124,12 @@ class MapRow {
       curve.x.push_back(*low + (*high - *low) * (static_cast<double>(i) + 0.5) / kCurveBins);
       curve.y.push_back(sums[i] / counts[i]);
     }
-    if (!curve.x.empty()) panel.series.push_back(curve);
+    if (!curve.x.empty()) curves.push_back(curve);
   }
 
   const DiagnosisResult& r_;
   const Sampled& s_;
+  std::string band_;  ///< of frequencies, in words
   bool both_;
 };
 
@@ -135,12 +164,15 @@ bool goes_with_speed(const DiagnosisResult& r) {
 FigureData diagnosis_torque_map(const DiagnosisResult& r) {
   FigureData figure;
   figure.file = "diagnosis_torque_map.png";
-  figure.title = "Residual " + torque_word(r) + " over the " + angle_word(r) + ", the speed and the input";
   const MismatchTrace* t = shown_trace(r);
+  const ErrorBudget& budget = r.diagnosis.budget;
+  const std::string band = t == nullptr ? "" : band_words(budget, *t);
+  figure.title =
+      "Residual " + torque_word(r) + band + " over the " + angle_word(r) + ", the speed and the input";
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
   const bool both = added(r) && t->torque_after.size() == t->x1.size();
-  const Sampled s = sampled(*t, both);
-  const MapRow row(r, s, both);
+  const Sampled s = sampled(budget, *t, both);
+  const MapRow row(r, s, band, both);
   const auto over_speed = [&] {
     const std::string name = reads_load(r) ? "speed $w_2$" : "speed $w_1$";
     row.add(figure, "the speed", {name, r.coordinates.shown_unit("rad/s"), {}, {}, {}}, s.speed);

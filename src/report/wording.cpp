@@ -191,6 +191,9 @@ std::string position_unit(const RunResult& run) { return run.coordinates.positio
 std::string input_unit(const RunResult& run) {
   return run.input && !run.input->unit.empty() ? run.coordinates.shown_unit(run.input->unit) : "units of $u$";
 }
+std::string torque_note(const std::optional<InputFacts>& input) {
+  return input && input->constant_guessed ? "$K_m$ guessed" : "";
+}
 std::string torque_unit(const RunResult& run) { return run.coordinates.shown_unit("N m"); }
 
 const FittedParameter* parameter(const RunResult& run, const std::string& key) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gapscope/results/run_result.h"
@@ -39,6 +40,9 @@ std::string counted(std::size_t count, const std::string& noun);
 std::string position_unit(const RunResult& run);  ///< "rad" or "m"
 std::string torque_unit(const RunResult& run);    ///< "N·m" or "N"
 std::string input_unit(const RunResult& run);     ///< of u, as it was declared: "A", else "units of $u$"
+
+/// What a figure writes behind the unit of a torque (force): "$K_m$ guessed", or nothing.
+std::string torque_note(const std::optional<InputFacts>& input);
 
 /// The parameter of that key, nullptr if there is none.
 const FittedParameter* parameter(const RunResult& run, const std::string& key);

@@ -82,6 +82,40 @@ TEST(Card, TellsTheAmountOfWhatHelps) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps, Not(HasSubstr("20.5"))) << "both share one amount";
 }
 
+TEST(Card, OfOneEffectTellsTheAmountAndWithoutAnAmountTheShare) {
+  Diagnosis d = slide_diagnosis();
+  d.added.erase(d.added.begin());
+  d.added.front().parameters = {{"amplitude_nm", "N m", 2.054}, {"periods_per_turn", "1/rev", 2513.3}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("Cogging torque (2.05 N) brings it down from 10 to 2 N (20 % to 4 %)"));
+  d.added.front().parameters.clear();
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("Cogging torque (50 %) brings it down from 10 to 2 N"));
+  d = slide_diagnosis();
+  d.added[0].after_torque = kNaN, d.added[0].parameters = {{"level_nm", "N m", 20.54}};
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      StartsWith("Motor Coulomb friction (20.5 N, 60 %) and cogging torque (50 %) bring it down from 10"));
+}
+
+TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
+  Diagnosis d = slide_diagnosis();
+  d.effects = {"cogging_torque", "cogging_torque"};
+  for (AddedEffect& a : d.added) a.effect = "cogging_torque", a.established = true;
+  d.added[0].parameters = {{"amplitude_nm", "N m", 5.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 2.5e-3}};
+  d.added[1].parameters = {{"amplitude_nm", "N m", 1.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 0.01}};
+  CardFacts f = facts_of(nullptr, &d);
+  EXPECT_EQ(card_of(f).cause, "Cogging torque every 2.5 mm and cogging torque every 10 mm (established).");
+  EXPECT_THAT(card_of(f).helps,
+              StartsWith("From 10 N to 4 N with cogging torque every 2.5 mm (5 N), then 2 N with cogging "
+                         "torque every 10 mm (1 N) ("));
+  f.coordinates = Coordinates::kRotation;
+  d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
+  EXPECT_EQ(card_of(f).cause,
+            "Cogging torque at 24 cycles per turn and cogging torque at 7.25 cycles per turn "
+            "(established).");
+}
+
 TEST(Card, JudgesTheToleranceThatWasStated) {
   const Answer answer = sharp_answer();
   const Diagnosis d = slide_diagnosis();

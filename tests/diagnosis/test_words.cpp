@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "diagnosis/effect_starts.h"
+#include "diagnosis/tell_budget.h"
 #include "diagnosis/words.h"
 
 namespace gapscope {
@@ -44,6 +46,42 @@ TEST(Words, AStribeckFrictionOfNegativeRatioIsFrictionThatIsLowerAtLowSpeed) {
     added.parameters[1].value = 0.5, d.added = {added};
     EXPECT_THAT(internal::diagnosis::sentence_of(d, Coordinates::kRotation), Not(HasSubstr("lower")));
   }
+}
+
+/// A ladder of two lines of one law, of which the first was in the model before.
+TEST(Words, OfTwoLinesOfOneLawEachTellsItsOwnNumbers) {
+  namespace view = internal::torque_view;
+  const EffectEntry& cogging = *find_effect("cogging_torque");
+  const view::Law& law = view::law("cogging_torque");
+  view::Budget budget;
+  budget.nominal_rms = 10.0;
+  internal::diagnosis::TorqueSearch ladder;
+  const auto put = [&](double amplitude, double periods) {
+    ModelEffect e = internal::diagnosis::searched_effect(cogging, {});
+    e.parameters[0].value = amplitude, e.parameters[1].value = periods;
+    ladder.after.fitted.model.effects.push_back(e);
+  };
+  put(9.0, 3.0);  // not of the ladder
+  for (const double periods : {24.0, 7.0}) {
+    view::Rung rung;
+    rung.helps = true, rung.rms = 0.2 * periods;
+    rung.ranking = {{&law, {{&law, periods, Eigen::VectorXd::Zero(2)}}, {}, {}}};
+    ladder.added.push_back({budget.rungs.size(), true, {&cogging}});
+    budget.rungs.push_back(rung);
+    put(0.1 * periods, periods);
+  }
+  const auto added = internal::diagnosis::added_effects(budget, ladder);
+  ASSERT_EQ(added.size(), 2u);
+  for (const std::size_t i : {0u, 1u}) {
+    const double periods = i == 0 ? 24.0 : 7.0;
+    ASSERT_GE(added[i].parameters.size(), 2u);
+    EXPECT_EQ(added[i].parameters[0].value, 0.1 * periods);
+    EXPECT_EQ(added[i].parameters[1].value, periods);
+    EXPECT_EQ(added[i].after_torque, 0.2 * periods);
+  }
+  const view::Share share{&law, 24.0, {}, {}, {}, {}};
+  EXPECT_TRUE(internal::diagnosis::is_of(share, budget.rungs[0].choice().model.back()));
+  EXPECT_FALSE(internal::diagnosis::is_of(share, budget.rungs[1].choice().model.back()));
 }
 
 }  // namespace

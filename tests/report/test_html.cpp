@@ -31,9 +31,27 @@ TEST(Html, ALineKeepsItsTextAndTakesNoMarkupOfItsOwn) {
 }
 
 TEST(Html, TablesHaveHeadingsAndRows) {
-  const std::string body = html_body("| a | b |\n|---|---|\n| 1 \\| 2 | `c` |\n", {});
+  const std::string body = html_body("| a | b |\n|---|---|\n| 1\\|2 | `c` |\n", {});
   EXPECT_THAT(body, HasSubstr("<thead><tr><th>a</th><th>b</th></tr>"));
-  EXPECT_THAT(body, HasSubstr("<tr><td>1 | 2</td><td><code>c</code></td></tr>"));
+  EXPECT_THAT(body, HasSubstr("<tr><td>1|2</td><td><code>c</code></td></tr>"));
+}
+
+TEST(Html, ANumberKeepsItsUnitBesideItAndASentenceIsBroken) {
+  const std::string body =
+      html_body("| a b | c |\n|---|---|\n| 4.31 mN·m | a remark that may well take several lines |\n", {});
+  EXPECT_THAT(body, HasSubstr("<th>a b</th>"));
+  EXPECT_THAT(body, HasSubstr("<td class=\"short\">4.31 mN·m</td><td>a remark that may"));
+}
+
+TEST(Html, APictureSaysHowManyColumnsItsLettersAreMadeFor) {
+  EXPECT_THAT(html_body("![t](a.png)\n", {{"a.png", "x", 2.0}}), HasSubstr("style=\"--columns:2\""));
+  ScratchFolder scratch;
+  write_run_result(scratch.path.string(), sample_run({.samples = 6000}));
+  write_report(scratch.path.string());
+  const std::string page = testing::text_of(scratch.path / "report.html");
+  EXPECT_THAT(page, HasSubstr("alt=\""
+                              "rig_p: overview\" style=\"--columns:2\""));
+  EXPECT_THAT(page, HasSubstr("style=\"--columns:1\""));
 }
 
 TEST(Html, SectionsFoldAndAreClosedOneByOne) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/results/diagnosis_result.h"
+
+/// The residual torque as figures show it: in the band in which the error budget judges it, at a scale that
+/// shows what it tells.
+namespace gapscope::internal::report {
+
+/// Means over the window that passes the budget's band (−3 dB at its top); as it is where there is no budget
+/// or its band holds all that is recorded.
+/// @param values  of `trace`, one for each sample; NaN stays NaN
+std::vector<double> within_band(const ErrorBudget& budget, const MismatchTrace& trace,
+                                const std::vector<double>& values);
+
+/// " below 64 Hz" where within_band() changes what it is given, else nothing.
+std::string band_words(const ErrorBudget& budget, const MismatchTrace& trace);
+
+/// How far an axis around zero reaches: to all values, or, where a few lie far away, to 99 % of them.
+/// @param least  shown in any case, as far as there are values
+double informative_reach(const std::vector<double>& values, double least);
+
+}  // namespace gapscope::internal::report
