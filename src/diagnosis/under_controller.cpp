@@ -36,8 +36,10 @@ SquaredError error_of(const PlantModel<double>& plant, const DriveController& co
 std::vector<SquaredError> errors_of(const Study& study, const ReferenceModel& model) {
   const HeldOut& held = study.held_out;
   const auto starts = settled_starts(held.traces, model, study.observer_hz);
+  ReferenceModel drive = all_fixed(model);
+  drive.controller.reset();  // whose delay acts in the loop
   const reference::ModelRun run =
-      reference::ModelFit(held.traces, all_fixed(model), {}, study.observer_hz).run_at({{}, starts});
+      reference::ModelFit(held.traces, drive, {}, study.observer_hz).run_at({{}, starts});
   const DriveController controller =
       model.controller ? model.controller->at_start() : *study.options.controller;
   std::vector<SquaredError> errors;

@@ -92,6 +92,7 @@ Recording implanted(const Subject& subject, std::size_t number, const Implant& i
                     const Receiver& drive) {
   Recording r = *subject.recording;
   r.x2.clear(), r.mode.clear();
+  r.sent.clear(), r.delay = 0.0;  // an input that is changed stands for itself
   auto own = own_stream(implant, number);
   switch (implant.law->way) {
     case Way::kTorque: {

@@ -173,6 +173,7 @@ Recording read_recording(const std::string& path, const ReadOptions& options) {
   Recording r = options.resample_rate ? internal::recording::resample(table, *options.resample_rate)
                                       : internal::recording::recording_of(std::move(table), options.uneven);
   if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
+  if (r.command) command_by(*options.controller, r);
   if (options.lost_rows == LostRows::kBridged && !r.command) bridge_lost_rows(r);
   r.file = std::filesystem::path(path).filename().string();
   r.open_end = open_end;

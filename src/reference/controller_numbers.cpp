@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
-#include "gapscope/plant/effect_hooks.h"
 
 namespace gapscope::internal::reference {
 namespace {
@@ -12,7 +11,6 @@ namespace {
 constexpr double kLongestDelay = 50.0;     ///< derived bound [samples]
 constexpr double kShortestDelay = 1e-3;    ///< the same: at 0 itself a change of it has one side [samples]
 constexpr double kFirstDelay = 0.1;        ///< where a search begins at least [samples]
-constexpr double kSameRate = 1e-6;         ///< rates that differ by less are one [-]
 constexpr double kControllerSpan = 100.0;  ///< derived bounds of the other numbers over their starts
 
 /// The recordings under a controller.
@@ -23,25 +21,17 @@ void set_inputs(FitProblem& problem, const DriveController& controller) {
     GAPSCOPE_REQUIRE(trace.command != nullptr);
     made->u.push_back(commanded_input(controller, trace));
     trace.u = made->u.back();
+    trace.sent = {}, trace.delay = 0.0;
   }
   problem.inputs = made;
   problem.recordings = made->recordings;
   problem.controller = controller;
 }
 
-/// The effect that delays the input, and does nothing else.
-const EffectEntry* pure_delay() {
-  for (const EffectEntry* entry : effect_table())
-    if (hooks_of<double>(*entry).delay != nullptr && entry->parameters.size() == 1) return entry;
-  return nullptr;
-}
-
 /// Whether its updates are those of the rows, of every recording.
-bool updates_at_rows(const FitProblem& problem, const DriveController& controller) {
-  const auto at_rows = [&](const MotorTrace& t) {
-    return t.even() && std::abs(controller.rate * t.dt - 1.0) < kSameRate;
-  };
-  return controller.rate == 0.0 || std::all_of(problem.recordings.begin(), problem.recordings.end(), at_rows);
+bool all_at_rows(const FitProblem& problem, const DriveController& controller) {
+  return std::all_of(problem.recordings.begin(), problem.recordings.end(),
+                     [&](const MotorTrace& t) { return updates_at_rows(controller, t); });
 }
 
 /// The inertia that the motor sees while in contact; NaN where it is not given.
@@ -108,7 +98,7 @@ void command_inputs(FitProblem& problem, const ReferenceModel& model) {
   DriveController controller = given.at_start();
   set_inputs(problem, controller);
   const bool delays = controller.delay > 0.0 || given.numbers[controller_place::kDelay].estimate;
-  if (delays && updates_at_rows(problem, controller)) problem.delays = pure_delay();
+  problem.delays = delays && all_at_rows(problem, controller);
   const int leading = leading_number(controller.kind);
   if (std::isfinite(given.numbers[static_cast<std::size_t>(leading)].value)) return;
   gapscope::controller_number(controller, leading) = suggested_leading(problem, model);

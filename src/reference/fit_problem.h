@@ -9,6 +9,7 @@
 
 #include "gapscope/simulation/stepper.h"
 #include "reference/coordinate.h"
+#include "reference/input_delay.h"
 #include "reference/model_fit.h"
 #include "signals/one_body.h"
 
@@ -77,7 +78,7 @@ struct FitProblem {
   std::vector<int> free;              ///< indices of the estimated ones
   std::vector<const EffectEntry*> effects;
   std::optional<DriveController> controller;  ///< that makes the inputs, at its start
-  const EffectEntry* delays = nullptr;        ///< where each update is at a row: what delays it exactly
+  bool delays = false;  ///< its updates are all at rows: the model's input is delayed, and exactly
   std::shared_ptr<const StartInputs> inputs;  ///< that the recordings have then
   bool load_may_stick = false, motor_may_stick = false;
   double stiffest = kInfinity;  ///< rate beyond which a trial is refused [1/s]
@@ -116,7 +117,7 @@ struct FitProblem {
     model.load_sticks = load_may_stick;
     for (std::size_t e = 0; e < effects.size(); ++e)
       add_effect(model, *effects[e], n.effect(e, effects[e]->parameters.size()));
-    if (delays) add_effect(model, *delays, std::span<const T>(&n.controller(controller_place::kDelay), 1));
+    if (delays) delay_input(model, n.controller(controller_place::kDelay));
     return model;
   }
 

@@ -36,7 +36,8 @@ FitTrace trace_of(const FitProblem& problem, const FitPoint& at, std::size_t r, 
   const DriveState<double> start = start_state(problem, at, r);
   const std::vector<double> commanded =
       problem.controller ? problem.commanded(numbers, r) : std::vector<double>();
-  const std::span<const double> u = problem.controller ? std::span<const double>(commanded) : recording.u;
+  const std::span<const double> u =
+      problem.controller ? std::span<const double>(commanded) : stepped_input(recording);
   const bool has_load = problem.structure.has_load;
   FitTrace t;
   t.file = recording.file;

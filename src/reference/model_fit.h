@@ -97,7 +97,7 @@ struct ModelRun {
   /// A recording under the input that the model takes.
   MotorTrace under_own_input(const MotorTrace& recording, std::size_t r) const {
     MotorTrace trace = recording;
-    if (!inputs.empty()) trace.u = inputs[r];
+    if (!inputs.empty()) trace.u = inputs[r], trace.sent = {}, trace.delay = 0.0;
     return trace;
   }
 };

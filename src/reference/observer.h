@@ -7,6 +7,7 @@
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/simulation/stepper.h"
+#include "reference/input_delay.h"
 
 namespace gapscope::internal::reference {
 
@@ -46,13 +47,21 @@ class ObserverGains {
   ObserverGain mean_;
 };
 
-/// A stepper for the intervals of a recording.
+/// The input that a stepper for the recording takes.
+inline std::span<const double> stepped_input(const MotorTrace& recording) {
+  return recording.sent.empty() ? recording.u : recording.sent;
+}
+
+/// A stepper for the intervals of a recording and, where its controller's output acts later, for that delay.
 template <class T>
 DriveStepper<T> stepper_for(const PlantModel<T>& model, const MotorTrace& recording) {
   double shortest = recording.even() ? 0.0 : recording.dt;
   for (std::size_t i = 1; i < recording.stamps.size(); ++i)
     shortest = std::min(shortest, recording.step(i - 1));
-  return DriveStepper<T>(model, recording.dt, shortest);
+  if (recording.sent.empty()) return DriveStepper<T>(model, recording.dt, shortest);
+  PlantModel<T> later = model;
+  delay_input(later, T(recording.delay));
+  return DriveStepper<T>(later, recording.dt, shortest);
 }
 
 /// One interval of the recording, from sample i on, with the input u.
@@ -65,7 +74,7 @@ void play_step(DriveStepper<T>& stepper, const MotorTrace& recording, std::size_
 }
 template <class T>
 void play_step(DriveStepper<T>& stepper, const MotorTrace& recording, std::size_t i) {
-  play_step(stepper, recording, i, T(recording.u[i]));
+  play_step(stepper, recording, i, T(stepped_input(recording)[i]));
 }
 
 /// The drive's state where the sensor reads the position that the recorded body starts at: what the sensor
@@ -102,11 +111,11 @@ bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const Moto
   return true;
 }
 
-/// The same with the recorded input.
+/// The same with the input of the recording.
 template <class T, class Visit>
 bool roll_out(const PlantModel<T>& model, const DriveState<T>& start, const MotorTrace& recording,
               const ObserverGains& gains, Visit&& visit) {
-  return roll_out(model, start, recording, recording.u, gains, std::forward<Visit>(visit));
+  return roll_out(model, start, recording, stepped_input(recording), gains, std::forward<Visit>(visit));
 }
 
 }  // namespace gapscope::internal::reference

@@ -58,7 +58,7 @@ ControllerModel starting_at(ControllerModel model, DriveController found) {
 
 void command_anew(const DriveController& controller, std::vector<Recording>& recordings) {
   for (Recording& r : recordings)
-    if (r.command) r.u = commanded_input(controller, r.motor_trace());
+    if (r.command) command_by(controller, r);
 }
 
 ReferenceModel diagnosed_model(const Configuration& c, const std::optional<ControllerModel>& sought) {

@@ -37,7 +37,7 @@ Recording commanded(const Bench& b, const Session& session, double volt_step) {
   for (const double v : loop.supply) rows->supply.push_back(volt_step * std::round(v / volt_step));
   Recording r = loop.run.recording;
   r.command = rows;
-  r.u = commanded_input(declared_controller(b.controller), *rows);
+  command_by(declared_controller(b.controller), r);
   return r;
 }
 

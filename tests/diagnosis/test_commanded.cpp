@@ -14,18 +14,12 @@ namespace at = controller_place;
 constexpr double kServoInertia = 8.78e-4, kServoConstant = 0.172, kServoDamping = 0.062;
 constexpr double kServoSlope = 40.0, kServoGain = 0.05, kArmTorque = 0.1;
 
-/// A drive of the independent plant with an arm, and with dry friction that its model lacks.
-Recording servo_recording(std::uint64_t seed, double travel) {
-  independent_plant::BlindDrive drive;
-  drive.load = independent_plant::BlindLoad::kNone;
-  drive.motor_inertia = kServoInertia, drive.torque_constant = kServoConstant,
-  drive.motor_damping = kServoDamping;
-  drive.effects.load.unbalance_nm = kArmTorque;
-  drive.effects.motor.friction.level_nm = 0.03;
-  const independent_plant::LoopRun loop = simulate_closed_loop(
-      drive, {.course = independent_plant::Course::kSines, .travel = travel, .speed = 4.0},
-      {.rate = 500.0, .position_gain = kServoSlope, .speed_forward = 0.0, .speed_gain = kServoGain},
-      independent_plant::BlindSensor::with_bits(16), {}, {.duration = 4.0, .seed = seed, .tolerance = 1e-8});
+independent_plant::ReferenceMotion motion_over(double travel) {
+  return {.course = independent_plant::Course::kSines, .travel = travel, .speed = 4.0};
+}
+
+/// Without an input: target and position.
+Recording told_by(const independent_plant::LoopRun& loop) {
   auto rows = std::make_shared<CommandRows>();
   rows->t = loop.stamps, rows->position = loop.run.recording.x1;
   for (const auto& target : loop.target) rows->target.push_back(target.x);
@@ -33,6 +27,25 @@ Recording servo_recording(std::uint64_t seed, double travel) {
   Recording r = loop.run.recording;
   r.command = rows;
   return r;
+}
+
+independent_plant::BlindDrive servo() {
+  independent_plant::BlindDrive drive;
+  drive.load = independent_plant::BlindLoad::kNone;
+  drive.motor_inertia = kServoInertia, drive.torque_constant = kServoConstant,
+  drive.motor_damping = kServoDamping;
+  return drive;
+}
+
+/// A drive of the independent plant with an arm, and with dry friction that its model lacks.
+Recording servo_recording(std::uint64_t seed, double travel) {
+  independent_plant::BlindDrive drive = servo();
+  drive.effects.load.unbalance_nm = kArmTorque;
+  drive.effects.motor.friction.level_nm = 0.03;
+  return told_by(simulate_closed_loop(
+      drive, motion_over(travel),
+      {.rate = 500.0, .position_gain = kServoSlope, .speed_forward = 0.0, .speed_gain = kServoGain},
+      independent_plant::BlindSensor::with_bits(16), {}, {.duration = 4.0, .seed = seed, .tolerance = 1e-8}));
 }
 
 DriveController firmware(double gain) {
@@ -86,6 +99,60 @@ TEST(CommandedServo, HasItsGainEstimatedAnewWithEachStep) {
   EXPECT_NEAR(d.fitted.controller->numbers[at::kSpeedGain].value, kServoGain, 0.02 * kServoGain);
   ASSERT_TRUE(d.closed_loop);
   EXPECT_LT(d.closed_loop->after, 3.0 * d.mismatch.floor);
+}
+
+constexpr double kDeadTime = 2.3e-3;  // within a row of 5 ms
+
+/// A servo that lacks nothing, whose firmware acts later.
+Recording late_recording(std::uint64_t seed, double travel, double gain) {
+  return told_by(simulate_closed_loop(servo(), motion_over(travel),
+                                      {.rate = 200.0,
+                                       .position_gain = kServoSlope,
+                                       .speed_forward = 0.0,
+                                       .speed_gain = gain,
+                                       .dead_time_s = kDeadTime},
+                                      independent_plant::BlindSensor::with_bits(16), {.lead_s = 0.5},
+                                      {.duration = 4.0, .seed = seed, .tolerance = 1e-8}));
+}
+
+DriveController late_firmware(double gain) {
+  DriveController c = firmware(gain);
+  c.delay = kDeadTime;
+  return c;
+}
+
+Diagnosis diagnosed_late(const ReferenceModel& sheet, double gain) {
+  Recording train = late_recording(5, 2.0, gain), held_out = late_recording(6, 1.5, gain);
+  for (Recording* r : {&train, &held_out}) command_by(late_firmware(gain), *r);
+  DiagnosisOptions options = test::among({"motor_coulomb_friction", "quadratic_drag"});
+  options.threads = 1;
+  options.controller = late_firmware(gain);
+  const MotorTrace fitted[] = {train.motor_trace()}, judged[] = {held_out.motor_trace()};
+  return diagnose(fitted, judged, sheet, options);
+}
+
+TEST(CommandedServo, LacksNothingWhereItsDeadTimeIsKnown) {
+  ReferenceModel sheet = servo_sheet();
+  sheet.effects.clear();
+  const Diagnosis d = diagnosed_late(sheet, 6.0 * kServoGain);
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kNone);
+  EXPECT_LT(d.mismatch.before, 1.3 * d.mismatch.floor);
+  ASSERT_TRUE(d.closed_loop);
+  EXPECT_LT(d.closed_loop->before, 3.0 * d.mismatch.floor);
+}
+
+/// It acts once in the loop, not in the model of the drive as well.
+TEST(CommandedServo, LacksNothingWhereItsDeadTimeIsEstimated) {
+  ReferenceModel sheet = servo_sheet();
+  sheet.effects.clear();
+  ControllerModel& c = sheet.controller.emplace(ControllerModel::known(late_firmware(kServoGain)));
+  c.numbers[at::kDelay] = ParameterSetting::sought(0.6 * kDeadTime);
+  const Diagnosis d = diagnosed_late(sheet, kServoGain);
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kNone);
+  ASSERT_TRUE(d.fitted.controller);
+  EXPECT_NEAR(d.fitted.controller->numbers[at::kDelay].value, kDeadTime, 0.2 * kDeadTime);
+  ASSERT_TRUE(d.closed_loop);
+  EXPECT_LT(d.closed_loop->before, 3.0 * d.mismatch.floor);
 }
 
 /// A recorded input was made by nobody that is known.

@@ -40,6 +40,46 @@ TEST(DriveController, ActsLater) {
                                             0.25 * 1.0 - 0.75 * 1.0, -0.25 * 1.0 - 0.75 * 0.5}));
 }
 
+Recording commanded_at(const std::vector<double>& times) {
+  Recording r;
+  r.dt = 0.1, r.x1 = {0.0, 0.25, 0.5, 0.5, 0.25};
+  r.command = std::make_shared<CommandRows>(
+      CommandRows{times, {1.0, 1.0, 1.0, 0.0, 0.0}, r.x1, std::vector<double>(5, 1.0)});
+  return r;
+}
+
+/// The mean of an interval says when a drive has which speed, but not where it is then.
+TEST(DriveController, LeavesWhatItSentBesideTheMeans) {
+  DriveController c;
+  c.gain = 2.0, c.delay = 0.025;
+  Recording r = commanded_at(kTimes);
+  command_by(c, r);
+  EXPECT_EQ(r.u, commanded_input(c, *r.command));
+  EXPECT_THAT(r.sent, ElementsAre(2.0, 1.5, 1.0, -1.0, -0.5));
+  EXPECT_EQ(r.delay, 0.025);
+  const Recording later = part(r, 2, 3);
+  const MotorTrace same = part(r.motor_trace(), 2, 3);
+  EXPECT_THAT(later.sent, ElementsAre(1.0, -1.0, -0.5));
+  EXPECT_THAT(same.sent, ElementsAre(1.0, -1.0, -0.5));
+  EXPECT_EQ(later.delay, 0.025);
+  EXPECT_EQ(same.delay, 0.025);
+}
+
+TEST(DriveController, LeavesTheMeansAloneWhereUpdatesAreAtNoRow) {
+  DriveController c;
+  c.gain = 2.0, c.delay = 0.025, c.rate = 25.0;
+  Recording r = commanded_at(kTimes);
+  command_by(c, r);
+  EXPECT_TRUE(r.sent.empty());
+  EXPECT_EQ(r.delay, 0.0);
+  c.rate = 10.0, c.delay = 0.0;
+  command_by(c, r);
+  EXPECT_TRUE(r.sent.empty());
+  c.delay = 0.025;
+  command_by(c, r);
+  EXPECT_FALSE(r.sent.empty());
+}
+
 TEST(DriveController, MayHaveHadAnotherGain) {
   DriveController c;
   c.gain = 2.0, c.integral = 1.0;

@@ -29,6 +29,9 @@ struct MotorTrace {
   std::span<const double> stamps{};  ///< time of each sample [s]; empty: evenly sampled
   const CommandRows* command = nullptr;  ///< what u was made of by a controller; null: it was recorded
   std::size_t command_first = 0;         ///< the row of the first sample
+  std::span<const double> sent{};  ///< what a controller sends at its own sample, to act `delay` later: where
+                                   ///< there is any, u is its mean over each interval
+  double delay = 0.0;              ///< [s]
 
   std::size_t size() const { return x1.size(); }
   bool even() const { return stamps.empty(); }
@@ -63,6 +66,8 @@ struct Recording {
   EncoderSide encoder = EncoderSide::kMotor;        ///< whose position estimators read; never the other one
   std::shared_ptr<const CommandRows> command = {};  ///< what u was made of by a controller; null: recorded
   std::size_t command_first = 0;                    ///< the row of the first sample
+  std::vector<double> sent = {};                    ///< see MotorTrace; empty: u is all there is
+  double delay = 0.0;                               ///< of what was sent [s]
 
   /// What estimators read [rad].
   const std::vector<double>& position() const { return encoder == EncoderSide::kLoad ? x2 : x1; }
@@ -71,9 +76,16 @@ struct Recording {
   double time(std::size_t i) const { return even() ? start + dt * static_cast<double>(i) : stamps[i]; }
   double duration() const { return dt * static_cast<double>(size()); }
   MotorTrace motor_trace() const {
-    return {file, start, dt, u, position(), quantum, stamps, command.get(), command_first};
+    return {file, start, dt, u, position(), quantum, stamps, command.get(), command_first, sent, delay};
   }
 };
+
+/// Whether each update of the controller is at a row of the recording.
+bool updates_at_rows(const DriveController& controller, const MotorTrace& recording);
+
+/// Gives a recording that has a command the input that this controller makes of it. Where each update is at a
+/// row and acts later, what was sent and its delay stand beside u: a model can then be moved exactly.
+void command_by(const DriveController& controller, Recording& recording);
 
 /// `count` samples from `first` on, with their own start time; dt stays that of the whole. The view must not
 /// outlive what it looks at.
