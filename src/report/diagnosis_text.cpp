@@ -21,10 +21,12 @@ std::string measures_table(const DiagnosisResult& r) {
   std::string text =
       "\n## How large, on held-out data\n\n| measure (median over windows) | nominal model | with all that "
       "was added | floor |\n|---|---|---|---|\n";
-  for (const MismatchMeasure& m : r.diagnosis.measures)
-    text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, m.unit),
-                        quantity_beside(m.after, m.before, m.unit),
-                        std::isfinite(m.floor) ? quantity_beside(m.floor, m.before, m.unit) : "–");
+  for (const MismatchMeasure& m : r.diagnosis.measures) {
+    const std::string unit = Coordinates().shown_unit(m.unit);  // that of this drive already
+    text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, unit),
+                        quantity_beside(m.after, m.before, unit),
+                        std::isfinite(m.floor) ? quantity_beside(m.floor, m.before, unit) : "–");
+  }
   const MismatchSize& g = r.diagnosis.mismatch;
   text += fmt::format("\nThe answer is of the {}. Its floor, {}, is the {}{}{}.", g.measure,
                       quantity(g.floor, r.coordinates.position_unit()), floor_name(g.floor_from),

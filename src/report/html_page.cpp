@@ -22,7 +22,8 @@ summary{cursor:pointer;font-weight:600;font-size:1.15rem}
 table{border-collapse:collapse;margin:.8rem 0;font-size:.92rem}
 th,td{text-align:left;vertical-align:top;padding:.3rem .6rem;border-bottom:1px solid var(--line)}
 .short{white-space:nowrap}
-th{cursor:pointer;color:var(--soft);white-space:nowrap}
+.long{min-width:16rem}
+th{cursor:pointer;color:var(--soft);vertical-align:bottom}
 th[aria-sort=ascending]::after{content:" \2191"}
 th[aria-sort=descending]::after{content:" \2193"}
 tbody tr:hover{background:var(--card)}
@@ -30,7 +31,7 @@ code{font-family:ui-monospace,"DejaVu Sans Mono",monospace;font-size:.92em}
 figure{margin:.6rem 0;overflow-x:auto}
 img{display:block;width:100%;min-width:calc(var(--columns,1)*23rem);max-width:calc(var(--columns,1)*46rem);height:auto;background:#fff}
 @media(max-width:30rem){body{padding:.7rem}.card{padding:.7rem .8rem}}
-@media print{body{max-width:none;padding:0;font-size:11pt}figure,.card,tr{break-inside:avoid}h3,summary,thead{break-after:avoid}img{filter:none;min-width:0;max-width:min(100%,calc(var(--columns,1)*11cm))}.wide,figure{overflow:visible}th{white-space:normal}}
+@media print{body{max-width:none;padding:0;font-size:11pt}figure,.card,tr{break-inside:avoid}h3,summary,thead{break-after:avoid}img{filter:none;min-width:0;max-width:min(100%,calc(var(--columns,1)*11cm))}.wide,figure{overflow:visible}.long{min-width:0}}
 )";
 
 /// Numbers sort by size, prefixes of units and powers of ten included, words as words. Printing unfolds.

@@ -71,20 +71,22 @@ std::vector<std::string> cells_of(const std::string& row) {
   return cells;
 }
 
-/// A number keeps its unit beside it: what is no longer than so many letters is not broken.
-constexpr std::ptrdiff_t kUnbroken = 20;
+/// A number keeps its unit beside it, and a sentence is not squeezed into a column of single words.
+constexpr std::ptrdiff_t kUnbroken = 20, kSentence = 40;  ///< letters of a cell
 
-bool is_unbroken(const std::string& cell) {
+const char* breaking_of(const std::string& cell) {
   const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };  // a letter
-  return cell.find(' ') != cell.npos && std::count_if(cell.begin(), cell.end(), begins) <= kUnbroken;
+  const auto letters = std::count_if(cell.begin(), cell.end(), begins);
+  if (cell.find(' ') == cell.npos) return "";
+  return letters <= kUnbroken ? " class=\"short\"" : letters > kSentence ? " class=\"long\"" : "";
 }
 
 /// A row of headings (th) or of data (td).
 std::string row_html(const std::string& row, const std::string& element) {
   std::string text = "<tr>";
   for (const std::string& cell : cells_of(row))
-    text += fmt::format("<{0}{1}>{2}</{0}>", element,
-                        element == "td" && is_unbroken(cell) ? " class=\"short\"" : "", html_line(cell));
+    text +=
+        fmt::format("<{0}{1}>{2}</{0}>", element, element == "td" ? breaking_of(cell) : "", html_line(cell));
   return text + "</tr>\n";
 }
 

@@ -40,7 +40,7 @@ TEST(Html, ANumberKeepsItsUnitBesideItAndASentenceIsBroken) {
   const std::string body =
       html_body("| a b | c |\n|---|---|\n| 4.31 mN·m | a remark that may well take several lines |\n", {});
   EXPECT_THAT(body, HasSubstr("<th>a b</th>"));
-  EXPECT_THAT(body, HasSubstr("<td class=\"short\">4.31 mN·m</td><td>a remark that may"));
+  EXPECT_THAT(body, HasSubstr("<td class=\"short\">4.31 mN·m</td><td class=\"long\">a remark that may"));
 }
 
 TEST(Html, APictureSaysHowManyColumnsItsLettersAreMadeFor) {
