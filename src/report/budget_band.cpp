@@ -11,7 +11,7 @@ namespace {
 constexpr double kHalfPower =
     0.443;                       ///< top of the band times the length of a mean that passes half its power
 constexpr double kDrawn = 0.99;  ///< share of the values that an axis shows at least
-constexpr double kFar = 1.5;     ///< times that share's reach: nearer ones are drawn all
+constexpr double kFarBeyondShare = 1.5;     ///< times that share's reach: nearer ones are drawn all
 
 /// Samples on either side of the mean; 0: nothing is taken off.
 std::size_t band_reach(const ErrorBudget& budget, const MismatchTrace& t) {
@@ -51,7 +51,7 @@ double informative_reach(const std::vector<double>& values, double least) {
   if (sizes.empty()) return 0.0;
   const double all = *std::max_element(sizes.begin(), sizes.end());
   const double most = std::max(quantile(std::move(sizes), kDrawn), std::min(least, all));
-  return all > kFar * most ? most : all;
+  return all > kFarBeyondShare * most ? most : all;
 }
 
 }  // namespace gapscope::internal::report
