@@ -11,7 +11,7 @@ namespace {
 constexpr double kHalfPower =
     0.443;                       ///< top of the band times the length of a mean that passes half its power
 constexpr double kDrawn = 0.99;  ///< share of the values that an axis shows at least
-constexpr double kFarBeyondShare = 1.5;     ///< times that share's reach: nearer ones are drawn all
+constexpr double kFarBeyondShare = 1.5;  ///< times that share's reach: nearer ones are drawn all
 
 /// Samples on either side of the mean; 0: nothing is taken off.
 std::size_t band_reach(const ErrorBudget& budget, const MismatchTrace& t) {
