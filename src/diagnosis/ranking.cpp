@@ -17,10 +17,9 @@ bool names(std::span<const char* const> list, std::string_view name) {
   return std::any_of(list.begin(), list.end(), [&](const char* other) { return name == other; });
 }
 
-/// Whether such an effect leaves more of the free runs' error than what is all of the cause does.
+/// Whether an effect leaves more of the free runs' error than what is all of the cause does.
 bool leaves_a_part(const ScoredModel& after, const ScoredModel& before, const DecisionRule& rule) {
-  return after.entry->law_is_fixed && !at_floor(after) &&
-         after.median_free - 1.0 > rule.part * (before.median_free - 1.0);
+  return !at_floor(after) && after.median_free - 1.0 > rule.part * (before.median_free - 1.0);
 }
 
 /// Of the windows above the floor; NaN where none is.

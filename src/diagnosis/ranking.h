@@ -63,8 +63,8 @@ enum class Reach {
 Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
                 std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
 
-/// The same of an effect that is to be all that is missing. A law that is fixed but for its size leaves
-/// nothing where it is the cause: where it leaves more than a part, it is at best one of several.
+/// The same of an effect that is to be all that is missing. Where it leaves more than a part
+/// it is at best one of several.
 Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
                       std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
 

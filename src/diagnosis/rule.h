@@ -4,7 +4,7 @@ namespace gapscope::internal::diagnosis {
 
 /// Every number by which the search with the simulator decides. `study_rule judge` shows what half and double
 /// of each make of drives of the independent plant; the first five were set so on the seeds 810001 to 810190
-/// (known) and 820001 to 820075 (outside).
+/// (known) and 820001 to 820075 (outside), and seen again on 1700001 and 1710001 (60 each).
 ///
 /// S is the score of a model: the mean over held-out windows of the log of what it leaves.
 struct DecisionRule {
@@ -12,7 +12,7 @@ struct DecisionRule {
   double indistinct = 0.08;  ///< S below which no two models differ
   double least_way = 0.3;    ///< share of the way in S to the floor that a step must go
   double asked_for = 0.99;   ///< of the fitted mean square that a step leaves at most: luck is no finding
-  /// Of an error: less is not worth having, and a law without freedom that leaves less is all of the cause;
+  /// Of an error: less is not worth having, and an effect that leaves less is all of the cause;
   /// of the windows: those in which a free-form law holds best
   double part = 0.1;
   double least_windows =

@@ -116,7 +116,6 @@ struct EffectEntry {
   EffectNeeds needs;
   int stands_for;        ///< a drive parameter (place::) that says the same where it is fitted; -1: none
   const char* contains;  ///< the simpler effect that is a special case of it; nullptr: none
-  bool law_is_fixed;     ///< its law has a size but no shape: where it is the cause it leaves nothing
   StartSearch start_search;
   std::span<const EffectStart> starts;  ///< magnitudes and phases at which its search begins
   const EffectLaws* laws;

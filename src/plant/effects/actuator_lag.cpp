@@ -15,7 +15,6 @@ struct ActuatorLag {
       {"time_constant_s", "s", 0.0, 0.0, 100.0, Scale::kSample}};
   static constexpr std::array<const char*, 2> look_alikes = {"input_delay", "measurement_lag"};
   static constexpr ResidualPattern follows = ResidualPattern::kInputSteps;
-  static constexpr bool law_is_fixed = true;
   static constexpr EffectStart starts[] = {{0.7}, {3.0}, {10.0}};
 
   // Within a step of constant u:  q − u = (q0 − u) exp(−(t − t0)/τ), in torques.   Memory: t0, Km q0.

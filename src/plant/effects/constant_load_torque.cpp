@@ -17,7 +17,6 @@ struct ConstantLoadTorque {
   static constexpr ResidualPattern follows = ResidualPattern::kMode;
   static constexpr ContactPhase acts_in[] = {ContactPhase::kEngagement};
   static constexpr EffectNeeds needs = EffectNeeds::kFreeLoad;
-  static constexpr bool law_is_fixed = true;
   static constexpr EffectStart starts[] = {{0.05}, {-0.05}};
 
   template <class T>

@@ -55,7 +55,6 @@ constexpr EffectEntry entry_of(const char* name) {
                 EffectNeeds::kNothing,
                 -1,
                 nullptr,
-                false,
                 StartSearch::kListed,
                 {},
                 &kLaws<E>};
@@ -63,7 +62,6 @@ constexpr EffectEntry entry_of(const char* name) {
   if constexpr (requires { E::needs; }) e.needs = E::needs;
   if constexpr (requires { E::stands_for; }) e.stands_for = E::stands_for;
   if constexpr (requires { E::contains; }) e.contains = E::contains;
-  if constexpr (requires { E::law_is_fixed; }) e.law_is_fixed = E::law_is_fixed;
   if constexpr (requires { E::start_search; }) e.start_search = E::start_search;
   if constexpr (requires { E::starts; }) e.starts = E::starts;
   if constexpr (requires { E::turns_with; }) e.turns_with = E::turns_with;

@@ -18,7 +18,6 @@ struct ImpactDamping {
   static constexpr ContactPhase acts_in[] = {ContactPhase::kEngagement, ContactPhase::kImpact};
   static constexpr EffectNeeds needs = EffectNeeds::kContact;
   static constexpr int stands_for = place::kContactDamping;
-  static constexpr bool law_is_fixed = true;
   static constexpr EffectStart starts[] = {{0.4}, {2.5}};
 
   template <class T>

@@ -15,7 +15,6 @@ struct InputDeadZone {
       {"width", "unit of u", 0.0, 0.0, 0.95, Scale::kPeakInput}};
   static constexpr std::array<const char*, 1> look_alikes = {"motor_coulomb_friction"};
   static constexpr ResidualPattern follows = ResidualPattern::kInput;
-  static constexpr bool law_is_fixed = true;
   static constexpr EffectStart starts[] = {{0.03}, {0.12}};
 
   template <class T>

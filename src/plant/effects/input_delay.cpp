@@ -15,7 +15,6 @@ struct InputDelay {
       {"delay_s", "s", 0.0, 0.0, 50.0, Scale::kSample}};
   static constexpr std::array<const char*, 2> look_alikes = {"actuator_lag", "measurement_lag"};
   static constexpr ResidualPattern follows = ResidualPattern::kInputSteps;
-  static constexpr bool law_is_fixed = true;
   static constexpr EffectStart starts[] = {{0.7}, {3.0}, {10.0}};
 
   template <class T>

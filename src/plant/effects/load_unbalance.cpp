@@ -19,7 +19,6 @@ struct LoadUnbalance {
   static constexpr ResidualPattern follows = ResidualPattern::kAngle;
   static constexpr Shaft turns_with = Shaft::kLoad;
   static constexpr EffectNeeds needs = EffectNeeds::kFreeLoad;
-  static constexpr bool law_is_fixed = true;
   static constexpr StartSearch start_search = StartSearch::kSine;
   static constexpr auto starts = quarters({0.08});
 

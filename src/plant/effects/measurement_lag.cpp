@@ -15,7 +15,6 @@ struct MeasurementLag {
       {"time_constant_s", "s", 0.0, 0.0, 100.0, Scale::kSample}};
   static constexpr std::array<const char*, 2> look_alikes = {"input_delay", "actuator_lag"};
   static constexpr ResidualPattern follows = ResidualPattern::kInputSteps;
-  static constexpr bool law_is_fixed = true;
   static constexpr EffectStart starts[] = {{0.7}, {3.0}, {10.0}};
 
   // Memory: y − x1. Over a smooth step x1 is the cubic through both ends, for which the filter is solved

@@ -18,7 +18,6 @@ struct ShaftCompliance {
   static constexpr ContactPhase acts_in[] = {ContactPhase::kEngagement, ContactPhase::kImpact};
   static constexpr EffectNeeds needs = EffectNeeds::kContact;
   static constexpr int stands_for = place::kContactStiffness;
-  static constexpr bool law_is_fixed = true;
   static constexpr EffectStart starts[] = {{0.5}, {2.0}};
 
   template <class T>
