@@ -14,6 +14,7 @@
 #include "diagnosis/motion.h"
 #include "diagnosis/repeatability.h"
 #include "diagnosis/step.h"
+#include "diagnosis/supply_steps.h"
 #include "diagnosis/verdict.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
@@ -37,7 +38,8 @@ std::optional<ScoredModel> explained_together(const Study& study, const ScoredMo
   if (!(nominal.fitted.mean_cost < kRule.near_floor)) return {};
   const double hz = study.observer_hz;
   const std::vector<MotorTrace> all = everything(study);
-  const HeldOut own = fitted_as_held_out(study);
+  HeldOut own = fitted_as_held_out(study);
+  add_supply_steps(nominal.fitted.model, hz, own);
   const double alone = judge(nullptr, nominal.fitted, own, hz).score;
   const auto explains = [&](const ScoredModel& held_out) {
     if (!at_floor(held_out)) return false;
@@ -101,6 +103,8 @@ Findings first_look(Study& study) {
   Findings found;
   study.options.progress("fitting the nominal model");
   found.before = scored_nominal(study);
+  add_supply_steps(found.before.fitted.model, study.observer_hz, study.held_out);
+  found.before = judge(nullptr, found.before.fitted, study.held_out, study.observer_hz);
   if (study.nominal_work == 0) study.nominal_work = *study.options.fit.work;
   study.options.progress("weighing torques");
   found.budget = torque_budget(study, found.before.fitted.model);

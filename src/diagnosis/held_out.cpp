@@ -94,6 +94,25 @@ bool play_ripple(const PlantModel<double>& model, const DriveState<double>& star
                              });
 }
 
+/// The input of a recording as it may have been, in place of the one that was read.
+class Scaled {
+ public:
+  Scaled(MotorTrace& trace, const HeldOut& held_out, std::size_t r) {
+    if (held_out.input_factors.empty() || held_out.input_factors[r].empty()) return;
+    trace.u = scaled(trace.u, held_out.input_factors[r], u_);
+    trace.sent = scaled(trace.sent, held_out.input_factors[r], sent_);
+  }
+
+ private:
+  static std::span<const double> scaled(std::span<const double> u, const std::vector<double>& by,
+                                        std::vector<double>& to) {
+    to.assign(u.begin(), u.end());
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] *= by[i];
+    return to;
+  }
+  std::vector<double> u_, sent_;
+};
+
 /// Mean squares over windows of `length` samples of the scored part, over `floor`².
 void append_windows(const std::vector<double>& errors, std::size_t from, std::size_t length, double floor,
                     std::vector<double>& squares) {
@@ -131,6 +150,16 @@ std::size_t HeldOut::restart(std::size_t r) const {
   return 2 * std::max<std::size_t>(5, static_cast<std::size_t>(0.5 * length / traces[r].dt + 0.5));
 }
 
+double HeldOut::innovation_floor(std::size_t r) const {
+  const double open = innovation_open.empty() ? 0.0 : innovation_open[r];
+  return std::max(std::hypot(floors[r], open), innovation_repeats);
+}
+
+double HeldOut::free_floor(std::size_t r) const {
+  const double open = free_open.empty() ? 0.0 : free_open[r];
+  return std::max(std::hypot(floors[r], open), free_repeats);
+}
+
 std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace> recordings,
                                                       const ReferenceModel& model, double observer_hz) {
   const reference::ModelFit fit(recordings, all_fixed(model), {}, observer_hz);
@@ -158,7 +187,8 @@ std::vector<Playback> play_from(const std::vector<reference::RecordingStart>& fr
   std::vector<Playback> playbacks(held_out.traces.size());
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
     const DriveState<double>& state = run.starts[r];
-    const MotorTrace trace = run.under_own_input(held_out.traces[r], r);
+    MotorTrace trace = run.under_own_input(held_out.traces[r], r);
+    const Scaled scaled(trace, held_out, r);
     if (!play_scored(plant, state, trace, held_out.restart(r), observer_hz, playbacks[r])) return {};
     if (!all) continue;
     if (!play_slow(plant, state, trace, playbacks[r]) || !play_fast(plant, state, trace, playbacks[r]) ||

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "diagnosis/numbers.h"
@@ -18,11 +17,15 @@ struct HeldOut {
   /// Where the drive repeats its motion worse than its encoder reads: how far, for each measure [rad].
   double innovation_repeats = 0.0, free_repeats = 0.0;
   std::string repeats_in;  ///< what that was read from, in words
+  /// What a supply that is read in steps leaves open, per recording, for each measure [rad]; empty: nothing.
+  std::vector<double> innovation_open = {}, free_open = {};
+  /// By which the input of each recording is multiplied at each sample; empty: it is taken as read.
+  std::vector<std::vector<double>> input_factors = {};
 
   /// Samples from one restart to the next, a number that 2 divides; counted in (mean) steps.
   std::size_t restart(std::size_t r) const;
-  double innovation_floor(std::size_t r) const { return std::max(floors[r], innovation_repeats); }
-  double free_floor(std::size_t r) const { return std::max(floors[r], free_repeats); }
+  double innovation_floor(std::size_t r) const;
+  double free_floor(std::size_t r) const;
 };
 
 /// A model beside one recording.

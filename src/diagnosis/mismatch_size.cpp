@@ -41,11 +41,24 @@ Interval shrink_interval(double before, double shrink) {
   return {std::min(i.low, shrink), std::max(i.high, shrink)};
 }
 
+/// Of the free runs, in any recording.
+double pooled_free_floor(const HeldOut& held_out) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < held_out.traces.size(); ++r) sum += std::pow(held_out.free_floor(r), 2);
+  return std::sqrt(sum / static_cast<double>(held_out.traces.size()));
+}
+
+/// Whether what the supply's readings leave open is more than what the encoder does.
+bool is_open_by_supply(const HeldOut& held_out) {
+  return !held_out.free_open.empty() && pooled_free_floor(held_out) > std::sqrt(2.0) * pooled_floor(held_out);
+}
+
 /// What a floor was read from.
 std::string floor_words(const HeldOut& held, FloorSource from) {
   if (from == FloorSource::kRepeatability) return held.repeats_in;
   std::string files;
   for (const MotorTrace& t : held.traces) files += (files.empty() ? "" : ", ") + t.file;
+  if (is_open_by_supply(held)) return "the steps in which the supply is read in " + files;
   return (from == FloorSource::kNoise ? "the noise of x1 in " : "the quantum of the encoder in ") + files;
 }
 
@@ -67,8 +80,9 @@ std::vector<double> Windows::*judged_windows(const Study& study) {
 }
 
 double judged_floor(const Study& study) {
-  const double encoder = pooled_floor(study.held_out);
-  return study.repeats_badly() ? std::max(encoder, study.held_out.innovation_repeats) : encoder;
+  const HeldOut& held = study.held_out;
+  return study.repeats_badly() ? std::max(pooled_floor(held), held.innovation_repeats)
+                               : pooled_free_floor(held);
 }
 
 MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const ScoredModel& after) {
@@ -86,7 +100,7 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
   const double b = median_size(before.windows.*windows), a = median_size(after.windows.*windows);
   size.before = size.floor * b;
   size.after = size.floor * a;
-  const bool noisy = encoder > 1.1 * held.traces.front().quantum / std::sqrt(12.0);
+  const bool noisy = is_open_by_supply(held) || encoder > 1.1 * held.traces.front().quantum / std::sqrt(12.0);
   size.floor_from = predicted ? FloorSource::kRepeatability
                     : noisy   ? FloorSource::kNoise
                               : FloorSource::kEncoder;
@@ -117,7 +131,7 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
   const HeldOut& held = study.held_out;
   const Windows b = windows_of(before, held), a = windows_of(after, held);
   const double encoder = pooled_floor(held), dt = held.traces.front().dt;
-  const double free = std::max(encoder, held.free_repeats);
+  const double free = pooled_free_floor(held);
   const auto row = [&](const std::string& name, double unit, double floor,
                        std::vector<double> Windows::*squares) {
     return MismatchMeasure{name, study.options.coordinates.position_unit(), unit * median_size(b.*squares),

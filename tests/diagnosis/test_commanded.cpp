@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "diagnosis/among.h"
 #include "independent_plant/closed_loop.h"
 
@@ -153,6 +155,54 @@ TEST(CommandedServo, LacksNothingWhereItsDeadTimeIsEstimated) {
   EXPECT_NEAR(d.fitted.controller->numbers[at::kDelay].value, kDeadTime, 0.2 * kDeadTime);
   ASSERT_TRUE(d.closed_loop);
   EXPECT_LT(d.closed_loop->before, 3.0 * d.mismatch.floor);
+}
+
+constexpr double kSaturation = 4.0, kVoltStep = 0.01;  // the supply is read in such steps
+
+/// A servo that lacks nothing, on a supply that sags under its commands.
+Recording sagging_recording(std::uint64_t seed, double travel, double volt_step) {
+  const independent_plant::LoopRun loop =
+      simulate_closed_loop(servo(), motion_over(travel),
+                           {.rate = 200.0,
+                            .position_gain = kServoSlope,
+                            .speed_forward = 0.0,
+                            .speed_gain = kServoGain,
+                            .limit = kSaturation,
+                            .supply_sag = 0.2},
+                           independent_plant::BlindSensor::with_bits(16), {.lead_s = 0.5},
+                           {.duration = 4.0, .seed = seed, .tolerance = 1e-8});
+  Recording r = told_by(loop);
+  auto rows = std::make_shared<CommandRows>(*r.command);
+  for (std::size_t i = 0; i < rows->supply.size(); ++i)
+    rows->supply[i] = volt_step * std::round(loop.supply[i] / volt_step);
+  r.command = rows;
+  DriveController c = firmware(kServoGain);
+  c.saturation = kSaturation;
+  command_by(c, r);
+  return r;
+}
+
+Diagnosis diagnosed_sagging(double volt_step) {
+  const Recording train = sagging_recording(5, 2.0, volt_step),
+                  held_out = sagging_recording(6, 1.5, volt_step);
+  ReferenceModel sheet = servo_sheet();
+  sheet.effects.clear();
+  DiagnosisOptions options = test::among({"motor_coulomb_friction", "quadratic_drag"});
+  options.threads = 1;
+  const MotorTrace fitted[] = {train.motor_trace()}, judged[] = {held_out.motor_trace()};
+  return diagnose(fitted, judged, sheet, options);
+}
+
+/// What half a step of the supply moves is in the floor: read ten times as finely, the floor is the
+/// encoder's.
+TEST(CommandedServo, LacksNothingWhereItsSupplyIsReadInSteps) {
+  const Diagnosis steps = diagnosed_sagging(kVoltStep), fine = diagnosed_sagging(1e-4);
+  EXPECT_EQ(steps.verdict, DiagnosisVerdict::kNone) << steps.sentence;
+  EXPECT_EQ(fine.verdict, DiagnosisVerdict::kNone) << fine.sentence;
+  EXPECT_GT(steps.mismatch.floor, 3.0 * fine.mismatch.floor);
+  EXPECT_GT(steps.mismatch.before, 1.3 * fine.mismatch.floor);
+  EXPECT_THAT(steps.mismatch.floor_of, ::testing::HasSubstr("supply"));
+  EXPECT_THAT(fine.mismatch.floor_of, ::testing::Not(::testing::HasSubstr("supply")));
 }
 
 /// A recorded input was made by nobody that is known.

@@ -1,0 +1,57 @@
+#include "diagnosis/supply_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/random.h"
+#include "gapscope/recording/recording.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+std::span<const double> supply_of(const MotorTrace& trace) {
+  if (trace.command == nullptr) return {};
+  return std::span(trace.command->supply).subspan(trace.command_first, trace.size());
+}
+
+/// By what the input may have been more or less; empty where nothing is open.
+std::vector<double> drawn_factors(const MotorTrace& trace, std::mt19937_64& draw) {
+  const std::span<const double> supply = supply_of(trace);
+  const double step = supply.empty() ? 0.0 : seen_quantum(supply);
+  if (!(step > 0.0)) return {};
+  std::vector<double> factors;
+  double off = 0.0;
+  for (std::size_t i = 0; i < supply.size(); ++i) {
+    if (i == 0 || supply[i] != supply[i - 1]) off = uniform(draw, -1.0, 1.0) < 0.0 ? -0.5 * step : 0.5 * step;
+    factors.push_back(supply[i] != 0.0 ? 1.0 + off / supply[i] : 1.0);
+  }
+  return factors;
+}
+
+double rms_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+}  // namespace
+
+void add_supply_steps(const ReferenceModel& model, double observer_hz, HeldOut& held_out) {
+  if (!held_out.free_open.empty()) return;
+  std::mt19937_64 draw = random_stream(0, "steps of the supply");
+  HeldOut other = held_out;
+  for (const MotorTrace& t : held_out.traces) other.input_factors.push_back(drawn_factors(t, draw));
+  if (std::all_of(other.input_factors.begin(), other.input_factors.end(),
+                  [](const std::vector<double>& f) { return f.empty(); }))
+    return;
+  const auto from = settled_starts(held_out.traces, model, observer_hz);
+  const std::vector<Playback> as_read = play_from(from, model, held_out, observer_hz, false),
+                              drawn = play_from(from, model, other, observer_hz, false);
+  if (as_read.empty() || drawn.empty()) return;
+  for (std::size_t r = 0; r < drawn.size(); ++r) {
+    held_out.innovation_open.push_back(rms_difference(as_read[r].innovation, drawn[r].innovation));
+    held_out.free_open.push_back(rms_difference(as_read[r].free, drawn[r].free));
+  }
+}
+
+}  // namespace gapscope::internal::diagnosis
