@@ -46,17 +46,14 @@ TEST(Detectable, NothingMissingAlwaysTellsWhatWouldHaveBeenNamed) {
 /// The amounts are foretold without a refit, and the diagnosis refits everything.
 TEST(Detectable, ThreeTimesAsMuchIsNamedAndAThirdIsNot) {
   const DetectableEffect& cogging = of(of_none(), "cogging_torque");
-  const double level = of(of_none(), "motor_coulomb_friction").smallest.value,
-               drag = of(of_none(), "quadratic_drag").smallest.value;
+  const double level = of(of_none(), "motor_coulomb_friction").smallest.value;
   const DiagnosisOptions few =
       test::among({"motor_coulomb_friction", "friction_asymmetry", "quadratic_drag", "cogging_torque"});
   for (const double factor : {1.0 / 3.0, 3.0}) {
-    MotorEffects friction, dragging, cogs;
+    MotorEffects friction, cogs;
     friction.friction.level_nm = factor * level;
-    dragging.drag_nms2 = factor * drag;
     cogs.cogging = {factor * cogging.smallest.value, cogging.at.front().value, 0.4, 0.0};
     EXPECT_EQ(names(diagnosed(friction, few), "motor_coulomb_friction"), factor > 1.0) << factor;
-    EXPECT_EQ(names(diagnosed(dragging, few), "quadratic_drag"), factor > 1.0) << factor;
     EXPECT_EQ(names(diagnosed(cogs, few), "cogging_torque"), factor > 1.0) << factor;
   }
 }

@@ -87,8 +87,7 @@ TEST(Diagnosis, SpreadsTheSquaredErrorOverEachQuantity) {
 
 TEST(Diagnosis, BlamesNoNeighbourWhenTheEffectAndItsLookAlikesAreNoCandidates) {
   const DiagnosisOptions options =
-      test::among({"friction_asymmetry", "quadratic_drag", "load_dependent_friction", "cogging_torque",
-                   "torque_saturation", "supply_sag", "actuator_lag", "contact_adhesion"});
+      test::among({"friction_asymmetry", "load_dependent_friction", "torque_saturation", "supply_sag"});
   const Diagnosis d = diagnosis_of(blind::blind_pair("geared", "input_dead_zone", 0.7, 500003), options);
   EXPECT_NE(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
   EXPECT_NE(d.verdict, DiagnosisVerdict::kNone) << d.sentence;
