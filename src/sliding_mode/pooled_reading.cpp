@@ -6,6 +6,7 @@
 
 #include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
+#include "signals/encoder.h"
 #include "sliding_mode/arrival.h"
 #include "sliding_mode/pooled_flights.h"
 #include "sliding_mode/words.h"
@@ -13,20 +14,28 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr double kFirstTried = 12.0;       ///< quanta
-constexpr double kNextTried = 1.1;         ///< over the one before
+constexpr double kFirstTried = 12.0;  ///< quanta
+constexpr double kNextTried = 1.05;   ///< over the one before
+/// Of the gap that is tried: where its kink is sought, and where it counts. A weak impact shows in what
+/// follows it, so it may lie far before the end of the window.
+constexpr double kNearest = 0.64, kFarthestKink = 1.12, kNear = 0.67, kFar = 1.1;
+/// … and where it decides: in longer windows cogging without a gap takes a kink, too (3602002 gap_free
+/// trapezoid: 7 in χ² up to here, 39 at 0.78, 290 at 0.7). Of 70 gap_free sines and 49 trapezoids no other
+/// reached 8 (3601001 and 3602001). 871001 150 gap sine: 64 told before these windows, 70 after.
+constexpr double kDecides = 0.8;
 constexpr double kMostOfStroke = 0.8;      ///< largest gap tried, of the travel
 constexpr double kMostPassages = 0.6;      ///< of the changes of the torque's sign
 constexpr std::size_t kFewestFlights = 2;  ///< each way
 constexpr double kFewestFreedom = 20.0;    ///< rows less columns
-constexpr std::size_t kFewestWindows = 2;  ///< that agree
+constexpr std::size_t kFewestWindows = 3;  ///< that agree
 
 // Set on drives of the independent plant: study_sliding_mode 700001 300 gap sine, 3610001 120 gap trapezoid,
 // 3620001 210 gap_free sine. Looked at since, on ten right answers of 830001 200 gap sine, 3330001 80 and
 // 3320001 60 gap trapezoid: kLaw 1.15 loses one, 1.6 takes their mean error from 3.9 to 3.8 %; kRival 0.6
 // nothing.
 constexpr double kLaw = 1.3;             ///< mean square that law and kink may leave, over the noise's
-constexpr double kKinkStandsOut = 20.0;  ///< χ² that a kink takes beyond any smooth departure (10, 40 tried)
+constexpr double kKinkStandsOut = 15.0;  ///< χ² that a kink takes beyond any smooth departure (10, 40 tried)
+constexpr double kKinkShows = 6.0;       ///< … in a window that agrees with a clearer one
 constexpr double kLeastLoss = 0.1;       ///< of the mean speed of the passage, lost at its end
 constexpr double kMostBeyond = 0.1;      ///< of the gap: x1 has left its farthest place without torque
 /// Of the gap: x1 still goes on where the torque vanishes, so its load need not be in touch when it has come
@@ -45,6 +54,7 @@ constexpr double kRounding = 0.3;  ///< standard deviation of the level of rest,
 /// 59 (830001 200, 840001 200, 860001 150, 810301 120 gap sine; 3320001 60, 3330001 80 gap trapezoid; 3331001
 /// 80 multisine).
 constexpr double kFewestPooledQuanta = 25.0;
+constexpr std::size_t kManyWindows = 5;  ///< that agree on a gap of fewer counts
 constexpr double kWidestPooled = 0.095;  ///< of the 95 % interval of a gap that is told, either way
 constexpr double kSurelyFree = 0.9;      ///< of the gap: until there the motor surely flies
 constexpr double kDithers = 0.4;         ///< noise in quanta, from which on samples are independent
@@ -58,7 +68,10 @@ struct GapCandidate {
   double slid = 0.0;             ///< how far x1 goes on while the torque vanishes
   KinkShape shape;
   bool brakes = false;
-  double doubt = 0.0;  ///< of the gap, by the shape of the kink and the length of the window
+  double doubt = 0.0;       ///< of the gap, by the shape of the kink and the length of the window
+  std::size_t windows = 1;  ///< that agree
+
+  bool decides() const { return stands_out >= kKinkStandsOut && gap >= kDecides * tried; }
 };
 
 struct PooledRecording {
@@ -104,6 +117,10 @@ void widen(const PooledFlights& flights, std::span<const PooledKink> kinks, doub
   }
 }
 
+PooledKink best_near(const PooledFlights& flights, const KinkShape& shape, bool brakes, double gap) {
+  return flights.best_impact(shape, brakes, kNearest * gap, kFarthestKink * gap, 0.025 * gap);
+}
+
 std::optional<GapCandidate> try_gap(const PooledRecording& s, double gap) {
   const PooledFlights flights(s.trace, s.turns, s.facts.noise, gap);
   const auto asked = kMostPassages * static_cast<double>(s.turns.size());
@@ -114,19 +131,20 @@ std::optional<GapCandidate> try_gap(const PooledRecording& s, double gap) {
   for (const KinkShape& shape : abrupt_shapes(flights.duration()))
     for (const bool brakes : {false, true})
       if (!brakes || shape.first == 0.0)  // bounces brake
-        kinks.push_back(flights.best_impact(shape, brakes, 0.75 * gap, 1.12 * gap, 0.025 * gap));
+        kinks.push_back(best_near(flights, shape, brakes, gap));
   const auto best = std::ranges::min_element(kinks, {}, &PooledKink::sse);
   const double noise = s.facts.noise * s.facts.noise, speed = gap / flights.duration();
   const double left = best->sse / flights.freedom() / noise;
-  if (left > kLaw || -best->amplitude < kLeastLoss * speed || best->gap < 0.8 * gap || best->gap > 1.1 * gap)
+  if (left > kLaw || -best->amplitude < kLeastLoss * speed || best->gap < kNear * gap ||
+      best->gap > kFar * gap)
     return {};
   const double smooth =
-      std::min({flights.smooth_sse(), flights.best({2}, 0.5 * gap, 1.12 * gap, 0.04 * gap).sse,
-                flights.best({3}, 0.3 * gap, 1.12 * gap, 0.04 * gap).sse});
+      std::min({flights.smooth_sse(), flights.best({2}, 0.5 * gap, kFarthestKink * gap, 0.04 * gap).sse,
+                flights.best({3}, 0.3 * gap, kFarthestKink * gap, 0.04 * gap).sse});
   GapCandidate c;
   c.tried = gap, c.gap = best->gap, c.shape = best->shape, c.brakes = best->brakes;
   c.stands_out = (smooth - best->sse) / noise / correlated(s, speed);
-  if (c.stands_out < kKinkStandsOut) return {};
+  if (c.stands_out < kKinkShows) return {};
   c.beyond = median_of(flights, &PooledStretch::beyond);
   c.slid = median_of(flights, &PooledStretch::slid);
   widen(flights, kinks, best->sse + kAlmost * noise * std::max(1.0, left) * correlated(s, speed), 0.005 * gap,
@@ -140,6 +158,22 @@ double median_over(std::span<const GapCandidate> candidates, double GapCandidate
   return median(std::move(values));
 }
 
+/// The window in the middle of them, with what all of them say.
+GapCandidate middle_of(std::span<const GapCandidate> group) {
+  const double gap = median_over(group, &GapCandidate::gap);
+  GapCandidate middle =
+      *std::ranges::min_element(group, {}, [gap](const GapCandidate& c) { return std::abs(c.gap - gap); });
+  middle.gap = gap, middle.windows = group.size();
+  middle.beyond = median_over(group, &GapCandidate::beyond);
+  middle.slid = median_over(group, &GapCandidate::slid);
+  const double shapes = std::max(
+      {median_over(group, &GapCandidate::high) - gap, gap - median_over(group, &GapCandidate::low), 0.0});
+  std::vector<double> gaps;
+  for (const GapCandidate& c : group) gaps.push_back(c.gap);
+  middle.doubt = std::hypot(shapes, 0.5 * (quantile(gaps, 0.9) - quantile(gaps, 0.1)));
+  return middle;
+}
+
 /// What windows of several lengths agree on. Nothing where only one shows a kink (then a longer or shorter
 /// one contradicts it), or where one as clear shows another.
 std::optional<GapCandidate> agreed(const PooledRecording& s) {
@@ -148,24 +182,21 @@ std::optional<GapCandidate> agreed(const PooledRecording& s) {
   for (double gap = least; gap < kMostOfStroke * s.facts.travel; gap *= kNextTried)
     if (const auto c = try_gap(s, gap)) found.push_back(*c);
   if (found.empty()) return {};
-  const GapCandidate clearest = *std::ranges::max_element(found, {}, &GapCandidate::stands_out);
+  const double clearest = std::ranges::max_element(found, {}, &GapCandidate::stands_out)->stands_out;
+  std::vector<double> clear;
+  for (const GapCandidate& c : found)
+    if (c.stands_out > kRival * clearest) clear.push_back(c.gap);
+  const double typical = median(std::move(clear));
   std::vector<GapCandidate> group;
   for (const GapCandidate& c : found) {
-    if (std::abs(c.gap - clearest.gap) < kSame * clearest.gap)
+    if (std::abs(c.gap - typical) < kSame * typical)
       group.push_back(c);
-    else if (c.stands_out > kRival * clearest.stands_out)
+    else if (c.stands_out > kRival * clearest)
       return {};
   }
   if (group.size() < kFewestWindows) return {};
-  GapCandidate middle = clearest;
-  middle.gap = median_over(group, &GapCandidate::gap);
-  middle.beyond = median_over(group, &GapCandidate::beyond);
-  middle.slid = median_over(group, &GapCandidate::slid);
-  const auto [least_gap, most_gap] = std::ranges::minmax_element(group, {}, &GapCandidate::gap);
-  const double shapes = std::max({median_over(group, &GapCandidate::high) - middle.gap,
-                                  middle.gap - median_over(group, &GapCandidate::low), 0.0});
-  middle.doubt = std::hypot(shapes, std::max(most_gap->gap - middle.gap, middle.gap - least_gap->gap));
-  return middle;
+  if (std::ranges::none_of(group, &GapCandidate::decides)) return {};
+  return middle_of(group);
 }
 
 /// The same kink in the passages of one direction.
@@ -176,7 +207,7 @@ PooledKink one_way(const PooledRecording& s, const GapCandidate& c, int directio
   const PooledFlights flights(s.trace, turns, s.facts.noise, c.tried);
   if (flights.passages() < kFewestFlights || flights.freedom() < kFewestFreedom)
     return {c.shape, c.brakes, kNaN};
-  return flights.best_impact(c.shape, c.brakes, 0.75 * c.tried, 1.12 * c.tried, 0.025 * c.tried);
+  return best_near(flights, c.shape, c.brakes, c.tried);
 }
 
 /// The rest that each passage begins from, and its flight.
@@ -223,7 +254,8 @@ std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::Sign
   if (std::isnan(up) || std::isnan(down)) return {};
   GapEstimate e;
   e.gap = c->gap + c->beyond;
-  if (e.gap < kFewestPooledQuanta * facts.quantum) return {};
+  const bool few = e.gap < kFewestPooledQuanta * facts.quantum;
+  if (e.gap < signals::kFewestToldQuanta * facts.quantum || (few && c->windows < kManyWindows)) return {};
   const double doubt = std::hypot(kDoubt * c->doubt, kImpactLaw * e.gap), apart = 0.5 * std::abs(up - down);
   e.std = std::sqrt(doubt * doubt + apart * apart + std::pow(kRounding * facts.quantum, 2) +
                     0.25 * c->beyond * c->beyond);

@@ -76,6 +76,7 @@ TEST(Detector, ACoarseEncoderIsToldThatItHidesTheBeginOfTheContact) {
   TestDrive drive;
   drive.gap = 0.019;
   drive.x1 = 0.002;
+  drive.k = 40.0;
   TestEncoder encoder;
   encoder.bits = 14;
   encoder.rate = 1000.0;

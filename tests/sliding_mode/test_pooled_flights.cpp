@@ -14,6 +14,7 @@ namespace {
 
 using independent_plant::BlindCase;
 using independent_plant::BlindRun;
+using independent_plant::Waveform;
 
 struct PooledSubject {
   BlindCase c;
@@ -76,7 +77,7 @@ TEST(PooledFlights, AStayAtNoTorqueBeginsWhereTheTorqueVanishes) {
 
 TEST(PooledFlights, AMotorThatLeavesItsLoadWithoutTorqueIsNotReadFromWhereItCameToRest) {
   const auto trapezoid = [](std::uint64_t seed) {
-    return PooledSubject(independent_plant::random_drive(seed, independent_plant::Waveform::kTrapezoid));
+    return PooledSubject(independent_plant::random_drive(seed, Waveform::kTrapezoid));
   };
   EXPECT_FALSE(
       trapezoid(3320052).read());  // thrown off the flank by the spring of the contact: 16 % too small
@@ -86,9 +87,13 @@ TEST(PooledFlights, AMotorThatLeavesItsLoadWithoutTorqueIsNotReadFromWhereItCame
 
 TEST(PooledFlights, TheFrictionOfALightLoadIsToldFromItsImpact) {
   const auto trapezoid = [](std::uint64_t seed) {
-    return PooledSubject(independent_plant::random_drive(seed, independent_plant::Waveform::kTrapezoid));
+    return PooledSubject(independent_plant::random_drive(seed, Waveform::kTrapezoid));
   };
-  EXPECT_FALSE(trapezoid(3380026).read());     // 15 % too large by impacts alone
+  const PooledSubject lighter = trapezoid(3380026);  // 15 % too large by impacts alone
+  if (const auto estimate = lighter.read()) {
+    EXPECT_NEAR(estimate->gap, lighter.c.drive.gap, 0.06 * lighter.c.drive.gap);
+    EXPECT_LE(estimate->ci95.low, lighter.c.drive.gap);
+  }
   const PooledSubject s = trapezoid(3387020);  // 0.11 of the motor
   const auto estimate = s.read();
   ASSERT_TRUE(estimate);
@@ -100,6 +105,26 @@ TEST(PooledFlights, WithoutAGapNoKinkStandsOut) {
     const PooledSubject s(independent_plant::random_gap_free_drive(3620001, kind));
     EXPECT_FALSE(s.read()) << s.c.kind;
   }
+  constexpr int kCogging = 5;  // long windows take a kink at 0.4 of the travel
+  EXPECT_FALSE(
+      PooledSubject(independent_plant::random_gap_free_drive(3602002, kCogging, Waveform::kTrapezoid))
+          .read());
+}
+
+TEST(PooledFlights, AWeakImpactShowsInWhatFollowsIt) {
+  const PooledSubject s(independent_plant::random_drive(871002));  // 24 counts, a load of 0.74 of the motor
+  const auto estimate = s.read();
+  ASSERT_TRUE(estimate);
+  EXPECT_NEAR(estimate->gap, s.c.drive.gap, 0.03 * s.c.drive.gap);
+  EXPECT_LE(estimate->ci95.low, s.c.drive.gap);
+  EXPECT_GE(estimate->ci95.high, s.c.drive.gap);
+}
+
+TEST(PooledFlights, ThatSinglePassagesSpeakOfAMovingLoadDoesNotSilenceAllOfThem) {
+  const PooledSubject s(independent_plant::random_drive(871106));  // seven of 13, of a load at rest
+  const GapEstimate estimate = detect_gap({&s.trace, 1});
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
 }
 
 }  // namespace
