@@ -13,7 +13,7 @@ void print(const gapscope::GapEstimate& estimate) {
     std::printf("gap %.4f mrad, 95 %% interval [%.4f, %.4f] mrad\n", 1e3 * estimate.gap,
                 1e3 * estimate.ci95.low, 1e3 * estimate.ci95.high);
   } else if (estimate.verdict == gapscope::GapVerdict::kNone) {
-    std::printf("no gap; one of %.4f mrad would have been seen\n", 1e3 * estimate.smallest_visible_gap);
+    std::printf("no gap; one of %.4f mrad would have been seen\n", 1e3 * estimate.none_above());
   } else {
     std::printf("inconclusive: %s\n",
                 estimate.reason.text().c_str());  // an answer, too: it says what to change

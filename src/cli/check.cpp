@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -43,15 +44,20 @@ Purpose purpose_of(const std::string& word) {
                          : Purpose::kDiagnosis;
 }
 
+/// The content that a picture of that name stands for; refused where it would overwrite something.
+std::string require_picture_name(const CheckArguments& a, const RecordingArguments& r) {
+  return require_file_name(a.picture, {r.file}, [](const std::string&) { return false; });
+}
+
 /// What was seen, with what is not fine below the title.
-void draw(const std::string& file, const Inspection& inspection, const RecordingArguments& r,
+void draw(const CheckArguments& a, const Inspection& inspection, const RecordingArguments& r,
           const RecordingConfig& recording) {
   std::vector<std::string> lines;
   for (const Finding& f : inspection.findings)
     if (f.severity == Severity::kSpoils) lines.push_back(f.rule + ": " + f.found);
   if (lines.empty()) lines.emplace_back("nothing spoils the estimates");
-  const std::string found = require_file_name(file, {r.file}, [](const std::string&) { return false; });
-  write_text(file,
+  const std::string found = require_picture_name(a, r);
+  write_text(a.picture,
              recording_picture(read_recording(r.file, recording.reading_for(UnevenRows::kStamped)),
                                inspection.coordinates, lines),
              found);
@@ -60,14 +66,16 @@ void draw(const std::string& file, const Inspection& inspection, const Recording
 Inspection check_recording(const CheckArguments& a, const RecordingArguments& r) {
   const auto look = [&] { return require_file_name(a.output, {r.file}, is_inspection_file); };
   if (!a.output.empty()) look();  // before the work
+  if (!a.picture.empty()) require_picture_name(a, r);
   const Configuration c = reading_of(r);
   Inspection inspection = inspect(r.file, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
   if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(inspection);
   judge_for(purpose_of(a.purpose), inspection);
   const std::string json = inspection_json(inspection, resolved_reading(c));
   if (!a.output.empty()) write_text(a.output, json, look());
-  if (!a.picture.empty()) draw(a.picture, inspection, r, *c.recording);
   fmt::print("{}", a.json ? json : inspection.report());
+  std::fflush(stdout);  // read while the picture is drawn
+  if (!a.picture.empty()) draw(a, inspection, r, *c.recording);
   return inspection;
 }
 

@@ -33,7 +33,7 @@ std::string model_free_line(const GapEstimate& g, Coordinates coordinates) {
                        to_string(g.method), g.events.size());
   if (g.verdict == GapVerdict::kNone)
     return fmt::format("none: a gap above {} would have shown",
-                       coordinates.thousandths(g.smallest_visible_gap));
+                       coordinates.thousandths(g.none_above()));
   return fmt::format("{}: {}", to_string(g.verdict), g.reason.text());
 }
 

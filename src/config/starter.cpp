@@ -36,7 +36,7 @@ Choice as_seen(const MotorTrace& trace, Coordinates coordinates) {
     return {StarterModel::kLocked, "locked output: x1 follows u in a loop"};
   if (g.verdict == GapVerdict::kNone)
     return {StarterModel::kOneBody,
-            fmt::format("one body: a gap above {:.3g} {} would have shown", g.smallest_visible_gap, unit)};
+            fmt::format("one body: a gap above {:.3g} {} would have shown", g.none_above(), unit)};
   if (g.verdict == GapVerdict::kBacklash)
     return {StarterModel::kGap,
             fmt::format("gap and free load: the detector reads a gap of {:.3g} {}", g.gap, unit)};

@@ -84,13 +84,8 @@ Answer read(const Findings& f) {
   return a;
 }
 
-/// What binds most: what would have shown, or what the loop of the smallest torque leaves room for.
-double largest_gap(const GapEstimate& g) {
-  return std::fmin(g.smallest_visible_gap, g.lost_motion.gap_limit);
-}
-
 Answer denied(const Findings& f) {
-  const double limit = largest_gap(*f.model_free);
+  const double limit = f.model_free->none_above();
   const std::string least = f.coordinates.thousandths(limit);
   Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kGood, "", {}};
   const FittedParameter* gap = told_gap(f);

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/words.h"
+#include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
@@ -36,11 +38,27 @@ std::vector<std::string> rivals(const Diagnosis& d) {
   return all;
 }
 
+/// A line holds so many effects; the table of what was added holds all.
+constexpr std::size_t kToldEffects = 4;
+
+/// How many of them are told one by one: all, or one less than fit beside "and N more".
+std::size_t told_of(std::size_t count) { return count > kToldEffects ? kToldEffects - 1 : count; }
+
+/// With the first of them and "5 more" for the rest.
+std::vector<std::string> shortened(std::vector<std::string> all) {
+  const std::size_t told = told_of(all.size());
+  if (told == all.size()) return all;
+  const std::size_t more = all.size() - told;
+  all.resize(told);
+  all.push_back(fmt::format("{} more", more));
+  return all;
+}
+
 std::string open_causes(const CardFacts& f) {
   const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
   if (open.empty()) return "";
-  return enumerated(open) + (open.size() > 1 ? " help too, their cause" : " helps, its cause") + " is open" +
-         (others.empty() ? "" : ": it may as well be " + enumerated(others, "or"));
+  return enumerated(shortened(open)) + (open.size() > 1 ? " help too, their cause" : " helps, its cause") +
+         " is open" + (others.empty() ? "" : ": it may as well be " + enumerated(shortened(others), "or"));
 }
 
 /// Whether an amount is the effect's alone: laws that contain a simpler one share its amount with it.
@@ -53,29 +71,31 @@ bool has_own_amount(const AddedEffect& a, const std::vector<AddedEffect>& all) {
   });
 }
 
-/// "20.5 N": the amount that the fit gave it; nothing where that has no unit or is not its own.
+/// "20.54 N, 95 %: 20.11 to 20.97": the amount that the fit gave it; nothing where that has no unit or is not
+/// its own.
 std::string amount_of(const AddedEffect& a, const CardFacts& f) {
   if (a.parameters.empty() || !has_own_amount(a, f.diagnosis->added)) return "";
   const NamedValue& amount = a.parameters.front();
   const std::string unit = f.coordinates.shown_unit(amount.unit);
   if (unit.empty() || !std::isfinite(amount.value)) return "";
-  return SharedUnit(amount.value, unit)(amount.value);
+  return SharedUnit(amount.value, unit).with_interval(amount.value, amount.ci95);
 }
 
-/// "friction (20.5 N)"
-std::string with_amount(const AddedEffect& a, const CardFacts& f) {
-  const std::string amount = amount_of(a, f);
-  return called(a, f) + (amount.empty() ? "" : " (" + amount + ")");
-}
-
-/// "cogging torque (2 N, 64 %)": with what it takes of the error above the floor. Of a single effect with an
-/// amount the fall beside it says that.
-std::string with_share(const AddedEffect& a, const CardFacts& f) {
+/// "cogging torque (2 N; takes 64 %)": what is known of it alone.
+/// @param share  whether what it takes of the error above the floor belongs to it; where every effect has the
+/// torque that it leaves, or is the only one, the fall beside it says that
+std::string with_asides(const AddedEffect& a, const CardFacts& f, bool share) {
   std::vector<std::string> asides;
   if (const std::string amount = amount_of(a, f); !amount.empty()) asides.push_back(amount);
-  if (std::isfinite(a.shrink) && (asides.empty() || f.diagnosis->added.size() > 1))
-    asides.push_back(fmt::format("{:.0f} %", 100.0 * a.shrink));
-  return called(a, f) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, ", ")));
+  if (share && std::isfinite(a.shrink)) asides.push_back(fmt::format("takes {:.0f} %", 100.0 * a.shrink));
+  return called(a, f) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
+}
+
+/// "17.1 % to 2.2 %"
+std::string percents(const Card& card) {
+  const double both[] = {card.percent, card.percent_after};
+  const Percents percent(both);
+  return percent(card.percent) + " to " + percent(card.percent_after);
 }
 
 /// "from 9.66 to 1.22 N (17.1 % to 2.16 %)"
@@ -83,8 +103,8 @@ std::string fall(const CardFacts& f, const Card& card) {
   const MismatchSize& m = f.diagnosis->mismatch;
   if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
     const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
-    return fmt::format("from {} to {} ({} to {})", torque.number(card.torque), torque(card.torque_after),
-                       percent_text(card.percent), percent_text(card.percent_after));
+    return fmt::format("from {} to {} ({})", torque.number(card.torque), torque(card.torque_after),
+                       percents(card));
   }
   const SharedUnit error(m.before, f.coordinates.position_unit());
   return fmt::format("from {} to {}", error.number(m.before), error(m.after));
@@ -92,8 +112,10 @@ std::string fall(const CardFacts& f, const Card& card) {
 
 std::string shares(const CardFacts& f, const Card& card) {
   std::vector<std::string> all;
-  for (const AddedEffect& a : f.diagnosis->added) all.push_back(with_share(a, f));
-  return enumerated(all) + (all.size() > 1 ? " bring it down " : " brings it down ") + fall(f, card);
+  const auto& added = f.diagnosis->added;
+  for (const AddedEffect& a : added) all.push_back(with_asides(a, f, added.size() > 1));
+  return enumerated(shortened(all)) + (all.size() > 1 ? " bring it down " : " brings it down ") +
+         fall(f, card);
 }
 
 /// Whether each effect has the torque that it leaves.
@@ -107,10 +129,12 @@ bool has_rungs(const Diagnosis& d) {
 std::string rungs(const CardFacts& f, const Card& card) {
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
   std::vector<std::string> all;
-  for (const AddedEffect& a : f.diagnosis->added)
-    all.push_back(torque(a.after_torque) + " with " + with_amount(a, f));
-  return fmt::format("from {} to {} ({} to {})", torque(card.torque), fmt::join(all, ", then "),
-                     percent_text(card.percent), percent_text(card.percent_after));
+  const auto& added = f.diagnosis->added;
+  for (const AddedEffect& a : std::span(added).first(told_of(added.size())))
+    all.push_back(torque(a.after_torque) + " with " + with_asides(a, f, false));
+  if (const std::size_t more = added.size() - all.size(); more > 0)
+    all.push_back(torque(added.back().after_torque) + fmt::format(" with {} more", more));
+  return fmt::format("from {} to {} ({})", torque(card.torque), fmt::join(all, ", then "), percents(card));
 }
 
 std::string law_words(const LastResortLaw& law) {
@@ -125,7 +149,7 @@ std::string cause_line(const CardFacts& f) {
   const Diagnosis& d = *f.diagnosis;
   if (d.verdict == DiagnosisVerdict::kNone) return "Nothing is missing that this recording could show.";
   const std::vector<std::string> causes = names(f, true);
-  std::string text = causes.empty() ? "" : enumerated(causes) + " (established)";
+  std::string text = causes.empty() ? "" : enumerated(shortened(causes)) + " (established)";
   const std::string open = open_causes(f);
   if (text.empty() && open.empty() && d.stopped) return "Not told: the search was stopped before its end.";
   text += (text.empty() || open.empty() ? "" : "; ") + open;

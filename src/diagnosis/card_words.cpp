@@ -24,6 +24,14 @@ std::string SharedUnit::number(double value) const {
   return whole ? fmt::format("{:.0f}", shown) : fmt::format("{:.3g}", shown);
 }
 
+std::string SharedUnit::with_interval(double value, const Interval& ci95) const {
+  const double half = factor_ * (ci95.high - ci95.low) / 2.0;
+  if (!(half > 0.0)) return (*this)(value);
+  const int d = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 6.0));
+  return fmt::format("{:.{}f} {}, 95 %: {:.{}f} to {:.{}f}", factor_ * value, d, unit_, factor_ * ci95.low, d,
+                     factor_ * ci95.high, d);
+}
+
 std::string percent_text(double percent) { return fmt::format("{} %", SharedUnit(1.0, "").number(percent)); }
 
 std::string enumerated(const std::vector<std::string>& items, const char* last) {

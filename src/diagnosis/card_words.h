@@ -16,6 +16,8 @@ class SharedUnit {
   SharedUnit(double first, const std::string& unit);
   std::string number(double value) const;                                             ///< "9.66"
   std::string operator()(double value) const { return number(value) + " " + unit_; }  ///< "9.66 N"
+  /// "9.66 N, 95 %: 9.41 to 9.91": two digits of the half width; without an interval as above.
+  std::string with_interval(double value, const Interval& ci95) const;
 
  private:
   double factor_ = 1.0;

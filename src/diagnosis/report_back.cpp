@@ -11,6 +11,7 @@
 #include "diagnosis/probability.h"
 #include "diagnosis/remark.h"
 #include "diagnosis/tell_budget.h"
+#include "diagnosis/tell_intervals.h"
 #include "diagnosis/under_controller.h"
 #include "diagnosis/where.h"
 #include "diagnosis/words.h"
@@ -232,6 +233,7 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   tell_models(study, found, nominal, added ? additions.after : nominal,
               added ? &alone(found, additions.effects.front().entry) : nullptr, d);
   if (added) tell_added(study, nominal, additions, d);
+  if (added) tell_intervals(study, additions.after.fitted, d.added);
   d.rivals = open_question(found, additions);
   d.sentence = sentence_of(d, study.options.coordinates);
   return d;
@@ -253,6 +255,7 @@ Diagnosis report_added(const Study& study, const Findings& found, const ScoredMo
     return e.entry == first || contained_effect(*e.entry) == first;
   });
   tell_models(study, found, found.before, after, at == fitted.end() ? nullptr : &*at, d);
+  tell_intervals(study, after.fitted, d.added);
   return d;
 }
 

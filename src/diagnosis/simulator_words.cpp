@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/rule.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
@@ -55,11 +54,15 @@ std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// Of a step: how near a number has to come to a half, a third or the whole of a sample [-]. Twice as much is
+/// where halves and thirds meet; half as much is less than such a number is known to.
+constexpr double kIsStep = 0.1;
+
 /// The step of a solver that leaves half of it in a number, if that is a half or a third of a sample or all
 /// of it; 0: it is none.
 double step_of_solver(double twice_half, double dt) {
   for (const double parts : {1.0, 2.0, 3.0})
-    if (std::abs(twice_half * parts / dt - 1.0) < kRule.part) return dt / parts;
+    if (std::abs(twice_half * parts / dt - 1.0) < kIsStep) return dt / parts;
   return 0.0;
 }
 

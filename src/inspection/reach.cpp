@@ -13,8 +13,11 @@
 namespace gapscope {
 namespace {
 
-constexpr double kMost = 0.99;         ///< of the samples: a spike is no motion
-constexpr double kClearlyMore = 1.25;  ///< times as far, as a motion engineer would call another motion
+constexpr double kMost = 0.99;  ///< of the samples: a spike is no motion
+/// Times as far, as a motion engineer would call another motion. With half and with double the excess 25 and
+/// 21 of 30 pairs of real recordings of one drive (a slide, a gear, eight preloads of a rig) have one that
+/// goes farther, with this one 25.
+constexpr double kClearlyMore = 1.25;
 
 double speed_of(const MotorTrace& r) {
   const std::size_t apart = internal::signals::speed_window(r);

@@ -21,6 +21,7 @@ namespace {
 using internal::recording::ArrayFile;
 
 constexpr std::size_t kMostAxes = 100;
+constexpr std::size_t kCountedAxes = 100'000;  ///< of a table, that the message has their number
 
 /// "q[:, {axis}]" is a column of a table, of which the file says only how many there are.
 std::vector<std::string> columns_of_table(ArrayFile& file, const std::string& pattern) {
@@ -30,7 +31,7 @@ std::vector<std::string> columns_of_table(ArrayFile& file, const std::string& pa
   if (!table || table->size.size() != 2) return {};
   std::vector<std::string> axes;
   const std::size_t first = pattern[open] == '[' ? 0 : 1;
-  for (std::size_t i = 0; i < std::min(table->size[1], kMostAxes); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t>(table->size[1], kCountedAxes); ++i)
     axes.push_back(std::to_string(first + i));
   return axes;
 }

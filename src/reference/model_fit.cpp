@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "reference/identifiability.h"
 #include "reference/prediction.h"
 #include "reference/search.h"
 #include "reference/starts.h"
@@ -128,6 +129,20 @@ std::vector<double> ModelFit::spreads(const FitPoint& at, std::span<const Weight
     spreads.push_back(std::sqrt(std::max(slope.dot(of.white * slope), slope.dot(of.scatter * slope))));
   }
   return spreads;
+}
+
+std::vector<std::pair<ParameterId, double>> ModelFit::standard_errors(const FitPoint& at) const {
+  const Information information = information_at(*problem_, at, observer_hz_);
+  count(information.simulations);
+  const Determination determined = determine(*problem_, at, information);
+  const std::vector<ParameterId> ends = at_bound(at);
+  std::vector<std::pair<ParameterId, double>> errors;
+  for (std::size_t i = 0; i < problem_->free_count(); ++i) {
+    const ParameterId id = problem_->free_parameter(i).id;
+    const bool ended = std::find(ends.begin(), ends.end(), id) != ends.end();
+    errors.emplace_back(id, ended ? kNaN : determined.std[i]);
+  }
+  return errors;
 }
 
 ReferenceModel ModelFit::model_at(const FitPoint& at) const {

@@ -155,6 +155,10 @@ class ModelFit {
   /// what is not estimated counts as known. Empty where the motion diverges.
   std::vector<double> spreads(const FitPoint& at, std::span<const WeightedSum> sums) const;
 
+  /// Standard errors of the free numbers by the rule of fit(), at this observer alone; NaN where the
+  /// recordings do not determine a number, or it stands at a bound.
+  std::vector<std::pair<ParameterId, double>> standard_errors(const FitPoint& at) const;
+
   /// The model with the values of a point.
   ReferenceModel model_at(const FitPoint& at) const;
   ModelRun run_at(const FitPoint& at) const;

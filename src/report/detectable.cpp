@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
 #include "report/rich_text.h"
 #include "report/ticks.h"
@@ -54,8 +55,6 @@ std::string shapes_text(const DiagnosisResult& r, const DetectableEffect& e) {
   for (const NamedValue& v : e.at) parts.push_back(shape_text(r, v));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
-
-std::string percent_text(double share) { return rounded(100.0 * share, 2) + " %"; }
 
 double share_of_input(const DiagnosisResult& r, const DetectableEffect& e) {
   return e.torque / r.diagnosis.mismatch.input_torque;
@@ -144,12 +143,15 @@ std::string detectable_table(const DiagnosisResult& r) {
       "the {} that the smallest amount makes.\n\n| effect | smallest amount | at | of the input | why not "
       "|\n|---|---|---|---|---|\n",
       sentence(r), r.coordinates.torque_word());
+  std::vector<double> shares;
+  for (const DetectableEffect& e : r.diagnosis.detectable) shares.push_back(100.0 * share_of_input(r, e));
+  const Percents percent(shares);
   for (const DetectableEffect& e : r.diagnosis.detectable) {
     const std::string amount =
         e.can_be_shown() ? (falls(e) ? "at most " : "") + number_text(r, e.smallest) : "–";
     const double share = share_of_input(r, e);
     text += fmt::format("| `{}` | {} | {} | {} | {} |\n", e.effect, amount, shapes_text(r, e),
-                        share > 0.0 ? percent_text(share) : "–", e.why);
+                        share > 0.0 ? percent(100.0 * share) : "–", e.why);
   }
   return text;
 }

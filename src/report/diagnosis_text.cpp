@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
 #include "report/detectable.h"
 #include "report/diagnosis_figures.h"
@@ -79,8 +80,7 @@ std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
     if (is_left_out(p)) continue;
     const bool phase = p.key == "phase_rad";  // an angle on a linear axis, too
     const std::string unit = (phase ? Coordinates() : coordinates).shown_unit(p.unit);
-    parts.push_back(
-        fmt::format("{} {}{}", name_of_key(p.key), rounded(p.value, 4), unit.empty() ? "" : " " + unit));
+    parts.push_back(name_of_key(p.key) + " " + quantity(p.value, unit));
     if (!coordinates.rotational() && p.key == "periods_per_turn")
       parts.back() = "a period of " + quantity(2.0 * kPi / p.value, "m");
   }
@@ -122,6 +122,25 @@ std::string ranking_table(const DiagnosisResult& r) {
                         rounded(e.rel), rounded(e.shrink), rounded(e.windows_better),
                         parameters_of(e, r.coordinates), e.remark);
   return text;
+}
+
+/// The numbers of what was added, each with its interval.
+std::string added_table(const DiagnosisResult& r) {
+  std::string text;
+  for (const AddedEffect& a : r.diagnosis.added) {
+    std::string effect = fmt::format("`{}` ({})", a.effect, a.established ? "established" : "cause open");
+    for (const NamedValue& p : a.parameters) {
+      if (is_left_out(p)) continue;
+      const std::string unit = (p.key == "phase_rad" ? Coordinates() : r.coordinates).shown_unit(p.unit);
+      text +=
+          fmt::format("| {} | {} | {} |\n", effect, name_of_key(p.key), with_interval(p.value, p.ci95, unit));
+      effect = "";
+    }
+  }
+  if (text.empty()) return "";
+  return "\n## What was added\n\nThe intervals hold for the model with all of it, as fitted; without one the "
+         "recording does not determine the number.\n\n| effect | number | value |\n|---|---|---|\n" +
+         text;
 }
 
 std::string names_list(const std::vector<std::string>& names) {
@@ -173,14 +192,17 @@ std::string blame_table(const DiagnosisResult& r) {
   std::string text =
       "\n## Parameters biased by what was missing\n\n| parameter | nominal model | with all that was added | "
       "bias of the first |\n|---|---|---|---|\n";
+  const auto bias = [](const BlameShift& b) { return 100.0 * (b.without - b.with) / std::abs(b.with); };
+  std::vector<double> all;
+  for (const BlameShift& b : r.diagnosis.blame) all.push_back(bias(b));
+  const Percents shown(all);
   for (const BlameShift& b : r.diagnosis.blame) {
-    const double percent = 100.0 * (b.without - b.with) / std::abs(b.with);
-    text +=
-        fmt::format("| `{}` | {} | {} | {} |\n", b.key, quantity(b.without, r.coordinates.shown_unit(b.unit)),
-                    quantity(b.with, r.coordinates.shown_unit(b.unit)),
-                    std::isfinite(percent)
-                        ? fmt::format("{} % {}", rounded(std::abs(percent)), percent > 0 ? "high" : "low")
-                        : "–");
+    const double percent = bias(b);
+    text += fmt::format(
+        "| `{}` | {} | {} | {} |\n", b.key, quantity(b.without, r.coordinates.shown_unit(b.unit)),
+        quantity(b.with, r.coordinates.shown_unit(b.unit)),
+        std::isfinite(percent) ? fmt::format("{} {}", shown(std::abs(percent)), percent > 0 ? "high" : "low")
+                               : "–");
   }
   return text;
 }
@@ -212,9 +234,9 @@ std::string experiment_table(const DiagnosisResult& r) {
 
 std::string diagnosis_text(const DiagnosisResult& r) {
   return fmt::format("\n## What the simulation lacks\n\n**{}**\n", r.diagnosis.sentence) +
-         simulator_table(r) + budget_table(r) + measures_table(r) + closed_loop_table(r) + ranking_table(r) +
-         steps_table(r) + periodic_table(r) + blame_table(r) + law_table(r) + detectable_table(r) +
-         experiment_table(r) +
+         simulator_table(r) + added_table(r) + budget_table(r) + measures_table(r) + closed_loop_table(r) +
+         ranking_table(r) + steps_table(r) + periodic_table(r) + blame_table(r) + law_table(r) +
+         detectable_table(r) + experiment_table(r) +
          "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
 }
 

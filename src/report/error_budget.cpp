@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
 #include "report/diagnosis_words.h"
 #include "report/rich_text.h"
@@ -26,9 +27,18 @@ std::string law_of(const DiagnosisResult& r, const BudgetRung& rung) {
   return text;
 }
 
+double percent_of_input(const ErrorBudget& b, double size) { return 100.0 * size / b.input; }
+
+/// Of all that is left, step by step.
+Percents percents_of(const ErrorBudget& b) {
+  std::vector<double> all = {percent_of_input(b, b.nominal), percent_of_input(b, b.remains)};
+  for (const BudgetRung& rung : b.rungs) all.push_back(percent_of_input(b, rung.after));
+  return Percents(all);
+}
+
 std::string size_text(const DiagnosisResult& r, double size) {
-  return fmt::format("{} ({} %)", quantity(size, budget_unit(r)),
-                     rounded(100.0 * size / r.diagnosis.budget.input, 2));
+  const ErrorBudget& b = r.diagnosis.budget;
+  return fmt::format("{} ({})", quantity(size, budget_unit(r)), percents_of(b)(percent_of_input(b, size)));
 }
 
 /// A bar of the waterfall, in a row of its own.
@@ -79,7 +89,7 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
     return figure;
   }
   Panel panel;
-  panel.title = fmt::format("Error budget: rms below {} Hz (of the input's)", rounded(b.band_hz, 2));
+  panel.title = fmt::format("rms below {} Hz (of the input's)", rounded(b.band_hz, 2));
   const std::vector<Floor> floors = floors_of(b);
   const double end = longest_bar(b), reach = kFarFloor * end;
   const bool seen = !floors.empty() && floors.front().size <= reach;
@@ -109,7 +119,7 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   figure.reading =
       fmt::format("The residual {} falls from {} to {}, {} of what the input brings.", torque_of(r),
                   quantity(b.nominal, budget_unit(r)), quantity(b.remains, budget_unit(r)),
-                  rounded(100.0 * b.remains / b.input, 2) + " %");
+                  percents_of(b)(percent_of_input(b, b.remains)));
   if (!seen && !floors.empty())
     figure.reading += fmt::format(" The floor ({}), {}, lies outside of the figure.", floors.front().name,
                                   quantity(floors.front().size, budget_unit(r)));
@@ -125,6 +135,7 @@ bool budget_decides(const Diagnosis& d) {
 std::string budget_table(const DiagnosisResult& r) {
   const ErrorBudget& b = r.diagnosis.budget;
   if (!b.exists()) return "";
+  const Percents percent = percents_of(b);
   std::string text = fmt::format(
       "\n## Error budget\n\nHeld-out residual {}, rms below {} Hz; the input brings {}. Every line refits "
       "all numbers of the "
@@ -133,14 +144,14 @@ std::string budget_table(const DiagnosisResult& r) {
       "what the nominal model leaves; *last*: of what all the others leave, which is what no other can "
       "say.\n\n"
       "| added | left | of the input | share | 95 % | alone | last |\n|---|---|---|---|---|---|---|\n"
-      "| the model as it is | {} | {} % | | | | |\n",
+      "| the model as it is | {} | {} | | | | |\n",
       torque_of(r), rounded(b.band_hz, 2), quantity(b.input, budget_unit(r)),
-      quantity(b.nominal, budget_unit(r)), rounded(100.0 * b.nominal / b.input, 2));
+      quantity(b.nominal, budget_unit(r)), percent(percent_of_input(b, b.nominal)));
   for (const BudgetRung& rung : b.rungs)
     text += fmt::format(
-        "| {}{} | {} | {} % | {} | {} to {} | {} | {} |\n", law_of(r, rung),
+        "| {}{} | {} | {} | {} | {} to {} | {} | {} |\n", law_of(r, rung),
         rung.added ? "" : " (not in the model)", quantity_beside(rung.after, b.nominal, budget_unit(r)),
-        rounded(100.0 * rung.after / b.input, 2), rounded(rung.share, 2), rounded(rung.share_ci95.low, 2),
+        percent(percent_of_input(b, rung.after)), rounded(rung.share, 2), rounded(rung.share_ci95.low, 2),
         rounded(rung.share_ci95.high, 2), rounded(rung.alone, 2), rounded(rung.last, 2));
   if (std::any_of(b.rungs.begin(), b.rungs.end(),
                   [](const BudgetRung& g) { return std::isfinite(g.period); }))

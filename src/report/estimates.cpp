@@ -14,7 +14,7 @@ constexpr Interval kNone{};
 
 bool is_denied(const ReportView& view) {
   return view.run.model_free && view.run.model_free->verdict == GapVerdict::kNone &&
-         std::isfinite(view.run.model_free->smallest_visible_gap);
+         std::isfinite(view.run.model_free->none_above());
 }
 
 bool is_play(const ReportView& view) {
@@ -44,7 +44,7 @@ void add_model_free(const ReportView& view, Panel& panel) {
   std::string remark = plus_minus(g.gap, g.ci95, view.length_unit);
   if (g.verdict == GapVerdict::kInconclusive) remark = "inconclusive";
   if (g.verdict == GapVerdict::kNone)
-    remark = "none above " + quantity(g.smallest_visible_gap, view.length_unit);
+    remark = "none above " + quantity(g.none_above(), view.length_unit);
   const LostMotion& m = g.lost_motion;
   if (!std::isfinite(g.gap) && m.read()) {  // measured, whatever it means
     const bool levels = m.levels.size() > 1;
@@ -109,7 +109,7 @@ Interval event_range(const ReportView& view) {
   const Interval& ci = view.run.model_free->ci95;
   for (const double v : {ci.low, ci.high, view.true_gap()})
     if (std::isfinite(v)) values.push_back(v);
-  if (is_denied(view)) values.insert(values.end(), {0.0, view.run.model_free->smallest_visible_gap});
+  if (is_denied(view)) values.insert(values.end(), {0.0, view.run.model_free->none_above()});
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double room = std::max(0.1 * (*high - *low), 0.01 * std::abs(*high));
   return {*low - room, *high + room};
@@ -153,7 +153,7 @@ Panel over_time(const ReportView& view) {
   if (std::isfinite(ci.low)) panel.y_bands.push_back({ci, kBandShade, "95 % interval"});
   if (is_denied(view))
     panel.y_marks.push_back(
-        {view.run.model_free->smallest_visible_gap, model_free_style(), "a gap this wide would have shown"});
+        {view.run.model_free->none_above(), model_free_style(), "a gap this wide would have shown"});
   if (std::isfinite(view.true_gap()))
     panel.y_marks.push_back({view.true_gap(), truth_style(), view.true_gap_name()});
   return panel;

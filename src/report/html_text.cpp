@@ -6,29 +6,10 @@
 #include <cctype>
 #include <sstream>
 
+#include "report/markup_text.h"
+
 namespace gapscope::internal::report {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
 
 /// Puts what stands between pairs of a mark into an element; a mark without its partner stays.
 std::string marked(const std::string& text, const std::string& mark, const char* element) {
@@ -101,8 +82,8 @@ std::string picture_html(const std::string& line, const std::vector<Picture>& pi
     if (p.file == file)
       return fmt::format(
           "<figure><img alt=\"{}\" style=\"--columns:{:.4g}\" src=\"data:image/png;base64,{}\"></figure>\n",
-          escaped(title), p.columns, base64(p.png));
-  return fmt::format("<p>{}</p>\n", escaped(title));
+          markup_text(title), p.columns, base64(p.png));
+  return fmt::format("<p>{}</p>\n", markup_text(title));
 }
 
 /// The place that a link to a heading goes to.
@@ -196,7 +177,7 @@ std::string base64(const std::string& bytes) {
 
 std::string html_line(const std::string& line) {
   std::string out;
-  std::istringstream parts(escaped(line));
+  std::istringstream parts(markup_text(line));
   std::string part;
   for (bool code = false; std::getline(parts, part, '`'); code = !code)
     out += code ? "<code>" + part + "</code>" : linked(marked(marked(part, "**", "b"), "*", "i"));

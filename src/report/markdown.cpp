@@ -34,7 +34,7 @@ std::string parameter_row(const FittedParameter& p, const FitSummary& fit, const
 /// The gap, or what the verdict says instead.
 std::string read_gap(const GapEstimate& g, const std::string& unit) {
   if (g.verdict == GapVerdict::kBacklash) return quantity(g.gap, unit);
-  if (g.verdict == GapVerdict::kNone) return "none above " + quantity(g.smallest_visible_gap, unit);
+  if (g.verdict == GapVerdict::kNone) return "none above " + quantity(g.none_above(), unit);
   return "inconclusive";
 }
 

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <filesystem>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/report/changes_report.h"
 
 namespace gapscope {
 namespace {
 
-constexpr int kNameWidth = 26, kCellWidth = 20;
+constexpr std::size_t kNameWidth = 26, kCellWidth = 20;
 
 /// Of a quantity over the reports that tell it.
 struct Spread {
@@ -35,14 +36,23 @@ Spread spread_of(const DriveQuantity& q) {
 }
 
 std::string cell(const Observation& o) {
-  if (std::isfinite(o.value)) return fmt::format("{:.4g} ± {:.2g}", o.value, 1.96 * o.std);
+  if (std::isfinite(o.value)) return fmt::format("{:.4g} ± {:.2g}", o.value, kNormal95 * o.std);
   return std::isfinite(o.ci95.high) ? fmt::format("none > {:.3g}", o.ci95.high) : "-";
 }
 
+bool begins_letter(char c) { return (c & 0xc0) != 0x80; }  // in UTF-8
+
+std::string first_letters(const std::string& text, std::size_t most) {
+  std::size_t seen = 0, end = 0;
+  while (end < text.size() && (seen < most || !begins_letter(text[end])))
+    seen += begins_letter(text[end++]) ? 1 : 0;
+  return text.substr(0, end);
+}
+
 /// Padded by what is seen: ± takes two bytes.
-std::string padded(const std::string& text, int width) {
-  const auto seen = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
-  return text + std::string(static_cast<std::size_t>(std::max<std::ptrdiff_t>(width - seen, 1)), ' ');
+std::string padded(const std::string& text, std::size_t width) {
+  const auto seen = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_letter));
+  return text + std::string(seen < width ? width - seen : 1, ' ');
 }
 
 std::string name_of(const std::string& folder) {
@@ -56,7 +66,7 @@ std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x
 std::string spread_text(const DriveChanges& all) {
   std::string text = padded("", kNameWidth);
   for (const std::string& report : all.reports)
-    text += padded(name_of(report).substr(0, kCellWidth - 1), kCellWidth);
+    text += padded(first_letters(name_of(report), kCellWidth - 1), kCellWidth);
   text += padded("mean", 12) + padded("spread", 12) + "of a fit\n";
   for (const DriveQuantity& q : all.quantities) {
     const Spread s = spread_of(q);

@@ -5,26 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/markup_text.h"
+
 namespace gapscope::internal::report {
 namespace {
-
-/// Text as XML has it; characters that XML 1.0 cannot hold are left out.
-std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\t')
-      out += c;
-  }
-  return out;
-}
 
 /// Hundredths of a pixel, without what says nothing: "12.5", "-3".
 std::string coordinate(double value) {
@@ -107,7 +91,7 @@ void SvgCanvas::run(Point origin, const PlacedRun& p, const TextStyle& style) {
       "lengthAdjust=\"spacingAndGlyphs\" xml:space=\"preserve\">{}</text>\n",
       coordinate(origin.x + p.x), coordinate(origin.y + p.y), coordinate(p.size), hex(style.colour),
       style.bold ? " font-weight=\"bold\"" : "", p.run.italic ? " font-style=\"oblique\"" : "",
-      coordinate(p.width), xml(p.run.text));
+      coordinate(p.width), markup_text(p.run.text));
   if (!p.run.hat) return;
   Polyline hat = typesetter_.hat_of(p, style.bold);
   for (Point& corner : hat) corner = {origin.x + corner.x, origin.y + corner.y};
@@ -135,8 +119,8 @@ std::string SvgCanvas::document(double width, double height, const std::string& 
       "viewBox=\"0 0 {} {}\" role=\"img\" font-family=\"DejaVu Sans, Verdana, sans-serif\" "
       "stroke-linejoin=\"round\" fill=\"none\">\n<title>{}</title>\n",
       coordinate(width * centimetres), coordinate(height * centimetres), coordinate(width),
-      coordinate(height), xml(title));
-  if (!reading.empty()) text += "<desc>" + xml(reading) + "</desc>\n";
+      coordinate(height), markup_text(title));
+  if (!reading.empty()) text += "<desc>" + markup_text(reading) + "</desc>\n";
   if (!clips_.empty()) text += "<defs>\n";
   for (std::size_t i = 0; i < clips_.size(); ++i)
     text += fmt::format("<clipPath id=\"frame{}\"><rect {}/></clipPath>\n", i + 1, box_of(clips_[i]));

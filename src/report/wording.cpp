@@ -50,7 +50,7 @@ std::string model_free_sentence(const RunResult& run) {
     case GapVerdict::kBacklash:
       return "Without a model: " + what_was_read(g) + " " + with_interval(g.gap, g.ci95, unit) + ".";
     case GapVerdict::kNone:
-      return "Without a model: no backlash above " + quantity(g.smallest_visible_gap, unit) + ".";
+      return "Without a model: no backlash above " + quantity(g.none_above(), unit) + ".";
     default:
       if (g.lost_motion.read())
         return "Without a model: " + lost_motion_sentence(g.lost_motion, unit) + " Verdict: inconclusive.";

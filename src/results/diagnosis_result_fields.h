@@ -76,6 +76,7 @@ void fields(Archive& archive, AddedEffect& a) {
   archive("probability", a.probability);
   archive.named_members("parameters", a.parameters, &NamedValue::key, &NamedValue::value);
   units(archive, "units", a.parameters);
+  archive.added_members("parameters_ci95", a.parameters, &NamedValue::key, &NamedValue::ci95);
   archive("shrink", a.shrink);
   archive("shrink_ci95", a.shrink_ci95);
   archive("after_torque_nm", a.after_torque);

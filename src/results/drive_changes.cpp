@@ -31,8 +31,8 @@ Observation model_free(const DriveReport& report, GapQuantity quantity) {
   if (g.verdict == GapVerdict::kNone) {
     if (quantity == GapQuantity::kPlayAtZeroTorque && g.quantity != quantity) return untold("not read");
     Observation none = untold(
-        fmt::format("none above {:.3g} {}", g.smallest_visible_gap, report.coordinates.position_unit()));
-    none.ci95 = {0.0, g.smallest_visible_gap};
+        fmt::format("none above {:.3g} {}", g.none_above(), report.coordinates.position_unit()));
+    none.ci95 = {0.0, g.none_above()};
     return none;
   }
   if (g.quantity != quantity)

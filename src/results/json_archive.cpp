@@ -26,6 +26,11 @@ std::string shown_json(const Json& json) {
 
 Json to_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json to_json(const Interval& value) {
+  const bool known = std::isfinite(value.low) && std::isfinite(value.high);
+  return known ? Json::array({value.low, value.high}) : Json(nullptr);
+}
+
 std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
@@ -101,11 +106,6 @@ Json load_json(const std::string& path) { return parsed_json(text_of_file(path),
 
 void JsonWriter::operator()(const char* key, std::optional<bool>& value) {
   json[key] = value ? Json(*value) : Json(nullptr);
-}
-
-void JsonWriter::operator()(const char* key, Interval& value) {
-  const bool known = std::isfinite(value.low) && std::isfinite(value.high);
-  json[key] = known ? Json::array({value.low, value.high}) : Json(nullptr);
 }
 
 void JsonWriter::operator()(const char* key, std::vector<double>& values) {

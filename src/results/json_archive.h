@@ -35,6 +35,7 @@ inline constexpr const char* kConfiguration = "configuration";  ///< the key of 
 
 /// NaN and infinities become null: a number that could not be had.
 Json to_json(double value);
+Json to_json(const Interval& value);
 inline Json to_json(const std::string& text) { return text; }
 
 /// What a message shows of a value: its first characters.
@@ -63,7 +64,7 @@ class JsonWriter {
   void operator()(const char* key, std::string& value) { json[key] = value; }
   void operator()(const char* key, Remark& value) { json[key] = value.text(); }
   void operator()(const char* key, std::optional<bool>& value);
-  void operator()(const char* key, Interval& value);
+  void operator()(const char* key, Interval& value) { json[key] = to_json(value); }
   void operator()(const char* key, std::vector<std::string>& values) { json[key] = values; }
   void operator()(const char* key, std::vector<Remark>& values) { json[key] = texts_of(values); }
   void operator()(const char* key, std::vector<double>& values);
@@ -126,6 +127,11 @@ class JsonWriter {
                      Member Struct::*member) {
     json[key] = Json::object();
     for (Struct& value : values) json[key][value.*name] = to_json(value.*member);
+  }
+  template <class Struct, class Member>
+  void added_members(const char* key, std::vector<Struct>& values, std::string Struct::*name,
+                     Member Struct::*member) {
+    named_members(key, values, name, member);
   }
   template <class Struct>
   void single(const char* key, Struct& value) {
@@ -248,6 +254,11 @@ class JsonReader {
       values[i].*name = item;
       inner(item.c_str(), values[i++].*member);
     }
+  }
+  template <class Struct, class Member>
+  void added_members(const char* key, std::vector<Struct>& values, std::string Struct::*name,
+                     Member Struct::*member) {  ///< as they were in files without it
+    if (json_.contains(key)) named_members(key, values, name, member);
   }
   template <class Struct>
   void single(const char* key, Struct& value) {

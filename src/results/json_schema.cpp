@@ -5,8 +5,10 @@
 namespace gapscope {
 namespace internal::results {
 
-void SchemaWriter::operator()(const char* key, Interval&) {
-  add(key, {{"type", {"array", "null"}}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}});
+void SchemaWriter::operator()(const char* key, Interval& value) { add(key, type_of(value)); }
+
+Json SchemaWriter::type_of(const Interval&) {
+  return {{"type", {"array", "null"}}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
 }
 
 void SchemaWriter::bound(const char* key, double&) {

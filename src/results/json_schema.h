@@ -72,6 +72,12 @@ class SchemaWriter {
   void named_members(const char* key, std::vector<Struct>&, std::string Struct::*, Member Struct::*) {
     add(key, map_of(type_of(Member{})));
   }
+  template <class Struct, class Member>
+  void added_members(const char* key, std::vector<Struct>& values, std::string Struct::*name,
+                     Member Struct::*member) {
+    named_members(key, values, name, member);
+    additions_.insert(key);
+  }
   template <class Struct>
   void single(const char* key, Struct& value) {
     add(key, schema_of(value));
@@ -106,6 +112,7 @@ class SchemaWriter {
 
  private:
   static Json type_of(double) { return {{"type", {"number", "null"}}}; }
+  static Json type_of(const Interval&);
   static Json type_of(const std::string&) { return {{"type", "string"}}; }
   static Json list_of(const Json& item) { return {{"type", "array"}, {"items", item}}; }
   static Json map_of(const Json& item) { return {{"type", "object"}, {"additionalProperties", item}}; }

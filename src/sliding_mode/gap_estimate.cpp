@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gapscope {
 
@@ -63,6 +64,8 @@ Interval LostMotion::range() const {
   return {low->lost_motion, high->lost_motion};
 }
 
+double GapEstimate::none_above() const { return std::fmin(smallest_visible_gap, lost_motion.gap_limit); }
+
 std::string GapEstimate::brief_report() const {
   switch (verdict) {
     case GapVerdict::kBacklash:
@@ -70,7 +73,7 @@ std::string GapEstimate::brief_report() const {
                          quantity == GapQuantity::kGap ? "gap" : "play at zero torque", gap, ci95.low,
                          ci95.high, reason.text());
     case GapVerdict::kNone:
-      return fmt::format("none above {:.3g} rad ({})", smallest_visible_gap, reason.text());
+      return fmt::format("none above {:.3g} rad ({})", none_above(), reason.text());
     case GapVerdict::kInconclusive:
       return fmt::format("inconclusive: {}", reason.text());
     case GapVerdict::kNotRun:

@@ -75,7 +75,9 @@ TEST(Check, JudgesForTheQuestionAndSeveralFilesTogether) {
   EXPECT_THAT(both.out, HasSubstr("together    all 2 recordings ask the drive the same"));
   EXPECT_EQ(place.run("check wrong.csv --picture seen.png").status, 3);
   EXPECT_THAT(testing::text_of(place.folder() / "seen.png"), ::testing::StartsWith("\x89PNG"));
-  EXPECT_EQ(place.run("check good.csv --picture seen.png").status, 2) << "nothing is overwritten";
+  const auto taken = place.run("check good.csv --picture seen.png");
+  EXPECT_EQ(taken.status, 2) << "nothing is overwritten";
+  EXPECT_EQ(taken.out, "") << "a name that is taken is told before the work";
   const auto json = place.run("check wrong.csv --for gap --json");
   EXPECT_EQ(nlohmann::json::parse(json.out)["asked_for"], "gap");
   EXPECT_THAT(place.run("check good.csv wrong.csv --json").err,

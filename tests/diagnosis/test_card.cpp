@@ -65,7 +65,7 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
       "Motor Coulomb friction (established); cogging torque helps, its cause is open: it may as well be "
       "torque ripple.");
   EXPECT_EQ(card.helps,
-            "From 10 N to 4 N with motor Coulomb friction, then 2 N with cogging torque (20 % to 4 %); "
+            "From 10 N to 4 N with motor Coulomb friction, then 2 N with cogging torque (20.0 % to 4.0 %); "
             "`fitted.yaml` has them.");
   EXPECT_DOUBLE_EQ(card.percent, 20.0);
   EXPECT_DOUBLE_EQ(card.percent_after, 4.0);
@@ -82,20 +82,44 @@ TEST(Card, TellsTheAmountOfWhatHelps) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps, Not(HasSubstr("20.5"))) << "both share one amount";
 }
 
-TEST(Card, OfOneEffectTellsTheAmountAndWithoutAnAmountTheShare) {
+TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
   Diagnosis d = slide_diagnosis();
   d.added.erase(d.added.begin());
   d.added.front().parameters = {{"amplitude_nm", "N m", 2.054}, {"periods_per_turn", "1/rev", 2513.3}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Cogging torque (2.05 N) brings it down from 10 to 2 N (20 % to 4 %)"));
+              StartsWith("Cogging torque (2.05 N) brings it down from 10 to 2 N (20.0 % to 4.0 %)"));
   d.added.front().parameters.clear();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Cogging torque (50 %) brings it down from 10 to 2 N"));
+              StartsWith("Cogging torque brings it down from 10 to 2 N"));
   d = slide_diagnosis();
   d.added[0].after_torque = kNaN, d.added[0].parameters = {{"level_nm", "N m", 20.54}};
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("Motor Coulomb friction (20.5 N, 60 %) and cogging torque (50 %) bring it down from 10"));
+      StartsWith("Motor Coulomb friction (20.5 N; takes 60 %) and cogging torque (takes 50 %) bring it down "
+                 "from 10"));
+}
+
+TEST(Card, TellsAnAmountWithItsInterval) {
+  Diagnosis d = slide_diagnosis();
+  d.added[0].parameters = {{"level_nm", "N m", 20.54, {20.1, 20.98}}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              HasSubstr("4 N with motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98), then"));
+  d.added.pop_back();
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("Motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98) brings it down"));
+}
+
+TEST(Card, OfManyEffectsTellsTheFirstAndCountsTheRest) {
+  Diagnosis d = slide_diagnosis();
+  d.added.resize(1);
+  for (const char* more : {"cogging_torque", "viscous_friction", "torque_ripple", "load_friction"})
+    d.added.push_back({more, true, {more}, kNaN, {}, 0.1, {}, 4.0 - 0.5 * double(d.added.size())});
+  Card card = card_of(facts_of(nullptr, &d));
+  EXPECT_THAT(card.helps, StartsWith("From 10 N to 4 N with motor Coulomb friction, then 3.5 N with cogging "
+                                     "torque, then 3 N with viscous friction, then 2 N with 2 more ("));
+  EXPECT_EQ(card.cause, "Motor Coulomb friction, cogging torque, viscous friction and 2 more (established).");
+  d.added.pop_back();
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, HasSubstr("viscous friction and torque ripple (est"));
 }
 
 TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {

@@ -73,6 +73,13 @@ TEST(Diagnosis, NamesMotorFrictionAndWhatTookTheBlameForIt) {
   EXPECT_EQ(d.fitted.effects.size(), 1u);
 }
 
+TEST(Diagnosis, TellsTheAmountWithItsInterval) {
+  const NamedValue& level = of_motor_friction().added.front().parameters.front();
+  EXPECT_LT(level.ci95.high - level.ci95.low, 0.1 * level.value);
+  EXPECT_LT(level.ci95.low, level.value);
+  EXPECT_GT(level.ci95.high, level.value);
+}
+
 TEST(Diagnosis, SpreadsTheSquaredErrorOverEachQuantity) {
   const Diagnosis& d = of_motor_friction();
   for (const auto* map : {&d.where.mode, &d.where.direction, &d.where.speed, &d.where.angle, &d.where.input,

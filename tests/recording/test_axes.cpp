@@ -46,6 +46,8 @@ TEST(Axes, ThatCannotBeFoundAreRefusedWithWhatToDo) {
   EXPECT_THAT(all("x1"), HasSubstr("the position is 'x1', expected a name with {axis} in it"));
   EXPECT_THAT(all("{axis}.position"),
               HasSubstr("has 0 columns named as '{axis}.position', expected 1 to 100"));
+  EXPECT_THAT(testing::refusal([] { recorded_axes(written_file("wide.npz"), named("q[:, {axis}]")); }),
+              HasSubstr("has 101 columns named as 'q[:, {axis}]', expected 1 to 100"));
   ReadOptions options;
   options.columns = named("q[:, {axis}]");
   EXPECT_THAT(testing::refusal([&] { read_recording(written_file("drive.npz"), options); }),

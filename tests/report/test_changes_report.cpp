@@ -81,6 +81,8 @@ TEST(ChangesReport, SeveralUnitsLieApartBesideWhatAFitDoes) {
   const std::string text = spread_text(all);
   EXPECT_THAT(text, HasSubstr("hip                 knee                toe   "));
   EXPECT_THAT(text, HasSubstr("0.01 ± 0.0059       0.018 ± 0.0078      none > 0.008        0.014 "));
+  all.reports[1] = "out/" + std::string(18, 'k') + "µµ";
+  EXPECT_THAT(spread_text(all), HasSubstr(std::string(18, 'k') + "µ toe")) << "cut between letters";
   EXPECT_THAT(text, HasSubstr("0.00442     0.00354 rad"));  // sqrt(2 0.004² - 0.00354²), sqrt((3² + 4²)/2)
 }
 

@@ -88,10 +88,23 @@ TEST(DiagnosisReport, EveryFigureIsThereAndNotBlankAndTheTextShowsTheBlame) {
     EXPECT_NE(text.find("](" + std::string(name) + ")"), std::string::npos) << name;
   }
   EXPECT_NE(text.find("| `motor_damping` | 0.0800 N·m s/rad"), std::string::npos) << text;
-  EXPECT_NE(text.find("33.3 % high"), std::string::npos) << text;
+  EXPECT_NE(text.find("33 % high"), std::string::npos) << text;
   EXPECT_NE(text.find("| residual torque | 100 mN·m | 10.0 mN·m | – |"), std::string::npos) << text;
   EXPECT_NE(text.find("| 259 mrad | 24.3 | 2.00 mN·m | 31 times | 19 of 20 | yes |"), std::string::npos)
       << text;
+}
+
+TEST(DiagnosisReport, TellsWhatWasAddedWithItsIntervals) {
+  ScratchFolder scratch;
+  DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
+  r.diagnosis.added.front().parameters = {{"amplitude_nm", "N m", 0.004, {0.0038, 0.0042}},
+                                          {"periods_per_turn", "1/rev", 24.0}};
+  write_diagnosis_result(scratch.path.string(), r);
+  write_report(scratch.path.string());
+  const std::string text = text_of(scratch.path / "report.md");
+  EXPECT_THAT(text,
+              HasSubstr("| `cogging_torque` (established) | amplitude | 4.00 mN·m (95 %: 3.80 to 4.20) |"));
+  EXPECT_THAT(text, HasSubstr("|  | periods per turn | 24.0 1/rev |"));
 }
 
 TEST(DiagnosisReport, NamesTheFloorAndWhereItComesFrom) {
@@ -241,8 +254,9 @@ DiagnosisResult with_budget() {
 TEST(ErrorBudgetReport, TellsEachLawWithItsShareAndTheFloor) {
   const std::string text = internal::report::budget_table(with_budget());
   EXPECT_THAT(
-      text, HasSubstr("| cogging torque, 24 per turn | 50.0 mN·m | 5 % | 0.75 | 0.6 to 0.9 | 0.75 | 0.8 |"));
-  EXPECT_THAT(text, HasSubstr("| load friction (not in the model) | 20.0 mN·m | 2 % |"));
+      text,
+      HasSubstr("| cogging torque, 24 per turn | 50.0 mN·m | 5.0 % | 0.75 | 0.6 to 0.9 | 0.75 | 0.8 |"));
+  EXPECT_THAT(text, HasSubstr("| load friction (not in the model) | 20.0 mN·m | 2.0 % |"));
   EXPECT_THAT(text, HasSubstr("Floors, which no model gets below: encoder 4.00 mN·m."));
   EXPECT_EQ(internal::report::budget_table(sample(DiagnosisVerdict::kEffect)), "");
 }
@@ -251,6 +265,7 @@ TEST(ErrorBudgetReport, TheFigureShowsTheFallAndHoldsItsTextsApart) {
   const internal::report::FigureData figure = internal::report::diagnosis_budget(with_budget());
   ASSERT_EQ(figure.panels.size(), 1u);
   EXPECT_EQ(figure.panels[0].tiles.size(), 4u);  // before, two laws, what remains
+  EXPECT_EQ(figure.panels[0].title, "rms below 64 Hz (of the input's)") << "the figure has its title already";
   const internal::report::Drawing drawing = internal::report::draw_with_notes(figure);
   internal::report::expect_clear_texts(figure, drawing);
   EXPECT_FALSE(internal::report::diagnosis_budget(sample(DiagnosisVerdict::kEffect)).missing.empty());
@@ -271,7 +286,7 @@ TEST(DetectableReport, TellsTheAmountsInAPlainSentenceAndATable) {
   const std::string text = internal::report::detectable_table(with_detectable());
   EXPECT_THAT(text, HasSubstr("Input delay of more than 300 µs and torque ripple of more than 2 % would have "
                               "been named on these recordings."));
-  EXPECT_THAT(text, HasSubstr("| `torque_ripple` | 2 % | 24 per turn | 1.4 % |  |"));
+  EXPECT_THAT(text, HasSubstr("| `torque_ripple` | 2 % | 24 per turn | 1.40 % |  |"));
   EXPECT_THAT(text, HasSubstr("| `actuator_lag` | – |  | – | it acts as a delay does |"));
   EXPECT_EQ(internal::report::detectable_table(with_budget()), "");
 }

@@ -93,6 +93,8 @@ TEST(Estimates, AGapThatWasDeniedIsDrawnAgainstTheOneThatWouldHaveShown) {
   EXPECT_DOUBLE_EQ(passages.y_marks[0].at, 0.03);
   EXPECT_LE(passages.y.range.low, 0.0);
   EXPECT_GE(passages.y.range.high, 0.03);
+  run.model_free->lost_motion.gap_limit = 0.01;
+  EXPECT_DOUBLE_EQ(estimates(ReportView(run)).panels.back().y_marks[0].at, 0.01) << "the loop binds more";
 }
 
 TEST(Residuals, OfWhiteNoiseAreCalledWhite) {

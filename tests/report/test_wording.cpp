@@ -54,6 +54,8 @@ TEST(Headline, TellsEveryVerdict) {
   run.comparison->agree.reset();
   run.model_free->verdict = GapVerdict::kNone;
   EXPECT_NE(headline(run).find("no backlash above 400 µrad"), std::string::npos);
+  run.model_free->lost_motion.gap_limit = 1e-4;
+  EXPECT_NE(headline(run).find("no backlash above 100 µrad"), std::string::npos) << "the loop binds more";
   run.model_free->verdict = GapVerdict::kInconclusive;
   run.model_free->reason = Remark::said("no periodic motion");
   EXPECT_NE(headline(run).find("inconclusive, no periodic motion. "), std::string::npos);

@@ -36,8 +36,14 @@ DiagnosisResult sample() {
   d.mismatch.before_torque = kThird, d.mismatch.input_torque = 3.0;
   d.mismatch.floor_from = FloorSource::kNoise, d.mismatch.floor_of = "the noise of x1";
   d.mismatch.shrink = 0.9, d.mismatch.shrink_ci95 = {0.8, 1.1}, d.mismatch.remains = 1.5;
-  d.added = {
-      {"cogging_torque", true, d.group, 0.9, {{"amplitude_nm", "N m", kThird}}, 0.9, {0.8, 1.1}, kThird}};
+  d.added = {{"cogging_torque",
+              true,
+              d.group,
+              0.9,
+              {{"amplitude_nm", "N m", kThird, {0.3, 0.4}}},
+              0.9,
+              {0.8, 1.1},
+              kThird}};
   d.budget.band_hz = 30.0, d.budget.nominal = kThird;
   d.budget.rungs = {{"cogging_torque", "cogging_torque", true, 1.0, kThird, 0.8, {0.7, 0.9}, 0.8, kThird}};
   d.detectable = {
@@ -156,6 +162,7 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.mismatch.floor_from, a.mismatch.floor_from);
   ASSERT_EQ(b.ranking.size(), 2u);
   EXPECT_EQ(b.ranking[0].parameters[0].value, kThird);
+  EXPECT_EQ(b.added[0].parameters[0].ci95.high, 0.4);
   EXPECT_EQ(b.ranking[0].parameters[1].unit, "1/rev");
   EXPECT_TRUE(std::isnan(b.ranking[1].probability));
   EXPECT_EQ(b.ranking[1].remark, a.ranking[1].remark);

@@ -170,6 +170,9 @@ TEST(DriveChanges, AGapThatNoReportSeesIsToldAsDenied) {
   EXPECT_THAT(gap.observed[0].remark, HasSubstr("none above 0.005 rad"));
   EXPECT_EQ(gap.observed[1].remark, "inconclusive");
   EXPECT_EQ(gap.changes[0].verdict, ChangeVerdict::kUntold);
+  before.model_free->lost_motion.gap_limit = 0.002;  // the loop binds more
+  EXPECT_THAT(quantity(compared({before, after}), "model_free", "gap").observed[0].remark,
+              HasSubstr("none above 0.002 rad"));
 }
 
 TEST(DriveChanges, APlayAtZeroTorqueIsNotHeldAgainstAGap) {

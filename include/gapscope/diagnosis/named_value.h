@@ -11,6 +11,7 @@ struct NamedValue {
   std::string key;
   std::string unit;
   double value = kNaN;
+  Interval ci95 = {};  ///< where a fit tells it; else NaN
 };
 
 }  // namespace gapscope

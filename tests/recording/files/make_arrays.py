@@ -15,6 +15,7 @@ odd = dict(complex=i + 1j, objects=np.array([None] * 60), dates=i.astype("dateti
            fields=np.zeros(60, [("a", float), ("b", float)]), wide=i.astype(np.longdouble), short=np.arange(50.0),
            broken=np.where(i == 16, np.nan, 0.01 * i))
 np.savez(os.path.join(here, "drive.npz"), **columns)
+np.savez(os.path.join(here, "wide.npz"), t=np.arange(2) / 1000, u=np.zeros(2), q=np.zeros((2, 101)))
 np.savez_compressed(os.path.join(here, "drive_deflated.npz"), **columns, **odd)
 with h5py.File(os.path.join(here, "drive.h5"), "w", libver="earliest") as f:
     for name in ("t", "u", "x1", "q", "counts", "big", "half", "upright"):

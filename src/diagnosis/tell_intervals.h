@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/fitted_model.h"
+#include "diagnosis/study.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope::internal::diagnosis {
+
+/// Gives the numbers of what was added the 95 % intervals that the fit of the training recordings leaves
+/// them, where it determines them. They hold for the model with all that was added in it.
+void tell_intervals(const Study& study, const FittedModel& fitted, std::vector<AddedEffect>& added);
+
+}  // namespace gapscope::internal::diagnosis
