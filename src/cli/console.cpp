@@ -32,8 +32,7 @@ std::string model_free_line(const GapEstimate& g, Coordinates coordinates) {
                        g.quantity == GapQuantity::kGap ? "backlash" : "play at zero torque",
                        to_string(g.method), g.events.size());
   if (g.verdict == GapVerdict::kNone)
-    return fmt::format("none: a gap above {} would have shown",
-                       coordinates.thousandths(g.none_above()));
+    return fmt::format("none: a gap above {} would have shown", coordinates.thousandths(g.none_above()));
   return fmt::format("{}: {}", to_string(g.verdict), g.reason.text());
 }
 

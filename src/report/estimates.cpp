@@ -43,8 +43,7 @@ void add_model_free(const ReportView& view, Panel& panel) {
   const GapEstimate& g = *view.run.model_free;
   std::string remark = plus_minus(g.gap, g.ci95, view.length_unit);
   if (g.verdict == GapVerdict::kInconclusive) remark = "inconclusive";
-  if (g.verdict == GapVerdict::kNone)
-    remark = "none above " + quantity(g.none_above(), view.length_unit);
+  if (g.verdict == GapVerdict::kNone) remark = "none above " + quantity(g.none_above(), view.length_unit);
   const LostMotion& m = g.lost_motion;
   if (!std::isfinite(g.gap) && m.read()) {  // measured, whatever it means
     const bool levels = m.levels.size() > 1;

@@ -30,8 +30,8 @@ Observation model_free(const DriveReport& report, GapQuantity quantity) {
   if (g.verdict == GapVerdict::kInconclusive) return untold("inconclusive");
   if (g.verdict == GapVerdict::kNone) {
     if (quantity == GapQuantity::kPlayAtZeroTorque && g.quantity != quantity) return untold("not read");
-    Observation none = untold(
-        fmt::format("none above {:.3g} {}", g.none_above(), report.coordinates.position_unit()));
+    Observation none =
+        untold(fmt::format("none above {:.3g} {}", g.none_above(), report.coordinates.position_unit()));
     none.ci95 = {0.0, g.none_above()};
     return none;
   }

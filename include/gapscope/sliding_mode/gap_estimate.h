@@ -100,8 +100,8 @@ struct GapEstimate {
   std::optional<BoundMap> map;
   std::vector<Remark> warnings;
 
-  /// No gap is larger, where the verdict denies one: what binds most of what would have shown and what the loop
-  /// of the smallest torque leaves room for [rad].
+  /// No gap is larger, where the verdict denies one: what binds most of what would have shown and what the
+  /// loop of the smallest torque leaves room for [rad].
   double none_above() const;
   std::string brief_report() const;  ///< one line: log, command line
 };
