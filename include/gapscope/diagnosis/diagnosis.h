@@ -232,8 +232,8 @@ struct DiagnosisOptions {
 ///
 /// Further effects are looked for on top of the first in the same way, to the floor or to the last step that
 /// the held-out data asks for; an earlier effect that a later one has made superfluous is taken out again. A
-/// first step that explains too little alone is accepted once a second one leads from it to the floor, one that
-/// leads but leaves more than a trace once any second one is accepted.
+/// first step that explains too little alone is accepted once a second one leads from it to the floor, one
+/// that leads but leaves more than a trace once any second one is accepted.
 ///
 /// Where `train` is explained and `held_out` is not, `train` asks for too little: the first half of what is
 /// held out is then fitted with it, the second half judges, and a warning says so.
