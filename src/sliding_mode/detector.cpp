@@ -22,9 +22,7 @@ using internal::sliding_mode::ImpactAnalysis;
 using internal::sliding_mode::PaperReading;
 namespace words = internal::sliding_mode::words;
 
-/// Of the passages. With 0.2 two right readings are withheld (871011 and 871106 gap sine, 0.54 of the
-/// passages); with 1 nothing more is told of 871001 150 gap sine, 3391001 60 gap trapezoid and 3376001 60 gap
-/// multisine.
+/// Of the passages. 0.2 withholds two right readings (871011, 871106 gap sine: 0.54); 1 tells nothing more.
 constexpr double kFewMovingLoads = 0.6;
 
 std::vector<PaperReading> read_all(std::span<const MotorTrace> recordings,

@@ -18,7 +18,7 @@ constexpr double kHidden = 0.4;  ///< of the time that a contact acts before it 
 constexpr double kLeastReach = 0.5;
 constexpr double kKinkHolds = 3.0;  ///< standard deviations that the mean square error may exceed the noise
 constexpr double kKinkAlmostAsGood = 4.0;  ///< in χ²
-constexpr double kDithers = 0.4;           ///< noise in quanta, from which on samples are independent
+constexpr double kDithersCounts = 0.4;     ///< noise in quanta, from which on samples are independent
 
 constexpr double kFirstKnocks[] = {0.35, 0.7};  ///< ρ: of the speed that a load takes in bounces
 
@@ -63,7 +63,7 @@ double hidden_time(const KinkFit& kink, double sigma, double most) {
 /// gap trapezoid where it matters errors are 1.1 standard deviations in the mean square; without it 1.5.
 double sharing(const signals::SignalFacts& facts, double step) {
   const double quantum = facts.rounding > 0.0 ? std::sqrt(12.0) * facts.rounding : facts.quantum;
-  if (facts.rounding == 0.0 && facts.noise > kDithers * quantum) return 1.0;
+  if (facts.rounding == 0.0 && facts.noise > kDithersCounts * quantum) return 1.0;
   return std::max(1.0, quantum / std::max(step, 1e-300));
 }
 

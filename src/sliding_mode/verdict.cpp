@@ -38,9 +38,10 @@ constexpr std::size_t kFewest = 2;        ///< passages in each direction
 constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
 constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
 
-/// Of a gap, that the motor may go on before its impact shows. The four of 871001 150 gap sine and 3376001 60
-/// gap multisine that 0.07 withheld are read -0.3 to 3.6 % off, within their intervals; beyond 0.12 these are
-/// too wide to be told (871114, 871058). From kSoft on, intervals stay as wide as those of coarse encoders.
+/// Of a gap, that the motor may go on before its impact shows. Four of 871001 150 gap sine and 3376001 60 gap
+/// multisine that 0.07 withheld read -0.3 to 3.6 % off, within their intervals, where these are narrow enough
+/// to be told; beyond 0.12 they are not (871114, 871058). From kSoft on, they stay as wide as those of coarse
+/// encoders.
 constexpr double kMostHidden = 0.12, kSoft = 0.07;
 constexpr double kMostOfTravel = 0.8;   ///< largest gap, as a share of the travel
 constexpr double kFarthest = 2.0;       ///< that a load may travel, in gaps, if the rest is to be a gap

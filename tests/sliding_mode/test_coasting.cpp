@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -116,6 +117,17 @@ TEST(Coasting, ALoadThatHardlyMovesIsReadWithinWhatItMayHaveMoved) {
 TEST(Coasting, AContactThatRingsUntilItIsLostTellsNoTravelOfTheLoad) {
   const CoastingSubject s(810371);  // 24 % too large by the motor's speed at t1
   EXPECT_NE(s.read().verdict, GapVerdict::kBacklash);
+}
+
+TEST(Coasting, ASoftContactIsReadWhereItsIntervalIsNarrowEnough) {
+  const CoastingSubject s(871060);  // the motor goes on for 7.3 % of the gap before its impacts show
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_LE(estimate.ci95.low, s.c.drive.gap);
+  EXPECT_GE(estimate.ci95.high, s.c.drive.gap);
+  const GapEstimate softer = CoastingSubject(871114).read();  // 12 %
+  EXPECT_EQ(softer.verdict, GapVerdict::kInconclusive);
+  EXPECT_THAT(softer.reason.text(), ::testing::HasSubstr("before the encoder shows the impact"));
 }
 
 TEST(Coasting, AMotorThatComesToRestWithinTheGapTellsNoGap) {

@@ -72,18 +72,18 @@ TEST(Detector, AContactTooSoftForTheEncoderIsNeverReadTooSmall) {
   }
 }
 
-TEST(Detector, ACoarseEncoderIsToldThatItHidesTheBeginOfTheContact) {
+TEST(Detector, AContactThatACoarseEncoderHardlyShowsIsSeenButNotTold) {
   TestDrive drive;
   drive.gap = 0.019;
   drive.x1 = 0.002;
-  drive.k = 40.0;
+  drive.k = 100.0;
   TestEncoder encoder;
   encoder.bits = 14;
   encoder.rate = 1000.0;
   encoder.duration = 5.0;
   const GapEstimate estimate = detect(record(drive, sine(0.5814, 1.0), encoder));
   EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
-  EXPECT_THAT(estimate.reason.text(), HasSubstr("before the encoder shows the impact"));
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("is seen, but only to"));
 }
 
 TEST(Detector, ALoadThatOvertakesTheMotorIsNotReadAsAGap) {
