@@ -23,6 +23,9 @@ std::string parameter_row(const FittedParameter& p, const FitSummary& fit, const
   const char* known = guess ? "a guess" : !p.estimated ? "given" : p.identifiable ? "yes" : "no";
   const std::string start = p.estimated ? quantity(p.start, unit) : "";
   std::string remark = p.at_bound ? "at its bound" : "";
+  if (guess)
+    remark = "every " + std::string(coordinates.torque_word()) +
+             ", inertia, damping and stiffness here is off by its factor";
   if (std::isfinite(p.profile_ci95.low) && !fit.rejected())
     remark += (remark.empty() ? "profile likelihood " : ", profile likelihood ") +
               interval_text(p.profile_ci95, unit);

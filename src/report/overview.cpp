@@ -31,6 +31,11 @@ std::string drawn_recording(const ReportView& view) {
                      view.run.recordings.size());
 }
 
+/// What the card says of the gap, without the asides that a heading has no room for.
+std::string first_line(const RunResult& run) {
+  return run.answer && !run.answer->card.gap.empty() ? run.answer->card.gap : headline(run);
+}
+
 }  // namespace
 
 FigureData overview(const ReportView& view, const std::vector<FigureData>& figures) {
@@ -39,7 +44,7 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   sheet.title = literal(view.run.name) + ": overview";
   sheet.width = 3200.0, sheet.scale = kSheetScale;
   sheet.columns = 2;
-  sheet.lines.push_back(literal(headline(view.run)));
+  sheet.lines.push_back(literal(first_line(view.run)));
   if (const std::string line = fit_quality(view.run); !line.empty()) sheet.lines.push_back(line);
   const std::string drawn = drawn_recording(view);
   if (!drawn.empty()) sheet.lines.push_back(literal(drawn));

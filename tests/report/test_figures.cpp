@@ -153,6 +153,13 @@ TEST(Overview, KeepsTheTitlesOfThePanelsThatItBorrows) {
                            [](const Panel& p) { return p.title == "Estimates with 95 % intervals"; }));
 }
 
+TEST(Overview, BeginsWithWhatTheCardSaysOfTheGap) {
+  RunResult run = sample_run({.samples = 7500});
+  run.answer.emplace().sentence = "The gap is not known (for many reasons).";
+  run.answer->card.gap = "The gap is not known. Trust: none.";
+  EXPECT_EQ(all_figures(ReportView(run))[0].lines.front(), "The gap is not known. Trust: none.");
+}
+
 TEST(MissingFigures, SayWhy) {
   const RunResult detect = sample_run({.samples = 7500, .load_recorded = false, .fitted = false});
   const ReportView view(detect);

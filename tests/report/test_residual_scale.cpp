@@ -10,6 +10,7 @@
 #include "report/drive_signal.h"
 #include "report/error_budget.h"
 #include "report/full_run.h"
+#include "report/markdown.h"
 
 namespace gapscope {
 namespace {
@@ -160,6 +161,11 @@ TEST(GuessedConstant, IsToldWhereARunDrawsTheTorqueOfTheMotor) {
   EXPECT_EQ(axis_of().unit_note, "");
   run.input->constant_guessed = true;
   EXPECT_EQ(axis_of().unit_note, "$K_m$ guessed");
+  FittedParameter constant;
+  constant.key = "torque_constant", constant.unit = "N m", constant.value = 1.0;
+  run.reference->parameters.push_back(constant);
+  EXPECT_NE(internal::report::estimate_text(run, {}).find("damping and stiffness here is off by its factor"),
+            std::string::npos);
   run.reference.reset();
   EXPECT_EQ(axis_of().unit_note, "") << "the input itself rests on nothing";
 }
