@@ -54,9 +54,9 @@ std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Of a step: how near a number has to come to a half, a third or the whole of a sample [-]. Twice as much is
-/// where halves and thirds meet; half as much is less than such a number is known to.
-constexpr double kIsStep = 0.1;
+/// How near a number has to come to a half, a third or the whole of a sample to be a step [-]: half of where
+/// (1 - t)/2 meets (1 + t)/3. Half as much is less than such a number is known to.
+constexpr double kIsStep = 0.5 * (1.0 / 2.0 - 1.0 / 3.0) / (1.0 / 2.0 + 1.0 / 3.0);
 
 /// The step of a solver that leaves half of it in a number, if that is a half or a third of a sample or all
 /// of it; 0: it is none.

@@ -15,7 +15,9 @@ std::vector<std::vector<Interval>> intervals_of_effects(const Study& study, cons
   std::vector<std::vector<Interval>> all;
   for (const ModelEffect& e : fitted.model.effects) all.emplace_back(e.entry->parameters.size());
   const reference::ModelFit fit(study.train, fitted.model, study.options.fit, study.observer_hz);
-  for (const auto& [id, error] : fit.standard_errors(fit.point_of(fitted.model, fitted.starts))) {
+  // A model of the torque balance brings no initial states.
+  const auto starts = settled_starts(study.train, fitted.model, study.observer_hz);
+  for (const auto& [id, error] : fit.standard_errors(fit.point_of(fitted.model, starts))) {
     if (id.effect < 0 || std::isnan(error)) continue;
     const auto effect = static_cast<std::size_t>(id.effect), index = static_cast<std::size_t>(id.index);
     all[effect][index] = normal_interval(fitted.model.effects[effect].parameters[index].value, error);

@@ -124,6 +124,17 @@ std::string ranking_table(const DiagnosisResult& r) {
   return text;
 }
 
+/// "amplitude | 988 mN (95 %: 950 to 1026)"
+std::string number_cells(const NamedValue& p, Coordinates coordinates) {
+  if (!coordinates.rotational() && p.key == "periods_per_turn") {
+    const auto period = [](double cycles) { return 2.0 * kPi / cycles; };
+    return "period | " + with_interval(period(p.value), {period(p.ci95.high), period(p.ci95.low)}, "m");
+  }
+  const Coordinates own =
+      p.key == "phase_rad" ? Coordinates() : coordinates;  // an angle on a linear axis, too
+  return name_of_key(p.key) + " | " + with_interval(p.value, p.ci95, own.shown_unit(p.unit));
+}
+
 /// The numbers of what was added, each with its interval.
 std::string added_table(const DiagnosisResult& r) {
   std::string text;
@@ -131,15 +142,16 @@ std::string added_table(const DiagnosisResult& r) {
     std::string effect = fmt::format("`{}` ({})", a.effect, a.established ? "established" : "cause open");
     for (const NamedValue& p : a.parameters) {
       if (is_left_out(p)) continue;
-      const std::string unit = (p.key == "phase_rad" ? Coordinates() : r.coordinates).shown_unit(p.unit);
-      text +=
-          fmt::format("| {} | {} | {} |\n", effect, name_of_key(p.key), with_interval(p.value, p.ci95, unit));
+      text += fmt::format("| {} | {} |\n", effect, number_cells(p, r.coordinates));
       effect = "";
     }
   }
   if (text.empty()) return "";
-  return "\n## What was added\n\nThe intervals hold for the model with all of it, as fitted; without one the "
-         "recording does not determine the number.\n\n| effect | number | value |\n|---|---|---|\n" +
+  return "\n## What was added\n\nThe intervals hold for the model with all of it, as it follows the "
+         "recordings "
+         "that were fitted; a number without one these do not determine by themselves.\n\n| effect | number "
+         "| "
+         "value |\n|---|---|---|\n" +
          text;
 }
 

@@ -94,19 +94,6 @@ TEST(DiagnosisReport, EveryFigureIsThereAndNotBlankAndTheTextShowsTheBlame) {
       << text;
 }
 
-TEST(DiagnosisReport, TellsWhatWasAddedWithItsIntervals) {
-  ScratchFolder scratch;
-  DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
-  r.diagnosis.added.front().parameters = {{"amplitude_nm", "N m", 0.004, {0.0038, 0.0042}},
-                                          {"periods_per_turn", "1/rev", 24.0}};
-  write_diagnosis_result(scratch.path.string(), r);
-  write_report(scratch.path.string());
-  const std::string text = text_of(scratch.path / "report.md");
-  EXPECT_THAT(text,
-              HasSubstr("| `cogging_torque` (established) | amplitude | 4.00 mN·m (95 %: 3.80 to 4.20) |"));
-  EXPECT_THAT(text, HasSubstr("|  | periods per turn | 24.0 1/rev |"));
-}
-
 TEST(DiagnosisReport, NamesTheFloorAndWhereItComesFrom) {
   ScratchFolder scratch;
   DiagnosisResult r = sample(DiagnosisVerdict::kEffect);
