@@ -55,6 +55,12 @@ std::vector<InitialVariant> variants_of_motor(const FitProblem& problem) {
   return variants;
 }
 
+/// What a controller that acts later had sent before the first row is not known. Its impulse until the first
+/// output acts is a change of the initial speed, which is looked for then, even of a drive that stands.
+bool pushed_by_what_came_before(const FitProblem& problem, const MotorTrace& recording) {
+  return problem.delays || !recording.sent.empty();
+}
+
 }  // namespace
 
 std::vector<InitialVariant> initial_variants(const FitProblem& problem, const RecordingStart& start) {
@@ -75,7 +81,8 @@ FitPoint start_point(const FitProblem& problem, std::vector<double> q) {
     const signals::LocalMotion motion = signals::local_motion(problem.recordings[r], floor);
     RecordingStart start;
     start.x1 = motion.x;
-    start.moves = std::abs(motion.w) > std::max(4.0 * motion.w_std, 1e-3 * problem.rough.speed);
+    start.moves = std::abs(motion.w) > std::max(4.0 * motion.w_std, 1e-3 * problem.rough.speed) ||
+                  pushed_by_what_came_before(problem, problem.recordings[r]);
     start.w1 = start.moves ? motion.w : 0.0;
     const double speed = std::max({problem.rough.speed, std::abs(motion.w), motion.w_std});
     start.scale = {10.0 * floor, std::max(3.0 * motion.w_std, 0.02 * speed), 0.1 * length, 0.2 * speed};

@@ -116,6 +116,25 @@ TEST(FittedController, HasItsDelay) {
   expect_near(summary, "controller.velocity.gain", kServoGain, 0.01);
 }
 
+/// A drive with dry friction that stands at the first row: what acted until the first output did is unknown,
+/// and its impulse no more than a speed to begin with.
+TEST(FittedController, HasItsDelayThoughTheDriveStandsAtFirst) {
+  BlindDrive drive = pendulum();
+  drive.effects.motor.friction.level_nm = 0.002;
+  ControllerSettings settings = servo_loop(0.0045);
+  settings.rate = 200.0, settings.position_gain = 8.0, settings.speed_gain = 0.02;
+  ReferenceModel model = servo_model();
+  model.effects.push_back({find_effect("motor_coulomb_friction"), {}});
+  model.effects.back().parameters[0] = ParameterSetting::sought(0.003);
+  model.controller->fixed.rate = settings.rate;
+  model.controller->numbers[at::kGain].value = settings.position_gain;
+  model.controller->numbers[at::kDelay] = ParameterSetting::sought(0.0025);
+  const FitSummary summary = fit_one(under_target(drive, settings), model);
+  EXPECT_EQ(summary.trust, FitTrust::kGood) << summary.full_report();
+  EXPECT_LT(summary.rmse, 1.3 * summary.floor);
+  expect_near(summary, "controller.delay", settings.dead_time_s, 0.02);
+}
+
 TEST(FittedController, IsToldWithWhatItCannotBeToldApart) {
   ReferenceModel model = servo_model();
   model.effects.clear();
