@@ -103,8 +103,8 @@ Findings first_look(Study& study) {
   Findings found;
   study.options.progress("fitting the nominal model");
   found.before = scored_nominal(study);
-  add_supply_steps(found.before.fitted.model, study.observer_hz, study.held_out);
-  found.before = judge(nullptr, found.before.fitted, study.held_out, study.observer_hz);
+  if (add_supply_steps(found.before.fitted.model, study.observer_hz, study.held_out))
+    found.before = judge(nullptr, found.before.fitted, study.held_out, study.observer_hz);
   if (study.nominal_work == 0) study.nominal_work = *study.options.fit.work;
   study.options.progress("weighing torques");
   found.budget = torque_budget(study, found.before.fitted.model);

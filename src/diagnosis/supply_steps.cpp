@@ -36,22 +36,23 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
 
 }  // namespace
 
-void add_supply_steps(const ReferenceModel& model, double observer_hz, HeldOut& held_out) {
-  if (!held_out.free_open.empty()) return;
+bool add_supply_steps(const ReferenceModel& model, double observer_hz, HeldOut& held_out) {
+  if (!held_out.free_open.empty()) return false;
   std::mt19937_64 draw = random_stream(0, "steps of the supply");
   HeldOut other = held_out;
   for (const MotorTrace& t : held_out.traces) other.input_factors.push_back(drawn_factors(t, draw));
   if (std::all_of(other.input_factors.begin(), other.input_factors.end(),
                   [](const std::vector<double>& f) { return f.empty(); }))
-    return;
+    return false;
   const auto from = settled_starts(held_out.traces, model, observer_hz);
   const std::vector<Playback> as_read = play_from(from, model, held_out, observer_hz, false),
                               drawn = play_from(from, model, other, observer_hz, false);
-  if (as_read.empty() || drawn.empty()) return;
+  if (as_read.empty() || drawn.empty()) return false;
   for (std::size_t r = 0; r < drawn.size(); ++r) {
     held_out.innovation_open.push_back(rms_difference(as_read[r].innovation, drawn[r].innovation));
     held_out.free_open.push_back(rms_difference(as_read[r].free, drawn[r].free));
   }
+  return true;
 }
 
 }  // namespace gapscope::internal::diagnosis

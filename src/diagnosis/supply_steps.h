@@ -8,6 +8,7 @@ namespace gapscope::internal::diagnosis {
 /// of a percent leaves its torque open by as much, and no model can come closer. It is the rms difference of
 /// the innovations and the free runs of `model` between the input as it is read and as it may have been: half
 /// a step more or less, drawn anew with each change of the reading. Nothing where no supply is told.
-void add_supply_steps(const ReferenceModel& model, double observer_hz, HeldOut& held_out);
+/// @returns whether there is any
+bool add_supply_steps(const ReferenceModel& model, double observer_hz, HeldOut& held_out);
 
 }  // namespace gapscope::internal::diagnosis
