@@ -45,9 +45,22 @@ std::vector<PlannedRow> planned_rows(const JointFit& fit) {
 
 namespace {
 
+/// Of an effect that is not there nothing has a spread: a lag of no time has no slope that would tell how
+/// well its time is known.
+bool is_absent(const SideFit& fit, const PlannedRow& planned) {
+  if (!planned.row.is_effect) return false;
+  const ModelEffect& e = fit.model.effects[static_cast<std::size_t>(planned.effect)];
+  return e.parameters[0].value == e.entry->parameters[0].absent;
+}
+
+std::vector<double> spreads_on(const Side& side, const SideFit& fit, const PlannedRow& planned) {
+  if (is_absent(fit, planned)) return std::vector<double>(planned.ids.size(), kNaN);
+  return spreads_of(side, fit, planned.ids);
+}
+
 void fill_numbers(const RowInstrument& of, const JointFit& fit, PlannedRow& planned) {
-  const std::vector<double> drive = spreads_of(of.drive, fit.drive, planned.ids);
-  const std::vector<double> simulator = spreads_of(of.simulator, fit.simulator, planned.ids);
+  const std::vector<double> drive = spreads_on(of.drive, fit.drive, planned);
+  const std::vector<double> simulator = spreads_on(of.simulator, fit.simulator, planned);
   ReferenceModel of_drive = fit.drive.model, of_simulator = fit.simulator.model;
   for (std::size_t i = 0; i < planned.ids.size(); ++i) {
     const ParameterId id = planned.ids[i];
@@ -66,12 +79,20 @@ void fill_numbers(const RowInstrument& of, const JointFit& fit, PlannedRow& plan
   }
 }
 
+/// Where a side's interval ends, from its number on; the amount of an effect that is not there is exactly
+/// that.
+double reach(double number, const Interval& ci95, const SimulatorRow& row, bool is_amount) {
+  if (row.is_effect && is_amount && number == find_effect(row.name)->parameters[0].absent) return 0.0;
+  return (ci95.high - ci95.low) / 2.0;
+}
+
 /// Whether the intervals of any number are apart; where there are none, nothing speaks against it.
 bool intervals_apart(const SimulatorRow& row) {
   bool asked = false;
   for (const ComparedNumber& n : row.numbers) {
-    const double d = (n.drive_ci95.high - n.drive_ci95.low) / 2.0;
-    const double s = (n.simulator_ci95.high - n.simulator_ci95.low) / 2.0;
+    const bool is_amount = &n == &row.numbers.front();
+    const double d = reach(n.drive, n.drive_ci95, row, is_amount);
+    const double s = reach(n.simulator, n.simulator_ci95, row, is_amount);
     if (std::isnan(d) || std::isnan(s)) continue;
     asked = true;
     if (std::abs(n.drive - n.simulator) > std::hypot(d, s)) return true;

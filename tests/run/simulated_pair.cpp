@@ -36,7 +36,7 @@ double knob(const SimulatedPair& pair, const char* name, bool drive) {
   return k == nullptr ? 0.0 : drive ? k->drive : k->simulator;
 }
 
-independent_plant::BlindDrive blind_drive(const SimulatedPair& p, std::uint64_t seed) {
+independent_plant::BlindDrive blind_drive(const SimulatedPair& p) {
   independent_plant::BlindDrive d;
   if (!p.has_load) d.load = independent_plant::BlindLoad::kNone;
   d.motor_inertia = p.has_load ? kInertia : knob(p, "motor_inertia", true);
@@ -47,7 +47,7 @@ independent_plant::BlindDrive blind_drive(const SimulatedPair& p, std::uint64_t 
   d.gap = knob(p, "gap", true);
   d.effects.motor.friction.level_nm = knob(p, "motor_coulomb_friction", true);
   d.effects.motor.cogging.amplitude = knob(p, "cogging_torque", true);
-  d.effects.motor.cogging.periods_per_turn = 40.0 + static_cast<double>(seed % 5) * 6.0;
+  d.effects.motor.cogging.periods_per_turn = p.detents_per_turn;
   d.effects.command.delay_s = knob(p, "input_delay", true);
   d.effects.command.lag_s = knob(p, "actuator_lag", true);
   d.effects.load.unbalance_nm = knob(p, "load_unbalance", true);
@@ -172,10 +172,18 @@ const Knob* SimulatedPair::find(const std::string& name) const {
   return nullptr;
 }
 
+double SimulatedPair::shape_of(const std::string& effect, const EffectParameterSpec& parameter) const {
+  const std::string_view key = parameter.key;
+  if (effect == "cogging_torque" && key == "periods_per_turn") return detents_per_turn;
+  if (effect == "load_unbalance" && key == "phase_rad") return kUnbalancePhase;
+  return parameter.absent;
+}
+
 SimulatedPair draw_pair(std::uint64_t seed, bool same) {
   auto random = random_stream(seed, "simulated_pair");
   SimulatedPair p;
   p.has_load = uniform(random, 0.0, 1.0) < 0.5;
+  p.detents_per_turn = 40.0 + static_cast<double>(seed % 5) * 6.0;
   constexpr double kSteps[] = {1e-4, 5e-4, 1e-3, 2e-3};
   p.step = kSteps[static_cast<int>(uniform(random, 0.0, 4.0))];
   p.runge_kutta = uniform(random, 0.0, 1.0) < 0.4;
@@ -194,9 +202,9 @@ SimulatedPair draw_pair(std::uint64_t seed, bool same) {
   for (const bool held_out : {false, true}) {
     const independent_plant::BlindOptions options{kRate, kDuration, seed + (held_out ? 1000000 : 0),
                                                   independent_plant::kFastTolerance};
-    Recording drive = independent_plant::simulate_blind_command(blind_drive(p, seed), input(held_out, peak),
-                                                                sensor, options)
-                          .recording;
+    Recording drive =
+        independent_plant::simulate_blind_command(blind_drive(p), input(held_out, peak), sensor, options)
+            .recording;
     drive.file = held_out ? "held_out.csv" : "drive.csv";
     (held_out ? p.simulated_held_out : p.simulated_train) = by_engine(p, drive);
     (held_out ? p.held_out : p.train) = std::move(drive);

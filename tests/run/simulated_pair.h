@@ -22,12 +22,15 @@ struct SimulatedPair {
   bool has_load = false;
   double step = 1e-3;        ///< of the engine [s]
   bool runge_kutta = false;  ///< else MuJoCo's semi-implicit Euler
-  double input_late = 0.0;   ///< of the simulator, in whole steps [s]
-  std::vector<Knob> knobs;   ///< withheld from the decision
+  double detents_per_turn = 0.0;
+  double input_late = 0.0;  ///< of the simulator, in whole steps [s]
+  std::vector<Knob> knobs;  ///< withheld from the decision
   Recording train, held_out, simulated_train, simulated_held_out;
   ReferenceModel sheet;  ///< up to 20 % off the drive
 
   const Knob* find(const std::string& name) const;
+  /// What an effect has beside its amount, alike in both.
+  double shape_of(const std::string& effect, const EffectParameterSpec& parameter) const;
 };
 
 /// @param same  drive and simulator have the same physics: only step and solver differ
