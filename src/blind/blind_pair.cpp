@@ -81,6 +81,11 @@ ReferenceModel sheet_model(const independent_plant::BlindDrive& true_drive, std:
   return model;
 }
 
+Recording recorded(const independent_plant::BlindCase& c, BlindPlant plant) {
+  return plant == BlindPlant::kMujoco ? engine_plant::mujoco_recording(c)
+                                      : independent_plant::simulate_blind(c).recording;
+}
+
 }  // namespace
 
 BlindPair blind_pair(const std::string& rig, const std::string& effect, double severity, std::uint64_t seed) {
@@ -97,21 +102,19 @@ BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& eff
   const auto other = static_cast<std::size_t>(uniform(g, 1.0, kWaveforms.size()));
   const std::string name = effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, "+"));
   BlindPair pair{rig, name, severity, 1.0, "", {}, {}, {}, sheet_model(c.drive, seed)};
-  const auto give = [&] {
-    for (std::size_t i = 0; i < effects.size(); ++i)
-      independent_plant::give_effect(c, effects[i], severity, seed + i * kNextDraw);
-  };
-  const auto record = [&](std::size_t kind, std::uint64_t noise) {
+  const auto excited = [&](std::size_t kind, std::uint64_t noise) {
     excite(c, kWaveforms[kind % kWaveforms.size()], g);
     c.options.seed = noise;
-    if (pair.train.x1.empty()) give();
     pair.excitations += "smwtzj"[kind % kWaveforms.size()];
-    return plant == BlindPlant::kMujoco ? engine_plant::mujoco_recording(c)
-                                        : independent_plant::simulate_blind(c).recording;
   };
-  pair.train = record(first, 2 * seed);
-  pair.held_out = record(first + other, 2 * seed + 1);
-  pair.next = record(static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size())), ~(2 * seed));
+  excited(first, 2 * seed);
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    independent_plant::give_effect(c, effects[i], severity, seed + i * kNextDraw);
+  pair.train = recorded(c, plant);
+  excited(first + other, 2 * seed + 1);
+  pair.held_out = recorded(c, plant);
+  excited(static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size())), ~(2 * seed));
+  pair.next = [c, plant] { return recorded(c, plant); };
   if (const auto* drawn = independent_plant::find_drawn_effect(name);
       drawn != nullptr && drawn->traits.cycles_per_turn != nullptr)
     pair.cycles_per_turn = drawn->traits.cycles_per_turn(c);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,16 +11,17 @@
 
 namespace gapscope::blind {
 
-/// A drive with effects that the diagnosis is not told, recorded three times on the independent plant: to be
-/// fitted, held out, and never shown to the diagnosis.
+/// A drive with effects that the diagnosis is not told, recorded on the independent plant: to be fitted,
+/// held out, and a third time, never shown to the diagnosis.
 struct BlindPair {
   std::string rig;
   std::string effect;  ///< "none" without, "first+second" for two
   double severity = 0.0;
   double cycles_per_turn = 1.0;  ///< of an effect along the motor angle
   std::string excitations;       ///< kinds of the three recordings, by their initials
-  Recording train, held_out, next;
-  ReferenceModel sheet;  ///< what the data sheet says, off by up to 20 %
+  Recording train, held_out;
+  std::function<Recording()> next;  ///< recorded when it is asked for
+  ReferenceModel sheet;             ///< what the data sheet says, off by up to 20 %
 };
 
 inline constexpr double kPairDuration = 6.0;  ///< of each recording [s]

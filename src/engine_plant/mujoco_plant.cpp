@@ -17,7 +17,7 @@ namespace {
 
 using independent_plant::BlindCase;
 
-constexpr double kLongestStep = 5e-5;  // s: contacts then are within the floor of a 20 bit encoder
+constexpr double kLongestStep = 1.25e-5;  // s: at four times as long contacts leave four floors of 20 bit
 
 struct Delete {
   void operator()(mjModel* model) const { mj_deleteModel(model); }

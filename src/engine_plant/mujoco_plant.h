@@ -16,7 +16,7 @@ std::span<const std::string_view> mujoco_effects();
 /// @throws ConfigError where gapscope was built without MuJoCo, with what to install
 void require_mujoco();
 
-/// A case as MuJoCo moves it: Runge–Kutta at about 0.05 ms, the input held over each sample, x1 read by the
+/// A case as MuJoCo moves it: Runge–Kutta at about 0.0125 ms, the input held over each sample, x1 read by the
 /// case's encoder with its noise. Deterministic; calls may come from several threads.
 /// @throws ConfigError as require_mujoco(); std::logic_error for an effect that is not among mujoco_effects()
 /// or a motion that diverges

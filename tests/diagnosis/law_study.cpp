@@ -26,9 +26,9 @@ std::string true_variable(const std::string& effect) {
   return at == kVariables.end() ? "" : at->second;
 }
 
-/// A recording that the diagnosis has not seen, held out.
-Study next_study(const blind::BlindPair& pair, const DiagnosisOptions& options) {
-  const MotorTrace train[] = {pair.train.motor_trace()}, next[] = {pair.next.motor_trace()};
+/// A recording that the diagnosis has not seen, held out; it has to outlive the study.
+Study next_study(const blind::BlindPair& pair, const Recording& last, const DiagnosisOptions& options) {
+  const MotorTrace train[] = {pair.train.motor_trace()}, next[] = {last.motor_trace()};
   return make_study(train, next, pair.sheet, options);
 }
 
@@ -77,7 +77,8 @@ StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
   row.first = law.law;
   row.in_group = law.variable == true_variable(pair.effect);
   row.shrink = law.shrink;
-  const Study next_one = next_study(pair, options);
+  const Recording last = pair.next();
+  const Study next_one = next_study(pair, last, options);
   const double next = next_shrink(next_one, d);
   row.covered = !std::isfinite(next) || !std::isfinite(law.shrink_ci95.low)   ? "-"
                 : law.shrink_ci95.low <= next && next <= law.shrink_ci95.high ? "yes"

@@ -103,7 +103,8 @@ std::string describe(const Findings& f, const std::string& effect) {
 std::string covers(const Study& study, const Findings& f, const blind::BlindPair& pair,
                    std::string& details) {
   const Interval interval = mismatch_size(study, f.before, f.candidates.front()).shrink_ci95;
-  const MotorTrace next[] = {pair.next.motor_trace()};
+  const Recording last = pair.next();
+  const MotorTrace next[] = {last.motor_trace()};
   const Study other = make_study(study.train, next, pair.sheet, study.options);
   const ScoredModel before = judge(nullptr, f.before.fitted, other.held_out, study.observer_hz);
   const ScoredModel after = judge(nullptr, f.candidates.front().fitted, other.held_out, study.observer_hz);
