@@ -162,6 +162,19 @@ void Comparer::warn(const JointFit& fit, std::vector<std::string>& warnings) con
           side->error / floor_, name));
 }
 
+/// Where the model is farther from the simulator than the simulator from the drive, no number of it says
+/// anything of what is between the two.
+void take_back_rows(SimulatorComparison& c, Coordinates coordinates) {
+  for (SimulatorRow& row : c.rows) row.differs = false;
+  c.shrink = c.shrink_all = c.errors.mended = c.errors.all_mended = kNaN;
+  for (SimulatorTrace& t : c.traces) t.mended.clear();
+  c.sentence = fmt::format(
+      "Over the held-out input your simulator is {} rms off the drive, and the model fitted to it misses it "
+      "by "
+      "{}: no row is told of it.",
+      coordinates.thousandths(c.errors.simulator), coordinates.thousandths(c.errors.stand_in_miss));
+}
+
 SimulatorComparison Comparer::answer() {
   SimulatorComparison c;
   c.verdict = question_.simulator.verdict;
@@ -180,6 +193,10 @@ SimulatorComparison Comparer::answer() {
   warn(fit, c.warnings);
   order(fit, rows);
   mend(fit, rows, c);
+  if (c.errors.stand_in_miss > std::max(c.errors.simulator, kLeastRow * floor_)) {
+    take_back_rows(c, options_.coordinates);
+    return c;
+  }
   const double dt = drive_.train.front().dt;
   for (SimulatorRow& row : c.rows)
     if (row.differs) row.sentence = row_sentence(row, c.rows, dt, options_.coordinates);

@@ -26,9 +26,15 @@ std::string simulation_of(const std::string& gap, const std::string& noise, cons
 /// A drive with a gap of 19 mrad and a simulator of it, each in its file.
 class DriveAndSimulator {
  public:
-  explicit DriveAndSimulator(const std::string& simulated_gap, const std::string& simulated_input = "0.58") {
-    record("drive.csv", simulation_of("0.019", "1.0e-5", "0.58"));
-    record("sim.csv", simulation_of(simulated_gap, "0", simulated_input));
+  /// @param effects  of both, which the model does not have
+  explicit DriveAndSimulator(const std::string& simulated_gap, const std::string& simulated_input = "0.58",
+                             const std::string& effects = "") {
+    const auto with_effects = [&](const std::string& simulation) {
+      return replaced(effects.empty() ? simulation : replaced(simulation, "duration: 3", "duration: 1.5"),
+                      "contact_damping: 0.05}", "contact_damping: 0.05}" + effects);
+    };
+    record("drive.csv", with_effects(simulation_of("0.019", "1.0e-5", "0.58")));
+    record("sim.csv", with_effects(simulation_of(simulated_gap, "0", simulated_input)));
     std::ofstream(at("drive.yaml"))
         << "recording: {file: drive.csv, simulated: sim.csv}\nencoder: {bits: 18}\nmodel: "
         << testing::kPaperModel;
@@ -75,6 +81,16 @@ TEST(Simulator, WithAnotherGapIsToldSoAndWhatMendingItTakes) {
   EXPECT_LT(c.errors.stand_in_miss, 0.1 * c.errors.simulator) << "the stand-in is the simulator";
   ASSERT_EQ(c.traces.size(), 1u);
   EXPECT_EQ(c.traces[0].simulator.size(), c.traces[0].stand_in.size());
+}
+
+TEST(Simulator, ThatItsModelMissesByMoreThanItDiffersIsToldNoRow) {
+  const std::string detents =
+      ", effects: [{cogging_torque: {amplitude_nm: 0.006, periods_per_turn: 20, phase_rad: 0.4}}]";
+  const SimulatorComparison c = DriveAndSimulator("0.0189", "0.58", detents).compared();
+  EXPECT_GT(c.errors.stand_in_miss, c.errors.simulator);
+  for (const SimulatorRow& row : c.rows) EXPECT_FALSE(row.differs) << row.name << " by " << row.floors;
+  EXPECT_THAT(c.sentence, HasSubstr("no row is told"));
+  EXPECT_TRUE(std::isnan(c.shrink));
 }
 
 TEST(Simulator, OfAnotherInputIsRefusedByFileAndLine) {
