@@ -223,9 +223,12 @@ Findings investigate(Study& study) {
 
 EffectSearch search_effects(Study& study) {
   Findings found = investigate(study);
-  if (TorqueSearch ladder = climb(study, found); !ladder.added.empty())
-    return {std::move(found), {}, std::move(ladder)};
+  TorqueSearch ladder = climb(study, found);
+  if (!ladder.added.empty() && at_floor(ladder.after)) return {std::move(found), {}, std::move(ladder)};
   Additions added = add_further(study, found);
+  // The balance sees what is slow; what leaves the encoder nothing to show is all there is.
+  const bool leaves_nothing = added.accepted && (added.explained || at_floor(added.after));
+  if (!ladder.added.empty() && !leaves_nothing) return {std::move(found), {}, std::move(ladder)};
   added.accepted = added.accepted && !contradicted(found, added);
   if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
   if (added.accepted || study.is_exhausted() || !asked_far_too_little(study, found))

@@ -1,0 +1,51 @@
+// A drive of one body that lacks two effects: its torque balance and its encoder.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/among.h"
+#include "independent_plant/simulate.h"
+
+namespace gapscope {
+namespace {
+
+constexpr double kRate = 500.0;
+
+Recording under(const independent_plant::BlindDrive& drive, double (*input)(double), std::uint64_t noise) {
+  constexpr double kDuration = 3.0;
+  std::vector<double> u;
+  for (int i = 0; i < static_cast<int>(kRate * kDuration); ++i) u.push_back(input(2.0 * kPi * i / kRate));
+  const auto sensor = independent_plant::BlindSensor::with_bits(18, 0.5);
+  return simulate_blind_command(drive, u, sensor,
+                                {kRate, kDuration, noise, independent_plant::kFastTolerance})
+      .recording;
+}
+
+// Detents pass at up to 24 Hz, and a lag shows where the input changes fast: above the 16 Hz to which the
+// balance is drawn up it knows of neither, and the inertia takes the lag.
+TEST(OneBody, IsToldWhatLeavesItsEncoderNothingRatherThanWhatTheBalanceSees) {
+  independent_plant::BlindDrive d;
+  d.load = independent_plant::BlindLoad::kNone;
+  d.motor_inertia = 1.885e-3, d.motor_damping = 0.06;
+  d.effects.motor.cogging = {5.5e-3, 52.0, 0.0, 0.0};
+  d.effects.command.lag_s = 2.6e-3;
+  const Recording train = under(
+      d, [](double t) { return std::sin(1.1 * t) * (0.7 + 0.3 * std::sin(0.37 * t)); }, 1);
+  const Recording held_out = under(
+      d, [](double t) { return 0.6 * std::sin(0.8 * t) + 0.4 * std::sin(2.7 * t); }, 2);
+  ReferenceModel sheet;
+  sheet.structure.has_load = false;
+  sheet.set("torque_constant", ParameterSetting::known(d.torque_constant));
+  sheet.set("motor_inertia", ParameterSetting::sought(1.7e-3));
+  sheet.set("motor_damping", ParameterSetting::sought(0.04));
+  const MotorTrace fitted[] = {train.motor_trace()}, judging[] = {held_out.motor_trace()};
+  const Diagnosis found =
+      diagnose(fitted, judging, sheet,
+               test::among({"motor_coulomb_friction", "cogging_torque", "torque_ripple", "input_delay",
+                            "actuator_lag", "quadratic_drag", "constant_load_torque", "input_dead_zone"}));
+  EXPECT_EQ(found.effects, (std::vector<std::string>{"cogging_torque", "actuator_lag"})) << found.sentence;
+  EXPECT_LT(found.mismatch.after, 1.3 * found.mismatch.floor);
+}
+
+}  // namespace
+}  // namespace gapscope
