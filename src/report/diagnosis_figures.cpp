@@ -64,7 +64,7 @@ Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::v
   share.joined = expected.joined = false;
   share.marker = Marker::kDisc, expected.marker = Marker::kCircle;
   for (std::size_t i = 0; i < map.size(); ++i) {
-    panel.y.categories.push_back(typeset(map[i].bin));
+    panel.y.categories.push_back(typeset(replaced(map[i].bin, "..", "–")));
     panel.y.remarks.push_back(fmt::format("{:.0f} %", 100.0 * map[i].share));
     const double row = static_cast<double>(i);
     share.x.push_back(map[i].share), share.y.push_back(row);
