@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 struct InitArguments {
   RecordingArguments recording;
+  std::string held_out;  ///< a second recording; empty: none
   std::string output;
   std::string model;        ///< empty: as the detector sees it
   std::string from, joint;  ///< of a simulator's model; empty: none
@@ -40,6 +41,13 @@ std::optional<JointNumbers> nominal_of(const InitArguments& a) {
   return numbers;
 }
 
+/// Both recordings, as if a configuration had named them.
+RecordingConfig recordings_of(const InitArguments& a, const RecordingArguments& r) {
+  RecordingConfig config = r.configuration();
+  if (!a.held_out.empty()) config.held_out.push_back({.given = a.held_out, .path = a.held_out});
+  return config;
+}
+
 /// Several axes each have a configuration of their own, called after them.
 std::string output_of(const InitArguments& a, const RecordingArguments& r, bool several) {
   const std::string one = a.output.empty() ? fs::path(r.file).stem().string() + ".yaml" : a.output;
@@ -57,10 +65,10 @@ std::string named_after(const std::string& axis, std::string yaml) {
 void write_starter(const InitArguments& a, const RecordingArguments& r, bool several) {
   const std::optional<JointNumbers> nominal = nominal_of(a);
   const std::string output = output_of(a, r, several);
-  require_file_name(output, {r.file}, [](const std::string&) { return false; });
+  require_file_name(output, {r.file, a.held_out}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
   const Starter starter =
-      starter_configuration(r.configuration(), r.encoder(), r.coordinates(),
+      starter_configuration(recordings_of(a, r), r.encoder(), r.coordinates(),
                             parent.empty() ? "." : parent.string(), model_of(a.model), nominal);
   write_text(output, several ? named_after(r.axis, starter.yaml) : starter.yaml, "");
   print_warnings(starter.spoiling);
@@ -76,6 +84,10 @@ void add_init(CommandLine& app) {
   auto arguments = std::make_shared<InitArguments>();
   CommandLine command = app.add_command("init", "A first configuration from a recording");
   add_recording_arguments(command, arguments->recording);
+  command
+      .add_option("--held-out", arguments->held_out,
+                  "a second recording of this drive, which diagnose judges by (default: the last third)")
+      .value("FILE");
   command
       .add_option("-o,--output", arguments->output,
                   "configuration to write (default: the recording's name with .yaml, here)")

@@ -100,13 +100,16 @@ std::string named_from(const std::string& folder, const std::string& recording) 
   return stays ? recording : std::filesystem::proximate(recording, folder).generic_string();
 }
 
-void write_recording(YamlWriter& out, const std::string& file, const RecordingConfig& recording,
+void write_recording(YamlWriter& out, const std::string& folder, const RecordingConfig& recording,
                      bool resampled) {
   const ReadOptions& options = recording.reading;
   out.open("recording");
-  out.entry("file", yaml_text(file));
-  out.comment(
-      "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
+  out.entry("file", yaml_text(named_from(folder, recording.files.front().path)));
+  if (!recording.held_out.empty())
+    out.entry("held_out", yaml_text(named_from(folder, recording.held_out.front().path)), "for diagnose");
+  else
+    out.comment(
+        "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
   const RecordingColumns& c = options.columns;
   const std::string further = (c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)) +
                               (c.target.empty() ? "" : ", target: " + yaml_text(c.target));
@@ -249,6 +252,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
+  for (const RecordedFile& held : config.held_out)
+    read_recording(held.path, config.reading_of(held, UnevenRows::kStamped));  // throws what diagnose would
   const Choice choice = nominal && model == StarterModel::kAsSeen
                             ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
                             : choose(model, r.motor_trace(), r.encoder, coordinates);
@@ -267,7 +272,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
     out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back() + " -> " + f.advice);
   }
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
-  write_recording(out, named_from(folder, recording), config, irregular);
+  write_recording(out, folder, config, irregular);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
   if (config.reading.controller)
     internal::config::write_controller(out, ControllerModel::known(*config.reading.controller));

@@ -81,14 +81,15 @@ std::string amount_of(const AddedEffect& a, const CardFacts& f) {
   return SharedUnit(amount.value, unit).with_interval(amount.value, amount.ci95);
 }
 
-/// "cogging torque (2 N; takes 64 %)": what is known of it alone.
+/// "cogging torque (2 N; takes 64 %)": what is known of it alone; an aside in its name stands under the
+/// cause.
 /// @param share  whether what it takes of the error above the floor belongs to it; where every effect has the
 /// torque that it leaves, or is the only one, the fall beside it says that
 std::string with_asides(const AddedEffect& a, const CardFacts& f, bool share) {
   std::vector<std::string> asides;
   if (const std::string amount = amount_of(a, f); !amount.empty()) asides.push_back(amount);
   if (share && std::isfinite(a.shrink)) asides.push_back(fmt::format("takes {:.0f} %", 100.0 * a.shrink));
-  return called(a, f) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
+  return without_asides(called(a, f)) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
 }
 
 /// "17.1 % to 2.2 %"

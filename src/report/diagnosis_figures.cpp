@@ -62,9 +62,10 @@ Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::v
   Series share{"share", {kVermillion, 4.0, {}}, {}, {}},
       expected{"if spread evenly", {kGrey, 4.0, {}}, {}, {}};
   share.joined = expected.joined = false;
+  share.stems = true;
   share.marker = Marker::kDisc, expected.marker = Marker::kCircle;
   for (std::size_t i = 0; i < map.size(); ++i) {
-    panel.y.categories.push_back(typeset(map[i].bin));
+    panel.y.categories.push_back(typeset(replaced(map[i].bin, "..", "–")));
     panel.y.remarks.push_back(fmt::format("{:.0f} %", 100.0 * map[i].share));
     const double row = static_cast<double>(i);
     share.x.push_back(map[i].share), share.y.push_back(row);
@@ -131,7 +132,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   if (shown < ranking.size()) panel.title += fmt::format(": first {} of {}", shown, ranking.size());
   panel.x = {"explained share", "", {-0.25, 1.1}, {}, {}};
   Series s{"", {kBlue, 4.0, {}}, {}, {}};
-  s.joined = false, s.marker = Marker::kDisc;
+  s.joined = false, s.marker = Marker::kDisc, s.stems = true;
   for (std::size_t i = 0; i < shown; ++i) {
     panel.y.categories.push_back(readable(ranking[i].effect));
     panel.y.remarks.push_back(share_text(ranking[i].rel));

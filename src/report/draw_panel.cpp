@@ -164,6 +164,7 @@ class PanelPainter {
     for (std::size_t i = 0; i < s.x_intervals.size(); ++i) {
       const double y = y_of(s.y[i]), low = x_of(s.x_intervals[i].low), high = x_of(s.x_intervals[i].high);
       canvas_.line({{low, y}, {high, y}}, bar, frame_);
+      if (s.stems) continue;
       for (const double x : {low, high}) canvas_.line({{x, y - 12.0}, {x, y + 12.0}}, bar, frame_);
     }
     for (std::size_t i = 0; i < s.y_intervals.size(); ++i)

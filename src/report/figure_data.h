@@ -20,6 +20,7 @@ struct Series {
   Marker marker = Marker::kNone;
   std::vector<Interval> x_intervals{};  ///< of each point, along x; empty: none
   std::vector<Interval> y_intervals{};
+  bool stems = false;  ///< x_intervals are lines from zero to a dot, without the caps of an interval
 };
 
 /// A line across the frame.

@@ -94,6 +94,26 @@ TEST(Init, AnOptionWithTwoNumbersDoesNotTakeTheFileAfterThem) {
   EXPECT_THAT(testing::text_of(place.folder() / "drive.yaml"), HasSubstr("window: [0, 1.5]"));
 }
 
+TEST(Init, AHeldOutRecordingIsNamedAndReadByTheDiagnosis) {
+  Workplace place;
+  TestDrive body;
+  body.m2 = 0.0, body.d1 = 0.01;
+  TestEncoder encoder;
+  encoder.rate = 500.0, encoder.duration = 6.0, encoder.bits = 18, encoder.step = 1e-4;
+  const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
+  const auto other = [](double t) { return 0.4 * std::sin(7.0 * t) + 0.1 * std::sin(23.0 * t); };
+  place.file("first.csv", testing::rows_of(record(body, input, encoder)).csv());
+  place.file("logs/second.csv", testing::rows_of(record(body, other, encoder)).csv());
+  const std::string yaml = tried(place, "first.csv --model one_body --held-out logs/second.csv");
+  EXPECT_THAT(yaml, HasSubstr("held_out: \"logs/second.csv\""));
+  EXPECT_THAT(testing::text_of(place.folder() / "report/diagnosis.json"), HasSubstr("second.csv"));
+
+  const auto missing = place.run("init first.csv --held-out third.csv -o other.yaml");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, HasSubstr("third.csv"));
+  EXPECT_FALSE(place.content().count("other.yaml"));
+}
+
 TEST(Init, AGapThatTheDetectorDoesNotSeeIsMarkedAsAGuess) {
   Workplace place;
   TestEncoder encoder;

@@ -122,8 +122,8 @@ TEST(Fig6, CallsTheErrorConvergedOnlyWhileItIsQuiet) {
   const double peak = largest_magnitude(
       std::span(view.error->error).subspan(view.index(passage->event.t1), 400));  // 2 flights of 73 ms
   for (std::size_t i = view.index(passage->converged); i < view.index(passage->event.t1); ++i)
-    EXPECT_LE(std::abs(view.error->error[i]), 0.05 * peak);
-  EXPECT_GT(std::abs(view.error->error[view.index(passage->converged) - 1]), 0.049 * peak);
+    EXPECT_LE(std::abs(view.error->error[i]), 0.01 * peak);
+  EXPECT_GT(std::abs(view.error->error[view.index(passage->converged) - 1]), 0.0099 * peak);
 }
 
 TEST(Fig6, LeavesOutTcWhereTheErrorWasNeverQuiet) {

@@ -22,13 +22,13 @@ struct Starter {
 /// Reads off a recording what it tells (columns, a rate for the detector, encoder, whether there is a gap, a
 /// locked output or one body, and of one body the first numbers) and marks the rest as GUESS or leaves it to
 /// the fit. Torques are in units of u until torque_constant is given; gaps do not depend on it.
-/// @param recording  one file
+/// @param recording  one file, and at most one that is held out
 /// @param encoder what is known of it; else the step that is seen
 /// @param model   kAsSeen: the detector decides
 /// @param folder  where the configuration will be: the recording is named relative to it
 /// @param nominal what a simulator's model says: the fit begins with its numbers. Its gap, or the detector's
 ///   where it has none, decides the structure where nobody asks for another
-/// @throws ConfigError where the recording cannot be read
+/// @throws ConfigError where a recording cannot be read
 Starter starter_configuration(RecordingConfig recording, const EncoderConfig& encoder,
                               Coordinates coordinates, const std::string& folder,
                               StarterModel model = StarterModel::kAsSeen,
