@@ -105,9 +105,11 @@ double in_floors(double excess, const SideFit& fit, double floor) {
   return excess / std::max(floor, std::isfinite(fit.error) ? fit.error : 0.0);
 }
 
-/// Named by the diagnosis of that side, or a model without it, refitted, leaves two floors more.
+/// Named by the diagnosis of that side, or a model without it, refitted, leaves two floors more; not where
+/// its amount has gone to nothing.
 bool is_there(const Side& side, const SideFit& fit, const PlannedRow& planned, bool in_diagnosis,
               double floor) {
+  if (is_absent(fit, planned)) return false;
   if (in_diagnosis) return true;
   ReferenceModel without = fit.model;
   without.effects.erase(without.effects.begin() + planned.effect);

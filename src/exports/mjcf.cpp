@@ -159,7 +159,8 @@ constexpr Integrator kIntegrators[] = {{"Euler", MujocoIntegrator::kEuler},
 
 /// What an MJCF does that gives frictionloss and nothing else. Where other things are further off, the creep
 /// is no news.
-void judge_defaults(const MujocoDrive& d, const TargetErrors& errors, Certificate& c) {
+void judge_defaults(const MujocoDrive& d, const TargetErrors& errors, Coordinates coordinates,
+                    Certificate& c) {
   constexpr double kWorthSaying = 1.2;  // times the error that is there anyway
   if (d.friction[0] <= 0.0 && (d.friction[1] <= 0.0 || d.locked)) return;
   const auto rms = [&](bool by_default) {
@@ -173,10 +174,9 @@ void judge_defaults(const MujocoDrive& d, const TargetErrors& errors, Certificat
   if (!(c.default_error > kWorthSaying * held)) return;
   c.warnings.push_back(fmt::format(
       "frictionloss with MuJoCo's default solreffriction and solimpfriction creeps where the drive holds: "
-      "{:.3g} "
-      "instead of {:.3g} thousandths rms at {} ms, and no smaller step helps. Keep both attributes when you "
+      "{} instead of {} rms at {} ms, and no smaller step helps. Keep both attributes when you "
       "copy the joint.",
-      1e3 * c.default_error, 1e3 * held, 1e3 * kCertifiedStep));
+      coordinates.thousandths(c.default_error), coordinates.thousandths(held), 1e3 * kCertifiedStep));
 }
 
 /// The largest step within the encoder by the better integrator; where there is none the certified one.
@@ -203,7 +203,7 @@ DriveExport export_mjcf(const ExportSource& s) {
         },
         c.errors));
   judge_parts(c.errors, c);
-  judge_defaults(d, errors, c);
+  judge_defaults(d, errors, s.coordinates, c);
   c.travel = errors.travel();
   out.files = {{s.stem + ".xml", alone(s, d, chosen_step(c.limits))},
                {s.stem + "_fragment.xml", fragment(s, d)}};
