@@ -1,6 +1,10 @@
 #include "cli/commands.h"
 
+#include <fmt/format.h>
+
 #include <ostream>
+
+#include "cli/console.h"
 
 namespace gapscope::cli {
 
@@ -24,6 +28,36 @@ void add_config_arguments(CommandLine& command, ConfigArguments& arguments, cons
                   "(model.effects.NAME.KEY: of an effect)")
       .value("KEY=VALUE")
       .one_value_each();
+}
+
+namespace {
+
+/// What a configuration says of what is simulated, its plant written out.
+std::string simulated_part(const Configuration& c) {
+  const std::string all = resolved_yaml(c);
+  const std::size_t from = all.find("\nsimulation:");
+  if (from == std::string::npos) return "";
+  std::size_t to = from + 1;
+  do to = all.find('\n', to + 1);
+  while (to + 1 < all.size() && all[to + 1] == ' ');
+  return all.substr(from, to - from);
+}
+
+}  // namespace
+
+void warn_of_idle_settings(const ConfigArguments& arguments, const Configuration& c) {
+  if (!c.simulation) return;
+  const std::vector<Setting> settings = arguments.settings();
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!settings[i].key.starts_with("model.")) continue;
+    std::vector<Setting> others = settings;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    if (simulated_part(load_configuration(arguments.file, others)) == simulated_part(c))
+      print_warnings(
+          {fmt::format("--set {0} changes nothing of what is simulated: where a configuration has "
+                       "simulation: model, that is the drive; --set simulation.{0} changes it",
+                       settings[i].key)});
+  }
 }
 
 void with_configuration(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work) {

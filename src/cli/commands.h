@@ -61,6 +61,9 @@ struct ConfigArguments {
 void add_config_arguments(CommandLine& command, ConfigArguments& arguments, const char* name = "CONFIG",
                           const char* what = kConfigHelp);
 
+/// Warns of each `--set model...` that the simulated drive does not see.
+void warn_of_idle_settings(const ConfigArguments& arguments, const Configuration& c);
+
 /// Does the work with the configuration and its settings; what is wrong with a setting names it.
 void with_configuration(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work);
 

@@ -105,7 +105,10 @@ void add_drive_export(CommandLine& app) {
       "Example: gapscope export reports/drive --to mjcf -o drive_mjcf");
   command.action([arguments] {
     const ConfigArguments source{configuration_in(arguments->source.file), arguments->source.set};
-    with_configuration(source, [&](const Configuration& c) { export_configuration(*arguments, c); });
+    with_configuration(source, [&](const Configuration& c) {
+      warn_of_idle_settings(source, c);
+      export_configuration(*arguments, c);
+    });
   });
 }
 

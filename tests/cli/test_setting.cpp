@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/executable.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace {
@@ -38,6 +39,18 @@ TEST(SettingOption, IsInTheReportThatItMade) {
   const std::string resolved = text_of(place.folder() / "reports/renamed/resolved.yaml");
   EXPECT_THAT(resolved, ::testing::HasSubstr("name: \"renamed\""));
   EXPECT_THAT(resolved, ::testing::Not(::testing::HasSubstr("18")));
+}
+
+TEST(SettingOption, ThatTheSimulatedDriveDoesNotSeeIsWarnedOf) {
+  Workplace place;
+  const std::string own = ", model: {parameters: {motor_damping: 0.02}}, excitation";
+  place.file("c.yaml", replaced(drive("3", "18"), ", excitation", own));
+  const auto idle = place.run("simulate c.yaml --set model.parameters.motor_damping=0.03 -o idle.csv");
+  EXPECT_EQ(idle.status, 0);
+  EXPECT_THAT(idle.err, ::testing::HasSubstr("--set simulation.model.parameters.motor_damping changes it"));
+  const auto seen = place.run("simulate c.yaml --set model.parameters.motor_inertia=0.002 -o seen.csv");
+  EXPECT_EQ(seen.err, "");
+  EXPECT_NE(text_of(place.folder() / "seen.csv"), text_of(place.folder() / "idle.csv"));
 }
 
 TEST(SvgOption, DrawsEachFigureTwiceAndTheNextReportTidiesUp) {
