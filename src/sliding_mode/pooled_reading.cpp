@@ -57,7 +57,6 @@ constexpr double kFewestPooledQuanta = 25.0;
 constexpr std::size_t kManyWindows = 5;  ///< that agree on a gap of fewer counts
 constexpr double kWidestPooled = 0.095;  ///< of the 95 % interval of a gap that is told, either way
 constexpr double kSurelyFree = 0.9;      ///< of the gap: until there the motor surely flies
-constexpr double kDithers = 0.4;         ///< noise in quanta, from which on samples are independent
 
 /// What the window that ends behind one tried gap shows. All in rad but stands_out.
 struct GapCandidate {
@@ -88,12 +87,6 @@ std::vector<KinkShape> abrupt_shapes(double duration) {
   for (double fading = 2.0; fading < 0.2 * duration; fading *= 2.5)
     shapes.push_back({0, 0.0, 0.0, 0.5, 1.0 / fading});
   return shapes;
-}
-
-/// Samples that share one rounding.
-double correlated(const PooledRecording& s, double speed) {
-  if (s.facts.noise > kDithers * s.facts.quantum) return 1.0;
-  return std::max(1.0, s.facts.quantum / speed);
 }
 
 double median_of(const PooledFlights& flights, double PooledStretch::*member) {
@@ -143,12 +136,12 @@ std::optional<GapCandidate> try_gap(const PooledRecording& s, double gap) {
                 flights.best({3}, 0.3 * gap, kFarthestKink * gap, 0.04 * gap).sse});
   GapCandidate c;
   c.tried = gap, c.gap = best->gap, c.shape = best->shape, c.brakes = best->brakes;
-  c.stands_out = (smooth - best->sse) / noise / correlated(s, speed);
+  c.stands_out = (smooth - best->sse) / noise / s.facts.sharing(speed);
   if (c.stands_out < kKinkShows) return {};
   c.beyond = median_of(flights, &PooledStretch::beyond);
   c.slid = median_of(flights, &PooledStretch::slid);
-  widen(flights, kinks, best->sse + kAlmost * noise * std::max(1.0, left) * correlated(s, speed), 0.005 * gap,
-        c);
+  widen(flights, kinks, best->sse + kAlmost * noise * std::max(1.0, left) * s.facts.sharing(speed),
+        0.005 * gap, c);
   return c;
 }
 
