@@ -28,14 +28,18 @@ std::string tried(Workplace& place, const std::string& arguments) {
   return testing::text_of(place.folder() / "drive.yaml");
 }
 
-TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {
-  Workplace place;
+std::string one_body_csv(double (*input)(double)) {
   TestDrive body;
   body.m2 = 0.0, body.d1 = 0.01;
   TestEncoder encoder;
   encoder.rate = 500.0, encoder.duration = 6.0, encoder.bits = 18, encoder.step = 1e-4;
+  return testing::rows_of(record(body, input, encoder)).csv();
+}
+
+TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {
+  Workplace place;
   const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
-  place.file("logs/my drive 7.csv", testing::rows_of(record(body, input, encoder)).csv());
+  place.file("logs/my drive 7.csv", one_body_csv(input));
   const std::string yaml = tried(place, "'logs/my drive 7.csv' --model one_body");
   EXPECT_THAT(yaml, HasSubstr("name: my_drive_7"));
   EXPECT_THAT(yaml, HasSubstr("file: \"logs/my drive 7.csv\""));
@@ -96,14 +100,10 @@ TEST(Init, AnOptionWithTwoNumbersDoesNotTakeTheFileAfterThem) {
 
 TEST(Init, AHeldOutRecordingIsNamedAndReadByTheDiagnosis) {
   Workplace place;
-  TestDrive body;
-  body.m2 = 0.0, body.d1 = 0.01;
-  TestEncoder encoder;
-  encoder.rate = 500.0, encoder.duration = 6.0, encoder.bits = 18, encoder.step = 1e-4;
   const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
   const auto other = [](double t) { return 0.4 * std::sin(7.0 * t) + 0.1 * std::sin(23.0 * t); };
-  place.file("first.csv", testing::rows_of(record(body, input, encoder)).csv());
-  place.file("logs/second.csv", testing::rows_of(record(body, other, encoder)).csv());
+  place.file("first.csv", one_body_csv(input));
+  place.file("logs/second.csv", one_body_csv(other));
   const std::string yaml = tried(place, "first.csv --model one_body --held-out logs/second.csv");
   EXPECT_THAT(yaml, HasSubstr("held_out: \"logs/second.csv\""));
   EXPECT_THAT(testing::text_of(place.folder() / "report/diagnosis.json"), HasSubstr("second.csv"));
