@@ -1,4 +1,6 @@
 // `check`: what a recording is worth before anything is estimated from it.
+#include "gapscope/commands/check.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,8 +11,6 @@
 #include "cli/commands.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/inspection/inspection.h"
 #include "gapscope/inspection/reach.h"
 #include "gapscope/report/recording_picture.h"
 #include "gapscope/results/inspection_result.h"
@@ -68,10 +68,7 @@ Inspection check_recording(const CheckArguments& a, const RecordingArguments& r)
   if (!a.output.empty()) look();  // before the work
   if (!a.picture.empty()) require_picture_name(a, r);
   const Configuration c = reading_of(r);
-  Inspection inspection = inspect(r.file, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
-  if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(inspection);
-  judge_for(purpose_of(a.purpose), inspection);
-  const std::string json = inspection_json(inspection, resolved_reading(c));
+  auto [inspection, json] = checked_recording(c, purpose_of(a.purpose));
   if (!a.output.empty()) write_text(a.output, json, look());
   fmt::print("{}", a.json ? json : inspection.report());
   std::fflush(stdout);  // read while the picture is drawn

@@ -94,11 +94,6 @@ struct RecordingArguments {
   /// themselves.
   std::vector<RecordingArguments> each_axis() const;
 };
-/// The axes that are meant: the one that is named; of "all" those that the file has; none where it is empty.
-/// @throws ConfigError for one that is named where no column has {axis} in its name
-std::vector<std::string> asked_axes(const std::string& axis, const std::string& file,
-                                    const RecordingColumns& columns);
-
 /// @throws ConfigError where two of time, input and position are one column
 void require_three_columns(const RecordingColumns& columns);
 void add_recording_arguments(CommandLine& command, RecordingArguments& arguments);

@@ -1,24 +1,16 @@
 // `diagnose`: what the simulation of a drive lacks, from recordings of it.
+#include "gapscope/commands/diagnose.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/text.h"
-#include "gapscope/config/begun_model.h"
-#include "gapscope/diagnosis/begin.h"
-#include "gapscope/recording/axes.h"
-#include "gapscope/report/report.h"
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/drive_card.h"
-#include "gapscope/results/report_folder.h"
-#include "gapscope/run/run_diagnosis.h"
+#include "gapscope/commands/axis.h"
 
 namespace gapscope::cli {
 namespace {
@@ -36,67 +28,6 @@ struct DiagnoseArguments {
   FigureFormats figures;
 };
 
-void require_known(const std::vector<std::string>& effects) {
-  for (const std::string& name : effects)
-    if (find_effect(name) == nullptr)
-      throw ConfigError(
-          fmt::format("gapscope: --exclude is '{}', expected an effect that `gapscope effects` lists", name));
-}
-
-/// Under the input of what was held out, which stands in the report; a motion that diverges has left no
-/// trace there.
-std::string fitted_model(const Configuration& c, const Diagnosis& d, const ReferenceModel& fitted,
-                         const MotorTrace& recording) {
-  if (d.traces.empty()) return model_yaml(c, fitted, "", recording);
-  const MismatchTrace& t = d.traces.front();
-  const MotorTrace held_out{t.file, t.start, t.dt, t.u, t.x1, recording.quantum, t.stamps};
-  return model_yaml(c, fitted, held_out_trace_name(0, t.file), held_out,
-                    begin_of(fitted, held_out, d.observer_hz));
-}
-
-void write_outcome(ReportFolder& report, const Configuration& c, DiagnosisResult& result,
-                   const MotorTrace& recording, const FigureFormats& figures) {
-  add_card(report.path(), result);
-  write_diagnosis_result(report.path(), result);
-  write_text(report.path() + "/resolved.yaml", result.configuration);
-  write_text(report.path() + "/fitted.yaml",
-             fitted_model(c, result.diagnosis, result.diagnosis.fitted, recording));
-  for (const LastResortLaw& law : result.diagnosis.laws) {
-    write_compensation_csv(report.path() + "/" + compensation_name(law), law);
-    write_text(report.path() + "/fitted_with_law.yaml",
-               fitted_model(c, result.diagnosis, law.fitted, recording));
-  }
-  if (const NextExperiment& next = result.diagnosis.next_experiment; next.proposes()) {
-    write_text(report.path() + "/next_experiment.yaml",
-               experiment_yaml(c, result.diagnosis.rivals.front().model, next));
-    write_input_csv(report.path() + "/next_experiment.csv", next);
-  }
-  write_report(report.path(), report.dropped(), figures);
-  stop_point();
-  report.commit();
-}
-
-/// In place of `recording: simulated:`. The paths are the shell's, not the configuration's.
-void take_simulated(const std::vector<std::string>& files, Configuration& c) {
-  if (files.empty()) return;
-  if (!c.recording)
-    throw ConfigError(c.file,
-                      "has no recording: beside --simulated, expected that of the drive that is simulated");
-  c.recording->simulated.clear();
-  for (const std::string& file : files)
-    c.recording->simulated.push_back({file, std::filesystem::absolute(file).lexically_normal().string(), 0});
-  if (const std::string problem = c.recording->simulated_problem(); !problem.empty())
-    throw ConfigError("gapscope: --simulated " + problem);
-}
-
-void take_axis(const std::string& axis, Configuration& c) {
-  if (!c.recording || axis == kAllAxes)
-    throw ConfigError(
-        c.file, "is diagnosed for one axis at a time, expected its name behind --axis and a recording:");
-  asked_axes(axis, "", c.recording->reading.columns);
-  c.recording->reading.columns = columns_of_axis(c.recording->reading.columns, axis);
-}
-
 /// Those that were not told before the work began.
 std::vector<std::string> without(std::vector<std::string> warnings, const std::vector<std::string>& told) {
   std::erase_if(warnings, [&](const std::string& w) { return contains(told, w); });
@@ -113,10 +44,8 @@ auto to_its_end_or_asked(bool& asked, const Work& work) {
 }
 
 void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
-  if (!a.axis.empty()) take_axis(a.axis, c);
-  c.excluded.insert(c.excluded.end(), a.excluded.begin(), a.excluded.end());
-  std::sort(c.excluded.begin(), c.excluded.end());  // the same question, however it is asked
-  c.excluded.erase(std::unique(c.excluded.begin(), c.excluded.end()), c.excluded.end());
+  if (!a.axis.empty()) c = of_axis(std::move(c), a.axis);
+  exclude_effects(a.excluded, c);
   take_simulated(a.simulated, c);
   require_reference_model(c);
   const std::string folder =
@@ -134,9 +63,7 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   DiagnosisOutcome outcome = to_its_end_or_asked(stopped, [&] { return run_diagnosis(c, options, tell); });
   DiagnosisResult& result = outcome.result;
   options.progress("drawing the report");
-  report.keep_estimate(result.version, result.sources);
-  write_outcome(report, c, result, outcome.first.motor_trace(), a.figures);
-  if (!report.dropped().empty()) result.diagnosis.warnings.push_back(report.dropped());
+  write_diagnosis(report, c, a.figures, outcome);
   print_warnings(without(result.diagnosis.warnings, told));
   if (result.simulated) print_warnings(result.simulated->warnings);
   print_diagnosis(folder, result);
@@ -207,7 +134,6 @@ void add_diagnose(CommandLine& app) {
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --simulated mujoco.csv");
   command.action([arguments] {
-    require_known(arguments->excluded);
     with_configuration(arguments->config, [&](Configuration& c) { diagnose_configuration(*arguments, c); });
   });
 }

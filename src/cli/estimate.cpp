@@ -1,7 +1,8 @@
 // `run`, `detect` and `fit`: the same pipeline with both estimators, or one of them.
+#include "gapscope/commands/estimate.h"
+
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
@@ -9,15 +10,10 @@
 #include "cli/detect_stream.h"
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
-#include "gapscope/recording/axes.h"
+#include "gapscope/commands/axis.h"
 #include "gapscope/report/changes_report.h"
-#include "gapscope/report/report.h"
-#include "gapscope/results/drive_card.h"
-#include "gapscope/results/report_folder.h"
-#include "gapscope/run/run_pipeline.h"
 
 namespace gapscope::cli {
 namespace {
@@ -33,51 +29,19 @@ struct EstimateArguments {
   double quantum = 0.0;  ///< [rad]; 0: as the samples show
 };
 
-/// A diagnosis in the folder has left its own, which holds what the model lacked.
-void write_fitted_model(const std::string& folder, const Configuration& c, const RunResult& result) {
-  const std::string path = folder + "/fitted.yaml";
-  if (!result.reference || result.reference->initial_states.empty() || std::filesystem::exists(path)) return;
-  const Recording& first = result.recordings.front();
-  write_text(path, fit_yaml(c, *result.reference, trace_name(0, first.file), first.motor_trace()));
-}
-
-/// The folder is replaced only when everything is in it.
-void write_outcome(ReportFolder& report, const Configuration& c, const FigureFormats& figures,
-                   RunOutcome& outcome) {
-  report.keep_diagnosis(outcome.result.version, outcome.result.sources);
-  if (!report.dropped().empty()) outcome.warnings.push_back(report.dropped());
-  add_card(report.path(), outcome.result);
-  write_fitted_model(report.path(), c, outcome.result);
-  outcome.result = write_run_result(report.path(), std::move(outcome.result));
-  write_timing(report.path(), outcome.timing);
-  write_text(report.path() + "/resolved.yaml", outcome.result.configuration);
-  write_report(report.path(), report.dropped(), figures);
-  stop_point();
-  report.commit();
-}
-
 void estimate(const EstimateArguments& a, const Configuration& c, const std::string& folder,
               const Estimators& wanted) {
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   const Progress progress = progress_on_terminal(a.quiet);
-  const std::vector<FileHash> sources = sources_of(c);
-  RunOutcome outcome = run_pipeline(c, wanted, progress);
-  require_unchanged(c, sources);
-  outcome.result.sources = sources;
+  RunOutcome outcome = make_estimate(c, wanted, progress);
   progress("drawing the report");
-  write_outcome(report, c, a.figures, outcome);
+  write_estimate(report, c, a.figures, outcome);
   print_warnings(outcome.warnings);
   print_headline(folder, outcome.result);
 }
 
 std::string folder_of(const EstimateArguments& a, const Configuration& c) {
   return a.folder.empty() ? "reports/" + c.name : a.folder;
-}
-
-/// A configuration whose columns are those of this axis, and its folder within that of the machine.
-Configuration of_axis(Configuration c, const std::string& axis) {
-  c.recording->reading.columns = columns_of_axis(c.recording->reading.columns, axis);
-  return c;
 }
 
 /// A report for each axis and one table of all.

@@ -1,17 +1,13 @@
 // `export`: the drive in the format of a simulator, with a certificate.
-#include "gapscope/exports/export.h"
+#include "gapscope/commands/export.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/results/report_folder.h"
 
 namespace gapscope::cli {
 namespace {
@@ -24,30 +20,6 @@ struct ExportArguments {
   bool quiet = false;
 };
 
-/// The model that a report folder holds, or the configuration itself.
-std::string configuration_in(const std::string& source) {
-  if (!fs::is_directory(source)) return source;
-  const std::string fitted = (fs::path(source) / "fitted.yaml").string();
-  if (!fs::exists(fitted))
-    throw ConfigError(source, "holds no fitted.yaml, expected the report folder of run, fit or diagnose");
-  return fitted;
-}
-
-ExportFormat format_of(const std::string& word) {
-  const auto formats = export_formats();
-  return std::find_if(formats.begin(), formats.end(),
-                      [&](const ExportFormatSpec& f) { return f.name == word; })
-      ->format;
-}
-
-void write_export(ReportFolder& report, const DriveExport& drive) {
-  for (const ExportedFile& file : drive.files) write_text(report.path() + "/" + file.name, file.text);
-  write_text(report.path() + "/certificate.md", certificate_text(drive.certificate));
-  write_certificate(report.path(), drive.certificate);
-  stop_point();
-  report.commit();
-}
-
 /// "exact: gap, ...": the parts of one fidelity.
 void say_parts(const char* what, Fidelity fidelity, const Certificate& c) {
   std::string names;
@@ -59,7 +31,7 @@ void say_parts(const char* what, Fidelity fidelity, const Certificate& c) {
 void export_configuration(const ExportArguments& a, const Configuration& c) {
   ReportFolder report(a.folder, FolderKind::kExport, source_paths(c));
   progress_on_terminal(a.quiet)("exporting " + c.name);
-  const DriveExport drive = export_drive(c, format_of(a.format));
+  const DriveExport drive = export_drive(c, export_format(a.format));
   write_export(report, drive);
   print_warnings(drive.certificate.warnings);
   for (const ExportedFile& file : drive.files) say("written", (fs::path(a.folder) / file.name).string());
@@ -104,7 +76,7 @@ void add_drive_export(CommandLine& app) {
       "DIR may be empty, new, or hold an earlier export that was not changed since.\n\n"
       "Example: gapscope export reports/drive --to mjcf -o drive_mjcf");
   command.action([arguments] {
-    const ConfigArguments source{configuration_in(arguments->source.file), arguments->source.set};
+    const ConfigArguments source{exported_configuration(arguments->source.file), arguments->source.set};
     with_configuration(source, [&](const Configuration& c) {
       warn_of_idle_settings(source, c);
       export_configuration(*arguments, c);

@@ -3,14 +3,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "cli/commands.h"
 #include "cli/presets.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/move_file.h"
-#include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/commands/axis.h"
 #include "gapscope/recording/axes.h"
 
 namespace gapscope::cli {
@@ -82,42 +81,6 @@ std::vector<RecordingArguments> RecordingArguments::each_axis() const {
     all.back().axis = one;
   }
   return all;
-}
-
-namespace {
-
-/// Each axis has a folder of its own, below that of the machine.
-void require_own_folders(const std::vector<std::string>& axes) {
-  std::set<std::string> folders;
-  for (const std::string& axis : axes) {
-    const std::string folder = plain_part(axis);
-    if (!is_plain_name(folder))
-      throw ConfigError(
-          fmt::format("gapscope: --axis: the axis {} can have no folder, expected a name of at most "
-                      "100 characters that begins with a letter, a digit or _",
-                      shown(axis)));
-    if (!folders.insert(folder).second)
-      throw ConfigError(
-          fmt::format("gapscope: --axis all: two axes would share the folder {}, expected one of "
-                      "them behind --axis",
-                      folder));
-  }
-}
-
-}  // namespace
-
-std::vector<std::string> asked_axes(const std::string& axis, const std::string& file,
-                                    const RecordingColumns& columns) {
-  if (axis.empty()) return {};
-  if (!names_an_axis(columns))
-    throw ConfigError(
-        fmt::format("gapscope: --axis is {}, expected {} in the names of the columns, as in --position "
-                    "{}.position or \"q[:, {}]\"",
-                    shown(axis), kAxisInName, kAxisInName, kAxisInName));
-  std::vector<std::string> axes =
-      axis == kAllAxes ? recorded_axes(file, columns) : std::vector<std::string>{axis};
-  require_own_folders(axes);
-  return axes;
 }
 
 namespace {

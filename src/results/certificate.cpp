@@ -62,9 +62,9 @@ Json export_schema() { return document_schema(kExportSchema, Certificate()); }
 
 }  // namespace internal::results
 
-void write_certificate(const std::string& folder, const Certificate& certificate) {
-  internal::results::write_document(folder + "/certificate.json", internal::results::kExportSchema,
-                                    certificate);
+std::string certificate_json(const Certificate& certificate) {
+  return internal::results::file_text(
+      internal::results::document_of(internal::results::kExportSchema, certificate));
 }
 
 }  // namespace gapscope

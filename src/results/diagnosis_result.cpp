@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
@@ -22,6 +21,7 @@ using internal::results::SimulatorDocument;
 using internal::results::StoredMismatch;
 using internal::results::StoredSimulatorTrace;
 using internal::results::TraceSet;
+using internal::results::TraceSink;
 
 /// What the contract of the file promises; another state is a bug of the caller.
 void require_consistent(const Diagnosis& d) {
@@ -37,14 +37,14 @@ TraceSet set_of(const MismatchTrace& m) {
   return {std::move(r), {}, {}, m.error_before, m.error_after, m.torque_before, m.torque_after};
 }
 
-StoredMismatch store(const std::string& folder, std::size_t index, const MismatchTrace& m) {
+StoredMismatch store(std::size_t index, const MismatchTrace& m, const TraceSink& sink) {
   StoredMismatch stored;
   stored.trace = held_out_trace_name(index, m.file);
   stored.samples = static_cast<int>(m.x1.size());
   stored.scored_from = static_cast<int>(m.scored_from);
   stored.mismatch.file = m.file, stored.mismatch.start = m.start, stored.mismatch.dt = m.dt;
   stored.mismatch.encoder = m.encoder;
-  internal::results::write_trace(folder + "/" + stored.trace, set_of(m));
+  sink(stored.trace, set_of(m));
   return stored;
 }
 
@@ -72,7 +72,7 @@ MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
   return m;
 }
 
-SimulatorDocument store(const std::string& folder, const SimulatorComparison& comparison) {
+SimulatorDocument store(const SimulatorComparison& comparison, const TraceSink& sink) {
   SimulatorDocument document{comparison, {}};
   for (const SimulatorTrace& t : comparison.traces) {
     StoredSimulatorTrace stored;
@@ -84,7 +84,7 @@ SimulatorDocument store(const std::string& folder, const SimulatorComparison& co
     TraceSet set;
     set.recording = {t.file, t.start, t.dt, t.u, t.x1, {}, {}, 0.0, "", false, t.stamps};
     set.fit.x1 = t.fitted, set.simulator = t.simulator, set.stand_in = t.stand_in, set.mended = t.mended;
-    internal::results::write_trace(folder + "/" + stored.trace, set);
+    sink(stored.trace, std::move(set));
     document.traces.push_back(std::move(stored));
   }
   return document;
@@ -105,6 +105,19 @@ SimulatorComparison load(const std::string& folder, SimulatorDocument& document)
   return comparison;
 }
 
+/// The document, its traces where the sink takes them.
+internal::results::Json store(const DiagnosisResult& result, const TraceSink& sink) {
+  require_consistent(result.diagnosis);
+  DiagnosisDocument document;
+  document.result = result;
+  for (std::size_t i = 0; i < result.diagnosis.traces.size(); ++i)
+    document.held_out.push_back(store(i, result.diagnosis.traces[i], sink));
+  if (result.simulated) document.simulated = store(*result.simulated, sink);
+  JsonWriter writer;
+  fields(writer, document);
+  return std::move(writer.json);
+}
+
 }  // namespace
 
 namespace internal::results {
@@ -118,16 +131,15 @@ std::string held_out_trace_name(std::size_t index, const std::string& recording_
 }
 
 void write_diagnosis_result(const std::string& folder, const DiagnosisResult& result) {
-  require_consistent(result.diagnosis);
   std::filesystem::create_directories(folder + "/traces");
-  DiagnosisDocument document;
-  document.result = result;
-  for (std::size_t i = 0; i < result.diagnosis.traces.size(); ++i)
-    document.held_out.push_back(store(folder, i, result.diagnosis.traces[i]));
-  if (result.simulated) document.simulated = store(folder, *result.simulated);
-  JsonWriter writer;
-  fields(writer, document);
-  internal::results::save_json(folder + "/diagnosis.json", writer.json);
+  internal::results::save_json(folder + "/diagnosis.json",
+                               store(result, internal::results::into_folder(folder)));
+}
+
+StoredResult stored_diagnosis_result(const DiagnosisResult& result) {
+  StoredResult stored;
+  stored.json = internal::results::file_text(store(result, internal::results::into_tables(stored.traces)));
+  return stored;
 }
 
 DiagnosisResult read_diagnosis_result(const std::string& folder) {
@@ -145,23 +157,21 @@ DiagnosisResult read_diagnosis_result(const std::string& folder) {
 
 std::string compensation_name(const LastResortLaw& law) { return "compensation_" + law.law + ".csv"; }
 
-void write_compensation_csv(const std::string& path, const LastResortLaw& law) {
+std::string compensation_csv(const LastResortLaw& law) {
   const char* const abscissa = law.variable == "speed"      ? "speed_rad_s"
                                : law.variable == "position" ? "position_rad"
                                                             : "input";
   std::string text = fmt::format("{},compensation_nm,low_nm,high_nm\n", abscissa);
   for (const CurvePoint& p : law.curve)  // what the drive lacks, with the other sign
     text += fmt::format("{},{},{},{}\n", p.at, 0.0 - p.torque, 0.0 - p.ci95.high, 0.0 - p.ci95.low);
-  std::ofstream out(path);
-  if (!(out << text).flush()) throw std::runtime_error(path + ": cannot be written");
+  return text;
 }
 
-void write_input_csv(const std::string& path, const NextExperiment& experiment) {
+std::string input_csv(const NextExperiment& experiment) {
   std::string text = "t,u\n";
   for (std::size_t i = 0; i < experiment.u.size(); ++i)
     text += fmt::format("{},{}\n", static_cast<double>(i) / experiment.rate, experiment.u[i]);
-  std::ofstream out(path);
-  if (!(out << text).flush()) throw std::runtime_error(path + ": cannot be written");
+  return text;
 }
 
 }  // namespace gapscope

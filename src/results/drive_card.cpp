@@ -23,23 +23,38 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
   return card_of(facts);
 }
 
+namespace {
+
+void put_card(RunResult& run, const DiagnosisResult* beside) {
+  if (run.answer) run.answer->card = drive_card(&run, beside);
+}
+
+void put_answer(DiagnosisResult& diagnosis, RunResult* beside) {
+  Answer answer;
+  answer.sentence = "The gap was not estimated.";
+  if (beside != nullptr && beside->answer) answer = *beside->answer;
+  if (diagnosis.answer) answer.tolerance = diagnosis.answer->tolerance;
+  diagnosis.answer = answer;
+  if (beside != nullptr && beside->answer) beside->answer->tolerance = answer.tolerance;
+  diagnosis.answer->card = drive_card(beside, &diagnosis);
+}
+
+}  // namespace
+
+void add_card(RunResult& run) { put_card(run, nullptr); }
+void add_card(DiagnosisResult& diagnosis) { put_answer(diagnosis, nullptr); }
+
 void add_card(const std::string& folder, RunResult& run) {
-  if (!run.answer) return;
   std::optional<DiagnosisResult> beside;
-  if (std::filesystem::exists(folder + "/diagnosis.json")) beside = read_diagnosis_result(folder);
-  run.answer->card = drive_card(&run, beside ? &*beside : nullptr);
+  if (run.answer && std::filesystem::exists(folder + "/diagnosis.json"))
+    beside = read_diagnosis_result(folder);
+  put_card(run, beside ? &*beside : nullptr);
 }
 
 void add_card(const std::string& folder, DiagnosisResult& diagnosis) {
   std::optional<RunResult> beside;
   if (std::filesystem::exists(folder + "/result.json")) beside = read_run_result(folder);
-  Answer answer;
-  answer.sentence = "The gap was not estimated.";
-  if (beside && beside->answer) answer = *beside->answer;
-  if (diagnosis.answer) answer.tolerance = diagnosis.answer->tolerance;
-  diagnosis.answer = answer;
-  if (beside && beside->answer) beside->answer->tolerance = answer.tolerance;
-  diagnosis.answer->card = drive_card(beside ? &*beside : nullptr, &diagnosis);
+  put_answer(diagnosis, beside ? &*beside : nullptr);
 }
 
 }  // namespace gapscope

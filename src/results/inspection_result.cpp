@@ -97,7 +97,7 @@ std::string inspection_json(const Inspection& inspection, const std::string& con
   internal::results::JsonWriter writer;
   writer("schema", schema);
   fields(writer, document);
-  return internal::results::text_of(writer.json, 1) + "\n";
+  return internal::results::file_text(writer.json);
 }
 
 }  // namespace gapscope

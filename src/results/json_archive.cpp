@@ -35,9 +35,11 @@ std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string file_text(const Json& json) { return text_of(json, 1) + "\n"; }
+
 void save_json(const std::string& path, const Json& json, const Replaceable& found) {
   write_whole_file(
-      path, [&](std::ostream& out) { out << text_of(json, 1) << '\n'; }, found);
+      path, [&](std::ostream& out) { out << file_text(json); }, found);
 }
 
 namespace {

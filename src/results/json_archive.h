@@ -46,6 +46,7 @@ std::string shown_json(const Json& json);
 std::string text_of(const Json& json, int indent);
 
 /// Text of a JSON document with a final newline; doubles come out shortest and read back the same.
+std::string file_text(const Json& json);
 void save_json(const std::string& path, const Json& json, const Replaceable& found = {});
 /// @throws ConfigError where the file is missing or too large for a stored result
 std::string text_of_file(const std::string& path);

@@ -6,14 +6,20 @@
 
 namespace gapscope::internal::results {
 
-/// A file that is one struct after the name of its schema.
+/// One struct after the name of its schema.
 template <class Struct>
-void write_document(const std::string& path, std::string schema, Struct value,
-                    const Replaceable& found = {}) {
+Json document_of(std::string schema, Struct value) {
   JsonWriter writer;
   writer("schema", schema);
   fields(writer, value);
-  save_json(path, writer.json, found);
+  return std::move(writer.json);
+}
+
+/// A file that is that.
+template <class Struct>
+void write_document(const std::string& path, const std::string& schema, const Struct& value,
+                    const Replaceable& found = {}) {
+  save_json(path, document_of(schema, value), found);
 }
 
 /// @param text  of the file  @throws ConfigError for another schema or a damaged file.

@@ -22,6 +22,7 @@ using internal::results::JsonWriter;
 using internal::results::kSchema;
 using internal::results::StoredRecording;
 using internal::results::TraceSet;
+using internal::results::TraceSink;
 
 /// What the contract of the file promises; another state is a bug of the caller.
 void require_consistent(const GapEstimate& g) {
@@ -57,8 +58,8 @@ void make_folder(const fs::path& folder) {
 }
 
 /// Takes the samples along, so that a long recording is held once.
-StoredRecording store_recording(const std::string& folder, std::size_t index, Recording& recording,
-                                ErrorTrace* error, FitTrace* fit) {
+StoredRecording store_recording(std::size_t index, Recording& recording, ErrorTrace* error, FitTrace* fit,
+                                const TraceSink& sink) {
   StoredRecording stored;
   stored.trace = trace_name(index, recording.file);
   stored.samples = static_cast<int>(recording.size());
@@ -71,8 +72,24 @@ StoredRecording store_recording(const std::string& folder, std::size_t index, Re
   set.recording = std::move(recording);
   if (error) set.error = std::move(*error);
   if (fit) set.fit = std::move(*fit);
-  internal::results::write_trace(folder + "/" + stored.trace, set);
+  sink(stored.trace, std::move(set));
   return stored;
+}
+
+/// All but the samples, which go where the sink takes them.
+Document store_samples(RunResult result, const TraceSink& sink) {
+  if (result.model_free) require_consistent(*result.model_free);
+  Document document;
+  document.run = std::move(result);
+  RunResult& run = document.run;
+  const auto errors = traces_by_recording(run.recordings, run.model_free);
+  const auto fits = traces_by_recording(run.recordings, run.reference);
+  for (std::size_t i = 0; i < run.recordings.size(); ++i)
+    document.recordings.push_back(store_recording(i, run.recordings[i], errors[i], fits[i], sink));
+  run.recordings.clear();
+  if (run.model_free) run.model_free->traces.clear();
+  if (run.reference) run.reference->traces.clear();
+  return document;
 }
 
 void load_recording(const std::string& folder, const StoredRecording& stored, RunResult& run) {
@@ -122,25 +139,24 @@ void require_events(const JsonReader& reader, const Document& document) {
 }  // namespace
 
 RunResult write_run_result(const std::string& folder, RunResult result) {
-  if (result.model_free) require_consistent(*result.model_free);
-  Document document;
-  document.run = std::move(result);
-  RunResult& run = document.run;
-  const auto errors = traces_by_recording(run.recordings, run.model_free);
-  const auto fits = traces_by_recording(run.recordings, run.reference);
-  if (!run.recordings.empty()) make_folder(fs::path(folder) / "traces");
-  for (std::size_t i = 0; i < run.recordings.size(); ++i)
-    document.recordings.push_back(store_recording(folder, i, run.recordings[i], errors[i], fits[i]));
-  if (run.model_free && run.model_free->map && !run.recordings.empty())
+  if (!result.recordings.empty()) make_folder(fs::path(folder) / "traces");
+  if (result.model_free && result.model_free->map && !result.recordings.empty())
     internal::results::write_bound_map(folder + "/traces/" + internal::results::kBoundMapName,
-                                       *run.model_free->map);
-  run.recordings.clear();
-  if (run.model_free) run.model_free->traces.clear();
-  if (run.reference) run.reference->traces.clear();
+                                       *result.model_free->map);
+  Document document = store_samples(std::move(result), internal::results::into_folder(folder));
   JsonWriter writer;
   fields(writer, document);
   save(folder + "/result.json", writer);
   return std::move(document.run);
+}
+
+StoredResult stored_run_result(RunResult result) {
+  StoredResult stored;
+  Document document = store_samples(std::move(result), internal::results::into_tables(stored.traces));
+  JsonWriter writer;
+  fields(writer, document);
+  stored.json = internal::results::file_text(writer.json);
+  return stored;
 }
 
 RunResult read_run_result(const std::string& folder) {

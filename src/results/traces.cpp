@@ -218,6 +218,28 @@ void settle_stamps(Recording& r) {
 
 }  // namespace
 
+std::vector<StoredColumn> columns_of(TraceSet set) {
+  const Columns filled = filled_columns(set);
+  std::vector<StoredColumn> columns = {{"t_s", {}, {}}};
+  for (std::size_t i = 0; i < set.recording.size(); ++i)
+    columns.front().numbers.push_back(set.recording.time(i));
+  for (const NumberColumn& column : filled.numbers)
+    columns.push_back({column.name, std::move(column.into(set)), {}});
+  for (const ModeColumn& column : filled.modes)
+    columns.push_back({column.name, {}, std::move(column.into(set))});
+  return columns;
+}
+
+TraceSink into_folder(const std::string& folder) {
+  return [folder](const std::string& name, const TraceSet& set) { write_trace(folder + "/" + name, set); };
+}
+
+TraceSink into_tables(std::vector<StoredTable>& tables) {
+  return [&tables](const std::string& name, TraceSet set) {
+    tables.push_back({name, columns_of(std::move(set))});
+  };
+}
+
 void write_trace(const std::string& path, const TraceSet& set) {
   std::ofstream out(path, std::ios::binary);
   write_rows(out, set);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "gapscope/results/run_result.h"
+#include "gapscope/results/stored_table.h"
 
 namespace gapscope::internal::results {
 
@@ -23,6 +25,18 @@ struct TraceSet {
 
 /// Writes the filled columns only; an undefined number is an empty field.  @throws std::runtime_error
 void write_trace(const std::string& path, const TraceSet& set);
+
+/// The same columns in memory, the samples moved into them.
+std::vector<StoredColumn> columns_of(TraceSet set);
+
+/// Is given each trace of a result and the name of its file.
+using TraceSink = std::function<void(const std::string& name, TraceSet set)>;
+
+/// Writes each into its file below the folder.
+TraceSink into_folder(const std::string& folder);
+
+/// Keeps each as a table.
+TraceSink into_tables(std::vector<StoredTable>& tables);
 
 /// Where a trace that a stored result names is.  @throws ConfigError for a place outside the folder's traces.
 std::string trace_path(const std::string& folder, const std::string& name);

@@ -22,9 +22,9 @@ const fs::path kRoot = GAPSCOPE_SOURCE_DIR;
 const std::map<std::string, Names>& allowed_modules() {
   static const std::map<std::string, Names> table = [] {
     const std::vector<std::string> order = {
-        "base",       "recording",    "signals",   "inspection", "plant",  "torque_view",
-        "simulation", "sliding_mode", "reference", "diagnosis",  "config", "results",
-        "run",        "exports",      "campaign",  "blind",      "report", "cli"};
+        "base",         "recording", "signals",   "inspection", "plant",   "torque_view", "simulation",
+        "sliding_mode", "reference", "diagnosis", "config",     "results", "run",         "exports",
+        "campaign",     "blind",     "report",    "commands",   "cli",     "python"};
     std::map<std::string, Names> t = {
         {"base", {}},
         {"recording", {"base"}},

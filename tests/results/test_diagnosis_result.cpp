@@ -250,6 +250,7 @@ TEST(DiagnosisResult, WritesTheSameTextAgain) {
   write_diagnosis_result(one.path.string(), sample());
   write_diagnosis_result(other.path.string(), read_diagnosis_result(one.path.string()));
   EXPECT_EQ(text_of(one.path / "diagnosis.json"), text_of(other.path / "diagnosis.json"));
+  EXPECT_EQ(text_of(one.path / "diagnosis.json"), stored_diagnosis_result(sample()).json);
   EXPECT_NE(text_of(one.path / "diagnosis.json").find("\"floor\": null"), std::string::npos);
 }
 

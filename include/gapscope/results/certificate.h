@@ -62,8 +62,8 @@ struct Certificate {
 /// "exact", "approximate", "left out"
 const char* to_string(Fidelity fidelity);
 
-/// Writes certificate.json into a folder.  @throws std::runtime_error where it cannot be written
-void write_certificate(const std::string& folder, const Certificate& certificate);
+/// The bytes of certificate.json.
+std::string certificate_json(const Certificate& certificate);
 
 /// The same for people: what is carried, how far off, which steps; Markdown.
 std::string certificate_text(const Certificate& certificate);

@@ -9,6 +9,7 @@
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/diagnosis/simulator.h"
+#include "gapscope/results/stored_table.h"
 
 namespace gapscope {
 
@@ -30,6 +31,9 @@ struct DiagnosisResult {
 /// @throws std::runtime_error naming what cannot be written.
 void write_diagnosis_result(const std::string& folder, const DiagnosisResult& result);
 
+/// The same in memory: the bytes of diagnosis.json, and the traces as tables.
+StoredResult stored_diagnosis_result(const DiagnosisResult& result);
+
 /// Reads back what write_diagnosis_result() wrote.  @throws ConfigError for another schema or a damaged file.
 DiagnosisResult read_diagnosis_result(const std::string& folder);
 
@@ -42,11 +46,9 @@ std::string compensation_name(const LastResortLaw& law);
 /// The table that a drive's feed-forward takes: the abscissa (speed_rad_s, position_rad or input),
 /// compensation_nm, what is to be added to the motor's torque there, and its 95 % interval. At standstill a
 /// friction has two rows, backward first.
-/// @throws std::runtime_error if the file cannot be written.
-void write_compensation_csv(const std::string& path, const LastResortLaw& law);
+std::string compensation_csv(const LastResortLaw& law);
 
-/// Columns t [s] and u of the proposed input.
-/// @throws std::runtime_error if the file cannot be written.
-void write_input_csv(const std::string& path, const NextExperiment& experiment);
+/// Columns t [s] and u of the proposed input, as CSV.
+std::string input_csv(const NextExperiment& experiment);
 
 }  // namespace gapscope

@@ -16,6 +16,10 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis);
 /// @throws ConfigError where that cannot be read.
 void add_card(const std::string& folder, RunResult& run);
 
+/// Gives either its own, as in a folder without the other.
+void add_card(RunResult& run);
+void add_card(DiagnosisResult& diagnosis);
+
 /// Gives a diagnosis its answer: the gap is that of the estimate in the same folder, where there is one.
 void add_card(const std::string& folder, DiagnosisResult& diagnosis);
 

@@ -12,6 +12,7 @@
 #include "gapscope/diagnosis/second_encoder.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit_summary.h"
+#include "gapscope/results/stored_table.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 
 namespace gapscope {
@@ -51,6 +52,9 @@ std::string trace_name(std::size_t index, const std::string& recording_file);
 /// (recordings and traces): moved in, a long recording is held once.
 /// @throws std::runtime_error naming what cannot be written.
 RunResult write_run_result(const std::string& folder, RunResult result);
+/// The same in memory: the bytes of result.json, and the traces as tables. Samples are moved.
+StoredResult stored_run_result(RunResult result);
+
 void write_timing(const std::string& folder, const Timing& timing);
 
 /// Reads back exactly what write_run_result() wrote.  @throws ConfigError for another schema or a damaged

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gapscope/commands/text_files.h"
+#include "gapscope/exports/export.h"
+#include "gapscope/results/report_folder.h"
+
+namespace gapscope {
+
+/// The configuration that is exported: of a report folder its fitted.yaml, else the file itself.
+/// @throws ConfigError for a folder without one
+std::string exported_configuration(const std::string& source);
+
+/// @throws ConfigError for a word that no format has
+ExportFormat export_format(const std::string& word);
+
+/// The model, certificate.md and certificate.json.
+std::vector<TextFile> export_texts(const DriveExport& drive);
+
+/// Writes these and commits.  @throws Interrupted, std::runtime_error for what cannot be written
+void write_export(ReportFolder& report, const DriveExport& drive);
+
+}  // namespace gapscope

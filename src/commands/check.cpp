@@ -1,0 +1,45 @@
+#include "gapscope/commands/check.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/require.h"
+#include "gapscope/results/inspection_result.h"
+
+namespace gapscope {
+
+CheckedRecording checked_recording(const Configuration& c, Purpose purpose, const std::string& told_as) {
+  GAPSCOPE_REQUIRE(c.recording && !c.recording->files.empty());
+  CheckedRecording checked;
+  checked.inspection =
+      inspect(c.recording->files.front().path, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
+  if (!told_as.empty()) checked.inspection.file = told_as;
+  if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(checked.inspection);
+  judge_for(purpose, checked.inspection);
+  checked.json = inspection_json(checked.inspection, resolved_reading(c));
+  return checked;
+}
+
+Configuration reading_of_one(const Configuration& c, int index) {
+  if (!c.recording) throw ConfigError(c.file, "has no recording: to be checked, expected one");
+  std::vector<RecordedFile> all = c.recording->files;
+  all.insert(all.end(), c.recording->held_out.begin(), c.recording->held_out.end());
+  if (index < 0 || static_cast<std::size_t>(index) >= all.size())
+    throw ConfigError(c.file,
+                      fmt::format("has {} recordings, expected a number from 0 and below that instead of {}",
+                                  all.size(), index));
+  Configuration reading;
+  reading.file = c.file;
+  reading.recording = c.recording;
+  reading.recording->held_out.clear(), reading.recording->simulated.clear();
+  reading.recording->files = {all[static_cast<std::size_t>(index)]};
+  RecordedFile& file = reading.recording->files.front();
+  file.given = std::filesystem::path(file.path).filename().string();
+  reading.encoder = c.encoder;
+  reading.coordinates = c.coordinates;
+  return reading;
+}
+
+}  // namespace gapscope
