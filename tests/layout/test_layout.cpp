@@ -72,6 +72,7 @@ const std::vector<std::pair<std::string, Names>> kConfined = {
     {"tbb/", {"base"}},
     {"tinyxml2", {"config"}},
     {"oneapi/", {"base"}},
+    {"pybind11/", {"python"}},
 };
 
 struct Include {
