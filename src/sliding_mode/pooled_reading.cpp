@@ -248,11 +248,13 @@ std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::Sign
   GapEstimate e;
   e.gap = c->gap + c->beyond;
   const bool few = e.gap < kFewestPooledQuanta * facts.quantum;
-  if (e.gap < signals::kFewestToldQuanta * facts.quantum || (few && c->windows < kManyWindows)) return {};
+  if (few && c->windows < kManyWindows) return {};
   const double doubt = std::hypot(kDoubt * c->doubt, kImpactLaw * e.gap), apart = 0.5 * std::abs(up - down);
   e.std = std::sqrt(doubt * doubt + apart * apart + std::pow(kRounding * facts.quantum, 2) +
                     0.25 * c->beyond * c->beyond);
   e.ci95 = {std::max(e.gap - kNormal95 * e.std, 0.0), e.gap + kNormal95 * e.std};
+  // 18 counts may be read as 21 (4100155 gap sine), so the whole interval has to lie where gaps are told.
+  if (e.ci95.low < signals::kFewestToldQuanta * facts.quantum) return {};
   if (kNormal95 * e.std > kWidestPooled * e.gap) return {};
   e.verdict = GapVerdict::kBacklash;
   e.method = GapMethod::kImpact;

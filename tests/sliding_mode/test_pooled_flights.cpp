@@ -120,6 +120,12 @@ TEST(PooledFlights, AWeakImpactShowsInWhatFollowsIt) {
   EXPECT_GE(estimate->ci95.high, s.c.drive.gap);
 }
 
+TEST(PooledFlights, NothingIsToldWhereTheIntervalReachesBelowTwentyCounts) {
+  const PooledSubject s(independent_plant::random_drive(4100155));  // 18 counts, read as 21
+  EXPECT_LT(s.c.drive.gap, 19.0 * s.c.sensor.quantum);
+  EXPECT_FALSE(s.read());
+}
+
 TEST(PooledFlights, ThatSinglePassagesSpeakOfAMovingLoadDoesNotSilenceAllOfThem) {
   const PooledSubject s(independent_plant::random_drive(871106));  // seven of 13, of a load at rest
   const GapEstimate estimate = detect_gap({&s.trace, 1});
