@@ -65,7 +65,7 @@ std::string gap_verdict(const CardFacts& f) {
 }
 
 std::string gap_line(const CardFacts& f) {
-  if (f.answer == nullptr) return gap_not_estimated(f.diagnosis);
+  if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
   const bool known = f.answer->trust != AnswerTrust::kNone;
   return as_sentence(known ? f.answer->sentence : without_asides(f.answer->sentence)) +
          fmt::format(" Trust: {}.", to_string(f.answer->trust)) + gap_verdict(f);

@@ -3,6 +3,7 @@
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/diagnosis/simulator.h"
 
 namespace gapscope {
 namespace {
@@ -46,10 +47,50 @@ TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
     EXPECT_THAT(line, HasSubstr("`gapscope diagnose CONFIG`"));
   EXPECT_TRUE(std::isnan(card.torque));
   Diagnosis d = slide_diagnosis();
-  d.fitted.parameters[place::kMassRatio].value = 1.0;
   EXPECT_EQ(card_of(facts_of(nullptr, &d)).gap, "Not estimated here; told by `gapscope run CONFIG`.");
-  d.fitted.parameters[place::kMassRatio].value = 0.0;
+  d.model_gap = ModelGap();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, HasSubstr("one body"));
+  d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The model takes it as known, 20 mm"));
+  d.model_gap = ModelGap{GapOrigin::kEstimated, 0.02, {0.018, 0.022}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The fitted model does not follow"));
+}
+
+TEST(Card, TellsTheGapOfADiagnosisWhoseModelFollows) {
+  Diagnosis d = slide_diagnosis();
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "it knows of none";
+  d.model_gap = ModelGap{GapOrigin::kEstimated, 0.02, {0.018, 0.022}};
+  d.mismatch.after = 1.2e-4;
+  const std::optional<Answer> good = answer_of_diagnosis(d, Coordinates());
+  ASSERT_TRUE(good.has_value());
+  EXPECT_EQ(good->trust, AnswerTrust::kGood);
+  EXPECT_EQ(good->from, AnswerSource::kDiagnosis);
+  EXPECT_EQ(good->sentence,
+            "The backlash gap is 20.0 mrad (95 %: 18.0 to 22.0) by the model that the diagnosis has fitted.");
+  d.mismatch.after = 5e-4;
+  EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited);
+  d.mismatch.after = 2e-3;
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "it is 20 floors off";
+  d.mismatch.after = 1.2e-4, d.model_gap->ci95 = {};
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "not determined";
+  d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "not its own";
+}
+
+TEST(Card, NamesWhatDiffersInTheUsersSimulator) {
+  const Diagnosis d = slide_diagnosis();
+  SimulatorComparison c;
+  c.sentence = "Your simulator lacks nothing that these recordings would show. And so on.";
+  CardFacts f = facts_of(nullptr, &d);
+  f.simulated = &c;
+  EXPECT_THAT(card_of(f).cause, EndsWith(" Your simulator lacks nothing that these recordings would show."));
+  c.rows.resize(3);
+  c.rows[0].differs = true, c.rows[0].sentence = "it has no cogging torque, the drive has (2 N)";
+  EXPECT_THAT(card_of(f).cause, EndsWith(" Your simulator has no cogging torque, the drive has (2 N)."));
+  c.rows[1].differs = c.rows[2].differs = true;
+  c.rows[0].sentence = "its motor inertia is 2 kg where the drive's is 3 kg";
+  EXPECT_THAT(card_of(f).cause, EndsWith(" Your simulator's motor inertia is 2 kg where the drive's is 3 kg; "
+                                         "2 more rows differ."));
 }
 
 TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
