@@ -175,18 +175,6 @@ void take_back_rows(SimulatorComparison& c, Coordinates coordinates) {
       coordinates.thousandths(c.errors.simulator), coordinates.thousandths(c.errors.stand_in_miss));
 }
 
-/// No row differs, but what the model leaves on a side is more than a row would have to show.
-std::string hidden_sentence(const SimulatorComparison& c, double drive_floors, double simulator_floors,
-                            Coordinates coordinates) {
-  const bool on_drive = drive_floors > simulator_floors;
-  return fmt::format(
-      "No row differs, but the model with all effects of both leaves {:.2g} floors on {}: what differs may "
-      "hide "
-      "there. Over the held-out input your simulator is {} rms off the drive.",
-      on_drive ? drive_floors : simulator_floors, on_drive ? "the drive" : "your simulator",
-      coordinates.thousandths(c.errors.simulator));
-}
-
 SimulatorComparison Comparer::answer() {
   SimulatorComparison c;
   c.verdict = question_.simulator.verdict;
@@ -212,11 +200,8 @@ SimulatorComparison Comparer::answer() {
   const double dt = drive_.train.front().dt;
   for (SimulatorRow& row : c.rows)
     if (row.differs) row.sentence = row_sentence(row, c.rows, dt, options_.coordinates);
-  const bool differs = !c.rows.empty() && c.rows.front().differs;
-  const double on_drive = fit.drive.error / floor_, on_simulator = fit.simulator.error / floor_;
-  c.sentence = !differs && std::max(on_drive, on_simulator) > kRule.far
-                   ? hidden_sentence(c, on_drive, on_simulator, options_.coordinates)
-                   : comparison_sentence(c, options_.coordinates);
+  c.sentence =
+      sentence_beside(c, fit.drive.error / floor_, fit.simulator.error / floor_, options_.coordinates);
   return c;
 }
 
