@@ -116,7 +116,7 @@ Remark too_slow(double visible) {
   const Remark limit =
       std::isfinite(visible)
           ? Remark("visible", "the impacts of a gap below {:.2g} [rad] would not show", {visible})
-          : Remark("nothing_visible", "the impact of no gap would show");
+          : Remark("nothing_visible", "no gap of any size would show");
   return Remark("too_slow",
                 "this recording shows no impacts (slow motion, a locked output or a coarse encoder): ") +
          limit +
@@ -213,10 +213,10 @@ Remark play_scatters(std::span<const Play> levels, double half_width) {
 Remark play_depends_on_level(std::span<const Play> levels, double limit) {
   const Remark gap = std::isfinite(limit)
                          ? Remark("limit",
-                                  "; friction or compliance makes up the difference, and no gap is "
-                                  "larger than {:.3g} [rad]",
+                                  "; the difference is friction or compliance, so the gap is at most {:.3g} "
+                                  "[rad]",
                                   {limit})
-                         : Remark("limit", "; friction or compliance makes up the difference");
+                         : Remark("limit", "; the difference is friction or compliance");
   return Remark("play_depends_on_level", "the play at zero torque depends on the torque level: ") +
          listed(levels) + gap +
          Remark("advice",
