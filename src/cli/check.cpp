@@ -59,7 +59,7 @@ void draw(const CheckArguments& a, const Inspection& inspection, const Recording
   const std::string found = require_picture_name(a, r);
   write_text(a.picture,
              recording_picture(read_recording(r.file, recording.reading_for(UnevenRows::kStamped)),
-                               inspection.coordinates, lines),
+                               inspection.coordinates, reading_of(r).input_facts(), lines),
              found);
 }
 
@@ -69,6 +69,7 @@ Inspection check_recording(const CheckArguments& a, const RecordingArguments& r)
   if (!a.picture.empty()) require_picture_name(a, r);
   const Configuration c = reading_of(r);
   Inspection inspection = inspect(r.file, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
+  for (Finding& f : inspection.findings) f.found = with_input_unit(f.found, c.input_facts());
   if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(inspection);
   judge_for(purpose_of(a.purpose), inspection);
   const std::string json = inspection_json(inspection, resolved_reading(c));
