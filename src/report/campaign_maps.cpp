@@ -83,7 +83,9 @@ void add_disagreement(FigureData& figure, const CampaignSummary& s, const Summar
     nearer.tiles.push_back(tile_at(c.a, c.b, {won, std::isnan(won) ? kNaN : 0.0}));
   }
   figure.panels.push_back(std::move(apart));
-  figure.panels.push_back(std::move(nearer));
+  const bool any = std::any_of(table.cells.begin(), table.cells.end(),
+                               [](const SummaryCell& c) { return c.disagree > 0; });
+  if (any) figure.panels.push_back(std::move(nearer));
 }
 
 /// How often an estimator is there for nearly every run, and how good it is then.

@@ -21,7 +21,7 @@ constexpr double kOwnScale = 0.2;  ///< of the peak before: what is smaller afte
 /// The held-out samples that are drawn.
 struct Sampled {
   std::vector<double> position, speed, input, before, after;
-  std::vector<bool> forward;
+  std::vector<bool> forward;  ///< by the speed: over it the two directions lie on either side of zero
 };
 
 Sampled sampled(const ErrorBudget& budget, const MismatchTrace& t, bool both) {
@@ -34,7 +34,7 @@ Sampled sampled(const ErrorBudget& budget, const MismatchTrace& t, bool both) {
     const double speed = (t.x1[i + reach] - t.x1[i - reach]) / (t.time(i + reach) - t.time(i - reach));
     s.position.push_back(t.x1[i]), s.speed.push_back(speed), s.input.push_back(t.u[i]);
     s.before.push_back(before[i]), s.after.push_back(after[i]);
-    s.forward.push_back(t.x1[i] >= t.x1[i - step]);
+    s.forward.push_back(speed >= 0.0);
   }
   return s;
 }
@@ -111,17 +111,18 @@ class MapRow {
   void add_curve(std::vector<Series>& curves, const std::vector<double>& of, bool forward) const {
     const auto [low, high] = std::minmax_element(of.begin(), of.end());
     if (of.empty() || !(*high > *low)) return;
-    std::array<double, kCurveBins> sums{}, counts{};
+    std::array<double, kCurveBins> sums{}, places{}, counts{};
     for (std::size_t i = 0; i < of.size(); ++i) {
       if (s_.forward[i] != forward || !std::isfinite(s_.before[i] - s_.after[i])) continue;
       const auto bin =
           static_cast<std::size_t>(std::min(kCurveBins - 1.0, kCurveBins * (of[i] - *low) / (*high - *low)));
-      sums[bin] += s_.before[i] - s_.after[i], counts[bin] += 1.0;
+      sums[bin] += s_.before[i] - s_.after[i], places[bin] += of[i], counts[bin] += 1.0;
     }
     Series curve{forward ? "taken by what was added" : "", {kInk, 4.0, {}}, {}, {}};
     for (std::size_t i = 0; i < sums.size(); ++i) {
       if (counts[i] == 0.0) continue;
-      curve.x.push_back(*low + (*high - *low) * (static_cast<double>(i) + 0.5) / kCurveBins);
+      curve.x.push_back(places[i] /
+                        counts[i]);  // not the bin's middle: that of zero speed has both directions
       curve.y.push_back(sums[i] / counts[i]);
     }
     if (!curve.x.empty()) curves.push_back(curve);

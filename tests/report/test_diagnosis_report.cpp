@@ -252,7 +252,8 @@ TEST(ErrorBudgetReport, TheFigureShowsTheFallAndHoldsItsTextsApart) {
   const internal::report::FigureData figure = internal::report::diagnosis_budget(with_budget());
   ASSERT_EQ(figure.panels.size(), 1u);
   EXPECT_EQ(figure.panels[0].tiles.size(), 4u);  // before, two laws, what remains
-  EXPECT_EQ(figure.panels[0].title, "rms below 64 Hz (of the input's)") << "the figure has its title already";
+  EXPECT_EQ(figure.panels[0].title, "Rms below 64 Hz (% of the input's)")
+      << "the figure has its title already";
   const internal::report::Drawing drawing = internal::report::draw_with_notes(figure);
   internal::report::expect_clear_texts(figure, drawing);
   EXPECT_FALSE(internal::report::diagnosis_budget(sample(DiagnosisVerdict::kEffect)).missing.empty());
