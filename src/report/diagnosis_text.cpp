@@ -210,7 +210,7 @@ std::string blame_table(const DiagnosisResult& r) {
   if (r.diagnosis.blame.empty()) return "";
   std::string text =
       "\n## Parameters biased by what was missing\n\n| parameter | nominal model | with all that was added | "
-      "bias of the first |\n|---|---|---|---|\n";
+      "bias of the nominal model |\n|---|---|---|---|\n";
   const auto bias = [](const BlameShift& b) { return 100.0 * (b.without - b.with) / std::abs(b.with); };
   std::vector<double> all;
   for (const BlameShift& b : r.diagnosis.blame) all.push_back(bias(b));
