@@ -134,8 +134,11 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
     out.entry("torque_constant", "{value: 1, guess: true}",
               coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u. "
                                      "Known: torque_constant: 0.172"));
-  write_estimated(out, "motor_inertia", begin.numbers.inertia,
-                  coordinates.with_units("[kg m^2] (over torque_constant); better the sheet's"), begin.from);
+  const bool settled = begin.input_is_torque || begin.numbers.torque_constant > 0.0;
+  write_estimated(
+      out, "motor_inertia", begin.numbers.inertia,
+      coordinates.unit("kg m^2") + (settled ? "" : " (over torque_constant)") + "; better the sheet's",
+      begin.from);
   write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad"), begin.from);
 }
 

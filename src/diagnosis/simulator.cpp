@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
 #include "diagnosis/simulator_rows.h"
 #include "diagnosis/simulator_words.h"
@@ -158,8 +159,8 @@ void Comparer::warn(const JointFit& fit, std::vector<std::string>& warnings) con
   for (const auto& [side, name] : {std::pair(&fit.drive, "drive"), std::pair(&fit.simulator, "simulator")})
     if (side->error > kRule.floor_ratio * floor_)
       warnings.push_back(fmt::format(
-          "the model leaves {:.2g} floors on the {}: a row may hold part of what it does not explain there",
-          side->error / floor_, name));
+          "the model leaves {} floors on the {}: a row may hold part of what it does not explain there",
+          SharedUnit(1.0, "").number(side->error / floor_), name));
 }
 
 /// Where the model is farther from the simulator than the simulator from the drive, no number of it says

@@ -177,11 +177,11 @@ std::string hidden_sentence(const SimulatorComparison& c, double drive_floors, d
                             Coordinates coordinates) {
   const bool on_drive = drive_floors > simulator_floors;
   return fmt::format(
-      "No row differs, but the model with all effects of both leaves {:.2g} floors on {}: what differs may "
+      "No row differs, but the model with all effects of both leaves {} floors on {}: what differs may "
       "hide "
       "there. Over the held-out input your simulator is {} rms off the drive.",
-      on_drive ? drive_floors : simulator_floors, on_drive ? "the drive" : "your simulator",
-      coordinates.thousandths(c.errors.simulator));
+      SharedUnit(1.0, "").number(on_drive ? drive_floors : simulator_floors),
+      on_drive ? "the drive" : "your simulator", coordinates.thousandths(c.errors.simulator));
 }
 
 }  // namespace

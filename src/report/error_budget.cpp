@@ -162,7 +162,7 @@ std::string budget_table(const DiagnosisResult& r) {
         "refitted in each of them.\n";
   std::vector<std::string> floors;
   for (const Floor& f : floors_of(b))
-    floors.push_back(fmt::format("{} {}", f.name, quantity_beside(f.size, b.nominal, budget_unit(r))));
+    floors.push_back(fmt::format("{} ({})", quantity_beside(f.size, b.nominal, budget_unit(r)), f.name));
   if (!floors.empty())
     text += fmt::format("\nFloors, which no model gets below: {}.\n", fmt::join(floors, ", "));
   return text;
