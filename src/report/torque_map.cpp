@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "gapscope/base/statistics.h"
 #include "report/budget_band.h"
 #include "report/diagnosis_figures.h"
 #include "report/diagnosis_words.h"
@@ -14,10 +15,11 @@ namespace {
 
 constexpr std::size_t kPoints = 600;  ///< of a panel
 constexpr int kCurveBins = 40;
-constexpr double kAtRest = 0.005;  ///< of the largest speed, that is none
-constexpr double kEdge = 0.955;    ///< of the axis: where points that lie outside are marked
-constexpr double kRoom = 1.05;     ///< above what is drawn
-constexpr double kOwnScale = 0.2;  ///< of the peak before: what is smaller after is drawn to its own scale
+constexpr std::size_t kFewest = 2;  ///< samples of a bin that the curve goes through
+constexpr double kAtRest = 0.005;   ///< of the largest speed, that is none
+constexpr double kEdge = 0.955;     ///< of the axis: where points that lie outside are marked
+constexpr double kRoom = 1.05;      ///< above what is drawn
+constexpr double kOwnScale = 0.2;   ///< of the peak before: what is smaller after is drawn to its own scale
 
 /// The held-out samples that are drawn.
 struct Sampled {
@@ -113,23 +115,23 @@ class MapRow {
     if (!outside.x.empty()) panel.series.push_back(outside);
   }
 
-  /// What was added takes of it: means over bins of one direction.
+  /// What was added takes of it: medians over bins of one direction. One sample is no law: at a reversal the
+  /// residual is soon that of the other direction.
   void add_curve(std::vector<Series>& curves, const std::vector<double>& of, int direction) const {
     const auto [low, high] = std::minmax_element(of.begin(), of.end());
     if (of.empty() || !(*high > *low)) return;
-    std::array<double, kCurveBins> sums{}, places{}, counts{};
+    std::array<std::vector<double>, kCurveBins> taken, places;
     for (std::size_t i = 0; i < of.size(); ++i) {
       if (s_.direction[i] != direction || !std::isfinite(s_.before[i] - s_.after[i])) continue;
       const auto bin =
           static_cast<std::size_t>(std::min(kCurveBins - 1.0, kCurveBins * (of[i] - *low) / (*high - *low)));
-      sums[bin] += s_.before[i] - s_.after[i], places[bin] += of[i], counts[bin] += 1.0;
+      taken[bin].push_back(s_.before[i] - s_.after[i]), places[bin].push_back(of[i]);
     }
     Series curve{direction > 0 ? "taken by what was added" : "", {kInk, 4.0, {}}, {}, {}};
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      if (counts[i] == 0.0) continue;
-      curve.x.push_back(places[i] /
-                        counts[i]);  // not the bin's middle: that of zero speed has both directions
-      curve.y.push_back(sums[i] / counts[i]);
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+      if (taken[i].size() < kFewest) continue;
+      curve.x.push_back(median(places[i]));  // not the bin's middle: that of zero speed has both directions
+      curve.y.push_back(median(taken[i]));
     }
     if (!curve.x.empty()) curves.push_back(curve);
   }
