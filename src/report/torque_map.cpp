@@ -93,7 +93,7 @@ class MapRow {
       Series& s = s_.direction[i] > 0 ? plus : s_.direction[i] < 0 ? minus : rest;
       s.x.push_back(of[i]), s.y.push_back(residual[i]);
     }
-    for (Series& s : std::array{rest, plus, minus})
+    for (Series& s : std::array{plus, minus, rest})
       if (!s.x.empty()) panel.series.push_back(s);
     add_outside(panel, of, residual, peak);
     return panel;

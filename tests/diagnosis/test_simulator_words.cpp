@@ -48,7 +48,7 @@ TEST(SimulatorWords, NameTheHalfStepThatEulerIsAhead) {
 TEST(SimulatorWords, WriteAmountsAsPeopleReadThem) {
   SimulatorRow row = number_row("motor_damping", 2e-3, 1200.0);
   row.numbers.front().unit = "N m s/rad";
-  EXPECT_EQ(said(row), "its motor damping is 1200 N·m·s/rad where the drive's is 2 mN·m·s/rad");
+  EXPECT_EQ(said(row), "its motor damping is 1200 N·m s/rad where the drive's is 2 mN·m s/rad");
 }
 
 /// Nothing that would have to show differs; but where the model itself misses a side by far, nobody knows.
