@@ -112,6 +112,18 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
   EXPECT_DOUBLE_EQ(card.percent_after, 4.0);
 }
 
+TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
+  Diagnosis d = slide_diagnosis();
+  d.budget.nominal = 10.0, d.budget.records = 0.613, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
+  d.budget.input = 50.0, d.budget.remains = 2.0;
+  ASSERT_TRUE(d.budget.exists());
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
+              EndsWith("input brings; no model gets below 0.613 N, by which the recordings disagree."));
+  d.budget.records = 20.0;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, EndsWith("30 times the encoder floor."))
+      << "the floor is above what is missed";
+}
+
 TEST(Card, TellsTheAmountOfWhatHelps) {
   Diagnosis d = slide_diagnosis();
   d.added[0].parameters = {{"level_nm", "N m", 20.54}};
