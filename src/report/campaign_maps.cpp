@@ -88,6 +88,16 @@ void add_disagreement(FigureData& figure, const CampaignSummary& s, const Summar
   if (any) figure.panels.push_back(std::move(nearer));
 }
 
+/// " of 25 runs in a cell", " of 3 to 25 runs in a cell"; of two runs a percentage says little.
+std::string runs_words(const SummaryTable& table) {
+  if (table.cells.empty()) return "";
+  const auto [fewest, most] =
+      std::minmax_element(table.cells.begin(), table.cells.end(),
+                          [](const SummaryCell& a, const SummaryCell& b) { return a.runs < b.runs; });
+  return fewest->runs == most->runs ? fmt::format(" of {} runs in a cell", most->runs)
+                                    : fmt::format(" of {} to {} runs in a cell", fewest->runs, most->runs);
+}
+
 /// How often an estimator is there for nearly every run, and how good it is then.
 std::string reading_of(const SummaryTable& table, const CampaignEstimator& e) {
   int answering = 0, good = 0;
@@ -124,7 +134,8 @@ FigureData campaign_map(const CampaignSummary& s, const SummaryTable& table) {
   figure.file = fmt::format("map_{}_{}.png", table.a + 1, table.b + 1);
   figure.title =
       literal(s.name) + ": " + literal(s.axes[table.a].name) + " × " + literal(s.axes[table.b].name);
-  figure.lines = {"Numbers in percent; dark is bad; – where there is nothing to judge."};
+  figure.lines = {"Numbers in percent" + runs_words(table) +
+                  "; dark is bad; – where there is nothing to judge."};
   figure.columns = static_cast<int>(estimators.size());
   figure.width = 1600.0 * static_cast<double>(estimators.size());
   add_row(figure, s, table, "median |error| (%)", error_look);
