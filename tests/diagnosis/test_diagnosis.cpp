@@ -9,6 +9,7 @@
 #include "diagnosis/study.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/text.h"
+#include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording.h"
 #include "independent_plant/severity.h"
@@ -71,6 +72,18 @@ TEST(Diagnosis, NamesMotorFrictionAndWhatTookTheBlameForIt) {
   EXPECT_GE(d.mismatch.shrink_ci95.high, d.mismatch.shrink);
   EXPECT_EQ(d.blame.size(), 5u);  // one row for each estimated parameter of the drive
   EXPECT_EQ(d.fitted.effects.size(), 1u);
+}
+
+/// run rejects a model without that friction, and tells no gap; the model that has it tells one.
+TEST(Diagnosis, TellsTheGapOfTheModelThatItHasMended) {
+  const Diagnosis& d = of_motor_friction();
+  ASSERT_TRUE(d.model_gap.has_value());
+  EXPECT_EQ(d.model_gap->origin, GapOrigin::kEstimated);
+  EXPECT_EQ(d.model_gap->value, d.fitted.parameters[place::kGap].value);
+  const std::optional<Answer> answer = answer_of_diagnosis(d, Coordinates());
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_LT(answer->ci95.low, answer->gap);
+  EXPECT_GT(answer->ci95.high, answer->gap);
 }
 
 TEST(Diagnosis, TellsTheAmountWithItsInterval) {

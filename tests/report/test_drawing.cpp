@@ -62,7 +62,7 @@ TEST(Drawing, BreaksALabelOrATitleThatIsTooLong) {
       "A title of a figure in one column that goes on and on, over the angle, the speed and the input";
   for (int i = 0; i < 2; ++i) {
     Panel& panel = figure.panels.emplace_back();
-    panel.height = 250.0, panel.x_labels = i == 1;
+    panel.height = 330.0, panel.x_labels = i == 1;
     panel.x = {"time $t$", "s", {0.0, 1.0}, {}, {}};
     panel.y = {"torque $K_m u$", "N·m", {-5.0, 5.0}, {}, {}, {}, "$K_m$ guessed"};
   }
