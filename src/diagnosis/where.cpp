@@ -34,8 +34,14 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
 
 using SampleValue = std::function<double(const Sample&)>;
 
+/// "0", never "-0".
+std::string edge(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.find_first_not_of("-0.") == text.npos && text.front() == '-' ? text.substr(1) : text;
+}
+
 std::string range_key(double low, double high, int decimals, const std::string& unit) {
-  return fmt::format("{:.{}f}..{:.{}f} {}", low, decimals, high, decimals, unit);
+  return edge(low, decimals) + ".." + edge(high, decimals) + " " + unit;
 }
 
 /// "34..51 mm/s": in thousandths where all of it is below one.
