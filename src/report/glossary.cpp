@@ -15,6 +15,9 @@ struct Word {
 
 /// In the order in which a reader meets them.
 constexpr Word kWords[] = {
+    {"reference", "reference",
+     "the model-based estimate: the model of the configuration, its free numbers fitted to the recording"},
+    {"set aside", "set aside", "of a passage: seen, but not used for the estimate"},
     {"passage", "passage", "the motor crosses the gap, from contact lost (t1) to contact regained (t2)"},
     {"e_x", "e_x, L",
      "position error of the super-twisting differentiator, and the bound on the acceleration that it is "
