@@ -28,7 +28,7 @@ Diagnosis slide_diagnosis() {
              {"cogging_torque", false, {"cogging_torque", "torque_ripple"}, kNaN, {}, 0.5, {}, 2.0}};
   d.mismatch.before = 3e-3, d.mismatch.after = 1e-3, d.mismatch.floor = 1e-4;
   d.mismatch.before_torque = 10.0, d.mismatch.after_torque = 2.0, d.mismatch.input_torque = 50.0;
-  d.where.headline = "follows the direction of motion (55 % of it backward)";
+  d.where.headline = "changes with the direction of motion (55 % of it backward)";
   return d;
 }
 
@@ -100,7 +100,7 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
       card.mismatch,
       "The model misses 10 N of force on held-out data, 20 % of the 50 N that the input brings; the error "
       "is 30 times the encoder floor.");
-  EXPECT_EQ(card.place, "Follows the direction of motion (55 % of it backward).");
+  EXPECT_EQ(card.place, "Changes with the direction of motion (55 % of it backward).");
   EXPECT_EQ(
       card.cause,
       "Motor Coulomb friction (established); cogging torque helps, its cause is open: it may as well be "
