@@ -41,7 +41,7 @@ Remark no_impact_stands_out() {
 Remark no_reversal_before_impacts() {
   return {"no_reversal_before_impacts",
           "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the motion "
-          "rest at its reversals (trapezoid or triangle), or lower the frequency"};
+          "rest at its reversals (triangle or trapezoid), or lower the frequency"};
 }
 Remark passages_few_quanta_wide() {
   return {"passages_few_quanta_wide",
@@ -58,11 +58,12 @@ Remark few_samples_around_impacts() {
 Remark release_not_located() {
   return {"release_not_located",
           "the release before the impacts cannot be located; let the motion rest at its reversals "
-          "(trapezoid), lower the frequency, or use a finer encoder"};
+          "(triangle or trapezoid), lower the frequency, or use a finer encoder"};
 }
 Remark load_moves() {
   return {"load_moves",
-          "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or lower "
+          "the load was moving between t1 and t2; let the motion rest at its reversals (triangle or "
+          "trapezoid), or lower "
           "the frequency"};
 }
 Remark rests_alone() {
