@@ -34,7 +34,8 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
-  return fmt::format("changes with the direction of motion ({:.0f} % of it {})", 100.0 * most.share, most.bin);
+  return fmt::format("changes with the direction of motion ({:.0f} % of it {})", 100.0 * most.share,
+                     most.bin);
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
