@@ -78,8 +78,7 @@ TEST(Diagnosis, NamesMotorFrictionAndWhatTookTheBlameForIt) {
 TEST(Diagnosis, TellsAmountAndGapWithTheirIntervals) {
   const NamedValue& level = of_motor_friction().added.front().parameters.front();
   EXPECT_LT(level.ci95.high - level.ci95.low, 0.1 * level.value);
-  EXPECT_LT(level.ci95.low, level.value);
-  EXPECT_GT(level.ci95.high, level.value);
+  EXPECT_TRUE(level.ci95.low < level.value && level.value < level.ci95.high);
   const std::optional<Answer> gap = answer_of_diagnosis(of_motor_friction(), Coordinates());
   ASSERT_TRUE(gap.has_value());
   EXPECT_EQ(gap->gap, of_motor_friction().fitted.parameters[place::kGap].value);
