@@ -33,7 +33,10 @@ std::string Coordinates::with_units(const std::string& words) const {
 }
 
 std::string Coordinates::thousandths(double position) const {
-  return std::isnan(position) ? "-" : fmt::format("{:.4g} m{}", 1e3 * position, position_unit());
+  if (std::isnan(position)) return "-";
+  const bool large = std::abs(position) >= 9.9995;  // never "1.5e+04 mrad"
+  return large ? fmt::format("{:.4g} {}", position, position_unit())
+               : fmt::format("{:.4g} m{}", 1e3 * position, position_unit());
 }
 
 }  // namespace gapscope

@@ -1,6 +1,7 @@
 #include "gapscope/base/text.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,17 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 std::string readable(const std::string& identifier) {
   return replaced(replaced(replaced(identifier, "_", " "), "coulomb", "Coulomb"), "stribeck", "Stribeck");
+}
+
+std::string name_of_key(const std::string& key) {
+  for (const std::string_view unit :
+       {"_nms_rad", "_nm_rad", "_rad_s", "_nms2", "_nms", "_nm", "_rad", "_hz", "_w", "_s"})
+    if (key.ends_with(unit)) return readable(key.substr(0, key.size() - unit.size()));
+  return readable(key);
+}
+
+std::string range_words(const std::string& range) {
+  return replaced(replaced(range, "..", range.find('-') == range.npos ? "–" : " to "), "N m", "N·m");
 }
 
 bool contains(std::span<const std::string> names, const std::string& name) {

@@ -59,7 +59,7 @@ void draw(const CheckArguments& a, const Inspection& inspection, const Recording
   const std::string found = require_picture_name(a, r);
   write_text(a.picture,
              recording_picture(read_recording(r.file, recording.reading_for(UnevenRows::kStamped)),
-                               inspection.coordinates, lines),
+                               inspection.coordinates, reading_of(r).input_facts(), lines),
              found);
 }
 

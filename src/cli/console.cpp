@@ -123,7 +123,8 @@ void print_headline(const std::string& folder, const RunResult& r) {
     line("lost motion", lost_motion_line(r.model_free->lost_motion, r.coordinates));
   if (r.reference) line("reference", reference_line(*r.reference, r.coordinates));
   if (r.reference && !r.model_free) print_parameters(*r.reference, r.coordinates);
-  if (r.comparison) line("difference", comparison_line(*r.comparison, r.coordinates));
+  if (r.comparison && std::isfinite(r.comparison->difference))
+    line("difference", comparison_line(*r.comparison, r.coordinates));
   if (r.comparison && !std::isnan(r.comparison->map_width))
     line("load side",
          fmt::format("{:<17} width of the x1-x2 map", r.coordinates.thousandths(r.comparison->map_width)));

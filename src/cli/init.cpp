@@ -72,10 +72,9 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
                             parent.empty() ? "." : parent.string(), model_of(a.model), nominal);
   write_text(output, several ? named_after(r.axis, starter.yaml) : starter.yaml, "");
   print_warnings(starter.spoiling);
-  fmt::print(
-      "{:<12}{}\n{:<12}{}\n{:<12}fill in what is marked GUESS, then gapscope run {} (or detect, fit, "
-      "diagnose)\n",
-      "written", output, "model", starter.model, "next", output);
+  fmt::print("{:<12}{}\n{:<12}{}\n{:<12}{}gapscope run {} (or detect, fit, diagnose)\n", "written", output,
+             "model", starter.model, "next", starter.guesses ? "fill in what is marked GUESS, then " : "",
+             output);
 }
 
 }  // namespace
@@ -108,7 +107,9 @@ void add_init(CommandLine& app) {
       "the step of the encoder [rad], and whether the model needs a gap, a locked output or one body (the\n"
       "detector decides). Of one body inertia, damping and Coulomb friction are read, for the fit to begin\n"
       "with: diagnose then says what is missing beside them.\n"
-      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1) or left to the fit.\n"
+      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1, unless --input-unit "
+      "is\n"
+      "one of torque or force) or left to the fit.\n"
       "A gap that the detector does not see (inconclusive) is a GUESS too.\n"
       "--preset dynamixel, feetech, odrive, moteus or twincat declares the columns and units that these "
       "drives "

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_facts.h"
 #include "gapscope/base/require.h"
 #include "gapscope/results/inspection_result.h"
 
@@ -16,6 +17,7 @@ CheckedRecording checked_recording(const Configuration& c, Purpose purpose, cons
   checked.inspection =
       inspect(c.recording->files.front().path, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
   if (!told_as.empty()) checked.inspection.file = told_as;
+  for (Finding& f : checked.inspection.findings) f.found = with_input_unit(f.found, c.input_facts());
   if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(checked.inspection);
   judge_for(purpose, checked.inspection);
   checked.json = inspection_json(checked.inspection, resolved_reading(c));

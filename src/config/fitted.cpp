@@ -73,7 +73,7 @@ void fix(ParameterSetting& p) { p = {p.value, false, kNaN, kNaN, {}}; }
 /// The configuration with every number of the model fixed, for the fit and for the plant.
 Configuration with_model(const Configuration& given, const ReferenceModel& fitted) {
   Configuration c = given;
-  c.name = given.name.substr(0, kLongestName) + "_fitted";
+  c.name = given.name.substr(0, kLongestName).append(kFittedSuffix);
   c.recording.reset();
   c.controller.reset();
   c.anchor.reset();

@@ -8,77 +8,22 @@
 #include <numbers>
 
 #include "config/controller_reader.h"
+#include "config/starter_choice.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/inspection/inspection.h"
-#include "gapscope/sliding_mode/detector.h"
 
 namespace gapscope {
 namespace {
 
+using internal::config::as_modelled;
+using internal::config::chosen_structure;
+using internal::config::StarterChoice;
 using internal::config::yaml_number;
 using internal::config::yaml_text;
 using internal::config::YamlWriter;
-
-struct Choice {
-  StarterModel structure = StarterModel::kGap;
-  std::string why;
-  bool seen = true;  ///< or asked for: no guess
-};
-
-/// What the detector saw decides: a locked output is one whose position is a loop over the input.
-Choice as_seen(const MotorTrace& trace, Coordinates coordinates) {
-  const char* const unit = coordinates.position_unit();
-  const GapEstimate g = detect_gap(std::span(&trace, 1));
-  if (g.method == GapMethod::kLostMotion)
-    return {StarterModel::kLocked, "locked output: x1 follows u in a loop"};
-  if (g.verdict == GapVerdict::kNone)
-    return {StarterModel::kOneBody,
-            fmt::format("one body: a gap above {:.3g} {} would have shown", g.none_above(), unit)};
-  if (g.verdict == GapVerdict::kBacklash)
-    return {StarterModel::kGap,
-            fmt::format("gap and free load: the detector reads a gap of {:.3g} {}", g.gap, unit)};
-  if (g.reason.code() == "only_large_gaps")
-    return {StarterModel::kOneBody, "GUESS: one body; no impact shows, but " + g.reason.text(coordinates),
-            false};
-  return {StarterModel::kGap,
-          "GUESS: gap and free load; the detector is inconclusive (" + g.reason.text(coordinates) + ")",
-          false};
-}
-
-Choice choose(StarterModel model, const MotorTrace& trace, EncoderSide encoder, Coordinates coordinates) {
-  switch (model) {
-    case StarterModel::kAsSeen:
-      if (encoder == EncoderSide::kLoad)
-        return {
-            StarterModel::kOneBody,
-            "GUESS: one body; whether there is a gap an encoder on the load does not tell without a model",
-            false};
-      return as_seen(trace, coordinates);
-    case StarterModel::kGap:
-      return {model, "gap and free load, as asked for"};
-    case StarterModel::kLocked:
-      return {model, "locked output, as asked for"};
-    case StarterModel::kOneBody:
-      return {model, "one body, as asked for"};
-  }
-  return {};
-}
-
-/// The model's structure, unless it knows of no gap and the detector does.
-Choice as_modelled(const JointNumbers& n, const MotorTrace& trace, EncoderSide encoder,
-                   Coordinates coordinates) {
-  const std::string where = "joint " + printable(n.joint, 40) + " of " + printable(n.model, 80);
-  if (n.gap > 0.0) return {StarterModel::kGap, "gap and free load, as " + where + " has them"};
-  if (encoder == EncoderSide::kLoad) return {StarterModel::kOneBody, "one body, as " + where + " has it"};
-  Choice seen = as_seen(trace, coordinates);
-  if (!seen.seen || seen.structure == StarterModel::kOneBody)
-    return {StarterModel::kOneBody, "one body, as " + where + " has it"};
-  seen.why += "; " + where + " knows of none";
-  return seen;
-}
 
 /// Two digits, not above: a rate that the recording has.
 double round_down(double rate) {
@@ -150,7 +95,8 @@ void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f
 /// without.
 struct Begin {
   JointNumbers numbers;
-  std::string from;  ///< "read, as one body"
+  std::string from;              ///< "read, as one body"
+  bool input_is_torque = false;  ///< torque_constant is 1, and no guess
   bool nominal = false;
 };
 
@@ -158,7 +104,7 @@ Begin begin_of(const RecordingFacts& f, bool one_body, const std::optional<Joint
   if (nominal) return {*nominal, "of joint " + printable(nominal->joint, 40), true};
   Begin begin;
   begin.from = "read, as one body";
-  if (one_body)
+  if (one_body && f.inertia > 0.0)  // else the recording is no single body's, and says nothing of the others
     begin.numbers.inertia = f.inertia, begin.numbers.damping = f.damping, begin.numbers.friction = f.friction;
   return begin;
 }
@@ -171,16 +117,28 @@ void write_estimated(YamlWriter& out, const char* key, double value, const std::
             unit + "; " + (known ? from : "the fit finds its start"));
 }
 
+/// Whether u is declared as what drives x1, in N m or N; a gear between the two makes another torque of it.
+bool is_drive_torque(const RecordingConfig& r, Coordinates coordinates) {
+  const bool turns = coordinates.rotational();
+  const std::string unit = si_unit(turns ? Quantity::kTorque : Quantity::kForce, r.units.input);
+  return unit == (turns ? "N m" : "N") && r.gear.position == 1.0;
+}
+
 void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
-  if (begin.numbers.torque_constant > 0.0)
+  if (begin.input_is_torque)
+    out.entry("torque_constant", "1", std::string("u is in ") + coordinates.torque_unit() + " already");
+  else if (begin.numbers.torque_constant > 0.0)
     out.entry("torque_constant", yaml_number(begin.numbers.torque_constant),
               coordinates.with_units("[N m] per unit of u; ") + begin.from);
   else
     out.entry("torque_constant", "{value: 1, guess: true}",
               coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u. "
                                      "Known: torque_constant: 0.172"));
-  write_estimated(out, "motor_inertia", begin.numbers.inertia,
-                  coordinates.with_units("[kg m^2] (over torque_constant); better the sheet's"), begin.from);
+  const bool settled = begin.input_is_torque || begin.numbers.torque_constant > 0.0;
+  write_estimated(
+      out, "motor_inertia", begin.numbers.inertia,
+      coordinates.unit("kg m^2") + (settled ? "" : " (over torque_constant)") + "; better the sheet's",
+      begin.from);
   write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad"), begin.from);
 }
 
@@ -204,7 +162,7 @@ void write_friction(YamlWriter& out, double friction, const std::string& from, C
   out.close();
 }
 
-void write_load(YamlWriter& out, const Choice& choice, const Begin& begin, Coordinates coordinates) {
+void write_load(YamlWriter& out, const StarterChoice& choice, const Begin& begin, Coordinates coordinates) {
   const bool free = choice.structure == StarterModel::kGap;
   const JointNumbers& n = begin.numbers;
   const auto estimated = [&](const char* key, double value, const std::string& unit) {
@@ -219,7 +177,7 @@ void write_load(YamlWriter& out, const Choice& choice, const Begin& begin, Coord
   estimated("contact_damping", n.contact_damping, coordinates.unit("N m s/rad"));
 }
 
-void write_model(YamlWriter& out, const Choice& choice, const Begin& begin, Coordinates coordinates) {
+void write_model(YamlWriter& out, const StarterChoice& choice, const Begin& begin, Coordinates coordinates) {
   const bool load = choice.structure != StarterModel::kOneBody, free = choice.structure == StarterModel::kGap;
   out.open("model");
   out.comment(choice.why);
@@ -240,6 +198,16 @@ void write_model(YamlWriter& out, const Choice& choice, const Begin& begin, Coor
   out.close();
 }
 
+std::string head(bool guesses, Coordinates coordinates) {
+  YamlWriter out(coordinates);
+  out.comment(guesses
+                  ? "A first configuration, read off the recording. What is marked GUESS it does not tell: "
+                    "put in what the sheet says."
+                  : "A first configuration, read off the recording.");
+  out.comment("A bare number is fixed; {estimate: true} is fitted, from a value if one stands there.");
+  return out.text();
+}
+
 }  // namespace
 
 Starter starter_configuration(RecordingConfig config, const EncoderConfig& encoder, Coordinates coordinates,
@@ -254,17 +222,12 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   const Recording r = read_recording(recording, options);
   for (const RecordedFile& held : config.held_out)
     read_recording(held.path, config.reading_of(held, UnevenRows::kStamped));  // throws what diagnose would
-  const Choice choice = nominal && model == StarterModel::kAsSeen
-                            ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
-                            : choose(model, r.motor_trace(), r.encoder, coordinates);
+  const StarterChoice choice = nominal && model == StarterModel::kAsSeen
+                                   ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
+                                   : chosen_structure(model, r.motor_trace(), r.encoder, coordinates);
   Starter starter;
   starter.model = choice.why;
   YamlWriter out(coordinates);
-  out.comment(
-      "A first configuration, read off the recording. What is marked GUESS it does not tell: put in what");
-  out.comment(
-      "the sheet says. A bare number is fixed; {estimate: true} is fitted, from a value if one stands "
-      "there.");
   for (const Finding& f : seen.findings) {
     const bool settled = f.rule == kTimeRule && irregular;
     if (f.severity != Severity::kSpoils || settled) continue;
@@ -278,11 +241,13 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
     internal::config::write_controller(out, ControllerModel::known(*config.reading.controller));
   out.entry("coordinates", coordinates.name());
   const bool one_body = choice.structure == StarterModel::kOneBody;
-  const Begin begin = begin_of(seen.facts, one_body, nominal);
+  Begin begin = begin_of(seen.facts, one_body, nominal);
+  begin.input_is_torque = !(begin.numbers.torque_constant > 0.0) && is_drive_torque(config, coordinates);
   write_model(out, choice, begin, coordinates);
   out.entry("detector", "{bound: auto}");
-  if (!(begin.numbers.torque_constant > 0.0)) suggest_anchor(out, coordinates);
-  starter.yaml = out.text();
+  if (!begin.input_is_torque && !(begin.numbers.torque_constant > 0.0)) suggest_anchor(out, coordinates);
+  starter.guesses = out.text().find("GUESS") != std::string::npos;
+  starter.yaml = head(starter.guesses, coordinates) + out.text();
   return starter;
 }
 

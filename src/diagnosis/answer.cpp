@@ -195,6 +195,11 @@ std::string step_without_model(const GapEstimate& g) {
     return "For a reading without a model, record the motor's position as well.";
   if (open && g.reason.codes().find("bounds_to_try") != std::string::npos)
     return "Set detector: bound as the reason says, or to auto, which reads with a bank of bounds.";
+  for (const char* slow : {"too_slow", "only_large_gaps", "no_impact_stands_out"})
+    if (open && !loop && g.reason.code() == slow)
+      return "For a reading without a model, record a faster motion (higher frequency or amplitude), the "
+             "output "
+             "free.";
   if (open && !loop)
     return "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell "
            "at the reversals, the output free.";
@@ -235,7 +240,7 @@ std::vector<std::string> steps(const Findings& f) {
 }  // namespace
 
 const char* to_string(AnswerSource source) {
-  constexpr const char* kWords[] = {"model_free", "reference", "none"};
+  constexpr const char* kWords[] = {"model_free", "reference", "diagnosis", "none"};
   return kWords[static_cast<int>(source)];
 }
 

@@ -65,7 +65,7 @@ std::string gap_verdict(const CardFacts& f) {
 }
 
 std::string gap_line(const CardFacts& f) {
-  if (f.answer == nullptr) return gap_not_estimated(f.diagnosis);
+  if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
   const bool known = f.answer->trust != AnswerTrust::kNone;
   return as_sentence(known ? f.answer->sentence : without_asides(f.answer->sentence)) +
          fmt::format(" Trust: {}.", to_string(f.answer->trust)) + gap_verdict(f);
@@ -117,7 +117,22 @@ std::string error_size(const CardFacts& f) {
          " of the held-out motion (" + m.measure + ")";
 }
 
-std::string floor_words(const CardFacts& f) {
+/// "; no model gets below 0.61 N, by which the recordings disagree": in the unit of the size, so that a
+/// diagnosis that goes on from another is measured by the same. Empty where no floor in torque is known.
+std::string torque_floor(const CardFacts& f, const Card& card) {
+  const ErrorBudget& b = f.diagnosis->budget;
+  const double floor = b.exists() ? b.floor() : kNaN;
+  if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
+  const auto is = [floor](double one) { return one >= floor; };
+  const char* const why = is(b.records)         ? "by which the recordings disagree"
+                          : is(b.repeatability) ? "by which the drive does not repeat itself"
+                                                : "which is the encoder's noise";
+  const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
+  return fmt::format("; no model gets below {}, {}", torque(floor), why);
+}
+
+std::string floor_words(const CardFacts& f, const Card& card) {
+  if (const std::string words = torque_floor(f, card); !words.empty()) return words;
   const MismatchSize& m = f.diagnosis->mismatch;
   if (!(m.before > 0.0 && m.floor > 0.0)) return "";
   return fmt::format("; {}the error is {} times the {}",
@@ -128,7 +143,7 @@ std::string floor_words(const CardFacts& f) {
 std::string mismatch_line(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr) return fitted_line(f) + torque_verdict(f, card);
   const bool torque = std::isfinite(card.torque);
-  return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f) + "." +
+  return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f, card) + "." +
          (torque && f.constant_guessed ? " Its unit rests on torque_constant, a guess." : "") +
          torque_verdict(f, card);
 }

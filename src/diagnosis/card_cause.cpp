@@ -12,6 +12,7 @@
 #include "diagnosis/words.h"
 #include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
+#include "gapscope/diagnosis/simulator.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -138,6 +139,25 @@ std::string rungs(const CardFacts& f, const Card& card) {
   return fmt::format("from {} to {} ({})", torque(card.torque), fmt::join(all, ", then "), percents(card));
 }
 
+/// "Your simulator has no cogging torque, the drive has (8 mN·m)" of "it has no ...".
+std::string of_your_simulator(const std::string& row) {
+  if (row.starts_with("its ")) return "Your simulator's" + row.substr(3);
+  return row.starts_with("it ") ? "Your simulator" + row.substr(2) : row;
+}
+
+/// The row that takes most of the simulator's error; where none differs, the first sentence of the whole.
+std::string simulator_words(const SimulatorComparison* c) {
+  if (c == nullptr) return "";
+  if (c->rows.empty() || !c->rows.front().differs)
+    return " " + as_sentence(c->sentence.substr(0, c->sentence.find(". ")));
+  const auto differing =
+      std::count_if(c->rows.begin(), c->rows.end(), [](const SimulatorRow& r) { return r.differs; });
+  const std::string others = differing < 2    ? ""
+                             : differing == 2 ? "; one more row differs"
+                                              : fmt::format("; {} more rows differ", differing - 1);
+  return " " + as_sentence(of_your_simulator(c->rows.front().sentence) + others);
+}
+
 std::string law_words(const LastResortLaw& law) {
   return fmt::format("a free curve over the {} takes {:.0f} % of {} (compensation_{}.csv)", law.variable,
                      100.0 * law.shrink, law.on_top_of.empty() ? "the error" : "what is left", law.law);
@@ -148,13 +168,16 @@ std::string law_words(const LastResortLaw& law) {
 std::string cause_line(const CardFacts& f) {
   if (f.diagnosis == nullptr) return kToldByDiagnose;
   const Diagnosis& d = *f.diagnosis;
-  if (d.verdict == DiagnosisVerdict::kNone) return "Nothing is missing that this recording could show.";
+  const std::string simulator = simulator_words(f.simulated);
+  if (d.verdict == DiagnosisVerdict::kNone)
+    return "Nothing is missing that this recording could show." + simulator;
   const std::vector<std::string> causes = names(f, true);
   std::string text = causes.empty() ? "" : enumerated(shortened(causes)) + " (established)";
   const std::string open = open_causes(f);
-  if (text.empty() && open.empty() && d.stopped) return "Not told: the search was stopped before its end.";
+  if (text.empty() && open.empty() && d.stopped)
+    return "Not told: the search was stopped before its end." + simulator;
   text += (text.empty() || open.empty() ? "" : "; ") + open;
-  return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text);
+  return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text) + simulator;
 }
 
 std::string helps_line(const CardFacts& f, const Card& card) {

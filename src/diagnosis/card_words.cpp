@@ -24,12 +24,21 @@ std::string SharedUnit::number(double value) const {
   return whole ? fmt::format("{:.0f}", shown) : fmt::format("{:.3g}", shown);
 }
 
-std::string SharedUnit::with_interval(double value, const Interval& ci95) const {
+std::string SharedUnit::interval_after(double value, const Interval& ci95, const char* before,
+                                       const char* after) const {
   const double half = factor_ * (ci95.high - ci95.low) / 2.0;
   if (!(half > 0.0)) return (*this)(value);
   const int d = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 6.0));
-  return fmt::format("{:.{}f} {}, 95 %: {:.{}f} to {:.{}f}", factor_ * value, d, unit_, factor_ * ci95.low, d,
-                     factor_ * ci95.high, d);
+  return fmt::format("{:.{}f} {}{}95 %: {:.{}f} to {:.{}f}{}", factor_ * value, d, unit_, before,
+                     factor_ * ci95.low, d, factor_ * ci95.high, d, after);
+}
+
+std::string SharedUnit::with_interval(double value, const Interval& ci95) const {
+  return interval_after(value, ci95, ", ", "");
+}
+
+std::string SharedUnit::with_interval_aside(double value, const Interval& ci95) const {
+  return interval_after(value, ci95, " (", ")");
 }
 
 std::string percent_text(double percent) { return fmt::format("{} %", SharedUnit(1.0, "").number(percent)); }
@@ -48,12 +57,20 @@ std::string as_sentence(std::string text) {
   return text;
 }
 
-std::string gap_not_estimated(const Diagnosis* diagnosis) {
-  if (diagnosis == nullptr) return "Not estimated here; told by `gapscope run CONFIG`.";
-  const ParameterSetting& ratio = diagnosis->fitted.parameters[place::kMassRatio];
-  return ratio.value == 0.0 && !ratio.estimate ? "The model is one body and has none; whether the recording "
-                                                 "shows one: `gapscope detect CONFIG`."
-                                               : "Not estimated here; told by `gapscope run CONFIG`.";
+std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinates) {
+  constexpr const char* kElsewhere = "Not estimated here; told by `gapscope run CONFIG`.";
+  if (diagnosis == nullptr || !diagnosis->model_gap) return kElsewhere;
+  switch (diagnosis->model_gap->origin) {
+    case GapOrigin::kNone:
+      return "The model is one body and has none; whether the recording shows one: `gapscope detect CONFIG`.";
+    case GapOrigin::kGiven:
+      return "The model takes it as known, " + coordinates.thousandths(diagnosis->model_gap->value) +
+             "; an estimate: `gapscope detect CONFIG`.";
+    case GapOrigin::kEstimated:
+      return "The fitted model does not follow the recordings well enough to tell it; without a model: "
+             "`gapscope detect CONFIG`.";
+  }
+  return kElsewhere;
 }
 
 std::string without_asides(std::string text) {

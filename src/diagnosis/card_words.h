@@ -18,8 +18,12 @@ class SharedUnit {
   std::string operator()(double value) const { return number(value) + " " + unit_; }  ///< "9.66 N"
   /// "9.66 N, 95 %: 9.41 to 9.91": two digits of the half width; without an interval as above.
   std::string with_interval(double value, const Interval& ci95) const;
+  /// "9.66 N (95 %: 9.41 to 9.91)"
+  std::string with_interval_aside(double value, const Interval& ci95) const;
 
  private:
+  std::string interval_after(double value, const Interval& ci95, const char* before, const char* after) const;
+
   double factor_ = 1.0;
   std::string unit_;
 };
@@ -34,7 +38,7 @@ std::string enumerated(const std::vector<std::string>& items, const char* last =
 std::string as_sentence(std::string text);
 
 /// Of a gap that a diagnosis does not estimate: who tells it. A null pointer: there is no diagnosis either.
-std::string gap_not_estimated(const Diagnosis* diagnosis);
+std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinates);
 
 /// Without what stands in brackets: the detail of a report has it.
 std::string without_asides(std::string text);

@@ -264,9 +264,9 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
     tell_detectable(study, found, diagnosis);
   if (!ladder.added.empty() && diagnosis.mismatch.after > diagnosis.mismatch.before)
     diagnosis.warnings.push_back(
-        "in x1 the model with what was added errs more than the nominal one, other than in torque: a model "
-        "that "
-        "is too heavy hides in x1 what it lacks.");
+        "with what was added the residual torque falls, but the error in x1 grows: a model whose inertia is "
+        "too "
+        "large hides in x1 what it lacks.");
   if (diagnosis.stopped)
     diagnosis.warnings.push_back(
         "the search was stopped before its end: this is what it had found by then. Further steps, free-form "

@@ -17,9 +17,6 @@ const MapShare& largest(const std::vector<MapShare>& map) {
                            [](const MapShare& a, const MapShare& b) { return a.share < b.share; });
 }
 
-/// A bin as people write it: "0.034–0.051 m/s".
-std::string range(const std::string& bin) { return replaced(bin, "..", "–"); }
-
 /// By its odds, so that a phase which lasts most of the time can be it, too.
 bool denser_than_chance(const MapShare& m) {
   return m.share * (1.0 - m.expected) > kTelling.dense * m.expected * (1.0 - m.share);
@@ -37,15 +34,16 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
-  return fmt::format("follows the direction of motion ({:.0f} % of it {})", 100.0 * most.share, most.bin);
+  return fmt::format("changes with the direction of motion ({:.0f} % of it {})", 100.0 * most.share,
+                     most.bin);
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
   const char* const along = coordinates.rotational() ? "motor angle" : "motor position";
   if (!std::isfinite(p.periods_per_turn))
-    return fmt::format("depends on the {}, largest at {}", along, range(largest(p.angle).bin));
+    return fmt::format("depends on the {}, largest at {}", along, range_words(largest(p.angle).bin));
   if (!coordinates.rotational())
-    return fmt::format("periodic in the motor position, every {:.4g} m", 2.0 * kPi / p.periods_per_turn);
+    return "periodic in the motor position, every " + coordinates.thousandths(2.0 * kPi / p.periods_per_turn);
   return fmt::format("periodic in the motor angle with {:.3g} cycles per turn", p.periods_per_turn);
 }
 
@@ -56,14 +54,14 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coord
     case ResidualPattern::kDirection:
       return direction_words(p.direction);
     case ResidualPattern::kSpeed:
-      return fmt::format("depends on the speed, largest at {}", range(largest(p.speed).bin));
+      return fmt::format("depends on the speed, largest at {}", range_words(largest(p.speed).bin));
     case ResidualPattern::kInput:
-      return fmt::format("depends on the input level, largest at {}", range(largest(p.input).bin));
+      return fmt::format("depends on the input level, largest at {}", range_words(largest(p.input).bin));
     case ResidualPattern::kTime:
-      return fmt::format("changes over time, largest at {}", range(largest(p.time).bin));
+      return fmt::format("changes over time, largest at {}", range_words(largest(p.time).bin));
     case ResidualPattern::kInputSteps:
       return fmt::format("arises where the {} changes, largest at {}", coordinates.torque_word(),
-                         range(largest(p.frequency).bin));
+                         range_words(largest(p.frequency).bin));
     case ResidualPattern::kCounts:
       return "within the count of a coarser encoder";
     case ResidualPattern::kMode:

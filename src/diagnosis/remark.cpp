@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "gapscope/base/text.h"
+
 namespace gapscope::internal::diagnosis {
 namespace {
 
@@ -23,8 +25,9 @@ std::string remark_on(const ScoredModel& c, const ScoredModel& before) {
   const std::string words = words_on(mean_log(c.windows.innovation) - mean_log(before.windows.innovation),
                                      mean_log(c.windows.free) - mean_log(before.windows.free));
   if (c.fitted.at_bound.empty()) return words;
-  return fmt::format("{}{}{} at a bound", words, words.empty() ? "" : "; ",
-                     fmt::join(c.fitted.at_bound, ", "));
+  std::vector<std::string> names;
+  for (const std::string& key : c.fitted.at_bound) names.push_back(name_of_key(key));
+  return fmt::format("{}{}{} at a bound", words, words.empty() ? "" : "; ", fmt::join(names, ", "));
 }
 
 }  // namespace gapscope::internal::diagnosis

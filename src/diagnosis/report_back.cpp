@@ -233,7 +233,7 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   tell_models(study, found, nominal, added ? additions.after : nominal,
               added ? &alone(found, additions.effects.front().entry) : nullptr, d);
   if (added) tell_added(study, nominal, additions, d);
-  if (added) tell_intervals(study, additions.after.fitted, d.added);
+  tell_intervals(study, added ? additions.after.fitted : nominal.fitted, d);
   d.rivals = open_question(found, additions);
   d.sentence = sentence_of(d, study.options.coordinates);
   return d;
@@ -255,7 +255,7 @@ Diagnosis report_added(const Study& study, const Findings& found, const ScoredMo
     return e.entry == first || contained_effect(*e.entry) == first;
   });
   tell_models(study, found, found.before, after, at == fitted.end() ? nullptr : &*at, d);
-  tell_intervals(study, after.fitted, d.added);
+  tell_intervals(study, after.fitted, d);
   return d;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
 #include "diagnosis/simulator_rows.h"
 #include "diagnosis/simulator_words.h"
@@ -158,8 +159,8 @@ void Comparer::warn(const JointFit& fit, std::vector<std::string>& warnings) con
   for (const auto& [side, name] : {std::pair(&fit.drive, "drive"), std::pair(&fit.simulator, "simulator")})
     if (side->error > kRule.floor_ratio * floor_)
       warnings.push_back(fmt::format(
-          "the model leaves {:.2g} floors on the {}: a row may hold part of what it does not explain there",
-          side->error / floor_, name));
+          "the model leaves {} floors on the {}: a row may hold part of what it does not explain there",
+          SharedUnit(1.0, "").number(side->error / floor_), name));
 }
 
 /// Where the model is farther from the simulator than the simulator from the drive, no number of it says
@@ -173,18 +174,6 @@ void take_back_rows(SimulatorComparison& c, Coordinates coordinates) {
       "by "
       "{}: no row is told of it.",
       coordinates.thousandths(c.errors.simulator), coordinates.thousandths(c.errors.stand_in_miss));
-}
-
-/// No row differs, but what the model leaves on a side is more than a row would have to show.
-std::string hidden_sentence(const SimulatorComparison& c, double drive_floors, double simulator_floors,
-                            Coordinates coordinates) {
-  const bool on_drive = drive_floors > simulator_floors;
-  return fmt::format(
-      "No row differs, but the model with all effects of both leaves {:.2g} floors on {}: what differs may "
-      "hide "
-      "there. Over the held-out input your simulator is {} rms off the drive.",
-      on_drive ? drive_floors : simulator_floors, on_drive ? "the drive" : "your simulator",
-      coordinates.thousandths(c.errors.simulator));
 }
 
 SimulatorComparison Comparer::answer() {
@@ -212,11 +201,8 @@ SimulatorComparison Comparer::answer() {
   const double dt = drive_.train.front().dt;
   for (SimulatorRow& row : c.rows)
     if (row.differs) row.sentence = row_sentence(row, c.rows, dt, options_.coordinates);
-  const bool differs = !c.rows.empty() && c.rows.front().differs;
-  const double on_drive = fit.drive.error / floor_, on_simulator = fit.simulator.error / floor_;
-  c.sentence = !differs && std::max(on_drive, on_simulator) > kRule.far
-                   ? hidden_sentence(c, on_drive, on_simulator, options_.coordinates)
-                   : comparison_sentence(c, options_.coordinates);
+  c.sentence =
+      sentence_beside(c, fit.drive.error / floor_, fit.simulator.error / floor_, options_.coordinates);
   return c;
 }
 

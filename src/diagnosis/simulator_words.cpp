@@ -6,29 +6,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/card_words.h"
+#include "diagnosis/rule.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
 
-/// A number as people read it: lengths and times in thousandths.
+/// A number as people read it: lengths and times in thousandths, torques with a prefix.
 std::string amount(double value, const std::string& unit, Coordinates coordinates) {
   if (unit == "rad") return coordinates.thousandths(value);
   if (unit == "s") return fmt::format("{:.3g} ms", 1e3 * value);
   const std::string shown = coordinates.shown_unit(unit);
-  return shown.empty() ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, shown);
+  if (shown.starts_with("N")) return SharedUnit(value, shown)(value);
+  const std::string number = SharedUnit(1.0, "").number(value);
+  return shown.empty() ? number : number + " " + shown;
 }
 
 /// A number by its name without its unit: "length 2 mrad", "46 periods per turn".
 std::string with_name(const ComparedNumber& n, double value, Coordinates coordinates) {
   if (n.key == "periods_per_turn") return fmt::format("{:.3g} periods per turn", value);
-  std::string name = n.key;
-  for (const std::string end : {"_nm_rad", "_nms2", "_nms", "_nm", "_rad_s", "_rad", "_s"})
-    if (name.ends_with(end)) {
-      name.resize(name.size() - end.size());
-      break;
-    }
-  return readable(name) + " " + amount(value, n.unit, coordinates);
+  return name_of_key(n.key) + " " + amount(value, n.unit, coordinates);
 }
 
 /// Where its wave begins and what rides on it are for the table.
@@ -161,6 +159,31 @@ std::string likely_others(const SimulatorRow& row) {
   return others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, " or "));
 }
 
+std::string comparison_sentence(const SimulatorComparison& c, Coordinates coordinates) {
+  std::vector<std::string> parts;
+  for (const SimulatorRow& row : c.rows)
+    if (row.differs) parts.push_back(row.sentence);
+  if (parts.empty())
+    return fmt::format(
+        "Your simulator lacks nothing that these recordings would show above two floors. Over the held-out "
+        "input it is {} rms off the drive.",
+        coordinates.thousandths(c.errors.simulator));
+  return fmt::format("Your simulator differs from the drive: {}.", fmt::join(parts, "; ")) +
+         mended_words(c, coordinates);
+}
+
+/// No row differs, but what the model leaves on a side is more than a row would have to show.
+std::string hidden_sentence(const SimulatorComparison& c, double drive_floors, double simulator_floors,
+                            Coordinates coordinates) {
+  const bool on_drive = drive_floors > simulator_floors;
+  return fmt::format(
+      "No row differs, but the model with all effects of both leaves {} floors on {}: what differs may "
+      "hide "
+      "there. Over the held-out input your simulator is {} rms off the drive.",
+      SharedUnit(1.0, "").number(on_drive ? drive_floors : simulator_floors),
+      on_drive ? "the drive" : "your simulator", coordinates.thousandths(c.errors.simulator));
+}
+
 }  // namespace
 
 std::string row_sentence(const SimulatorRow& row, const std::vector<SimulatorRow>& rows, double dt,
@@ -173,17 +196,12 @@ std::string row_sentence(const SimulatorRow& row, const std::vector<SimulatorRow
          implicitly_damped(row, rows, dt);
 }
 
-std::string comparison_sentence(const SimulatorComparison& c, Coordinates coordinates) {
-  std::vector<std::string> parts;
-  for (const SimulatorRow& row : c.rows)
-    if (row.differs) parts.push_back(row.sentence);
-  if (parts.empty())
-    return fmt::format(
-        "Your simulator lacks nothing that these recordings would show above two floors. Over the held-out "
-        "input it is {} rms off the drive.",
-        coordinates.thousandths(c.errors.simulator));
-  return fmt::format("Your simulator differs from the drive: {}.", fmt::join(parts, "; ")) +
-         mended_words(c, coordinates);
+std::string sentence_beside(const SimulatorComparison& c, double drive_floors, double simulator_floors,
+                            Coordinates coordinates) {
+  const bool differs = !c.rows.empty() && c.rows.front().differs;
+  return !differs && std::max(drive_floors, simulator_floors) > kRule.far
+             ? hidden_sentence(c, drive_floors, simulator_floors, coordinates)
+             : comparison_sentence(c, coordinates);
 }
 
 }  // namespace gapscope::internal::diagnosis

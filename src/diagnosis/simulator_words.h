@@ -12,7 +12,10 @@ namespace gapscope::internal::diagnosis {
 std::string row_sentence(const SimulatorRow& row, const std::vector<SimulatorRow>& rows, double dt,
                          Coordinates coordinates);
 
-/// The whole in a few sentences.
-std::string comparison_sentence(const SimulatorComparison& comparison, Coordinates coordinates);
+/// The whole in a few sentences. Where no row differs and the model leaves a side more than a row would have
+/// to show, that something may hide there.
+/// @param drive_floors, simulator_floors  what the model with all effects of both leaves on either [floor]
+std::string sentence_beside(const SimulatorComparison& comparison, double drive_floors,
+                            double simulator_floors, Coordinates coordinates);
 
 }  // namespace gapscope::internal::diagnosis

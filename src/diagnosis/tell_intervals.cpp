@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "diagnosis/tell_budget.h"
 #include "gapscope/base/normal.h"
@@ -10,17 +11,24 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-/// 95 % intervals of the numbers of a model's effects, by effect and place in its specification.
-std::vector<std::vector<Interval>> intervals_of_effects(const Study& study, const FittedModel& fitted) {
-  std::vector<std::vector<Interval>> all;
-  for (const ModelEffect& e : fitted.model.effects) all.emplace_back(e.entry->parameters.size());
+using StandardErrors = std::vector<std::pair<reference::ParameterId, double>>;
+
+StandardErrors errors_of(const Study& study, const FittedModel& fitted) {
   const reference::ModelFit fit(study.train, fitted.model, study.options.fit, study.observer_hz);
   // A model of the torque balance brings no initial states.
   const auto starts = settled_starts(study.train, fitted.model, study.observer_hz);
-  for (const auto& [id, error] : fit.standard_errors(fit.point_of(fitted.model, starts))) {
+  return fit.standard_errors(fit.point_of(fitted.model, starts));
+}
+
+/// 95 % intervals of the numbers of a model's effects, by effect and place in its specification.
+std::vector<std::vector<Interval>> intervals_of_effects(const ReferenceModel& model,
+                                                        const StandardErrors& errors) {
+  std::vector<std::vector<Interval>> all;
+  for (const ModelEffect& e : model.effects) all.emplace_back(e.entry->parameters.size());
+  for (const auto& [id, error] : errors) {
     if (id.effect < 0 || std::isnan(error)) continue;
     const auto effect = static_cast<std::size_t>(id.effect), index = static_cast<std::size_t>(id.index);
-    all[effect][index] = normal_interval(fitted.model.effects[effect].parameters[index].value, error);
+    all[effect][index] = normal_interval(model.effects[effect].parameters[index].value, error);
   }
   return all;
 }
@@ -31,19 +39,43 @@ bool are_same(const std::vector<NamedValue>& one, const std::vector<NamedValue>&
   });
 }
 
-}  // namespace
-
-void tell_intervals(const Study& study, const FittedModel& fitted, std::vector<AddedEffect>& added) {
-  const auto intervals = intervals_of_effects(study, fitted);
+void tell_added_intervals(const ReferenceModel& model, const StandardErrors& errors,
+                          std::vector<AddedEffect>& added) {
+  const auto intervals = intervals_of_effects(model, errors);
   for (AddedEffect& a : added)
     for (std::size_t e = 0; e < intervals.size(); ++e) {
-      if (!are_same(a.parameters, effect_values(fitted.model.effects[e]))) continue;
+      if (!are_same(a.parameters, effect_values(model.effects[e]))) continue;
       for (std::size_t i = 0; i < a.parameters.size(); ++i) {
         const Interval& ci95 = intervals[e][i];
-        const double turned = a.parameters[i].value - fitted.model.effects[e].parameters[i].value;
+        const double turned = a.parameters[i].value - model.effects[e].parameters[i].value;
         a.parameters[i].ci95 = {ci95.low + turned, ci95.high + turned};  // a phase is told within a turn
       }
     }
+}
+
+/// Of the coupling; of one body, of an effect that gives it a gap.
+ModelGap gap_of(const ReferenceModel& model, const std::vector<AddedEffect>& added) {
+  const ParameterSetting &ratio = model.parameters[place::kMassRatio], &gap = model.parameters[place::kGap];
+  if (has_parameter(model.structure, place::kGap) && (ratio.estimate || ratio.value != 0.0))
+    return {gap.estimate ? GapOrigin::kEstimated : GapOrigin::kGiven, gap.value, {}};
+  for (const AddedEffect& a : added)
+    for (const NamedValue& p : a.parameters)
+      if (a.effect == "backlash" && p.key == "gap_rad") return {GapOrigin::kEstimated, p.value, p.ci95};
+  return {};
+}
+
+}  // namespace
+
+void tell_intervals(const Study& study, const FittedModel& fitted, Diagnosis& d) {
+  d.model_gap = gap_of(fitted.model, d.added);
+  const bool asked = !d.added.empty() || d.model_gap->origin == GapOrigin::kEstimated;
+  if (!asked || !std::isfinite(fitted.mean_cost)) return;
+  const StandardErrors errors = errors_of(study, fitted);
+  tell_added_intervals(fitted.model, errors, d.added);
+  d.model_gap = gap_of(fitted.model, d.added);
+  for (const auto& [id, error] : errors)
+    if (id == reference::drive_number(place::kGap) && !std::isnan(error))
+      d.model_gap->ci95 = normal_interval(d.model_gap->value, error);
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <vector>
-
 #include "diagnosis/fitted_model.h"
 #include "diagnosis/study.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope::internal::diagnosis {
 
-/// Gives the numbers of what was added the 95 % intervals that the fit of the training recordings leaves
-/// them, where it determines them. They hold for the model with all that was added in it.
-void tell_intervals(const Study& study, const FittedModel& fitted, std::vector<AddedEffect>& added);
+/// Gives the numbers of what was added, and the gap of the model, the 95 % intervals that the fit of the
+/// training recordings leaves them, where it determines them. They hold for the model with all that was added
+/// in it.
+void tell_intervals(const Study& study, const FittedModel& fitted, Diagnosis& diagnosis);
 
 }  // namespace gapscope::internal::diagnosis

@@ -34,8 +34,25 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
 
 using SampleValue = std::function<double(const Sample&)>;
 
+/// "0", never "-0".
+std::string edge(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.find_first_not_of("-0.") == text.npos && text.front() == '-' ? text.substr(1) : text;
+}
+
 std::string range_key(double low, double high, int decimals, const std::string& unit) {
-  return fmt::format("{:.{}f}..{:.{}f} {}", low, decimals, high, decimals, unit);
+  return edge(low, decimals) + ".." + edge(high, decimals) + " " + unit;
+}
+
+/// "34..51 mm/s": in thousandths where all of it is below one.
+void name_bins(double low, double width, const std::string& unit, std::vector<MapShare>& map) {
+  const double end = low + kMapBins * width;
+  const double factor = std::max(std::abs(low), std::abs(end)) < 1.0 ? 1e3 : 1.0;
+  const std::string shown = (factor > 1.0 ? "m" : "") + unit;
+  const int decimals = std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(factor * width))), 0, 9);
+  for (int b = 0; b < kMapBins; ++b)
+    map[static_cast<std::size_t>(b)].bin =
+        range_key(factor * (low + b * width), factor * (low + (b + 1) * width), decimals, shown);
 }
 
 /// Bins of equal width between the extremes.
@@ -46,10 +63,8 @@ std::vector<MapShare> range_map(const std::vector<Sample>& samples, const Sample
   constexpr double kNarrowest = 1e-9;
   high = std::max(high, low + kNarrowest * std::max(1.0, std::abs(low)));  // a width, whatever is constant
   const double width = (high - low) / kMapBins;
-  const int decimals = std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(width))), 0, 9);
   std::vector<MapShare> map(kMapBins);
-  for (int b = 0; b < kMapBins; ++b)
-    map[static_cast<std::size_t>(b)].bin = range_key(low + b * width, low + (b + 1) * width, decimals, unit);
+  name_bins(low, width, unit, map);
   for (const Sample& s : samples) {
     const int b = std::min(kMapBins - 1, static_cast<int>((of(s) - low) / width));
     map[static_cast<std::size_t>(b)].share += s.torque * s.torque;

@@ -9,6 +9,7 @@
 #include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/last_resort.h"
+#include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope {
@@ -63,7 +64,8 @@ std::string listed(const Diagnosis& d) {
 }
 
 std::string ratio(double value, const Diagnosis& d) {
-  return std::isfinite(value) ? fmt::format("{:.3g} times the {}", value, floor_name(d.mismatch.floor_from))
+  return std::isfinite(value) ? fmt::format("{} times the {}", SharedUnit(1.0, "").number(value),
+                                            floor_name(d.mismatch.floor_from))
                               : "unknown";
 }
 
@@ -75,15 +77,17 @@ std::string effect_sentence(const Diagnosis& d) {
   return text + fmt::format(", to {}.", ratio(d.mismatch.remains, d));
 }
 
-/// "9.66 N to 1.1 N (from 17.8 % to 2 % of what the input brings)"
+/// "the residual force on held-out data falls from 9.66 N to 1.1 N (17.8 % to 2.0 % of what the input
+/// brings)"
 std::string torque_fall(const Diagnosis& d, Coordinates coordinates) {
   const MismatchSize& m = d.mismatch;
-  const char* const unit = coordinates.torque_unit();
+  const SharedUnit torque(m.before_torque, coordinates.shown_unit("N m"));
+  const double both[] = {100.0 * m.before_torque / m.input_torque, 100.0 * m.after_torque / m.input_torque};
+  const Percents percent(both);
   return fmt::format(
-      "the residual {} on held-out data falls from {:.3g} {} to {:.3g} {} ({:.3g} % to {:.3g} % "
-      "of what the input brings)",
-      coordinates.torque_word(), m.before_torque, unit, m.after_torque, unit,
-      100.0 * m.before_torque / m.input_torque, 100.0 * m.after_torque / m.input_torque);
+      "the residual {} on held-out data falls from {} to {} ({} to {} of what the input brings)",
+      coordinates.torque_word(), torque(m.before_torque), torque(m.after_torque), percent(both[0]),
+      percent(both[1]));
 }
 
 /// The same by the measure of a drive whose torque balance depends on its contact.
@@ -118,9 +122,8 @@ std::string law_sentence(const Diagnosis& d) {
     std::vector<std::string> variables;
     for (const std::string& other : law.group) variables.push_back(variable_of(*find_effect(other)));
     text += fmt::format(
-        " What {} is a function of {}, whatever its cause: as a free curve it takes {:.0f} % [{:.0f}, "
-        "{:.0f}] of "
-        "the held-out error above the floor, to {}.",
+        " What {} is a function of {}, whatever its cause: as a free curve it takes {:.0f} % (95 %: {:.0f} "
+        "to {:.0f}) of the held-out error above the floor, to {}.",
         d.effects.empty() ? "is missing" : "remains", fmt::join(variables, " or "), 100.0 * law.shrink,
         100.0 * law.shrink_ci95.low, 100.0 * law.shrink_ci95.high, ratio(law.after / d.mismatch.floor, d));
   }
@@ -137,10 +140,9 @@ std::string unknown_sentence(const Diagnosis& d) {
       fmt::format("Something is missing that the catalogue does not explain: the held-out error is {}, {}",
                   ratio(d.mismatch.before / d.mismatch.floor, d), d.where.headline);
   if (d.laws.empty() && !d.ranking.empty() && d.ranking.front().rel > 0.0)
-    text += fmt::format(
-        "; {} comes nearest and closes {:.0f} % of the distance to it, which is not enough to blame "
-        "it",
-        readable(d.ranking.front().effect), 100.0 * std::clamp(d.ranking.front().rel, 0.0, 1.0));
+    text +=
+        fmt::format("; {} comes nearest, but explains only {:.0f} % of it",
+                    readable(d.ranking.front().effect), 100.0 * std::clamp(d.ranking.front().rel, 0.0, 1.0));
   return text + ".";
 }
 

@@ -8,6 +8,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/config/begun_model.h"
 #include "gapscope/run/run_pipeline.h"
 #include "gapscope/simulation/excitation.h"
 #include "gapscope/simulation/stepper.h"
@@ -34,11 +35,18 @@ std::string stem_of(const std::string& name) {
   return std::isdigit(static_cast<unsigned char>(stem[0])) != 0 ? "drive_" + stem : stem;
 }
 
+/// What the user called the drive: the fitted model of a report has a suffix of its own.
+std::string name_given(const std::string& name) {
+  const bool fitted = name.size() > kFittedSuffix.size() && name.ends_with(kFittedSuffix);
+  return fitted ? name.substr(0, name.size() - kFittedSuffix.size()) : name;
+}
+
 /// A configuration with `simulation:`, its input known.
 ExportSource source_of(const Configuration& c, std::vector<double> u, const std::string& input) {
   const SimulationConfig& s = *c.simulation;
-  ExportSource source{c.name,       stem_of(c.name), c.coordinates, s.plant, s.plant.plant_model(), {},
-                      1.0 / s.rate, std::move(u),    floor_of(c),   input,   resolved_yaml(c)};
+  const std::string name = name_given(c.name);
+  ExportSource source{name,         stem_of(name), c.coordinates, s.plant, s.plant.plant_model(), {},
+                      1.0 / s.rate, std::move(u),  floor_of(c),   input,   resolved_yaml(c)};
   source.plant.structure.encoder = EncoderSide::kMotor;  // a simulator's motion is that of the motor
   source.initial = {s.initial.x1, s.initial.w1, s.initial.x2, s.initial.w2};
   const auto most = static_cast<std::size_t>(std::llround(kLongestJudged * s.rate));

@@ -27,6 +27,15 @@ std::vector<double> input_at_steps(const ExportSource& source, double step) {
   return u;
 }
 
+/// Calls tell(i, k) for every step i that falls on the k-th place of comparison.
+template <class Tell>
+void at_judged(std::size_t steps, double step, const Tell& tell) {
+  for (std::size_t i = 0; i < steps; ++i) {
+    const double place = static_cast<double>(i) * step / kJudgedEvery, whole = std::round(place);
+    if (std::abs(place - whole) <= 1e-6) tell(i, static_cast<std::size_t>(whole));
+  }
+}
+
 }  // namespace
 
 TargetError compared(const std::vector<double>& model, const std::vector<double>& target) {
@@ -56,6 +65,11 @@ TargetErrors::TargetErrors(const ExportSource& source) : source_(source) {
 }
 
 TargetError TargetErrors::at(double step, const TargetMotion& motion) const {
+  return against(model_, step, motion);
+}
+
+TargetError TargetErrors::against(const std::vector<double>& reference, double step,
+                                  const TargetMotion& motion) const {
   stop_point();
   const std::vector<double> u = input_at_steps(source_, step);
   const std::vector<double> x1 = motion(step, u);
@@ -67,13 +81,12 @@ TargetError TargetErrors::at(double step, const TargetMotion& motion) const {
   }
   double sum = 0.0, compared = 0.0;
   error.max = 0.0;
-  for (std::size_t i = 0; i < x1.size(); ++i) {
-    const double place = static_cast<double>(i) * step / kJudgedEvery, whole = std::round(place);
-    if (std::abs(place - whole) > 1e-6 || whole >= static_cast<double>(model_.size())) continue;
-    const double e = x1[i] - model_[static_cast<std::size_t>(whole)];
+  at_judged(x1.size(), step, [&](std::size_t i, std::size_t k) {
+    if (k >= reference.size()) return;
+    const double e = x1[i] - reference[k];
     sum += e * e, compared += 1.0;
     error.max = std::max(error.max, std::abs(e));
-  }
+  });
   error.rms = std::sqrt(sum / compared);
   error.within_encoder = error.rms <= source_.encoder_floor;
   error.unstable = error.max > kWorthAsking * travel_ && grows(step, u, x1, motion);
@@ -92,12 +105,23 @@ bool TargetErrors::grows(double step, std::vector<double> u, const std::vector<d
   return other.size() < x1.size();
 }
 
+std::vector<double> TargetErrors::own_motion(double step, const TargetMotion& motion) const {
+  const std::vector<double> x1 = motion(step, input_at_steps(source_, step));
+  std::vector<double> judged(model_.size(), kNaN);
+  at_judged(x1.size(), step, [&](std::size_t i, std::size_t k) {
+    if (k < judged.size()) judged[k] = x1[i];
+  });
+  while (!judged.empty() && std::isnan(judged.back())) judged.pop_back();
+  return judged;
+}
+
 /// Of the steps kCommonTime/n, by bisection of n.
-double TargetErrors::between(double good, double bad, const TargetMotion& motion) const {
+double TargetErrors::between(double good, double bad, const std::vector<double>& reference,
+                             const TargetMotion& motion) const {
   double most = std::round(kCommonTime / good), fewest = std::round(kCommonTime / bad);
   while (most - fewest > std::max(1.0, 0.05 * most)) {
     const double middle = std::floor(0.5 * (most + fewest));
-    (stands(at(kCommonTime / middle, motion)) ? most : fewest) = middle;
+    (stands(against(reference, kCommonTime / middle, motion)) ? most : fewest) = middle;
   }
   return kCommonTime / most;
 }
@@ -107,6 +131,7 @@ StepLimits TargetErrors::scan(const std::string& integrator, const TargetMotion&
   StepLimits limits;
   limits.integrator = integrator;
   bool within = true;
+  std::vector<double> own;
   for (const double n : kListed) {
     const double step = kCommonTime / n;
     TargetError error = at(step, motion);
@@ -114,8 +139,12 @@ StepLimits TargetErrors::scan(const std::string& integrator, const TargetMotion&
     errors.push_back(error);
     within = within && error.within_encoder;
     if (within) limits.within_encoder = step;
-    if (!stands(error)) {
-      if (!std::isnan(limits.largest) && n >= 1.0) limits.largest = between(limits.largest, step, motion);
+    const bool finest = std::isnan(limits.largest);
+    if (finest && is_steady(error) && !stands(error)) own = own_motion(step, motion);
+    limits.against_itself = !own.empty();
+    if (!stands(own.empty() ? error : against(own, step, motion))) {
+      if (!std::isnan(limits.largest) && n >= 1.0)
+        limits.largest = between(limits.largest, step, own.empty() ? model_ : own, motion);
       break;
     }
     limits.largest = step;

@@ -26,19 +26,22 @@ class TargetErrors {
 
   /// At one step [s]: kCommonTime over a whole number, or a whole multiple of it.
   TargetError at(double step, const TargetMotion& motion) const;
-  /// At the listed steps, and between them the largest that the target stands.
+  /// At the listed steps, and between them the largest that the target stands. One that lacks a part of the
+  /// drive may be far from the model at any step: the steps are then judged by its own motion at the finest.
   StepLimits scan(const std::string& integrator, const TargetMotion& motion,
                   std::vector<TargetError>& errors) const;
 
   double travel() const { return travel_; }
 
  private:
-  bool stands(const TargetError& error) const {
-    return !error.diverges && !error.unstable && error.max <= 0.1 * travel_;
-  }
+  TargetError against(const std::vector<double>& reference, double step, const TargetMotion& motion) const;
+  bool is_steady(const TargetError& error) const { return !error.diverges && !error.unstable; }
+  bool stands(const TargetError& error) const { return is_steady(error) && error.max <= 0.1 * travel_; }
+  std::vector<double> own_motion(double step, const TargetMotion& motion) const;
   bool grows(double step, std::vector<double> u, const std::vector<double>& x1,
              const TargetMotion& motion) const;
-  double between(double good, double bad, const TargetMotion& motion) const;
+  double between(double good, double bad, const std::vector<double>& reference,
+                 const TargetMotion& motion) const;
 
   const ExportSource& source_;
   std::vector<double> model_;  ///< x1 at multiples of kJudgedEvery

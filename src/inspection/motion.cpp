@@ -53,10 +53,10 @@ Finding check_travel(const Material& m, RecordingFacts& facts) {
   facts.travel = m.signal.travel > 0.0 ? m.signal.travel : *high - *low;
   if (!m.moves())
     return {"travel", Severity::kSpoils,
-            fmt::format("x1 moves by {:.3g} {} in all, noise {:.2g}", facts.travel, m.unit(), m.signal.noise),
+            "x1 moves by " + m.length(facts.travel) + " in all, noise " + m.length(m.signal.noise),
             m.signal.defect.empty() ? "raise the excitation" : m.signal.defect.text()};
   const double q = m.recording.quantum, quanta = q > 0.0 ? facts.travel / q : facts.travel / m.signal.noise;
-  const std::string found = fmt::format("{:.4g} {} peak to peak, {:.4g} {}", facts.travel, m.unit(), quanta,
+  const std::string found = fmt::format("{} peak to peak, {} {}", m.length(facts.travel), count_text(quanta),
                                         q > 0.0 ? "steps of the encoder" : "times the noise");
   const char* advice =
       "raise the excitation or lower its frequency: the travel has to be at least 1.5 gaps, a gap at least "
@@ -86,7 +86,7 @@ Finding check_speed(const Material& m, RecordingFacts& facts) {
   const double scale = m.recording.quantum > 0.0 ? m.recording.quantum : m.signal.noise;
   const double per_sample = facts.speed_rms * m.recording.dt / scale;
   const std::string found =
-      fmt::format("{:.4g} {}/s rms, {:.3g} {} per sample", facts.speed_rms, m.unit(), per_sample,
+      fmt::format("{}/s rms, {} {} per sample", m.length(facts.speed_rms), count_text(per_sample),
                   m.recording.quantum > 0.0 ? "steps of the encoder" : "times the noise");
   if (per_sample >= 1.0) return {"speed", Severity::kFine, found, ""};
   return {"speed", Severity::kNote, found,
@@ -102,7 +102,7 @@ Finding check_rest(const Material& m, RecordingFacts& facts) {
     return {
         "standstill", Severity::kFine,
         "x1 never rests: if the load should turn out to be moving in the gap, let the motion dwell at its "
-        "reversals (trapezoid)",
+        "reversals (a triangle of torque first, else a trapezoid)",
         ""};
   return {"standstill", Severity::kFine,
           fmt::format("x1 rests {} times, {:.0f} % of the time", rest.count, 100.0 * rest.share), ""};

@@ -93,7 +93,7 @@ Finding check_position_unit(const Material& m, RecordingFacts&) {
   if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q) && is_power_of_two(1.0 / q))
     return wrong_unit(fmt::format("x1 steps by 1/{:.0f}: turns?", 1.0 / q),
                       "declare it, recording: units: {position: rev}");
-  const std::string speeds = fmt::format("up to {:.4g} {}/s", speed, m.unit());
+  const std::string speeds = "up to " + m.length(speed) + "/s";
   if (speed > limit)
     return wrong_unit(speeds + fmt::format(", more than {:.0f}", limit),
                       fmt::format("give x1 in {} and t in s", m.unit()));
@@ -105,7 +105,7 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
   facts.noise = noise;
   if (!(q > 0.0))
     return {"encoder", Severity::kNote,
-            fmt::format("no smallest step is seen; noise {:.3g} {} per position", noise, m.unit()),
+            "no smallest step is seen; noise " + m.length(noise) + " per position",
             "if x1 was filtered, interpolated or computed, record the raw counts: filters blur the impacts"};
   facts.quantum = q;
   if (m.coordinates.rotational() && is_round(q))
@@ -119,13 +119,12 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
     return {"encoder", Severity::kNote,
             fmt::format("x1 steps by {:.4g} {}, finer than any encoder: another unit?", q, m.unit()),
             "declare it, recording: units: {position: ...}"};
-  return {
-      "encoder", Severity::kFine,
-      fmt::format("x1 steps by {:.4g} {}{}, noise {:.2g} steps; a gap below {:.3g} {} (40 steps) is too "
-                  "coarse for the detector",
-                  q, m.unit(), m.coordinates.rotational() ? fmt::format(" ({:.0f} per turn)", per_turn) : "",
-                  noise / q, signals::kFewestGapQuanta * q, m.unit()),
-      ""};
+  return {"encoder", Severity::kFine,
+          fmt::format(
+              "x1 steps by {}{}, noise {:.2g} steps; the detector needs 40 steps and reads gaps from {} on",
+              m.length(q), m.coordinates.rotational() ? fmt::format(" ({:.0f} per turn)", per_turn) : "",
+              noise / q, m.length(signals::kFewestGapQuanta * q)),
+          ""};
 }
 
 Finding check_jumps(const Material& m, RecordingFacts&) {
@@ -136,7 +135,7 @@ Finding check_jumps(const Material& m, RecordingFacts&) {
   const bool wraps =
       m.coordinates.rotational() && turns > 0.9 && std::abs(turns - std::round(turns)) < 0.05 * turns;
   return {"jumps", Severity::kSpoils,
-          fmt::format("x1 jumps {} times, first by {:.4g} {} in {}", found.size(), size, m.unit(),
+          fmt::format("x1 jumps {} times, first by {} in {}", found.size(), m.length(size),
                       m.rows.place(m.rows.line[i])),
           wraps ? "a whole turn: count x1 on over the turns (unwrap it)"
                 : "lost counts, a wrapped counter or a spike: mend the cause, or leave that part out with "

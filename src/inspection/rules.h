@@ -1,10 +1,14 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "gapscope/base/remark.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/recording/recording.h"
 #include "recording/recorded_rows.h"
@@ -20,8 +24,17 @@ struct Material {
   bool resampled = false;        ///< on request: also for fit and diagnose, which need no grid
   Coordinates coordinates;
   const char* unit() const { return coordinates.position_unit(); }
+  /// "246.4 mm", "50 nm": with the prefix that keeps the number between 1 and 1000.
+  std::string length(double position) const {
+    return Remark("length", "{:.4g} [rad]", {position}).text(coordinates);
+  }
   bool moves() const { return signal.speed_rms > 0.0; }
 };
+
+/// "1764", "1.33": three digits, never "1.76e+03".
+inline std::string count_text(double count) {
+  return count >= 999.5 ? fmt::format("{:.0f}", count) : fmt::format("{:.3g}", count);
+}
 
 inline bool whole_numbers(std::span<const double> samples) {
   return std::all_of(samples.begin(), samples.end(), [](double v) { return v == std::round(v); });

@@ -196,7 +196,7 @@ void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determi
       if (!c.parts || p.id != drive_number(place::kGap) || !other_gap) continue;
       determined.identifiable[i] = false;
       determined.std[i] = kNaN;
-      determined.warnings.push_back(words::another_gap(c.from[i], p.unit, c.to[i]));
+      determined.warnings.push_back(words::another_gap(c.from[i], c.to[i]));
     }
     if (!moved.empty()) determined.warnings.push_back(words::values_move(c.where, moved));
   }

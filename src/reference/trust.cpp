@@ -182,10 +182,14 @@ constexpr std::pair<FitTrust, Judge> kJudges[] = {
     {FitTrust::kLimited, patterned}};
 
 /// A model that is usable is not one that does not explain its recordings, however far the encoder's floor.
-void soften_warning(const FitOptions& options, FitSummary& summary) {
-  for (Remark& w : summary.warnings)
-    if (w.code() == words::not_explained(0.0, 0.0).code())
-      w = words::leaves_some(100.0 * unexplained_share(summary), options.rejected_hz);
+/// Of one that is rejected the warning tells the error that the reason tells.
+void reword_warning(const FitOptions& options, FitSummary& summary) {
+  for (Remark& w : summary.warnings) {
+    if (w.code() != words::not_explained(0.0, 0.0).code()) continue;
+    const double hz = options.rejected_hz;
+    w = summary.rejected() ? words::not_explained(summary.innovation_rmse / summary.floor, hz)
+                           : words::leaves_some(100.0 * unexplained_share(summary), hz);
+  }
 }
 
 }  // namespace
@@ -202,7 +206,7 @@ void judge_trust(const FitProblem& problem, const FitOutcome& outcome, const Tru
     summary.trust = trust, summary.why = *why;
     break;
   }
-  if (!summary.rejected()) soften_warning(problem.options, summary);
+  reword_warning(problem.options, summary);
 }
 
 }  // namespace gapscope::internal::reference

@@ -198,19 +198,22 @@ Remark residual_patterned() {
           "The residual is within the encoder's size but not random: something small is missing."};
 }
 
-Remark another_gap(double from, const std::string& unit, double to) {
-  return {
-      "another_gap",
-      "the gap is {:.3g} {} on one part of the recordings and {:.3g} on another: what the model takes for "
-      "a gap is something else, and none is reported.",
-      {from, RemarkUnit{unit}, to}};
+Remark another_gap(double from, double to) {
+  return {"another_gap",
+          "the gap is {:.3g} [rad] on one part of the recordings and {:.3g} [rad] on another: what the model "
+          "takes "
+          "for a gap is something else, and none is reported.",
+          {from, to}};
 }
 Remark values_move(const Remark& where, const std::vector<ValueShift>& moved) {
   Remark text = Remark("values_move", "values move by more than their own intervals ") + where;
-  for (const ValueShift& m : moved)
-    text += Remark("moved",
-                   &m == &moved.front() ? ": {} from {:.4g} to {:.4g} {}" : ", {} from {:.4g} to {:.4g} {}",
-                   {m.key, m.from, m.to, RemarkUnit{m.unit}});
+  for (const ValueShift& m : moved) {
+    const std::string name = &m == &moved.front() ? ": {}" : ", {}";
+    text +=
+        m.unit == "rad"
+            ? Remark("moved", name + " from {:.4g} [rad] to {:.4g} [rad]", {m.key, m.from, m.to})
+            : Remark("moved", name + " from {:.4g} to {:.4g} {}", {m.key, m.from, m.to, RemarkUnit{m.unit}});
+  }
   return text + Remark("values_move", ".");
 }
 Remark between_recordings(const std::string& from, const std::string& to) {

@@ -53,7 +53,7 @@ struct ValueShift {
   double from, to;
   std::string unit;
 };
-Remark another_gap(double from, const std::string& unit, double to);
+Remark another_gap(double from, double to);
 Remark values_move(const Remark& where, const std::vector<ValueShift>& moved);
 Remark between_recordings(const std::string& from, const std::string& to);  ///< "from a.csv to b.csv"
 Remark between_parts(double split);

@@ -32,6 +32,16 @@ std::string axis_label(const Axis& axis, const std::string& unit) {
   return axis.name + " (" + unit + (axis.unit_note.empty() ? "" : ", " + axis.unit_note) + ")";
 }
 
+constexpr double kOverhang = 60.0;  ///< by which a label may be longer than its axis [px]
+
+/// In one line, or with the unit in a second one.
+std::vector<std::string> label_lines(const std::string& label, double length, const Typesetter& typesetter) {
+  if (label.empty()) return {};
+  const std::size_t unit = label.rfind(" (");
+  if (unit == label.npos || typesetter.measure(label, kTextSize).width <= length + kOverhang) return {label};
+  return {label.substr(0, unit), label.substr(unit + 1)};
+}
+
 /// Every place, or every second, third, ... as far as their names stand clear of each other.
 void name_places(const Axis& axis, double length, bool upright, const Typesetter& typesetter,
                  AxisPlan& plan) {
@@ -55,34 +65,8 @@ double widest_label(const AxisPlan& plan, const Typesetter& typesetter) {
   return widest;
 }
 
-}  // namespace
-
-Interval x_range(const Panel& panel) {
-  Interval range;
-  for (const Series& s : panel.series) {
-    for (const double x : s.x) widen(range, x);
-    for (const Interval& i : s.x_intervals) widen(range, i);
-  }
-  for (const Mark& mark : panel.x_marks) widen(range, mark.at);
-  for (const Tile& tile : panel.tiles) widen(range, tile.x);
-  return range;
-}
-
-Interval y_range(const Panel& panel) {
-  Interval range;
-  for (const Series& s : panel.series) {
-    for (const double y : s.y) widen(range, y);
-    for (const Interval& i : s.y_intervals) widen(range, i);
-  }
-  for (const Mark& mark : panel.y_marks) widen(range, mark.at);
-  for (const Band& band : panel.y_bands) widen(range, band.range);
-  for (const Dimension& dimension : panel.dimensions) widen(range, dimension.range);
-  for (const Tile& tile : panel.tiles) widen(range, tile.y);
-  return range;
-}
-
-AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
-                   const Typesetter& typesetter) {
+AxisPlan planned_scale(const Axis& axis, Interval data, double length, bool upright,
+                       const Typesetter& typesetter) {
   AxisPlan plan;
   const bool fixed = !std::isnan(axis.range.low);
   plan.range = fixed ? axis.range : with_room(data, 0.06);
@@ -115,6 +99,45 @@ AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
   return plan;
 }
 
+}  // namespace
+
+Interval x_range(const Panel& panel) {
+  Interval range;
+  for (const Series& s : panel.series) {
+    for (const double x : s.x) widen(range, x);
+    for (const Interval& i : s.x_intervals) widen(range, i);
+  }
+  for (const Mark& mark : panel.x_marks) widen(range, mark.at);
+  for (const Tile& tile : panel.tiles) widen(range, tile.x);
+  return range;
+}
+
+Interval y_range(const Panel& panel) {
+  Interval range;
+  for (const Series& s : panel.series) {
+    for (const double y : s.y) widen(range, y);
+    for (const Interval& i : s.y_intervals) widen(range, i);
+  }
+  for (const Mark& mark : panel.y_marks) widen(range, mark.at);
+  for (const Band& band : panel.y_bands) widen(range, band.range);
+  for (const Dimension& dimension : panel.dimensions) widen(range, dimension.range);
+  for (const Tile& tile : panel.tiles) widen(range, tile.y);
+  return range;
+}
+
+double label_thickness(const AxisPlan& plan, const Typesetter& typesetter) {
+  double thickness = 0.0;
+  for (const std::string& line : plan.lines) thickness += typesetter.measure(line, kTextSize).height();
+  return thickness;
+}
+
+AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
+                   const Typesetter& typesetter) {
+  AxisPlan plan = planned_scale(axis, data, length, upright, typesetter);
+  if (upright) plan.lines = label_lines(plan.label, length, typesetter);
+  return plan;
+}
+
 Margins side_margins(const Panel& panel, const Typesetter& typesetter) {
   const AxisPlan x = plan_axis(panel.x, x_range(panel), 1000.0, false, typesetter);
   const AxisPlan y = plan_axis(panel.y, y_range(panel), panel.height, true, typesetter);
@@ -123,7 +146,7 @@ Margins side_margins(const Panel& panel, const Typesetter& typesetter) {
   for (const std::string& name : panel.y.categories)
     labels = std::max(labels, typesetter.measure(name, kTextSize).width);
   margins.left = labels + 2 * kSpace;
-  if (!y.label.empty()) margins.left += typesetter.measure(y.label, kTextSize).height() + kSpace;
+  if (!y.lines.empty()) margins.left += label_thickness(y, typesetter) + kSpace;
   margins.right = widest_label(x, typesetter) / 2;
   for (const std::string& remark : panel.y.remarks)
     margins.right = std::max(margins.right, typesetter.measure(remark, kTextSize).width + 2 * kSpace);

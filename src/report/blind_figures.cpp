@@ -104,18 +104,20 @@ Panel reliability_panel(const BlindCalibration& c) {
 
 Panel abstention_panel(const BlindScore& s) {
   Panel p;
-  p.title = "Abstaining below a probability";
-  p.x = {"decisions that are kept", "%", kPercent, {}, {}, {}};
-  p.y = {"of these, truth is in the group", "%", kPercent, {}, {}, {}};
+  p.title = "What a least probability keeps";
+  p.x = {"least probability that is believed", "%", kPercent, {}, {}, {}};
+  p.y = {"share", "%", kPercent, {}, {}, {}};
   p.height = 700.0;
-  Series line{"", model_free_style(), {}, {}};
-  line.marker = Marker::kDisc;
+  Series kept{"decisions kept", reference_style(), {}, {}},
+      right{"of these, truth is in the group", model_free_style(), {}, {}};
+  kept.marker = Marker::kCircle, right.marker = Marker::kDisc;
   for (const AbstentionPoint& a : s.abstention) {
     if (a.answered == 0) continue;
-    line.x.push_back(100.0 * a.answered / std::max(1, s.calibration.judged_on));
-    line.y.push_back(100.0 * a.right / a.answered);
+    kept.x.push_back(100.0 * a.threshold), right.x.push_back(100.0 * a.threshold);
+    kept.y.push_back(100.0 * a.answered / std::max(1, s.calibration.judged_on));
+    right.y.push_back(100.0 * a.right / a.answered);
   }
-  p.series = {line};
+  p.series = {right, kept};
   return p;
 }
 

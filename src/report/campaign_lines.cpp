@@ -52,10 +52,10 @@ double log_percent(double error) { return error > 0.0 ? std::log10(100.0 * error
 
 /// Decades of percent, with the error that half of the runs and that nine in ten do not exceed.
 Panel error_panel(const CampaignSummary& s, const SummaryTable& table) {
-  Panel p = panel("Error: median, and what 90 % stay below", s.axes[table.a], "|error|");
+  Panel p = panel("Error: median and 90 % limit", s.axes[table.a], "|error|");
   p.series = series_of(s, table, [](const EstimatorScore& e) { return log_percent(e.median_error); });
   for (Series& high : series_of(s, table, [](const EstimatorScore& e) { return log_percent(e.error_90); })) {
-    high.label.clear();
+    high.label += ", 90 % of the runs below";
     high.style.width = 2.0;
     high.marker = Marker::kNone;
     p.series.push_back(std::move(high));

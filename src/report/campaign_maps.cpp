@@ -83,7 +83,19 @@ void add_disagreement(FigureData& figure, const CampaignSummary& s, const Summar
     nearer.tiles.push_back(tile_at(c.a, c.b, {won, std::isnan(won) ? kNaN : 0.0}));
   }
   figure.panels.push_back(std::move(apart));
-  figure.panels.push_back(std::move(nearer));
+  const bool any = std::any_of(table.cells.begin(), table.cells.end(),
+                               [](const SummaryCell& c) { return c.disagree > 0; });
+  if (any) figure.panels.push_back(std::move(nearer));
+}
+
+/// " of 25 runs in a cell", " of 3 to 25 runs in a cell"; of two runs a percentage says little.
+std::string runs_words(const SummaryTable& table) {
+  if (table.cells.empty()) return "";
+  const auto [fewest, most] =
+      std::minmax_element(table.cells.begin(), table.cells.end(),
+                          [](const SummaryCell& a, const SummaryCell& b) { return a.runs < b.runs; });
+  return fewest->runs == most->runs ? fmt::format(" of {} runs in a cell", most->runs)
+                                    : fmt::format(" of {} to {} runs in a cell", fewest->runs, most->runs);
 }
 
 /// How often an estimator is there for nearly every run, and how good it is then.
@@ -122,7 +134,8 @@ FigureData campaign_map(const CampaignSummary& s, const SummaryTable& table) {
   figure.file = fmt::format("map_{}_{}.png", table.a + 1, table.b + 1);
   figure.title =
       literal(s.name) + ": " + literal(s.axes[table.a].name) + " × " + literal(s.axes[table.b].name);
-  figure.lines = {"Numbers in percent; dark is bad; – where there is nothing to judge."};
+  figure.lines = {"Numbers in percent" + runs_words(table) +
+                  "; dark is bad; – where there is nothing to judge."};
   figure.columns = static_cast<int>(estimators.size());
   figure.width = 1600.0 * static_cast<double>(estimators.size());
   add_row(figure, s, table, "median |error| (%)", error_look);

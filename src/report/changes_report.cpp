@@ -51,12 +51,14 @@ std::vector<std::string> short_names(const std::vector<std::string>& folders) {
 }
 
 /// One estimator's readings; of a gap that was denied the smallest that would have shown, as an upper limit.
-void add_series(const DriveQuantity& q, Panel& panel) {
+/// @param aside  of its reports' names: beside another estimator's
+void add_series(const DriveQuantity& q, double aside, Panel& panel) {
   const bool model_free = q.from == "model_free", play = q.key != "gap";
   const LineStyle style = model_free ? model_free_style() : reference_style();
   Series read, denied;
   read.label = estimator(q) + (play ? " (play at zero torque)" : "");
   read.style = {style.colour, style.width, play ? std::vector<double>{4.0, 8.0} : style.dashes};
+  read.joined = q.observed.size() > 2;  // between two a line says nothing
   read.marker = !model_free ? Marker::kCircle : play ? Marker::kTriangleUp : Marker::kDisc;
   denied.label = estimator(q) + (play ? ": no play above" : ": none above");
   denied.style = {kGrey, style.width, {}};
@@ -64,7 +66,7 @@ void add_series(const DriveQuantity& q, Panel& panel) {
   denied.joined = false;
   for (std::size_t i = 0; i < q.observed.size(); ++i) {
     const Observation& o = q.observed[i];
-    const double x = static_cast<double>(i + 1) + (model_free ? -kLabelAside : kLabelAside);
+    const double x = static_cast<double>(i + 1) + aside;
     read.x.push_back(x);
     read.y.push_back(o.value);
     read.y_intervals.push_back(o.remark.empty() ? o.ci95 : Interval{});
@@ -100,8 +102,9 @@ FigureData gap_over_recordings(const DriveChanges& all) {
   for (const std::string& name : short_names(all.reports))
     panel.x.places.push_back({static_cast<double>(panel.x.places.size() + 1), literal(name)});
   panel.y.unit = all.coordinates.position_unit();
+  const auto gaps = std::count_if(all.quantities.begin(), all.quantities.end(), is_gap);
   for (const DriveQuantity& q : all.quantities)
-    if (is_gap(q)) add_series(q, panel);
+    if (is_gap(q)) add_series(q, gaps < 2 ? 0.0 : q.from == "model_free" ? -kLabelAside : kLabelAside, panel);
   const bool plays = all.find("model_free", "play_at_zero_torque") != nullptr;
   panel.y.name = plays ? "backlash gap $2β$, play" : "backlash gap $2β$";
   panel.height = 620.0;

@@ -110,7 +110,7 @@ FigureData diagnosis_detectable(const DiagnosisResult& r) {
   }
   const std::string torque = r.coordinates.torque_word();
   Panel panel;
-  panel.x = {"rms " + torque + " of that amount, of the input's", "%", decades(r, effects), {}, {}};
+  panel.x = {"rms " + torque + " of that amount, share of the input's", "%", decades(r, effects), {}, {}};
   panel.x.places = log_places(panel.x.range, {1.0});
   if (!torque_note(r.input).empty())
     panel.title = "Amounts in " + r.coordinates.shown_unit("N m") + ": " + torque_note(r.input);

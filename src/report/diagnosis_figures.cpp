@@ -65,7 +65,7 @@ Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::v
   share.stems = true;
   share.marker = Marker::kDisc, expected.marker = Marker::kCircle;
   for (std::size_t i = 0; i < map.size(); ++i) {
-    panel.y.categories.push_back(typeset(replaced(map[i].bin, "..", "–")));
+    panel.y.categories.push_back(typeset(range_words(map[i].bin)));
     panel.y.remarks.push_back(fmt::format("{:.0f} %", 100.0 * map[i].share));
     const double row = static_cast<double>(i);
     share.x.push_back(map[i].share), share.y.push_back(row);
@@ -86,6 +86,11 @@ bool says_nothing(const std::vector<MapShare>& map) {
                      [](const MapShare& m) { return std::abs(m.share - m.expected) < kAlike; });
 }
 
+/// Each of its steps is a new start.
+std::string error_title(const std::vector<MismatchMeasure>& measures) {
+  return "Error of the " + (measures.empty() ? std::string("restarted free run") : measures.front().name);
+}
+
 /// "0.99"; no minus before a zero.
 std::string share_text(double share) {
   if (!std::isfinite(share)) return "diverges";
@@ -100,7 +105,7 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   figure.title = "Errors on held-out data";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
-  figure.panels.push_back(pair_panel(r, *t, "Error of restarted free runs",
+  figure.panels.push_back(pair_panel(r, *t, error_title(r.diagnosis.measures),
                                      {position_name(r) + " − free run", length_unit(r), {}, {}, {}},
                                      t->error_before, t->error_after));
   const ErrorBudget& budget = r.diagnosis.budget;
@@ -130,7 +135,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   const std::size_t shown = std::min(kShownCandidates, ranking.size());
   panel.title = "Share of the way to the floor";
   if (shown < ranking.size()) panel.title += fmt::format(": first {} of {}", shown, ranking.size());
-  panel.x = {"explained share", "", {-0.25, 1.1}, {}, {}};
+  panel.x = {"explained share", "", {-0.25, 1.3}, {}, {}};
   Series s{"", {kBlue, 4.0, {}}, {}, {}};
   s.joined = false, s.marker = Marker::kDisc, s.stems = true;
   for (std::size_t i = 0; i < shown; ++i) {

@@ -29,14 +29,14 @@ std::string measures_table(const DiagnosisResult& r) {
                         std::isfinite(m.floor) ? quantity_beside(m.floor, m.before, unit) : "–");
   }
   const MismatchSize& g = r.diagnosis.mismatch;
-  text += fmt::format("\nThe answer is of the {}. Its floor, {}, is the {}{}{}.", g.measure,
+  text += fmt::format("\nThe answer rests on this one: {}. Its floor, {}, is the {}{}{}.", g.measure,
                       quantity(g.floor, r.coordinates.position_unit()), floor_name(g.floor_from),
                       g.floor_of.empty() ? "" : ": ", g.floor_of);
   if (std::isfinite(g.shrink)) {
-    text += fmt::format(" The error shrinks by {}", rounded(g.shrink));
+    text += fmt::format(" The error above the floor shrinks by {:.0f} %", 100.0 * g.shrink);
     if (std::isfinite(g.shrink_ci95.low))
-      text += fmt::format(" (95 %: {} to {}, for this kind of excitation)", rounded(g.shrink_ci95.low),
-                          rounded(g.shrink_ci95.high));
+      text += fmt::format(" (95 %: {:.0f} to {:.0f} %, for this kind of excitation)",
+                          100.0 * g.shrink_ci95.low, 100.0 * g.shrink_ci95.high);
     text += fmt::format("; what remains is {} times the {}, {}.", rounded(g.remains),
                         floor_name(g.floor_from), r.diagnosis.remaining.headline);
   }
@@ -64,14 +64,6 @@ std::string closed_loop_table(const DiagnosisResult& r) {
 bool is_left_out(const NamedValue& p) {
   return (p.key.find("_harmonic") != std::string::npos && p.value == 0.0) ||
          (p.key == "periods_per_turn" && p.value == 1.0);
-}
-
-/// Without the SI unit of a rotation at its end: the unit follows. "level_nm" reads "level".
-std::string name_of_key(const std::string& key) {
-  for (const char* unit :
-       {"_nms_rad", "_nm_rad", "_rad_s", "_nms2", "_nms", "_nm", "_rad", "_hz", "_w", "_s"})
-    if (key.ends_with(unit)) return readable(key.substr(0, key.size() - std::string_view(unit).size()));
-  return readable(key);
 }
 
 std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
@@ -135,11 +127,26 @@ std::string number_cells(const NamedValue& p, Coordinates coordinates) {
   return name_of_key(p.key) + " | " + with_interval(p.value, p.ci95, own.shown_unit(p.unit));
 }
 
+/// The later effect that contains this one, and has its numbers.
+const AddedEffect* with_these_numbers(const AddedEffect& a, const std::vector<AddedEffect>& added) {
+  for (const AddedEffect& other : added) {
+    const EffectEntry* entry = find_effect(other.effect);
+    const EffectEntry* simpler = entry == nullptr ? nullptr : find_effect(a.effect);
+    if (&other != &a && simpler != nullptr && contained_effect(*entry) == simpler) return &other;
+  }
+  return nullptr;
+}
+
 /// The numbers of what was added, each with its interval.
 std::string added_table(const DiagnosisResult& r) {
   std::string text;
-  for (const AddedEffect& a : r.diagnosis.added) {
+  const std::vector<AddedEffect>& added = r.diagnosis.added;
+  for (const AddedEffect& a : added) {
     std::string effect = fmt::format("`{}` ({})", a.effect, a.established ? "established" : "cause open");
+    if (const AddedEffect* other = with_these_numbers(a, added)) {
+      text += fmt::format("| {} | | within `{}` |\n", effect, other->effect);
+      continue;
+    }
     for (const NamedValue& p : a.parameters) {
       if (is_left_out(p)) continue;
       text += fmt::format("| {} | {} |\n", effect, number_cells(p, r.coordinates));
@@ -203,7 +210,7 @@ std::string blame_table(const DiagnosisResult& r) {
   if (r.diagnosis.blame.empty()) return "";
   std::string text =
       "\n## Parameters biased by what was missing\n\n| parameter | nominal model | with all that was added | "
-      "bias of the first |\n|---|---|---|---|\n";
+      "bias of the nominal model |\n|---|---|---|---|\n";
   const auto bias = [](const BlameShift& b) { return 100.0 * (b.without - b.with) / std::abs(b.with); };
   std::vector<double> all;
   for (const BlameShift& b : r.diagnosis.blame) all.push_back(bias(b));

@@ -12,7 +12,8 @@ constexpr double kBetween = 34.0;  // rows, and columns
 constexpr double kFarFromTicks = 120.0;
 
 /// Breaks a text into lines no wider than `width`; never within a formula.
-std::vector<std::string> wrapped(const std::string& text, double width, const Typesetter& typesetter) {
+std::vector<std::string> wrapped(const std::string& text, double width, const Typesetter& typesetter,
+                                 double size = kTextSize, bool bold = false) {
   std::vector<std::string> lines;
   std::istringstream words(text);
   std::string word, part;
@@ -20,7 +21,7 @@ std::vector<std::string> wrapped(const std::string& text, double width, const Ty
     word += (word.empty() ? "" : " ") + part;
     if (std::count(word.begin(), word.end(), '$') % 2 != 0) continue;
     const bool fits =
-        !lines.empty() && typesetter.measure(lines.back() + " " + word, kTextSize).width <= width;
+        !lines.empty() && typesetter.measure(lines.back() + " " + word, size, bold).width <= width;
     if (fits)
       lines.back() += " " + word;
     else
@@ -32,13 +33,21 @@ std::vector<std::string> wrapped(const std::string& text, double width, const Ty
 
 /// Everything in its place: the frames of a column begin at one line, those of a row share their upper edge.
 struct FigurePlan {
-  std::vector<std::string> titles;
+  std::vector<std::string> title;   // of the figure, in lines
+  std::vector<std::string> titles;  // of the panels
   std::vector<std::string> lines;
   std::vector<Margins> margins;  // of each panel
   std::vector<PanelPlan> panels;
   std::vector<Point> corners;
   double height = 0.0;
 };
+
+constexpr double kTitleRow = 1.25;  // of its letters
+
+double title_height(const FigurePlan& plan) {
+  const double rows = static_cast<double>(std::max<std::size_t>(1, plan.title.size()));
+  return kTitleSize * (1.0 + kTitleRow * (rows - 1.0));
+}
 
 std::string panel_title(const FigureData& figure, std::size_t i) {
   const std::string& title = figure.panels[i].title;
@@ -77,7 +86,9 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
       (figure.width - 2 * kRim - kBetween * static_cast<double>(columns - 1)) / static_cast<double>(columns);
   for (const std::string& line : figure.lines)
     for (std::string& part : wrapped(line, figure.width - 2 * kRim, typesetter)) plan.lines.push_back(part);
-  double y = kRim + 1.65 * kTitleSize + 1.35 * kTextSize * static_cast<double>(plan.lines.size());
+  plan.title = wrapped(figure.title, figure.width - 2 * kRim, typesetter, kTitleSize, true);
+  double y = kRim + title_height(plan) + 0.65 * kTitleSize +
+             1.35 * kTextSize * static_cast<double>(plan.lines.size());
   if (!plan.lines.empty()) y += kBetween;
   for (std::size_t first = 0; first < figure.panels.size(); first += columns) {
     double above = 0.0, below = 0.0;
@@ -101,9 +112,12 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
 }
 
 void paint(Canvas& canvas, const FigureData& figure, const FigurePlan& plan, const Typesetter& typesetter) {
-  canvas.text({kRim, kRim + kTitleSize}, figure.title, {kTitleSize, Align::kLeft, kInk, true});
+  for (std::size_t i = 0; i < plan.title.size(); ++i)
+    canvas.text({kRim, kRim + kTitleSize * (1.0 + kTitleRow * static_cast<double>(i))}, plan.title[i],
+                {kTitleSize, Align::kLeft, kInk, true});
   for (std::size_t i = 0; i < plan.lines.size(); ++i)
-    canvas.text({kRim, kRim + 1.5 * kTitleSize + (0.9 + 1.35 * static_cast<double>(i)) * kTextSize},
+    canvas.text({kRim, kRim + title_height(plan) + 0.5 * kTitleSize +
+                           (0.9 + 1.35 * static_cast<double>(i)) * kTextSize},
                 plan.lines[i], {kTextSize});
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
     draw_panel(canvas, figure.panels[i], plan.panels[i], plan.titles[i], plan.corners[i],

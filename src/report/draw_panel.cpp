@@ -73,10 +73,13 @@ class PanelPainter {
     if (panel_.x_labels && !plan_.x.label.empty())
       canvas_.text({frame_.centre().x, frame_.bottom() + plan_.below - 0.26 * kTextSize}, plan_.x.label,
                    {kTextSize, Align::kCentre});
-    if (plan_.y.label.empty()) return;
-    const double ascent = typesetter_.measure(plan_.y.label, kTextSize).ascent;
-    canvas_.text({frame_.x - left_margin + ascent, frame_.centre().y}, plan_.y.label,
-                 {kTextSize, Align::kCentre, kInk, false, true});
+    double x = frame_.x - left_margin;
+    for (const std::string& line : plan_.y.lines) {
+      const TextMetrics metrics = typesetter_.measure(line, kTextSize);
+      canvas_.text({x + metrics.ascent, frame_.centre().y}, line,
+                   {kTextSize, Align::kCentre, kInk, false, true});
+      x += metrics.height();
+    }
   }
 
   /// The strip above the frame: title, legend, names of the vertical marks.
@@ -214,7 +217,8 @@ class PanelPainter {
     std::vector<double> centres, halves;
     for (const Mark& mark : marks) {
       halves.push_back(typesetter_.measure(mark.label, kTextSize).width / 2 + kSpace / 2);
-      centres.push_back(std::clamp(x_of(mark.at), frame_.x + halves.back(), frame_.right() - halves.back()));
+      const double first = frame_.x + halves.back();  // a name longer than the frame begins with it
+      centres.push_back(std::clamp(x_of(mark.at), first, std::max(first, frame_.right() - halves.back())));
     }
     for (std::size_t i = 1; i < centres.size(); ++i)
       centres[i] = std::max(centres[i], centres[i - 1] + halves[i - 1] + halves[i]);

@@ -60,7 +60,7 @@ struct Floor {
 /// Those that are there, the largest first.
 std::vector<Floor> floors_of(const ErrorBudget& b) {
   std::vector<Floor> floors = {
-      {"repeatability", b.repeatability}, {"encoder", b.encoder}, {"records disagree", b.records}};
+      {"repeatability", b.repeatability}, {"encoder", b.encoder}, {"recordings disagree", b.records}};
   std::erase_if(floors, [](const Floor& f) { return !(f.size > 0.0); });
   std::stable_sort(floors.begin(), floors.end(),
                    [](const Floor& one, const Floor& other) { return one.size > other.size; });
@@ -89,7 +89,7 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
     return figure;
   }
   Panel panel;
-  panel.title = fmt::format("rms below {} Hz (of the input's)", rounded(b.band_hz, 2));
+  panel.title = fmt::format("Rms below {} Hz (% of the input's)", rounded(b.band_hz, 2));
   const std::vector<Floor> floors = floors_of(b);
   const double end = longest_bar(b), reach = kFarFloor * end;
   const bool seen = !floors.empty() && floors.front().size <= reach;
@@ -162,7 +162,7 @@ std::string budget_table(const DiagnosisResult& r) {
         "refitted in each of them.\n";
   std::vector<std::string> floors;
   for (const Floor& f : floors_of(b))
-    floors.push_back(fmt::format("{} {}", f.name, quantity_beside(f.size, b.nominal, budget_unit(r))));
+    floors.push_back(fmt::format("{} ({})", quantity_beside(f.size, b.nominal, budget_unit(r)), f.name));
   if (!floors.empty())
     text += fmt::format("\nFloors, which no model gets below: {}.\n", fmt::join(floors, ", "));
   return text;

@@ -25,7 +25,7 @@ Panel state_and_error(const ReportView& view) {
   panel.x = view.time_axis(view.window);
   panel.y = {"displacement", view.length_unit, {}, {}, {}};
   panel.height = 480.0;
-  panel.title = view.state.empty() ? "Estimation error" : "Backlash state";
+  panel.title = view.state.empty() ? "Estimation error" : view.state_title();
   double target = kNaN;
   if (!view.state.empty()) {
     const bool fitted = view.source == StateSource::kFitted;

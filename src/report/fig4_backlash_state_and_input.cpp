@@ -49,7 +49,7 @@ Panel over_time(const ReportView& view, const std::string& title, const Series& 
 
 Panel loop(const ReportView& view, const DriveSignal& drive, const LineStyle& style) {
   Panel panel;
-  panel.title = "Backlash state over input";
+  panel.title = view.state_title() + " over input";
   panel.x = drive.axis;
   panel.y = {view.state_name(), view.length_unit, {}, {}, {}};
   panel.height = 470.0;
@@ -99,7 +99,7 @@ FigureData fig4_backlash_state_and_input(const ReportView& view) {
   figure.panels.push_back(over_time(
       view, "Input", view.over_time("", input_style(), drive.values, view.window), drive.axis, turns.times));
   figure.panels.push_back(over_time(
-      view, "Backlash state", view.over_time("", style, view.state, view.window), state_axis, turns.times));
+      view, view.state_title(), view.over_time("", style, view.state, view.window), state_axis, turns.times));
   figure.panels.front().x_labels = false;
   figure.panels.push_back(loop(view, drive, style));
   figure.reading = reading(view, drive, turns);

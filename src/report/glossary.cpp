@@ -15,6 +15,9 @@ struct Word {
 
 /// In the order in which a reader meets them.
 constexpr Word kWords[] = {
+    {"reference", "reference",
+     "the model-based estimate: the model of the configuration, its free numbers fitted to the recording"},
+    {"set aside", "set aside", "of a passage: seen, but not used for the estimate"},
     {"passage", "passage", "the motor crosses the gap, from contact lost (t1) to contact regained (t2)"},
     {"e_x", "e_x, L",
      "position error of the super-twisting differentiator, and the bound on the acceleration that it is "
@@ -67,6 +70,11 @@ constexpr Word kWords[] = {
      "its share of the squared torque or force, times what periods beside it have"},
     {"holds there", "holds there", "improves more held-out windows than chance would let, at 1 %"},
     {"biased by", "bias", "what the nominal model reads too high or too low to make up for what it lacks"},
+    {"in engagement", "in engagement", "the contact is closed on either side: motor and load move as one"},
+    {"(established)", "established",
+     "of a cause: no other effect, and no free curve over another quantity, explains these recordings nearly "
+     "as well"},
+    {"(cause open)", "cause open", "it takes its share of the error, but another cause may do so as well"},
     {" σ |", "σ", "rms of the encoder's noise"},
     {"if spread evenly", "if spread evenly",
      "the share that an error alike at all times would have: that of the time spent there"}};

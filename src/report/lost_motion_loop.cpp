@@ -163,6 +163,18 @@ void add_play(const LoopFigure& f, Panel& panel) {
   for (const double y : {middle - half, middle + half}) panel.y_marks.push_back({y, guide_style(), ""});
 }
 
+/// Of the levels whose loop has them on both sides.
+void add_flanks(const LoopFigure& f, Panel& panel) {
+  const char* label = "loaded flank";
+  for (std::size_t level = 0; level < f.lost_motion.levels.size(); ++level) {
+    auto plus = flank_of(f, level, 1.0), minus = flank_of(f, level, -1.0);
+    if (!plus || !minus) continue;
+    plus->label = label, label = "";
+    panel.series.push_back(std::move(*plus));
+    panel.series.push_back(std::move(*minus));
+  }
+}
+
 std::string reading_of(const LoopFigure& f, bool flanks) {
   const std::string unit = f.view.length_unit;
   std::string text = fmt::format("At zero {} the two branches lie apart by {}", f.drive.name,
@@ -192,9 +204,7 @@ FigureData lost_motion_loop(const ReportView& view) {
   panel.x_marks.push_back({0.0, guide_style(), ""});
   for (std::size_t level = f.lost_motion.levels.size(); level-- > 0;)  // the small ones on top
     panel.series.push_back(loop_of(f, level));
-  for (std::size_t level = 0; level < f.lost_motion.levels.size(); ++level)
-    for (const double side : {1.0, -1.0})
-      if (auto flank = flank_of(f, level, side)) panel.series.push_back(std::move(*flank));
+  add_flanks(f, panel);
   add_play(f, panel);
   figure.reading = reading_of(f, panel.series.size() > f.lost_motion.levels.size());
   figure.panels.push_back(panel);

@@ -31,6 +31,12 @@ std::string drawn_recording(const ReportView& view) {
                      view.run.recordings.size());
 }
 
+/// Passages that were all set aside without a verdict look like estimates, and are none.
+bool has_something_to_compare(const ReportView& view) {
+  const bool denied = view.run.model_free && view.run.model_free->verdict == GapVerdict::kNone;
+  return denied || parameter(view.run, "gap") != nullptr || !view.accepted().empty();
+}
+
 /// What the card says of the gap, without the asides that a heading has no room for.
 std::string first_line(const RunResult& run) {
   return run.answer && !run.answer->card.gap.empty() ? run.answer->card.gap : headline(run);
@@ -55,7 +61,8 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   borrow(sheet, figures, "fig6_one_period.png", 1, 480.0, "Its estimation error");
   if (sheet.panels.size() < 3) borrow(sheet, figures, "fig5_displacement_and_error.png", 1, 420.0);
   borrow(sheet, figures, "lost_motion_loop.png", 0, 480.0, "Displacement against input");
-  for (const std::size_t i : {0u, 1u}) borrow(sheet, figures, "estimates.png", i, 400.0);
+  if (has_something_to_compare(view))
+    for (const std::size_t i : {0u, 1u}) borrow(sheet, figures, "estimates.png", i, 400.0);
   borrow(sheet, figures, "fig3_backlash_map.png", 1, 420.0, "Backlash map");
   borrow(sheet, figures, "residuals.png", 0, 420.0);
   if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");

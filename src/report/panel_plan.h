@@ -28,6 +28,7 @@ struct AxisPlan {
   Ticks ticks;  ///< in units of `factor`
   double factor = 1.0;
   std::string label;
+  std::vector<std::string> lines;  ///< the label of an upright axis, in two where it is longer than the axis
   std::vector<std::string> names;  ///< of the ticks, where they are named places
 
   double fraction(double value) const { return (value - range.low) / (range.high - range.low); }
@@ -39,6 +40,9 @@ struct AxisPlan {
 /// @param length of the axis [px]   @param upright true for the y axis
 AxisPlan plan_axis(const Axis& axis, Interval data, double length, bool upright,
                    const Typesetter& typesetter);
+
+/// Room that the label of an upright axis takes beside it.
+double label_thickness(const AxisPlan& plan, const Typesetter& typesetter);
 
 /// Range of all that a panel shows along x or y.
 Interval x_range(const Panel& panel);

@@ -16,7 +16,7 @@ Panel traced(const std::string& title, const Axis& y, const std::vector<double>&
              const std::vector<double>& values, const LineStyle& style) {
   Panel panel;
   panel.title = title;
-  panel.x = {"time", "s", {}, {}, {}, {}};
+  panel.x = {"time $t$", "s", {}, {}, {}, {}};
   panel.y = y;
   panel.height = 330.0;
   Series line;
@@ -27,10 +27,10 @@ Panel traced(const std::string& title, const Axis& y, const std::vector<double>&
   return panel;
 }
 
-Panel loop_of(const Recording& r, const Axis& position) {
+Panel loop_of(const Recording& r, const Axis& input, const Axis& position) {
   Panel panel;
   panel.title = "Position over input";
-  panel.x = {"input $u$", "", {}, {}, {}, {}};
+  panel.x = input;
   panel.y = position;
   panel.height = 480.0;
   Series line;
@@ -42,7 +42,10 @@ Panel loop_of(const Recording& r, const Axis& position) {
   return panel;
 }
 
-FigureData figure_of(const Recording& r, Coordinates coordinates, const std::vector<std::string>& lines) {
+FigureData figure_of(const Recording& r, Coordinates coordinates, const InputFacts& facts,
+                     const std::vector<std::string>& lines) {
+  const Axis input = {
+      "input $u$", facts.unit.empty() ? "units of $u$" : coordinates.shown_unit(facts.unit), {}, {}, {}, {}};
   FigureData figure;
   figure.file = "recording.png";
   figure.title = literal(r.file);
@@ -53,7 +56,7 @@ FigureData figure_of(const Recording& r, Coordinates coordinates, const std::vec
   const std::vector<double>& x = load ? r.x2 : r.x1;
   const Axis position = {
       load ? "position $x_2$" : "position $x_1$", coordinates.position_unit(), {}, {}, {}, {}};
-  figure.panels.push_back(traced("Input", {"$u$", "", {}, {}, {}, {}}, t, r.u, input_style()));
+  figure.panels.push_back(traced("Input", input, t, r.u, input_style()));
   figure.panels.push_back(traced("Position", position, t, x, measured_style()));
   if (!r.even()) {
     std::vector<double> steps(t.size());
@@ -62,16 +65,16 @@ FigureData figure_of(const Recording& r, Coordinates coordinates, const std::vec
     figure.panels.push_back(
         traced("Time from row to row", {"step", "s", {}, {}, {}, {}}, t, steps, guide_style()));
   }
-  if (!load) figure.panels.push_back(loop_of(r, position));
+  if (!load) figure.panels.push_back(loop_of(r, input, position));
   return figure;
 }
 
 }  // namespace
 }  // namespace internal::report
 
-std::string recording_picture(const Recording& recording, Coordinates coordinates,
+std::string recording_picture(const Recording& recording, Coordinates coordinates, const InputFacts& input,
                               const std::vector<std::string>& lines) {
-  return internal::report::picture_bytes(internal::report::figure_of(recording, coordinates, lines));
+  return internal::report::picture_bytes(internal::report::figure_of(recording, coordinates, input, lines));
 }
 
 }  // namespace gapscope

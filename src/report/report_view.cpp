@@ -139,4 +139,9 @@ std::string ReportView::state_name() const {
   return source == StateSource::kFitted ? "$x_1 − x_2$, fitted" : "$x_1 − x_2$";
 }
 
+std::string ReportView::state_title() const {
+  const bool doubtful = source == StateSource::kFitted && run.reference && run.reference->rejected();
+  return doubtful ? "Backlash state of the rejected model" : "Backlash state";
+}
+
 }  // namespace gapscope::internal::report

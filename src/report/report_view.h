@@ -40,7 +40,8 @@ struct ReportView {
   Axis time_axis(const Interval& interval) const;
   bool reads_load() const { return recording && recording->encoder == EncoderSide::kLoad; }
   std::string position_name() const { return reads_load() ? "$x_2$" : "$x_1$"; }  ///< that estimators read
-  std::string state_name() const;  ///< "backlash state $x_1 − x_2$", fitted where it is
+  std::string state_title() const;  ///< "Backlash state", and whether the model that has it was rejected
+  std::string state_name() const;   ///< "backlash state $x_1 − x_2$", fitted where it is
 };
 
 }  // namespace gapscope::internal::report

@@ -187,9 +187,9 @@ FigureData residuals(const ReportView& view) {
   const std::string name = predicts(view) ? "prediction error" : "residual";
   figure.panels.push_back(correlation_panel(view, "Autocorrelation of the " + name, r, lags.step, false, band,
                                             "95 % of white noise"));
-  figure.panels.push_back(correlation_panel(view, "Correlation of the input with the " + name + " later",
+  figure.panels.push_back(correlation_panel(view, "Correlation of the " + name + " with the earlier input",
                                             with_input, lags.step, true, band * widening(view, r, lags),
-                                            "95 % where the input is not in it"));
+                                            "95 % if the input is not in it"));
   figure.reading = reading(view, residual, r);
   const auto& second = view.run.second_encoder;
   if (second && std::isfinite(second->rmse) && view.recording->x2.size() == view.fit->x2.size()) {

@@ -17,11 +17,16 @@ LineStyle simulator_style() { return {kVermillion, 4.0, {}}; }
 
 /// "20.0 ± 0.4 mN·m", with the name of the number where a row has several.
 std::string side_number(const DiagnosisResult& r, const ComparedNumber& n, bool drive, bool named) {
+  const double number = drive ? n.drive : n.simulator;
+  const Interval& ci95 = drive ? n.drive_ci95 : n.simulator_ci95;
+  if (!r.coordinates.rotational() && n.key == "periods_per_turn") {
+    const auto period = [](double cycles) { return 2.0 * kPi / cycles; };
+    return "period " + plus_minus(period(number), {period(ci95.high), period(ci95.low)}, "m");
+  }
   const bool phase = n.key.find("phase") != std::string::npos;  // an angle along a slide, too
   const std::string unit = (phase ? Coordinates() : r.coordinates).shown_unit(n.unit);
-  const std::string value =
-      plus_minus(drive ? n.drive : n.simulator, drive ? n.drive_ci95 : n.simulator_ci95, unit);
-  return named ? n.key + " " + value : value;
+  const std::string value = plus_minus(number, ci95, unit);
+  return named ? name_of_key(n.key) + " " + value : value;
 }
 
 std::string side_text(const DiagnosisResult& r, const SimulatorRow& row, bool drive) {
@@ -116,7 +121,7 @@ FigureData diagnosis_simulator(const DiagnosisResult& r) {
   if (!t.fitted.empty())
     motion.series.push_back(simulator_line("model fitted to the drive", reference_style(), t, t.fitted));
   motion.x_labels = false;
-  Panel errors = simulator_panel(r, t, "What they are off the drive by", "$x_1$ − drive");
+  Panel errors = simulator_panel(r, t, "Difference from the drive", "$x_1$ − drive");
   errors.series.push_back(simulator_line("your simulator", simulator_style(), t, off_by(t.simulator, t.x1)));
   if (!t.fitted.empty())
     errors.series.push_back(

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "gapscope/base/statistics.h"
 #include "report/budget_band.h"
 #include "report/diagnosis_figures.h"
 #include "report/diagnosis_words.h"
@@ -14,14 +15,17 @@ namespace {
 
 constexpr std::size_t kPoints = 600;  ///< of a panel
 constexpr int kCurveBins = 40;
-constexpr double kEdge = 0.955;    ///< of the axis: where points that lie outside are marked
-constexpr double kRoom = 1.05;     ///< above what is drawn
-constexpr double kOwnScale = 0.2;  ///< of the peak before: what is smaller after is drawn to its own scale
+constexpr std::size_t kFewest = 2;  ///< samples of a bin that the curve goes through
+constexpr double kAtRest = 0.005;   ///< of the largest speed, that is none
+constexpr double kEdge = 0.955;     ///< of the axis: where points that lie outside are marked
+constexpr double kRoom = 1.05;      ///< above what is drawn
+constexpr double kOwnScale = 0.2;   ///< of the peak before: what is smaller after is drawn to its own scale
 
 /// The held-out samples that are drawn.
 struct Sampled {
   std::vector<double> position, speed, input, before, after;
-  std::vector<bool> forward;
+  std::vector<int>
+      direction;  ///< by the speed: over it the two directions lie on either side of zero; 0: rest
 };
 
 Sampled sampled(const ErrorBudget& budget, const MismatchTrace& t, bool both) {
@@ -34,8 +38,11 @@ Sampled sampled(const ErrorBudget& budget, const MismatchTrace& t, bool both) {
     const double speed = (t.x1[i + reach] - t.x1[i - reach]) / (t.time(i + reach) - t.time(i - reach));
     s.position.push_back(t.x1[i]), s.speed.push_back(speed), s.input.push_back(t.u[i]);
     s.before.push_back(before[i]), s.after.push_back(after[i]);
-    s.forward.push_back(t.x1[i] >= t.x1[i - step]);
   }
+  double fastest = 0.0;
+  for (const double speed : s.speed) fastest = std::max(fastest, std::abs(speed));
+  for (const double speed : s.speed)
+    s.direction.push_back(std::abs(speed) <= kAtRest * fastest ? 0 : speed > 0.0 ? 1 : -1);
   return s;
 }
 
@@ -51,8 +58,8 @@ class MapRow {
   void add(FigureData& figure, const std::string& over, const Axis& x, const std::vector<double>& of,
            bool with_curve = true) const {
     std::vector<Series> curves;
-    for (const bool forward : {true, false})
-      if (both_ && with_curve) add_curve(curves, of, forward);
+    for (const int direction : {1, -1})
+      if (both_ && with_curve) add_curve(curves, of, direction);
     double law = 0.0;
     for (const Series& curve : curves)
       for (const double y : curve.y) law = std::max(law, std::abs(y));
@@ -78,14 +85,15 @@ class MapRow {
     panel.y = residual_axis(r_);
     if (peak > 0.0) panel.y.range = {-peak, peak};
     panel.height = 520.0;
-    Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}};
-    plus.joined = minus.joined = false;
-    plus.marker = Marker::kTriangleUp, minus.marker = Marker::kTriangleDown;
+    Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}},
+        rest{"at rest", {kGrey, 2.0, {}}, {}, {}};
+    plus.joined = minus.joined = rest.joined = false;
+    plus.marker = Marker::kTriangleUp, minus.marker = Marker::kTriangleDown, rest.marker = Marker::kCross;
     for (std::size_t i = 0; i < of.size(); ++i) {
-      Series& s = s_.forward[i] ? plus : minus;
+      Series& s = s_.direction[i] > 0 ? plus : s_.direction[i] < 0 ? minus : rest;
       s.x.push_back(of[i]), s.y.push_back(residual[i]);
     }
-    for (Series& s : std::array{plus, minus})
+    for (Series& s : std::array{plus, minus, rest})
       if (!s.x.empty()) panel.series.push_back(s);
     add_outside(panel, of, residual, peak);
     return panel;
@@ -107,22 +115,23 @@ class MapRow {
     if (!outside.x.empty()) panel.series.push_back(outside);
   }
 
-  /// What was added takes of it: means over bins of one direction.
-  void add_curve(std::vector<Series>& curves, const std::vector<double>& of, bool forward) const {
+  /// What was added takes of it: medians over bins of one direction. One sample is no law: at a reversal the
+  /// residual is soon that of the other direction.
+  void add_curve(std::vector<Series>& curves, const std::vector<double>& of, int direction) const {
     const auto [low, high] = std::minmax_element(of.begin(), of.end());
     if (of.empty() || !(*high > *low)) return;
-    std::array<double, kCurveBins> sums{}, counts{};
+    std::array<std::vector<double>, kCurveBins> taken, places;
     for (std::size_t i = 0; i < of.size(); ++i) {
-      if (s_.forward[i] != forward || !std::isfinite(s_.before[i] - s_.after[i])) continue;
+      if (s_.direction[i] != direction || !std::isfinite(s_.before[i] - s_.after[i])) continue;
       const auto bin =
           static_cast<std::size_t>(std::min(kCurveBins - 1.0, kCurveBins * (of[i] - *low) / (*high - *low)));
-      sums[bin] += s_.before[i] - s_.after[i], counts[bin] += 1.0;
+      taken[bin].push_back(s_.before[i] - s_.after[i]), places[bin].push_back(of[i]);
     }
-    Series curve{forward ? "taken by what was added" : "", {kInk, 4.0, {}}, {}, {}};
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      if (counts[i] == 0.0) continue;
-      curve.x.push_back(*low + (*high - *low) * (static_cast<double>(i) + 0.5) / kCurveBins);
-      curve.y.push_back(sums[i] / counts[i]);
+    Series curve{direction > 0 ? "taken by what was added" : "", {kInk, 4.0, {}}, {}, {}};
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+      if (taken[i].size() < kFewest) continue;
+      curve.x.push_back(median(places[i]));  // not the bin's middle: that of zero speed has both directions
+      curve.y.push_back(median(taken[i]));
     }
     if (!curve.x.empty()) curves.push_back(curve);
   }
@@ -167,8 +176,7 @@ FigureData diagnosis_torque_map(const DiagnosisResult& r) {
   const MismatchTrace* t = shown_trace(r);
   const ErrorBudget& budget = r.diagnosis.budget;
   const std::string band = t == nullptr ? "" : band_words(budget, *t);
-  figure.title =
-      "Residual " + torque_word(r) + band + " over the " + angle_word(r) + ", the speed and the input";
+  figure.title = "Residual " + torque_word(r) + band;
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
   const bool both = added(r) && t->torque_after.size() == t->x1.size();
   const Sampled s = sampled(budget, *t, both);

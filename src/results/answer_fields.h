@@ -39,6 +39,7 @@ void fields(Archive& archive, Answer& a) {
   archive.choice("from", a.from,
                  Words<AnswerSource>{{AnswerSource::kModelFree, "model_free"},
                                      {AnswerSource::kReference, "reference"},
+                                     {AnswerSource::kDiagnosis, "diagnosis"},
                                      {AnswerSource::kNone, "none"}});
   archive.choice(
       "trust", a.trust,

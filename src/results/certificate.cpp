@@ -35,6 +35,7 @@ void fields(Archive& archive, TargetError& e) {
 template <class Archive>
 void fields(Archive& archive, StepLimits& l) {
   archive("integrator", l.integrator);
+  archive("against_itself", l.against_itself);
   archive("largest_step_s", l.largest);
   archive("within_encoder_step_s", l.within_encoder);
 }

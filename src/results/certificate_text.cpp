@@ -44,9 +44,10 @@ std::string limits_list(const Certificate& c) {
   std::string text;
   for (const StepLimits& l : c.limits) {
     text += fmt::format(
-        "- {}: the largest step that it stands is {} (beyond, the error exceeds a tenth of the "
-        "travel); ",
-        l.integrator, in_milliseconds(l.largest));
+        "- {}: the largest step that it stands is {} ({}); ", l.integrator, in_milliseconds(l.largest),
+        l.against_itself ? "beyond, it leaves its own motion at the finest step by a tenth of the travel; "
+                           "from the model it is farther than that at any step"
+                         : "beyond, the error exceeds a tenth of the travel");
     text += std::isnan(l.within_encoder)
                 ? "no listed step is within the encoder.\n"
                 : fmt::format("within the encoder from {} down.\n", in_milliseconds(l.within_encoder));

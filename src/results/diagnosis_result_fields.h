@@ -195,6 +195,16 @@ void fields(Archive& archive, ClosedLoop& c) {
 }
 
 template <class Archive>
+void fields(Archive& archive, ModelGap& g) {
+  archive.choice("origin", g.origin,
+                 Words<GapOrigin>{{GapOrigin::kNone, "one_body"},
+                                  {GapOrigin::kGiven, "given"},
+                                  {GapOrigin::kEstimated, "estimated"}});
+  archive("value_rad", g.value);
+  archive("ci95_rad", g.ci95);
+}
+
+template <class Archive>
 void fields(Archive& archive, BlameShift& b) {
   archive("unit", b.unit);
   archive("without", b.without);
@@ -254,6 +264,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("group", g.group);
   archive.list("added", g.added);
   archive.single("gap", g.mismatch);
+  archive.seldom("model_gap", g.model_gap);
   archive("undetermined_rad", g.undetermined);
   archive.single("error_budget", g.budget);
   archive.list("ranking", g.ranking);

@@ -1,9 +1,19 @@
 #include "gapscope/results/drive_card.h"
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
 namespace gapscope {
+namespace {
+
+/// The gap that the diagnosis tells, where the estimate beside it tells none.
+std::optional<Answer> better_than(const Answer* estimate, const DiagnosisResult& diagnosis) {
+  if (estimate != nullptr && (estimate->trust != AnswerTrust::kNone || !std::isnan(estimate->gap))) return {};
+  return answer_of_diagnosis(diagnosis.diagnosis, diagnosis.coordinates);
+}
+
+}  // namespace
 
 Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
   CardFacts facts;
@@ -14,7 +24,11 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
     if (run->answer) facts.tolerance = run->answer->tolerance;
     facts.constant_guessed = run->input && run->input->constant_guessed;
   }
+  std::optional<Answer> better;
   if (diagnosis != nullptr) {
+    better = better_than(facts.answer, *diagnosis);
+    if (better) facts.answer = &*better;
+    facts.simulated = diagnosis->simulated ? &*diagnosis->simulated : nullptr;
     facts.diagnosis = &diagnosis->diagnosis;
     facts.coordinates = diagnosis->coordinates;
     facts.constant_guessed = diagnosis->input && diagnosis->input->constant_guessed;
@@ -33,6 +47,9 @@ void put_answer(DiagnosisResult& diagnosis, RunResult* beside) {
   Answer answer;
   answer.sentence = "The gap was not estimated.";
   if (beside != nullptr && beside->answer) answer = *beside->answer;
+  if (std::optional<Answer> better =
+          better_than(beside != nullptr && beside->answer ? &answer : nullptr, diagnosis))
+    answer = *better;
   if (diagnosis.answer) answer.tolerance = diagnosis.answer->tolerance;
   diagnosis.answer = answer;
   if (beside != nullptr && beside->answer) beside->answer->tolerance = answer.tolerance;

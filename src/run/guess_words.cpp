@@ -15,8 +15,8 @@ std::vector<std::string> guess_warnings(const Configuration& c) {
     warnings.push_back(
         key == "torque_constant"
             ? fmt::format(
-                  "torque_constant is a guess ({}): every {}, inertia, damping and stiffness that is told "
-                  "is off by the factor that it is off by; gaps, times and percentages are not.",
+                  "torque_constant is a guess ({}): every {}, inertia, damping and stiffness in this report "
+                  "scales with it; gaps, times and percentages do not.",
                   number, c.coordinates.torque_word())
             : fmt::format("{} is a guess ({}), and what is fitted beside it rests on that.", key, number));
   }

@@ -41,7 +41,7 @@ Remark no_impact_stands_out() {
 Remark no_reversal_before_impacts() {
   return {"no_reversal_before_impacts",
           "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the motion "
-          "rest at its reversals (trapezoid or triangle), or lower the frequency"};
+          "rest at its reversals (triangle or trapezoid), or lower the frequency"};
 }
 Remark passages_few_quanta_wide() {
   return {"passages_few_quanta_wide",
@@ -58,11 +58,12 @@ Remark few_samples_around_impacts() {
 Remark release_not_located() {
   return {"release_not_located",
           "the release before the impacts cannot be located; let the motion rest at its reversals "
-          "(trapezoid), lower the frequency, or use a finer encoder"};
+          "(triangle or trapezoid), lower the frequency, or use a finer encoder"};
 }
 Remark load_moves() {
   return {"load_moves",
-          "the load was moving between t1 and t2; let the motion rest at its reversals (trapezoid), or lower "
+          "the load was moving between t1 and t2; let the motion rest at its reversals (triangle or "
+          "trapezoid), or lower "
           "the frequency"};
 }
 Remark rests_alone() {
@@ -116,7 +117,7 @@ Remark too_slow(double visible) {
   const Remark limit =
       std::isfinite(visible)
           ? Remark("visible", "the impacts of a gap below {:.2g} [rad] would not show", {visible})
-          : Remark("nothing_visible", "the impact of no gap would show");
+          : Remark("nothing_visible", "no gap of any size would show");
   return Remark("too_slow",
                 "this recording shows no impacts (slow motion, a locked output or a coarse encoder): ") +
          limit +
@@ -213,10 +214,10 @@ Remark play_scatters(std::span<const Play> levels, double half_width) {
 Remark play_depends_on_level(std::span<const Play> levels, double limit) {
   const Remark gap = std::isfinite(limit)
                          ? Remark("limit",
-                                  "; friction or compliance makes up the difference, and no gap is "
-                                  "larger than {:.3g} [rad]",
+                                  "; the difference is friction or compliance, so the gap is at most {:.3g} "
+                                  "[rad]",
                                   {limit})
-                         : Remark("limit", "; friction or compliance makes up the difference");
+                         : Remark("limit", "; the difference is friction or compliance");
   return Remark("play_depends_on_level", "the play at zero torque depends on the torque level: ") +
          listed(levels) + gap +
          Remark("advice",

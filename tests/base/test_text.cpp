@@ -14,6 +14,9 @@ TEST(Text, IsReplacedWhereverItStandsAndNotInWhatReplacesIt) {
 
 TEST(Text, OfAnIdentifierIsReadable) {
   EXPECT_EQ(readable("motor_coulomb_friction"), "motor Coulomb friction");
+  EXPECT_EQ(name_of_key("stribeck_speed_rad_s"), "Stribeck speed");
+  EXPECT_EQ(range_words("34..51 mm/s"), "34–51 mm/s");
+  EXPECT_EQ(range_words("-62..53 mN m"), "-62 to 53 mN·m");
 }
 
 TEST(Text, OfAListIsFoundAsAWhole) {

@@ -24,9 +24,8 @@ TEST(Export, TakesTheFittedModelOfAReportIntoAFolderOfItsOwn) {
   ASSERT_EQ(place.run("fit drive.yaml -o report").status, 0);
   const auto made = place.run("export report --to mjcf -o mjcf --quiet");
   EXPECT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("mjcf/drive_fitted.xml"));
-  EXPECT_THAT(text_of(place.folder() / "mjcf/drive_fitted.xml"),
-              HasSubstr("<mujoco model=\"drive_fitted\">"));
+  EXPECT_THAT(made.out, HasSubstr("mjcf/drive.xml"));
+  EXPECT_THAT(text_of(place.folder() / "mjcf/drive.xml"), HasSubstr("<mujoco model=\"drive\">"));
   EXPECT_THAT(text_of(place.folder() / "mjcf/certificate.md"), HasSubstr("| `gap` | exact |"));
   const auto stored = nlohmann::json::parse(text_of(place.folder() / "mjcf/certificate.json"));
   EXPECT_EQ(stored["schema"], "gapscope.export/1");

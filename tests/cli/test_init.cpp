@@ -51,6 +51,22 @@ TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {
   EXPECT_THAT(yaml, Not(HasSubstr("SPOILS")));
 }
 
+/// A torque per torque is one, and known; where nothing is guessed nobody is sent to look for a guess.
+TEST(Init, AnInputInTorqueLeavesNothingToGuess) {
+  Workplace place;
+  const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
+  place.file("r.csv", one_body_csv(input));
+  const auto init = place.run("init r.csv --model one_body --input-unit 'N m' -o torque.yaml");
+  EXPECT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(init.out, Not(HasSubstr("GUESS")));
+  const std::string yaml = testing::text_of(place.folder() / "torque.yaml");
+  EXPECT_THAT(yaml, HasSubstr("torque_constant: 1  # u is in N m already"));
+  EXPECT_THAT(yaml, Not(HasSubstr("GUESS")));
+  const auto geared =
+      place.run("init r.csv --model one_body --input-unit 'N m' --gear-ratio 2 -o geared.yaml");
+  EXPECT_THAT(geared.out, HasSubstr("fill in what is marked GUESS")) << "at which shaft is that torque?";
+}
+
 TEST(Init, BeginsWithTheNumbersOfAMuJoCoModel) {
   Workplace place;
   TestEncoder encoder;
@@ -81,7 +97,7 @@ TEST(Init, AGapIsSeenAndLeftToTheFit) {
   encoder.rate = 1000.0, encoder.duration = 5.0, encoder.bits = 18, encoder.step = 2e-5;
   place.file("r.csv", testing::rows_of(record({}, sine(0.5814, 1.0), encoder)).csv());
   const std::string yaml = tried(place, "r.csv");
-  EXPECT_THAT(yaml, HasSubstr("the detector reads a gap of 0.01"));
+  EXPECT_THAT(yaml, ::testing::ContainsRegex("the detector reads a gap of 1[0-9.]+ mrad"));
   EXPECT_THAT(yaml,
               HasSubstr("gap: {estimate: true}"));  // the fit is to stand beside the detector, not on it
   EXPECT_THAT(place.run("detect drive.yaml").out, HasSubstr("backlash"));

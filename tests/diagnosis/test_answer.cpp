@@ -111,6 +111,16 @@ TEST(Answer, OfAModelThatCoastingBeatsAsksForTheSignFirst) {
   EXPECT_THAT(of(nullptr, &rejected).next.front(), HasSubstr("sign and the unit of u"));
 }
 
+/// The step says what the reason says: who is told to go faster is not sent to a slow triangle.
+TEST(Answer, OfASlowMotionAsksForAFasterOne) {
+  GapEstimate g = undecided();
+  g.reason = Remark("only_large_gaps", "could only have shown a large gap; use a faster excitation");
+  ASSERT_FALSE(of(&g, nullptr).next.empty());
+  EXPECT_THAT(of(&g, nullptr).next.front(), HasSubstr("record a faster motion"));
+  g.reason = Remark("few_passages", "too few passages");
+  EXPECT_THAT(of(&g, nullptr).next.front(), HasSubstr("a triangle or a sine with a dwell"));
+}
+
 TEST(Answer, OfABoundThatReadsNothingIsTheBoundToTry) {
   GapEstimate g = undecided();
   g.reason = Remark("bound_above_gap_mode", "no t1") +

@@ -3,6 +3,7 @@
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/diagnosis/simulator.h"
 
 namespace gapscope {
 namespace {
@@ -27,7 +28,7 @@ Diagnosis slide_diagnosis() {
              {"cogging_torque", false, {"cogging_torque", "torque_ripple"}, kNaN, {}, 0.5, {}, 2.0}};
   d.mismatch.before = 3e-3, d.mismatch.after = 1e-3, d.mismatch.floor = 1e-4;
   d.mismatch.before_torque = 10.0, d.mismatch.after_torque = 2.0, d.mismatch.input_torque = 50.0;
-  d.where.headline = "follows the direction of motion (55 % of it backward)";
+  d.where.headline = "changes with the direction of motion (55 % of it backward)";
   return d;
 }
 
@@ -46,10 +47,50 @@ TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
     EXPECT_THAT(line, HasSubstr("`gapscope diagnose CONFIG`"));
   EXPECT_TRUE(std::isnan(card.torque));
   Diagnosis d = slide_diagnosis();
-  d.fitted.parameters[place::kMassRatio].value = 1.0;
   EXPECT_EQ(card_of(facts_of(nullptr, &d)).gap, "Not estimated here; told by `gapscope run CONFIG`.");
-  d.fitted.parameters[place::kMassRatio].value = 0.0;
+  d.model_gap = ModelGap();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, HasSubstr("one body"));
+  d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The model takes it as known, 20 mm"));
+  d.model_gap = ModelGap{GapOrigin::kEstimated, 0.02, {0.018, 0.022}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The fitted model does not follow"));
+}
+
+TEST(Card, TellsTheGapOfADiagnosisWhoseModelFollows) {
+  Diagnosis d = slide_diagnosis();
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "it knows of none";
+  d.model_gap = ModelGap{GapOrigin::kEstimated, 0.02, {0.018, 0.022}};
+  d.mismatch.after = 1.2e-4;
+  const std::optional<Answer> good = answer_of_diagnosis(d, Coordinates());
+  ASSERT_TRUE(good.has_value());
+  EXPECT_EQ(good->trust, AnswerTrust::kGood);
+  EXPECT_EQ(good->from, AnswerSource::kDiagnosis);
+  EXPECT_EQ(good->sentence,
+            "The backlash gap is 20.0 mrad (95 %: 18.0 to 22.0) by the model that the diagnosis has fitted.");
+  d.mismatch.after = 5e-4;
+  EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited);
+  d.mismatch.after = 2e-3;
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "it is 20 floors off";
+  d.mismatch.after = 1.2e-4, d.model_gap->ci95 = {};
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "not determined";
+  d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "not its own";
+}
+
+TEST(Card, NamesWhatDiffersInTheUsersSimulator) {
+  const Diagnosis d = slide_diagnosis();
+  SimulatorComparison c;
+  c.sentence = "Your simulator lacks nothing that these recordings would show. And so on.";
+  CardFacts f = facts_of(nullptr, &d);
+  f.simulated = &c;
+  EXPECT_THAT(card_of(f).cause, EndsWith(" Your simulator lacks nothing that these recordings would show."));
+  c.rows.resize(3);
+  c.rows[0].differs = true, c.rows[0].sentence = "it has no cogging torque, the drive has (2 N)";
+  EXPECT_THAT(card_of(f).cause, EndsWith(" Your simulator has no cogging torque, the drive has (2 N)."));
+  c.rows[1].differs = c.rows[2].differs = true;
+  c.rows[0].sentence = "its motor inertia is 2 kg where the drive's is 3 kg";
+  EXPECT_THAT(card_of(f).cause, EndsWith(" Your simulator's motor inertia is 2 kg where the drive's is 3 kg; "
+                                         "2 more rows differ."));
 }
 
 TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
@@ -59,7 +100,7 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
       card.mismatch,
       "The model misses 10 N of force on held-out data, 20 % of the 50 N that the input brings; the error "
       "is 30 times the encoder floor.");
-  EXPECT_EQ(card.place, "Follows the direction of motion (55 % of it backward).");
+  EXPECT_EQ(card.place, "Changes with the direction of motion (55 % of it backward).");
   EXPECT_EQ(
       card.cause,
       "Motor Coulomb friction (established); cogging torque helps, its cause is open: it may as well be "
@@ -69,6 +110,18 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
             "`fitted.yaml` has them.");
   EXPECT_DOUBLE_EQ(card.percent, 20.0);
   EXPECT_DOUBLE_EQ(card.percent_after, 4.0);
+}
+
+TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
+  Diagnosis d = slide_diagnosis();
+  d.budget.nominal = 10.0, d.budget.records = 0.613, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
+  d.budget.input = 50.0, d.budget.remains = 2.0;
+  ASSERT_TRUE(d.budget.exists());
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
+              EndsWith("input brings; no model gets below 0.613 N, by which the recordings disagree."));
+  d.budget.records = 20.0;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, EndsWith("30 times the encoder floor."))
+      << "the floor is above what is missed";
 }
 
 TEST(Card, TellsTheAmountOfWhatHelps) {

@@ -9,6 +9,7 @@
 #include "diagnosis/study.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/text.h"
+#include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording.h"
 #include "independent_plant/severity.h"
@@ -73,11 +74,15 @@ TEST(Diagnosis, NamesMotorFrictionAndWhatTookTheBlameForIt) {
   EXPECT_EQ(d.fitted.effects.size(), 1u);
 }
 
-TEST(Diagnosis, TellsTheAmountWithItsInterval) {
+/// run rejects a model without that friction, and tells no gap; the model that has it tells one.
+TEST(Diagnosis, TellsAmountAndGapWithTheirIntervals) {
   const NamedValue& level = of_motor_friction().added.front().parameters.front();
   EXPECT_LT(level.ci95.high - level.ci95.low, 0.1 * level.value);
-  EXPECT_LT(level.ci95.low, level.value);
-  EXPECT_GT(level.ci95.high, level.value);
+  EXPECT_TRUE(level.ci95.low < level.value && level.value < level.ci95.high);
+  const std::optional<Answer> gap = answer_of_diagnosis(of_motor_friction(), Coordinates());
+  ASSERT_TRUE(gap.has_value());
+  EXPECT_EQ(gap->gap, of_motor_friction().fitted.parameters[place::kGap].value);
+  EXPECT_LT(gap->ci95.low, gap->gap);
 }
 
 TEST(Diagnosis, SpreadsTheSquaredErrorOverEachQuantity) {

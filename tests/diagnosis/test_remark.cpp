@@ -26,7 +26,7 @@ TEST(Remark, NamesParametersAtABound) {
   const ScoredModel before = model(10.0, 10.0);
   ScoredModel after = model(5.0, 5.0);
   after.fitted.at_bound = {"stiction_ratio"};
-  EXPECT_EQ(remark_on(after, before), "stiction_ratio at a bound");
+  EXPECT_EQ(remark_on(after, before), "stiction ratio at a bound");
   after = before;
   after.fitted.at_bound = {"width", "knee"};
   EXPECT_EQ(remark_on(after, before), "as without it; width, knee at a bound");

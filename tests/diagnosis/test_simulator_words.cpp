@@ -45,5 +45,26 @@ TEST(SimulatorWords, NameTheHalfStepThatEulerIsAhead) {
   EXPECT_THAT(said(delay_row(3.0e-3, 5.0e-3)), HasSubstr("a step late"));
 }
 
+TEST(SimulatorWords, WriteAmountsAsPeopleReadThem) {
+  SimulatorRow row = number_row("motor_damping", 2e-3, 1200.0);
+  row.numbers.front().unit = "N m s/rad";
+  EXPECT_EQ(said(row), "its motor damping is 1200 N·m s/rad where the drive's is 2 mN·m s/rad");
+}
+
+/// Nothing that would have to show differs; but where the model itself misses a side by far, nobody knows.
+TEST(SimulatorWords, SayThatSomethingMayHideWhereTheModelMissesASide) {
+  SimulatorComparison c;
+  c.errors.simulator = 3e-3;
+  c.rows = {number_row("motor_inertia", 1.0, 1.0)};
+  c.rows.front().differs = false;
+  EXPECT_THAT(sentence_beside(c, 2.0, 1.0, Coordinates()), HasSubstr("Your simulator lacks nothing"));
+  EXPECT_THAT(sentence_beside(c, 35.0, 1.0, Coordinates()),
+              ::testing::AllOf(HasSubstr("No row differs, but"), HasSubstr("leaves 35 floors on the drive"),
+                               HasSubstr("3 mrad rms off the drive")));
+  EXPECT_THAT(sentence_beside(c, 1.0, 35.0, Coordinates()), HasSubstr("35 floors on your simulator"));
+  c.rows.front().differs = true, c.rows.front().sentence = "its motor inertia is off";
+  EXPECT_THAT(sentence_beside(c, 35.0, 1.0, Coordinates()), HasSubstr("differs from the drive: its motor"));
+}
+
 }  // namespace
 }  // namespace gapscope::internal::diagnosis

@@ -210,6 +210,23 @@ TEST(Mjcf, NamesWhatItLeavesOutAndWhy) {
   EXPECT_THAT(certificate_text(c), HasSubstr("| `cogging_torque` | **left out** |"));
 }
 
+/// What it lacks takes it far from the model at any step; how large a step may be is told all the same.
+TEST(Mjcf, OfADriveThatItLacksMuchOfTellsTheStepsByItsOwnMotion) {
+  const DriveExport drive = export_drive(
+      rig_configuration(kTwoBodies,
+                        "  effects: [{cogging_torque: {amplitude_nm: 0.2, periods_per_turn: 24}}]\n"),
+      ExportFormat::kMjcf);
+  const Certificate& c = drive.certificate;
+  ASSERT_EQ(c.limits.size(), 2u);
+  ASSERT_GT(c.errors.front().max, 0.1 * c.travel) << "else nothing is asked";
+  for (const StepLimits& l : c.limits) {
+    EXPECT_TRUE(l.against_itself) << l.integrator;
+    EXPECT_GT(l.largest, 1e-4) << l.integrator;
+  }
+  EXPECT_GT(c.errors.size(), 8u);
+  EXPECT_THAT(certificate_text(c), HasSubstr("its own motion at the finest step"));
+}
+
 /// A load that friction holds against a torque: with the defaults it creeps, in the engine as foretold.
 TEST(Mjcf, WarnsOfTheCreepOfMuJoCosDefaults) {
   Judged judged(rig_configuration(kTwoBodies));

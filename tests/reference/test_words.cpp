@@ -37,7 +37,7 @@ std::vector<Remark> all_remarks() {
           words::not_determined("motor_damping", 0.1, "N m s/rad", "mass_ratio"),
           words::no_information("gap"),
           words::little_known("contact_stiffness", 40.0),
-          words::another_gap(0.01, "rad", 0.02),
+          words::another_gap(0.01, 0.02),
           words::values_move(words::between_recordings("a.csv", "b.csv"), {{"gap", 0.01, 0.02, "rad"}}),
           words::values_move(words::between_parts(3.0),
                              {{"gap", 0.01, 0.02, "rad"}, {"mass_ratio", 1.0, 2.0, "-"}}),

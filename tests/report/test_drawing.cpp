@@ -55,6 +55,24 @@ TEST(Drawing, IsTheSameEveryTime) {
   EXPECT_EQ(cv::norm(draw(figure), draw(figure), cv::NORM_INF), 0.0);
 }
 
+/// As of a torque whose unit rests on a guess, in panels that stand close above each other.
+TEST(Drawing, BreaksALabelOrATitleThatIsTooLong) {
+  FigureData figure;
+  figure.title =
+      "A title of a figure in one column that goes on and on, over the angle, the speed and the input";
+  for (int i = 0; i < 2; ++i) {
+    Panel& panel = figure.panels.emplace_back();
+    panel.height = 330.0, panel.x_labels = i == 1;
+    panel.x = {"time $t$", "s", {0.0, 1.0}, {}, {}};
+    panel.y = {"torque $K_m u$", "N·m", {-5.0, 5.0}, {}, {}, {}, "$K_m$ guessed"};
+  }
+  const Drawing drawing = draw_with_notes(figure);
+  expect_clear_texts(figure, drawing);
+  EXPECT_EQ(drawing.plans[0].y.lines, (std::vector<std::string>{"torque $K_m u$", "(N·m, $K_m$ guessed)"}));
+  figure.panels[0].height = figure.panels[1].height = 600.0;
+  EXPECT_EQ(draw_with_notes(figure).plans[0].y.lines.size(), 1u);
+}
+
 TEST(Drawing, PutsDataWhereTheAxesSay) {
   // One black disc in the middle of the axes must be in the middle of the frame.
   FigureData figure;

@@ -153,6 +153,14 @@ TEST(Overview, KeepsTheTitlesOfThePanelsThatItBorrows) {
                            [](const Panel& p) { return p.title == "Estimates with 95 % intervals"; }));
 }
 
+/// Where nothing is read and nothing is denied, marks of what was set aside would look like estimates.
+TEST(Overview, ShowsNoPassagesWithoutAVerdict) {
+  RunResult run = sample_run(
+      {.samples = 7500, .load_recorded = false, .fitted = false, .verdict = GapVerdict::kInconclusive});
+  for (GapEvent& e : run.model_free->events) e.accepted = false;
+  for (const Panel& p : all_figures(ReportView(run))[0].panels) EXPECT_NE(p.title, "Passage by passage");
+}
+
 TEST(Overview, BeginsWithWhatTheCardSaysOfTheGap) {
   RunResult run = sample_run({.samples = 7500});
   run.answer.emplace().sentence = "The gap is not known (for many reasons).";

@@ -92,6 +92,7 @@ DiagnosisResult sample() {
   d.where.periods_per_turn = 24.0;
   d.remaining.headline = "nowhere";
   d.blame = {{"motor_damping", "N m s/rad", 0.08, 0.06}};
+  d.model_gap = ModelGap{GapOrigin::kEstimated, kThird, {0.3, 0.4}};
   d.warnings = {"a warning"};
   d.observer_hz = 3.0;
   MismatchTrace t;
@@ -205,6 +206,10 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.where.mode[1].expected, 0.5);
   EXPECT_EQ(b.where.periods_per_turn, 24.0);
   EXPECT_EQ(b.blame[0].key, "motor_damping");
+  ASSERT_TRUE(b.model_gap.has_value());
+  EXPECT_EQ(b.model_gap->origin, GapOrigin::kEstimated);
+  EXPECT_EQ(b.model_gap->value, kThird);
+  EXPECT_EQ(b.model_gap->ci95.high, 0.4);
   ASSERT_EQ(b.traces.size(), 1u);
   EXPECT_EQ(b.traces[0].x1, a.traces[0].x1);
   EXPECT_EQ(b.traces[0].torque_after, a.traces[0].torque_after);

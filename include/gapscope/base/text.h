@@ -12,6 +12,12 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 /// An identifier for people: "motor_coulomb_friction" reads "motor Coulomb friction".
 std::string readable(const std::string& identifier);
 
+/// The key of a parameter for people, without the SI unit of a rotation at its end: "level_nm" reads "level".
+std::string name_of_key(const std::string& key);
+
+/// A range for people: "34..51 mm/s" reads "34–51 mm/s", "-62..-53 N m" reads "-62 to -53 N·m".
+std::string range_words(const std::string& range);
+
 /// Number of letters to insert, delete or replace to make one word of the other (Levenshtein).
 std::size_t edit_distance(const std::string& a, const std::string& b);
 

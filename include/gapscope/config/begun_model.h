@@ -1,10 +1,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "gapscope/config/configuration.h"
 
 namespace gapscope {
+
+/// What the name of a fitted model has beyond that of its drive.
+inline constexpr std::string_view kFittedSuffix = "_fitted";
 
 /// A model as a configuration that `simulate` runs, as model_yaml() has it, from a state that is known.
 std::string model_yaml(const Configuration& configuration, const ReferenceModel& model,

@@ -15,6 +15,7 @@ enum class StarterModel { kAsSeen, kGap, kLocked, kOneBody };
 /// A first configuration for a recording of which nothing else is known.
 struct Starter {
   std::string yaml;                   ///< run, fit, detect and diagnose accept it as it is
+  bool guesses = false;               ///< a number in it is marked GUESS
   std::string model;                  ///< which structure was chosen, and why
   std::vector<std::string> spoiling;  ///< what `check` says will spoil the estimates
 };

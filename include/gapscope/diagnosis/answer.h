@@ -11,10 +11,13 @@
 
 namespace gapscope {
 
-enum class AnswerSource { kModelFree, kReference, kNone };
+struct Diagnosis;
+
+/// kDiagnosis: the model with all that a diagnosis has added.
+enum class AnswerSource { kModelFree, kReference, kDiagnosis, kNone };
 enum class AnswerTrust { kGood, kLimited, kNone };
 
-const char* to_string(AnswerSource source);  ///< "model_free", "reference", "none"
+const char* to_string(AnswerSource source);  ///< "model_free", "reference", "diagnosis", "none"
 const char* to_string(AnswerTrust trust);    ///< "good", "limited", "none"
 
 /// What is the gap, can it be believed, and what should be done next.
@@ -41,5 +44,9 @@ struct Findings {
 /// that contradicts it, and before one that agrees and is less sharp; one that is limited behind any reading.
 /// Where they contradict each other the trust is limited.
 Answer answer_of(const Findings& findings);
+
+/// The gap of the model that a diagnosis has fitted, where that follows the held-out recordings and the
+/// fitted ones determine it: good at the floor, limited up to ten of it, nothing beyond.
+std::optional<Answer> answer_of_diagnosis(const Diagnosis& diagnosis, Coordinates coordinates);
 
 }  // namespace gapscope

@@ -13,6 +13,7 @@ namespace gapscope {
 struct Answer;
 struct Diagnosis;
 struct FitSummary;
+struct SimulatorComparison;
 
 /// `tolerance:` – what the user calls good enough. What is absent is not judged.
 struct Tolerance {
@@ -52,6 +53,7 @@ struct CardFacts {
   const Answer* answer = nullptr;
   const FitSummary* reference = nullptr;
   const Diagnosis* diagnosis = nullptr;
+  const SimulatorComparison* simulated = nullptr;  ///< the user's simulator, where its answer was given
   Coordinates coordinates;
   Tolerance tolerance;
   bool constant_guessed = false;  ///< torque_constant is a guess, and the torques rest on it

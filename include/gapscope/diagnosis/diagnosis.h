@@ -85,6 +85,18 @@ struct AddedEffect {
   double after_torque = kNaN;  ///< rms of the residual torque with it [N m]
 };
 
+/// Where the gap of a fitted model comes from: it is one body and has none, its configuration gives it, or
+/// the recordings do.
+enum class GapOrigin { kNone, kGiven, kEstimated };
+
+/// The backlash gap of the model with all that was added: of its coupling, or of an effect that gives one
+/// body a gap.
+struct ModelGap {
+  GapOrigin origin = GapOrigin::kNone;
+  double value = kNaN;  ///< 2β [rad]
+  Interval ci95;        ///< NaN where the fitted recordings do not determine it
+};
+
 /// What a nominal parameter reads with and without the effect: what it had to take the blame for.
 struct BlameShift {
   std::string key;
@@ -171,6 +183,7 @@ struct Diagnosis {
   std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
   std::vector<AddedEffect> added;    ///< the same effects, each with what it takes
   MismatchSize mismatch;
+  std::optional<ModelGap> model_gap;  ///< nothing: not told
   /// What the fitted recordings leave open of the held-out motion: standard deviation of the prediction [rad]
   double undetermined = kNaN;
   ErrorBudget budget;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
+#include "gapscope/base/input_facts.h"
 #include "gapscope/recording/recording.h"
 
 namespace gapscope {
@@ -12,7 +13,7 @@ namespace gapscope {
 /// and the position over the input.
 /// @param lines  stand below the title, in plain words
 /// @returns the bytes of a PNG
-std::string recording_picture(const Recording& recording, Coordinates coordinates,
+std::string recording_picture(const Recording& recording, Coordinates coordinates, const InputFacts& input,
                               const std::vector<std::string>& lines);
 
 }  // namespace gapscope

@@ -37,6 +37,9 @@ struct TargetError {
 /// What a target's step may be, of one integrator.
 struct StepLimits {
   std::string integrator;
+  /// The target is off the model by more at any step: the error meant below is then that to its own motion at
+  /// the finest listed step.
+  bool against_itself = false;
   double largest = kNaN;  ///< at which the error stays below a tenth of the travel [s]; NaN: not looked for
   double within_encoder =
       kNaN;  ///< the largest listed one at which, and below, it is within the encoder's floor [s]; NaN: none

@@ -1,0 +1,64 @@
+#include "config/starter_choice.h"
+
+#include <span>
+
+#include "gapscope/base/shown.h"
+#include "gapscope/sliding_mode/detector.h"
+
+namespace gapscope::internal::config {
+namespace {
+
+/// What the detector saw decides: a locked output is one whose position is a loop over the input.
+StarterChoice as_seen(const MotorTrace& trace, Coordinates coordinates) {
+  const GapEstimate g = detect_gap(std::span(&trace, 1));
+  if (g.method == GapMethod::kLostMotion)
+    return {StarterModel::kLocked, "locked output: x1 follows u in a loop"};
+  if (g.verdict == GapVerdict::kNone)
+    return {StarterModel::kOneBody,
+            "one body: a gap above " + coordinates.thousandths(g.none_above()) + " would have shown"};
+  if (g.verdict == GapVerdict::kBacklash)
+    return {StarterModel::kGap,
+            "gap and free load: the detector reads a gap of " + coordinates.thousandths(g.gap)};
+  if (g.reason.code() == "only_large_gaps")
+    return {StarterModel::kOneBody, "GUESS: one body; no impact shows, but " + g.reason.text(coordinates),
+            false};
+  return {StarterModel::kGap,
+          "GUESS: gap and free load; the detector is inconclusive (" + g.reason.text(coordinates) + ")",
+          false};
+}
+
+}  // namespace
+
+StarterChoice chosen_structure(StarterModel model, const MotorTrace& trace, EncoderSide encoder,
+                               Coordinates coordinates) {
+  switch (model) {
+    case StarterModel::kAsSeen:
+      if (encoder == EncoderSide::kLoad)
+        return {
+            StarterModel::kOneBody,
+            "GUESS: one body; whether there is a gap an encoder on the load does not tell without a model",
+            false};
+      return as_seen(trace, coordinates);
+    case StarterModel::kGap:
+      return {model, "gap and free load, as asked for"};
+    case StarterModel::kLocked:
+      return {model, "locked output, as asked for"};
+    case StarterModel::kOneBody:
+      return {model, "one body, as asked for"};
+  }
+  return {};
+}
+
+StarterChoice as_modelled(const JointNumbers& n, const MotorTrace& trace, EncoderSide encoder,
+                          Coordinates coordinates) {
+  const std::string where = "joint " + printable(n.joint, 40) + " of " + printable(n.model, 80);
+  if (n.gap > 0.0) return {StarterModel::kGap, "gap and free load, as " + where + " has them"};
+  if (encoder == EncoderSide::kLoad) return {StarterModel::kOneBody, "one body, as " + where + " has it"};
+  StarterChoice seen = as_seen(trace, coordinates);
+  if (!seen.seen || seen.structure == StarterModel::kOneBody)
+    return {StarterModel::kOneBody, "one body, as " + where + " has it"};
+  seen.why += "; " + where + " knows of none";
+  return seen;
+}
+
+}  // namespace gapscope::internal::config
