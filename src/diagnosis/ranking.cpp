@@ -128,7 +128,7 @@ Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& befor
   double other = before.score;
   for (const ScoredModel& c : ranked) {
     if (contained_effect(*c.entry) == best.entry) continue;  // it contains the best: parsimony has decided
-    const bool alike = &c == &best || look_alike(*c.entry, *best.entry);
+    const bool alike = look_alike(*c.entry, *best.entry) || (at_floor(c) && at_floor(best));
     if (c.score - best.score < (alike ? rule.tells_apart : rule.indistinct))
       d.group.push_back(c.entry);
     else
