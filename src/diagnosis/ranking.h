@@ -57,8 +57,8 @@ enum class Reach {
 };
 
 /// Whether the first candidate is what is missing: it leads all others that it can be told from, what was
-/// fitted asks for it, and it reaches what it must. Effects that both reach the floor are as hard to tell apart
-/// as look-alikes.
+/// fitted asks for it, and it reaches what it must. Effects that both reach the floor are as hard to tell
+/// apart as look-alikes.
 /// @param excluded_parents simpler effects that are no candidates, fitted all the same: a child that does no
 ///   better than its parent alone is the parent under another name, and is not accepted
 Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,

@@ -179,8 +179,7 @@ void drop_what_vanished(TorqueSearch& search) {
 /// that the balance has no law of may be mistaken for: the balance has not told these apart.
 bool is_asked_with(const std::vector<const EffectEntry*>& asked, const EffectEntry& entry) {
   return std::any_of(asked.begin(), asked.end(), [&](const EffectEntry* e) {
-    return e == &entry || contained_effect(*e) == &entry ||
-           (law_of(*e) == nullptr && look_alike(*e, entry));
+    return e == &entry || contained_effect(*e) == &entry || (law_of(*e) == nullptr && look_alike(*e, entry));
   });
 }
 

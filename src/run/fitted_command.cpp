@@ -14,7 +14,7 @@ namespace {
 
 /// "controller.position.gain 1.15 [1.13, 1.17] unit of u/rad"
 std::string told(const FittedParameter& p, const FitSummary& of) {
-  const std::string interval = of.rejected()     ? " (model rejected)"
+  const std::string interval = of.rejected()    ? " (model rejected)"
                                : p.identifiable ? fmt::format(" [{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high)
                                                 : " (not determined)";
   return fmt::format("{} {:.4g}{} {}", p.key, p.value, interval, p.unit);

@@ -117,9 +117,9 @@ TEST(TorqueBalance, HasTheSimulatorAskedForWhatItCannotTellApart) {
   const DiagnosisOptions options;
   Study study{{}, {}, {}, {}, 3.0, 0.0, {}, options};
   for (const EffectEntry* entry : effect_table()) study.catalogue.push_back(entry);
-  const auto asked = worth_refitting(study, led_by({"stribeck_friction", "presliding_friction",
-                                                    "constant_load_torque", "viscous_drift",
-                                                    "cogging_torque"}));
+  const auto asked =
+      worth_refitting(study, led_by({"stribeck_friction", "presliding_friction", "constant_load_torque",
+                                     "viscous_drift", "cogging_torque"}));
   const auto is_asked = [&](const char* name) {
     return std::find(asked.begin(), asked.end(), find_effect(name)) != asked.end();
   };
