@@ -128,7 +128,7 @@ Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& befor
   double other = before.score;
   for (const ScoredModel& c : ranked) {
     if (contained_effect(*c.entry) == best.entry) continue;  // it contains the best: parsimony has decided
-    const bool alike = look_alike(*c.entry, *best.entry) || (at_floor(c) && at_floor(best));
+    const bool alike = &c == &best || look_alike(*c.entry, *best.entry);
     if (c.score - best.score < (alike ? rule.tells_apart : rule.indistinct))
       d.group.push_back(c.entry);
     else
@@ -160,6 +160,24 @@ Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel&
       d.accepted = false, d.group.push_back(c.entry);
   d.in_part = d.accepted && reach == Reach::kFloor && leaves_a_part(ranked.front(), before, rule);
   d.accepted = d.accepted && !d.in_part;
+  return d;
+}
+
+Decision decide_among_equals(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
+                             std::span<const ScoredModel> excluded_parents, const DecisionRule& rule) {
+  const Decision as_ranked = decide_alone(ranked, before, reach, excluded_parents, rule);
+  if (as_ranked.accepted || ranked.empty() || !at_floor(ranked.front())) return as_ranked;
+  std::vector<ScoredModel> others = ranked;
+  std::vector<const EffectEntry*> equals;
+  std::erase_if(others, [&](const ScoredModel& c) {
+    const bool equal =
+        c.entry != ranked.front().entry && at_floor(c) && c.score - ranked.front().score < rule.tells_apart;
+    if (equal && contained_effect(*c.entry) != ranked.front().entry) equals.push_back(c.entry);
+    return equal;
+  });
+  Decision d = decide_alone(others, before, reach, excluded_parents, rule);
+  if (!d.accepted) return as_ranked;
+  d.group.insert(d.group.end(), equals.begin(), equals.end());
   return d;
 }
 

@@ -57,8 +57,7 @@ enum class Reach {
 };
 
 /// Whether the first candidate is what is missing: it leads all others that it can be told from, what was
-/// fitted asks for it, and it reaches what it must. Effects that both reach the floor are as hard to tell
-/// apart as look-alikes.
+/// fitted asks for it, and it reaches what it must.
 /// @param excluded_parents simpler effects that are no candidates, fitted all the same: a child that does no
 ///   better than its parent alone is the parent under another name, and is not accepted
 Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
@@ -68,6 +67,11 @@ Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& befor
 /// it is at best one of several.
 Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
                       std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
+
+/// The same where a torque balance stands beside the refits, and would answer if these did not. Those that
+/// reach the floor and do not differ by `tells_apart` are one group: what is missing is among them.
+Decision decide_among_equals(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
+                             std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
 
 /// Whether a candidate shrinks the held-out error beyond chance and by what is worth having, whatever its
 /// cause: by at least a part of the mean square, of which the 95 % interval over windows is above zero, in

@@ -87,18 +87,20 @@ ScoredModel with(const char* effect, double score, double median) {
   return j;
 }
 
-TEST(Decision, HasAllThatReachTheFloorInOneGroup) {
+TEST(Decision, HasAllThatReachTheFloorInOneGroupBesideATorqueBalance) {
   const ScoredModel before = model(5.0, 40.0, 5000.0);
   const ScoredModel best = with("stribeck_friction", 0.1, 1.0), far = with("cogging_torque", 3.0, 10.0);
-  const Decision both = decide({best, with("input_dead_zone", 0.3, 1.2), far}, before, Reach::kFloor, {});
+  const auto decided = [&](double score, double median) {
+    return decide_among_equals({best, with("input_dead_zone", score, median), far}, before, Reach::kFloor,
+                               {});
+  };
+  const Decision both = decided(0.3, 1.2);
   EXPECT_TRUE(both.accepted);
   EXPECT_EQ(both.group, (std::vector{best.entry, find_effect("input_dead_zone")}));
   EXPECT_NEAR(both.margin, 2.9, 1e-12) << "to the first that does not reach it";
-  const Decision above = decide({best, with("input_dead_zone", 0.3, 1.4), far}, before, Reach::kFloor, {});
-  EXPECT_FALSE(above.accepted);
-  const Decision apart = decide({best, with("input_dead_zone", 0.45, 1.2), far}, before, Reach::kFloor, {});
-  EXPECT_TRUE(apart.accepted);
-  EXPECT_EQ(apart.group.size(), 1u) << "what a recording tells apart at the floor, too";
+  EXPECT_FALSE(decided(0.3, 1.4).accepted) << "one that comes near it";
+  EXPECT_TRUE(decided(0.45, 1.2).accepted);
+  EXPECT_EQ(decided(0.45, 1.2).group.size(), 1u) << "what a recording tells apart at the floor, too";
 }
 
 torque_view::Budget led_by(std::initializer_list<const char*> laws) {
