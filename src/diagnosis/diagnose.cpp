@@ -136,7 +136,8 @@ Findings first_look(Study& study) {
   }
   if (const EffectEntry* parent = excluded_parent(study, found.candidates))
     found.excluded_parents = candidates_of(study, found.before, {parent});
-  found.decision = decide_alone(found.candidates, found.before, study.reach(), found.excluded_parents);
+  const auto decide = found.budget ? decide_among_equals : decide_alone;
+  found.decision = decide(found.candidates, found.before, study.reach(), found.excluded_parents, kRule);
   return found;
 }
 

@@ -163,4 +163,22 @@ Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel&
   return d;
 }
 
+Decision decide_among_equals(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
+                             std::span<const ScoredModel> excluded_parents, const DecisionRule& rule) {
+  const Decision as_ranked = decide_alone(ranked, before, reach, excluded_parents, rule);
+  if (as_ranked.accepted || ranked.empty() || !at_floor(ranked.front())) return as_ranked;
+  std::vector<ScoredModel> others = ranked;
+  std::vector<const EffectEntry*> equals;
+  std::erase_if(others, [&](const ScoredModel& c) {
+    const bool equal =
+        c.entry != ranked.front().entry && at_floor(c) && c.score - ranked.front().score < rule.tells_apart;
+    if (equal && contained_effect(*c.entry) != ranked.front().entry) equals.push_back(c.entry);
+    return equal;
+  });
+  Decision d = decide_alone(others, before, reach, excluded_parents, rule);
+  if (!d.accepted) return as_ranked;
+  d.group.insert(d.group.end(), equals.begin(), equals.end());
+  return d;
+}
+
 }  // namespace gapscope::internal::diagnosis

@@ -68,6 +68,11 @@ Decision decide(const std::vector<ScoredModel>& ranked, const ScoredModel& befor
 Decision decide_alone(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
                       std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
 
+/// The same where a torque balance stands beside the refits, and would answer if these did not. Those that
+/// reach the floor and do not differ by `tells_apart` are one group: what is missing is among them.
+Decision decide_among_equals(const std::vector<ScoredModel>& ranked, const ScoredModel& before, Reach reach,
+                             std::span<const ScoredModel> excluded_parents, const DecisionRule& rule = kRule);
+
 /// Whether a candidate shrinks the held-out error beyond chance and by what is worth having, whatever its
 /// cause: by at least a part of the mean square, of which the 95 % interval over windows is above zero, in
 /// most of them, and by the same part of what was fitted.

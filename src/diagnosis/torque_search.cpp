@@ -175,6 +175,14 @@ void drop_what_vanished(TorqueSearch& search) {
   std::erase_if(search.after.fitted.model.effects, has_vanished);
 }
 
+/// Whether an effect is one of those that are asked, the simpler one within one of them, or what one of them
+/// that the balance has no law of may be mistaken for: the balance has not told these apart.
+bool is_asked_with(const std::vector<const EffectEntry*>& asked, const EffectEntry& entry) {
+  return std::any_of(asked.begin(), asked.end(), [&](const EffectEntry* e) {
+    return e == &entry || contained_effect(*e) == &entry || (law_of(*e) == nullptr && look_alike(*e, entry));
+  });
+}
+
 }  // namespace
 
 const ModelEffect* effect_of(const TorqueSearch& search, std::size_t addition) {
@@ -246,9 +254,11 @@ std::vector<const EffectEntry*> worth_refitting(const Study& study, const view::
         (leading.size() < study.effort.leaders ||
          c.evidence.share >= ranking.front().evidence.share - view::TorqueViewOptions{}.least_margin))
       leading.emplace_back(c.law->effect);
-  std::vector<const EffectEntry*> entries = study.catalogue;
-  std::erase_if(entries,
+  std::vector<const EffectEntry*> asked = study.catalogue;
+  std::erase_if(asked,
                 [&](const EffectEntry* e) { return law_of(*e) != nullptr && !is_named(leading, e->name); });
+  std::vector<const EffectEntry*> entries = study.catalogue;
+  std::erase_if(entries, [&](const EffectEntry* e) { return !is_asked_with(asked, *e); });
   return entries;
 }
 

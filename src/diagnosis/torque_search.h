@@ -18,7 +18,8 @@ bool follows_another(const torque_view::Law& free_form, const EffectEntry& entry
 /// for others, whose torque balance depends on the contact, or where the recordings admit no band.
 std::optional<torque_view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal);
 
-/// The effects that the exact simulator refits: those that lead in torque, and those that have no law there.
+/// The effects that the exact simulator refits: those that lead in torque, those that have no law there with
+/// their look-alikes, and the simpler effects within any of these.
 std::vector<const EffectEntry*> worth_refitting(const Study& study, const torque_view::Budget& budget);
 
 /// Whether the balance alone is to be climbed: that of a locked output, which has the contact in no parameter

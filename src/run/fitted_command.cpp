@@ -4,16 +4,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope::internal::run {
 namespace {
 
 /// "controller.position.gain 1.15 [1.13, 1.17] unit of u/rad"
-std::string told(const FittedParameter& p) {
-  const std::string interval =
-      p.identifiable ? fmt::format(" [{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high) : " (not determined)";
+std::string told(const FittedParameter& p, const FitSummary& of) {
+  const std::string interval = of.rejected()    ? " (model rejected)"
+                               : p.identifiable ? fmt::format(" [{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high)
+                                                : " (not determined)";
   return fmt::format("{} {:.4g}{} {}", p.key, p.value, interval, p.unit);
 }
 
@@ -22,7 +25,7 @@ bool is_of_controller(const FittedParameter& p) { return p.estimated && p.key.st
 std::string numbers_told(const FitSummary& found) {
   std::vector<std::string> numbers;
   for (const FittedParameter& p : found.parameters)
-    if (is_of_controller(p)) numbers.push_back(told(p));
+    if (is_of_controller(p)) numbers.push_back(told(p, found));
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
@@ -38,6 +41,46 @@ std::string confounded_with(const FitSummary& found, Coordinates coordinates) {
     if (const std::string text = warning.text(coordinates); text.find("controller.") != std::string::npos)
       said += "; " + text;
   return said;
+}
+
+/// Whether a fit leaves more than the encoder does.
+bool lacks_something(const FitSummary& found) {
+  return found.why.code() == "leaves_unexplained" || found.why.code() == "above_floor";
+}
+
+/// The effect that comes nearest to what the diagnosis leaves; nullptr where none was asked for that.
+const RankedEffect* nearest(const Diagnosis& d) {
+  const bool more = !d.effects.empty();
+  if (more && (d.steps.empty() || d.steps.back().accepted)) return nullptr;
+  const std::vector<RankedEffect>& ranking = more ? d.steps.back().ranking : d.ranking;
+  return !ranking.empty() && ranking.front().rel > 0.0 ? &ranking.front() : nullptr;
+}
+
+/// The model with an effect as the diagnosis has fitted it, from where it is estimated.
+ReferenceModel with_ranked(ReferenceModel model, const RankedEffect& ranked) {
+  ModelEffect effect{find_effect(ranked.effect), {}};
+  for (std::size_t i = 0; i < ranked.parameters.size(); ++i) {
+    const bool count = std::string_view(ranked.parameters[i].key) == "periods_per_turn";
+    effect.parameters[i] = count ? ParameterSetting::known(ranked.parameters[i].value)
+                                 : ParameterSetting::sought(ranked.parameters[i].value);
+  }
+  std::erase_if(model.effects,
+                [&](const ModelEffect& e) { return e.entry == contained_effect(*effect.entry); });
+  model.effects.push_back(effect);
+  return model;
+}
+
+/// What the model lacks yet moves the controller's numbers: as much as the effect does that comes nearest.
+std::string confounded_with_what_is_missing(const Configuration& c, const Diagnosis& d,
+                                            const std::vector<MotorTrace>& fitted) {
+  const std::string said =
+      "; the model still lacks something, and the controller's numbers are confounded with that";
+  const RankedEffect* effect = nearest(d);
+  if (effect == nullptr) return said;
+  const FitSummary found = fit(fitted, with_ranked(d.fitted, *effect), c.fit);
+  if (found.status == FitStatus::kFailed) return said;
+  return said + fmt::format(": with {}, which comes nearest to it, they are {}", readable(effect->effect),
+                            numbers_told(found));
 }
 
 std::vector<MotorTrace> motor_traces(const std::vector<Recording>& recordings) {
@@ -94,13 +137,16 @@ SettledController settle_controller(const Configuration& c, std::vector<Recordin
               numbers};
 }
 
-std::string controller_found(const Configuration& c, const ReferenceModel& diagnosed,
-                             const std::vector<Recording>& fitted) {
-  if (!diagnosed.controller) return {};
-  const FitSummary found = fit(motor_traces(fitted), diagnosed, c.fit);
+std::string controller_found(const Configuration& c, const Diagnosis& d,
+                             const std::vector<Recording>& recordings) {
+  if (!d.fitted.controller) return {};
+  const std::vector<MotorTrace> fitted = motor_traces(recordings);
+  const FitSummary found = fit(fitted, d.fitted, c.fit);
   if (found.status == FitStatus::kFailed) return {};
-  return "the controller with what the diagnosis has added: " + numbers_told(found) +
-         (is_determined(found) ? "" : confounded_with(found, c.coordinates));
+  const std::string when = d.effects.empty() ? "the controller, as nothing was added: "
+                                             : "the controller with what the diagnosis has added: ";
+  return when + numbers_told(found) + (is_determined(found) ? "" : confounded_with(found, c.coordinates)) +
+         (lacks_something(found) ? confounded_with_what_is_missing(c, d, fitted) : "");
 }
 
 }  // namespace gapscope::internal::run

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gapscope/config/configuration.h"
+#include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope::internal::run {
 
@@ -26,7 +27,9 @@ SettledController settle_controller(const Configuration& configuration, std::vec
                                     std::vector<Recording>& held_out);
 
 /// The controller's numbers by a fit of what the diagnosis has come to, in words; empty where there is none.
-std::string controller_found(const Configuration& configuration, const ReferenceModel& diagnosed,
+/// Where that leaves more than the encoder does, with what they are confounded: what they are with the effect
+/// that comes nearest to what is missing.
+std::string controller_found(const Configuration& configuration, const Diagnosis& diagnosis,
                              const std::vector<Recording>& fitted);
 
 /// The model that is diagnosed, under such a controller.

@@ -1,6 +1,8 @@
 // When later steps count, by their numbers alone; the whole search runs in test_diagnosis.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "diagnosis/further.h"
 
 namespace gapscope::internal::diagnosis {
@@ -77,6 +79,58 @@ TEST(FurtherSteps, CountFarFromTheFloorWhereTheyAreClearInEveryRespect) {
   EXPECT_FALSE(accepted(0.5, 0.2, 0.7, 1300.0)) << "lead";
   EXPECT_FALSE(accepted(0.5, 0.4, 0.5, 1300.0)) << "windows";
   EXPECT_FALSE(accepted(0.5, 0.4, 0.7, 4980.0)) << "what was fitted does not ask for it";
+}
+
+ScoredModel with(const char* effect, double score, double median) {
+  ScoredModel j = model(score, median, 1.0);
+  j.entry = find_effect(effect);
+  return j;
+}
+
+TEST(Decision, HasAllThatReachTheFloorInOneGroupBesideATorqueBalance) {
+  const ScoredModel before = model(5.0, 40.0, 5000.0);
+  const ScoredModel best = with("stribeck_friction", 0.1, 1.0), far = with("cogging_torque", 3.0, 10.0);
+  const auto decided = [&](double score, double median) {
+    return decide_among_equals({best, with("input_dead_zone", score, median), far}, before, Reach::kFloor,
+                               {});
+  };
+  const Decision both = decided(0.3, 1.2);
+  EXPECT_TRUE(both.accepted);
+  EXPECT_EQ(both.group, (std::vector{best.entry, find_effect("input_dead_zone")}));
+  EXPECT_NEAR(both.margin, 2.9, 1e-12) << "to the first that does not reach it";
+  EXPECT_FALSE(decided(0.3, 1.4).accepted) << "one that comes near it";
+  EXPECT_TRUE(decided(0.45, 1.2).accepted);
+  EXPECT_EQ(decided(0.45, 1.2).group.size(), 1u) << "what a recording tells apart at the floor, too";
+}
+
+torque_view::Budget led_by(std::initializer_list<const char*> laws) {
+  torque_view::Budget budget;
+  torque_view::Rung& rung = budget.rungs.emplace_back();
+  for (const char* name : laws) {
+    torque_view::Candidate c;
+    c.law = &torque_view::law(name);
+    c.evidence.share = 0.5;
+    rung.ranking.push_back(c);
+  }
+  return budget;
+}
+
+TEST(TorqueBalance, HasTheSimulatorAskedForWhatItCannotTellApart) {
+  const DiagnosisOptions options;
+  Study study{{}, {}, {}, {}, 3.0, 0.0, {}, options};
+  for (const EffectEntry* entry : effect_table()) study.catalogue.push_back(entry);
+  const auto asked =
+      worth_refitting(study, led_by({"stribeck_friction", "presliding_friction", "constant_load_torque",
+                                     "viscous_drift", "cogging_torque"}));
+  const auto is_asked = [&](const char* name) {
+    return std::find(asked.begin(), asked.end(), find_effect(name)) != asked.end();
+  };
+  EXPECT_TRUE(is_asked("stribeck_friction"));
+  EXPECT_TRUE(is_asked("motor_coulomb_friction")) << "within Stribeck's";
+  EXPECT_TRUE(is_asked("supply_sag")) << "no law of the balance";
+  EXPECT_TRUE(is_asked("torque_saturation")) << "which a sagging supply may stand for";
+  EXPECT_FALSE(is_asked("encoder_eccentricity"));
+  EXPECT_FALSE(is_asked("load_inertia_variation")) << "a look-alike of one that the balance has told it from";
 }
 
 }  // namespace
