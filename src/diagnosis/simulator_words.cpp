@@ -52,14 +52,14 @@ std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// How near a number has to come to a half, a third or the whole of a sample to be a step [-]: half of where
-/// (1 - t)/2 meets (1 + t)/3. Half as much is less than such a number is known to.
+/// How near a number has to come to a sample or a small part of it to be a step [-]: half of where (1 - t)/2
+/// meets (1 + t)/3. Half as much is less than such a number is known to.
 constexpr double kIsStep = 0.5 * (1.0 / 2.0 - 1.0 / 3.0) / (1.0 / 2.0 + 1.0 / 3.0);
 
-/// The step of a solver that leaves half of it in a number, if that is a half or a third of a sample or all
-/// of it; 0: it is none.
+/// The step of a solver that leaves half of it in a number, if that is a sample or down to a fourth of one;
+/// 0: it is none.
 double step_of_solver(double twice_half, double dt) {
-  for (const double parts : {1.0, 2.0, 3.0})
+  for (const double parts : {1.0, 2.0, 3.0, 4.0})
     if (std::abs(twice_half * parts / dt - 1.0) < kIsStep) return dt / parts;
   return 0.0;
 }
@@ -91,16 +91,20 @@ std::string ahead_by_half_a_step(double ahead, double dt) {
                     : "";
 }
 
-/// How many samples a delay is, where it is about a whole number of half ones: what a fixed step leaves.
+/// What a fixed step leaves in a delay, or in the lag that is told for it; of a delay, how many samples it
+/// is.
 std::string in_steps(const SimulatorRow& row, double dt) {
-  if (row.name != "input_delay" || row.numbers.empty()) return "";
+  const bool lag = row.name == "actuator_lag" || row.name == "measurement_lag";
+  if (!(lag || row.name == "input_delay") || row.numbers.empty()) return "";
   const double steps = (row.numbers.front().simulator - row.numbers.front().drive) / dt;
+  const bool ahead = steps < 0.0 && steps > -0.6;
+  if (lag) return ahead ? ahead_by_half_a_step(-steps * dt, dt) : "";
   const double halves = std::round(2.0 * steps);
   const bool whole = halves != 0.0 && std::abs(2.0 * steps - halves) < 0.2;
   return fmt::format(" ({} {:.2g} {} {}{})", whole ? "about" : "that is", std::abs(steps),
                      std::abs(std::abs(steps) - 1.0) < 0.05 ? "sample" : "samples",
                      steps > 0.0 ? "too much" : "too little",
-                     steps < 0.0 && steps > -0.6 ? ahead_by_half_a_step(-steps * dt, dt)
+                     ahead ? ahead_by_half_a_step(-steps * dt, dt)
                      : whole && std::abs(halves) <= 2.0
                          ? ", as an input that acts a step late or an integrator of fixed step leave it"
                          : "");
@@ -178,8 +182,7 @@ std::string hidden_sentence(const SimulatorComparison& c, double drive_floors, d
   const bool on_drive = drive_floors > simulator_floors;
   return fmt::format(
       "No row differs, but the model with all effects of both leaves {} floors on {}: what differs may "
-      "hide "
-      "there. Over the held-out input your simulator is {} rms off the drive.",
+      "hide there. Over the held-out input your simulator is {} rms off the drive.",
       SharedUnit(1.0, "").number(on_drive ? drive_floors : simulator_floors),
       on_drive ? "the drive" : "your simulator", coordinates.thousandths(c.errors.simulator));
 }

@@ -42,7 +42,13 @@ TEST(SimulatorWords, NameTheHalfStepThatEulerIsAhead) {
   EXPECT_THAT(said(delay_row(3.0e-3, 2.0e-3)), HasSubstr("at a step of 2 ms"));
   EXPECT_THAT(said(delay_row(3.0e-3, 2.5e-3)), HasSubstr("at a step of 1 ms"));
   EXPECT_THAT(said(delay_row(3.0e-3, 2.2e-3)), Not(HasSubstr("at a step of")));
+  EXPECT_THAT(said(delay_row(2.507e-3, 2.253e-3)), HasSubstr("at a step of 0.5 ms"));
   EXPECT_THAT(said(delay_row(3.0e-3, 5.0e-3)), HasSubstr("a step late"));
+  SimulatorRow lag = delay_row(3.081e-3, 2.843e-3);  // a delay may be told as a lag
+  lag.name = "actuator_lag";
+  EXPECT_THAT(said(lag), HasSubstr("at a step of 0.5 ms"));
+  lag.numbers.front().simulator = 2.2e-3;
+  EXPECT_THAT(said(lag), Not(HasSubstr("at a step of")));
 }
 
 TEST(SimulatorWords, WriteAmountsAsPeopleReadThem) {
