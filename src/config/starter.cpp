@@ -133,7 +133,7 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   else
     out.entry("torque_constant", "{value: 1, guess: true}",
               coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u. "
-                                     "Known: torque_constant: 0.172"));
+                                     "Where it is known: torque_constant: 0.172, say"));
   const bool settled = begin.input_is_torque || begin.numbers.torque_constant > 0.0;
   write_estimated(
       out, "motor_inertia", begin.numbers.inertia,

@@ -158,6 +158,14 @@ std::string simulator_words(const SimulatorComparison* c) {
   return " " + as_sentence(of_your_simulator(c->rows.front().sentence) + others);
 }
 
+/// Torque may fall and the simulated motion not: where inertia or stiffness is hardly known, for one.
+std::string motion_words(const MismatchSize& m, Coordinates coordinates) {
+  if (!(m.after >= m.before)) return "";
+  const SharedUnit motion(m.before, coordinates.position_unit());
+  return fmt::format("; but the simulated motion comes no nearer, {} off before and {} after ({})",
+                     motion(m.before), motion(m.after), m.measure);
+}
+
 std::string law_words(const LastResortLaw& law) {
   return fmt::format("a free curve over the {} takes {:.0f} % of {} (compensation_{}.csv)", law.variable,
                      100.0 * law.shrink, law.on_top_of.empty() ? "the error" : "what is left", law.law);
@@ -188,6 +196,7 @@ std::string helps_line(const CardFacts& f, const Card& card) {
   if (!d.added.empty())
     parts.push_back((has_rungs(d) ? rungs(f, card) : shares(f, card)) + "; `fitted.yaml` has " +
                     (d.added.size() > 1 ? "them" : "it"));
+  if (!d.added.empty()) parts.back() += motion_words(d.mismatch, f.coordinates);
   for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law));
   if (parts.empty() && d.stopped) return "Not told: the search was stopped before its end.";
   if (parts.empty()) return "Nothing of the catalogue does.";

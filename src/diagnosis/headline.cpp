@@ -34,8 +34,9 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
-  return fmt::format("changes with the direction of motion ({:.0f} % of it {})", 100.0 * most.share,
-                     most.bin);
+  const std::string words = "changes with the direction of motion";
+  return denser_than_chance(most) ? fmt::format("{} ({:.0f} % of it {})", words, 100.0 * most.share, most.bin)
+                                  : words;
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {

@@ -96,7 +96,8 @@ std::string bounds_line(const RunResult& run) {
                                  g.method == GapMethod::kPaper ? "was given" : "decides t2");
   if (std::isfinite(g.bound_t1)) text += fmt::format(", L = {} {} shows t1", rounded(g.bound_t1), unit);
   if (std::isfinite(g.paper_bound))
-    text += fmt::format("; the published bound (13) is {} {}", rounded(g.paper_bound), unit);
+    text += fmt::format("; by the paper's eq. (13) it is {} {} with this model's numbers",
+                        rounded(g.paper_bound), unit);
   return text + ".\n";
 }
 

@@ -177,7 +177,8 @@ Remark loop_not_asked_for() {
   return {"loop_not_asked_for", "the method is impact, and the loop was not asked"};
 }
 Remark locked_without_loop(const Remark& why) {
-  return Remark("locked_without_loop", "the output is locked, and neither an impact nor a loop is read: ") +
+  return Remark("locked_without_loop",
+                "the output is locked, so that no impact shows, and no loop tells the gap: ") +
          why +
          Remark("advice", "; ramp the torque slowly to and fro beyond the friction, three times or more");
 }

@@ -7,7 +7,7 @@ Remark error_never_at_rest() {
 }
 Remark bound_above_gap_mode() {
   return {"bound_above_gap_mode",
-          "no t1: the bound is above the gap-mode acceleration, only the impact shows"};
+          "no t1: the bound is above the gap-mode acceleration, where at most the impact shows"};
 }
 Remark bound_below_engaged() {
   return {"bound_below_engaged",

@@ -99,7 +99,7 @@ TEST(Report, TellsWhichBoundDecidedAndWhatThePublishedOneIs) {
                    sample_run({.samples = 6000, .load_recorded = false, .fitted = false}));
   write_report(scratch.path.string());
   const std::string text = text_of(scratch.path / "report.md");
-  EXPECT_NE(text.find("L = 4.1 rad/s² decides t2; the published bound (13) is 20 rad/s²."),
+  EXPECT_NE(text.find("L = 4.1 rad/s² decides t2; by the paper's eq. (13) it is 20 rad/s² with this model's numbers."),
             std::string::npos);
 }
 
