@@ -32,6 +32,17 @@ void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
   }
 }
 
+/// Where a recording is cut in two: in the middle, or, where the drive rests through one of these halves (it
+/// has less than half of its share of the way), at half of the way, but in the middle half of the time.
+std::size_t half_of(const MotorTrace& t) {
+  std::vector<double> way(t.size(), 0.0);
+  for (std::size_t i = 1; i < way.size(); ++i) way[i] = way[i - 1] + std::abs(t.x1[i] - t.x1[i - 1]);
+  const std::size_t middle = t.size() / 2;
+  if (4.0 * std::min(way[middle], way.back() - way[middle]) >= way.back()) return middle;
+  const auto at = std::lower_bound(way.begin(), way.end(), 0.5 * way.back());
+  return std::clamp(static_cast<std::size_t>(at - way.begin()), t.size() / 4, t.size() - t.size() / 4);
+}
+
 /// Whether nearly all positions are whole numbers of quanta apart: a steady speed repeats its step, too.
 bool counts_in(std::span<const double> x1, double quantum) {
   double beside = 0.0;
@@ -105,7 +116,7 @@ bool may_fit_half_of_the_held_out(const Study& study) {
 void fit_half_of_the_held_out(Study& study) {
   HeldOut& held = study.held_out;
   for (std::size_t r = 0; r < held.traces.size(); ++r) {
-    const std::size_t half = held.traces[r].size() / 2;
+    const std::size_t half = half_of(held.traces[r]);
     study.train.push_back(part(held.traces[r], 0, half));
     held.scored_from[r] = half;
   }

@@ -42,6 +42,7 @@ HeldOut fitted_as_held_out(const Study& study);
 std::vector<MotorTrace> everything(const Study& study);
 
 /// Moves the first half of what is held out to what is fitted; once, and where the encoder is the floor.
+/// Where the drive rests through one half the halves are of its way, so that no judgement is of a rest.
 bool may_fit_half_of_the_held_out(const Study& study);
 void fit_half_of_the_held_out(Study& study);
 

@@ -45,6 +45,33 @@ TEST_P(Undetermined, IsTheScatterOfPredictionsOverOtherNoise) {
   EXPECT_LT(foretold, 2.5 * std::sqrt(scatter));  // on the third drive it foretells twice too much
 }
 
+/// Positions of 6 s, of a motion that lasts until `rest`.
+std::vector<double> moving_until(double rest) {
+  std::vector<double> x1;
+  for (int i = 0; i < 6000; ++i) x1.push_back(std::sin(2.0 * kPi * std::min(1e-3 * i, rest)));
+  return x1;
+}
+
+TEST(HalfOfTheHeldOut, IsOfTheWayWhereTheDriveRestsThroughAHalf) {
+  const DiagnosisOptions options;
+  Study study{.train = {}, .held_out = {}, .sheet = {}, .catalogue = {}, .effort = {}, .options = options};
+  const std::vector<double> recorded[] = {moving_until(6.0), moving_until(4.5), moving_until(3.0),
+                                          moving_until(1.0)};
+  for (const std::vector<double>& x1 : recorded) {
+    MotorTrace t;
+    t.dt = 1e-3, t.u = x1, t.x1 = x1;
+    study.held_out.traces.push_back(t);
+  }
+  study.held_out.scored_from.assign(4, 0);
+  fit_half_of_the_held_out(study);
+  EXPECT_EQ(study.held_out.scored_from[0], 3000u);
+  EXPECT_EQ(study.held_out.scored_from[1], 3000u) << "both halves move";
+  EXPECT_NEAR(static_cast<double>(study.held_out.scored_from[2]), 1500.0, 2.0);
+  EXPECT_EQ(study.held_out.scored_from[3], 1500u) << "no half is shorter than a fourth of it";
+  ASSERT_EQ(study.train.size(), 4u);
+  EXPECT_EQ(study.train[2].size(), study.held_out.scored_from[2]);
+}
+
 INSTANTIATE_TEST_SUITE_P(Drives, Undetermined, ::testing::Values(500001u, 500002u, 500003u));
 
 }  // namespace

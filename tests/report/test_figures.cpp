@@ -158,7 +158,8 @@ TEST(Overview, ShowsNoPassagesWithoutAVerdict) {
   RunResult run = sample_run(
       {.samples = 7500, .load_recorded = false, .fitted = false, .verdict = GapVerdict::kInconclusive});
   for (GapEvent& e : run.model_free->events) e.accepted = false;
-  for (const Panel& p : all_figures(ReportView(run))[0].panels) EXPECT_NE(p.title, "Passage by passage");
+  const std::vector<FigureData> figures = all_figures(ReportView(run));
+  for (const Panel& p : figures[0].panels) EXPECT_NE(p.title, "Passage by passage");
 }
 
 TEST(Overview, BeginsWithWhatTheCardSaysOfTheGap) {

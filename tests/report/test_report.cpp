@@ -99,8 +99,10 @@ TEST(Report, TellsWhichBoundDecidedAndWhatThePublishedOneIs) {
                    sample_run({.samples = 6000, .load_recorded = false, .fitted = false}));
   write_report(scratch.path.string());
   const std::string text = text_of(scratch.path / "report.md");
-  EXPECT_NE(text.find("L = 4.1 rad/s² decides t2; by the paper's eq. (13) it is 20 rad/s² with this model's numbers."),
-            std::string::npos);
+  EXPECT_NE(
+      text.find(
+          "L = 4.1 rad/s² decides t2; by the paper's eq. (13) it is 20 rad/s² with this model's numbers."),
+      std::string::npos);
 }
 
 TEST(Report, SaysNothingOfAResamplingThatWasNotMade) {
