@@ -276,7 +276,7 @@ class Documents(InAFolder):
                               stderr=subprocess.PIPE, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("backlash 0.022", done.stdout)
-        self.assertIn("<mujoco", (self.folder / "drive_03_recording_fitted.xml").read_text())
+        self.assertIn("<mujoco", (self.folder / "drive_03_recording.xml").read_text())
 
 
 if __name__ == "__main__":
