@@ -137,7 +137,7 @@ FigureData campaign_map(const CampaignSummary& s, const SummaryTable& table) {
   figure.lines = {"Numbers in percent" + runs_words(table) +
                   "; dark is bad; – where there is nothing to judge."};
   figure.columns = static_cast<int>(estimators.size());
-  figure.width = 1600.0 * static_cast<double>(estimators.size());
+  figure.width = 1590.0 * static_cast<double>(estimators.size());
   add_row(figure, s, table, "median |error| (%)", error_look);
   add_row(figure, s, table, "no answer (% of the runs)", refusal_look);
   add_row(figure, s, table, "95 % interval holds the true gap (%)", coverage_look);
