@@ -130,6 +130,11 @@ std::vector<Excursion> find_excursions(const BankRun& run, std::size_t bound) {
   return found;
 }
 
+double abruptness(const BankRun& run, std::size_t bound, double height) {
+  const bool is_highest = bound + 1 == run.bounds.size();
+  return run.bounds[bound] * (is_highest ? height / (2.0 * run.floor[bound]) : 1.0);
+}
+
 namespace {
 
 void join(BankEvent& event, const Excursion& x, double k2) {
@@ -162,7 +167,7 @@ std::vector<BankEvent> link_events(const BankRun& run, const std::vector<std::ve
         joined = true;
       }
       if (joined) continue;
-      events.push_back({x.sign, x.start, x.peak, j, j, 0, 0.0, {}, 0});
+      events.push_back({x.sign, x.start, x.peak, j, j, 0, 0.0, {}, abruptness(run, j, x.height), 0});
       join(events.back(), x, k2);
     }
   }

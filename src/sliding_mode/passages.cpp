@@ -10,24 +10,25 @@ namespace {
 constexpr double kContrast = 1.6;  ///< ρ
 
 constexpr double kEcho = 2.5;  ///< an earlier impact that is this much weaker is none; a later one is an echo
-constexpr double kEchoReach = 0.2;  ///< of a half period
-constexpr double kRebound = 0.25;   ///< of the flight, from the impact before to its begin
-constexpr std::size_t kSameSignSteps = 4;
+constexpr double kEchoReach = 0.2;      ///< of a half period
+constexpr double kRebound = 0.25;       ///< of the flight, from the impact before to its begin
+constexpr double kSameSignSteps = 3.5;  ///< of the grid: four and more
 constexpr std::size_t kPersistent = 3;  ///< bounds that show what happened to the motor
 /// Recoil, ringing and overshoot follow an impact with the opposite sign, sometimes more abruptly than it;
 /// what precedes an impact with the opposite sign (the motor speeding up in the gap) is far less abrupt.
 bool dominates(const BankEvent& strong, const BankEvent& weak, const BankRun& run) {
-  if (strong.sign == weak.sign) return strong.top >= weak.top + kSameSignSteps;
-  const double ratio = run.bounds[strong.top] / run.bounds[weak.top];
+  const double ratio = strong.abruptness / weak.abruptness;
+  if (strong.sign == weak.sign) return ratio > std::pow(run.bounds[1] / run.bounds[0], kSameSignSteps);
   return strong.start <= weak.start ? ratio >= 1.0 / kEcho : ratio > kEcho;
 }
 
-/// Highest bound with any excursion in the second half of [from, to): what the motion before the impact
-/// needs.
+/// Abruptness of the second half of [from, to): what the motion before the impact needs [rad/s²].
 double bound_needed_before(const BankRun& run, std::size_t from, std::size_t to) {
-  for (std::size_t j = run.bounds.size(); j-- > 0;)
-    for (std::size_t i = (from + to) / 2; i < to; ++i)
-      if (std::abs(run.error(i, j)) > 2.0 * run.floor[j]) return run.bounds[j];
+  for (std::size_t j = run.bounds.size(); j-- > 0;) {
+    double most = 0.0;
+    for (std::size_t i = (from + to) / 2; i < to; ++i) most = std::max(most, std::abs(run.error(i, j)));
+    if (most > 2.0 * run.floor[j]) return abruptness(run, j, most);
+  }
   return 0.0;
 }
 
@@ -37,7 +38,7 @@ bool thrown_off(const TransitionContext& context, const BankEvent& before, const
                 const Transition& t) {
   const double since = t.event.t1 - context.trace.time(before.start);
   return since >= 0.0 && since < kRebound * (t.event.t2 - t.event.t1) &&
-         kEcho * context.run.bounds[before.top] > context.run.bounds[impact.top];
+         kEcho * before.abruptness > impact.abruptness;
 }
 
 }  // namespace
@@ -95,7 +96,7 @@ Transition read_passage(const TransitionContext& context, const BankEvent& befor
   const double needed = std::max(
       sliding,
       bound_needed_before(run, from, to - std::min(to - from, std::max<std::size_t>(2, impact.latency))));
-  t.contrast = run.bounds[impact.top] / needed;
+  t.contrast = impact.abruptness / needed;
   if (t.contrast < kContrast)
     t.refusal = Refusal::kContrast;
   else if (t.refusal == Refusal::kNone && thrown_off(context, before, impact, t))

@@ -35,7 +35,7 @@ Remark advice(Refusal refusal);  ///< what to change where it is the commonest
 struct Transition {
   GapEvent event;
   Refusal refusal = Refusal::kNone;
-  double contrast = 0.0;      ///< top bound over the bound that the motion before it needs
+  double contrast = 0.0;      ///< abruptness over what the motion before it needs
   double half_width = 0.0;    ///< systematic: where the release and the load's travel may lie [rad]
   double speed = 0.0;         ///< of the motor before the impact [rad/s]
   double acceleration = 0.0;  ///< of the motor in the gap, just before the impact [rad/s²]
