@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/lone_motor.h"
 #include "sliding_mode/shared_law.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -18,6 +19,11 @@ constexpr double kStay = 0.1;  ///< of the flight: a rest, no turn
 /// (3380020 gap trapezoid) and 0.9 (3387027), where it has not 1.3 to 90 over the last few counts (3380009,
 /// 3380044, 3380015), and 2 to 60 beyond.
 constexpr double kFollows = 1.3;
+/// Standard deviations of the mean square that roundings may leave, of a rest each: they are uniform, so that
+/// of one is 2/√5 of its mean, and at most twice the mean above it. 3380020 and 3387027 gap trapezoid, which
+/// do rest alone, leave 0.6 to 0.8 of the mean; arrivals at a load 2 to 11 (4100062, 4100205, 4100220 gap
+/// sine, 3380009 gap trapezoid).
+constexpr double kRoundingSpread = 3.0;
 
 /// How far the torque would have moved a motor without friction against the passage while it rested [rad].
 double held_back(const MotorTrace& trace, const Reversal& r, double drive) {
@@ -53,6 +59,53 @@ bool rests(const RestBeforeFlight& p) {
          p.core >= p.begin + SharedLaw::kFewestRows;
 }
 
+/// The arrivals at the rests of all passages, from one distance on, where they have enough samples.
+struct Arrivals {
+  std::vector<LawStretch> stretches;
+  std::vector<LoneStretch> whole;  ///< from there through the rest to the end of the flight; else the flight
+  double rows = 0.0, resting = 0.0;
+};
+
+Arrivals arrivals(const MotorTrace& trace, std::span<const RestBeforeFlight> passages, double share,
+                  double least) {
+  Arrivals a;
+  for (const auto& p : passages) {
+    const std::size_t from = arriving(trace, p.rest, std::max(share * p.rest.rise, least));
+    if (p.rest.first < from + SharedLaw::kFewestRows) {
+      a.whole.push_back({p.begin, p.core});
+      continue;
+    }
+    a.stretches.push_back({from, from, p.rest.first, -p.rest.direction});
+    a.whole.push_back({from, p.core});
+    a.rows += static_cast<double>(p.rest.first - from) - 1.0;
+    a.resting += static_cast<double>(p.begin - p.rest.first);
+  }
+  return a;
+}
+
+/// Whether one law follows flights and arrivals, each from a place and at a speed of its own.
+bool follows(const MotorTrace& trace, const signals::SignalFacts& facts, const SharedLaw& alone,
+             std::span<const LawStretch> flights, const Arrivals& a) {
+  std::vector<LawStretch> both(flights.begin(), flights.end());
+  both.insert(both.end(), a.stretches.begin(), a.stretches.end());
+  const SharedLaw law(trace, both, SharedLaw::Friction::kPassive);
+  const double left = (squares(law, both) - squares(alone, flights)) / a.rows;
+  const double noise = std::max(alone.rms(), facts.noise);
+  return left < kFollows * noise * noise;
+}
+
+/// Whether a lone motor can do all that: arrive, rest at one place without a speed, and leave from there.
+/// Each rest has one rounding, however long it is.
+bool can_be_alone(const MotorTrace& trace, const signals::SignalFacts& facts, const SharedLaw& alone,
+                  std::span<const LawStretch> flights, const Arrivals& a) {
+  const double all = lone_motor_squares(trace, a.whole, {alone.drive(), alone.viscous(), alone.dry()});
+  if (!std::isfinite(all)) return true;
+  const double left = (all - squares(alone, flights)) / (a.rows + a.resting);
+  const double noise = std::max({alone.rms(), facts.quantum / std::sqrt(12.0), facts.rounding});
+  const double spread = 2.0 / std::sqrt(5.0 * static_cast<double>(a.whole.size()));
+  return left < (1.0 + std::min(kRoundingSpread * spread, 2.0)) * noise * noise;
+}
+
 }  // namespace
 
 bool may_rest_alone(const MotorTrace& trace, const signals::SignalFacts& facts,
@@ -67,22 +120,11 @@ bool may_rest_alone(const MotorTrace& trace, const signals::SignalFacts& facts,
   for (const auto& p : at_rest) held.push_back(held_back(trace, p.rest, alone.drive()));
   const double least = facts.least_way();
   if (median(held) > least) return false;
-  for (const double share : kArrivals) {
-    std::vector<LawStretch> both = flights;
-    double rows = 0.0;
-    for (const auto& p : at_rest) {
-      const std::size_t from = arriving(trace, p.rest, std::max(share * p.rest.rise, least));
-      if (p.rest.first < from + SharedLaw::kFewestRows) continue;
-      both.push_back({from, from, p.rest.first, -p.rest.direction});
-      rows += static_cast<double>(p.rest.first - from) - 1.0;
-    }
-    if (rows == 0.0) continue;
-    const SharedLaw law(trace, both, SharedLaw::Friction::kPassive);
-    const double left = (squares(law, both) - squares(alone, flights)) / rows;
-    const double noise = std::max(alone.rms(), facts.noise);
-    if (left < kFollows * noise * noise) return true;
-  }
-  return false;
+  return std::ranges::any_of(kArrivals, [&](double share) {
+    const Arrivals a = arrivals(trace, at_rest, share, least);
+    return a.rows > 0.0 && follows(trace, facts, alone, flights, a) &&
+           can_be_alone(trace, facts, alone, flights, a);
+  });
 }
 
 }  // namespace gapscope::internal::sliding_mode
