@@ -64,7 +64,8 @@ TEST(Detectable, IsTheSameForAnyNumberOfThreadsAndToldOfAnEffectOnRequestOnly) {
   const blind::BlindPair pair = test::one_inertia(friction, 500031);
   const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
   const auto asked = [&](bool detectable, int threads) {
-    DiagnosisOptions options;
+    DiagnosisOptions options =
+        test::among({"motor_coulomb_friction", "quadratic_drag", "cogging_torque", "input_delay"});
     options.known.detectable = detectable, options.threads = threads;
     return diagnose(train, held_out, pair.sheet, options);
   };

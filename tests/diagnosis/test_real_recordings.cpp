@@ -11,8 +11,11 @@
 namespace gapscope {
 namespace {
 
+/// At half the rate: in half the time.
 Recording ball_screw(const char* name) {
-  Recording r = read_recording((testing::data_folder() / "emps" / name).string());
+  ReadOptions options;
+  options.resample_rate = 500.0;
+  Recording r = read_recording((testing::data_folder() / "emps" / name).string(), options);
   r.quantum = 5e-8;
   return r;
 }
