@@ -12,6 +12,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "diagnosis/added_in_words.h"
 #include "diagnosis/loop_cases.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/diagnosis/diagnosis.h"
@@ -87,12 +88,14 @@ bool is_first(const Diagnosis& d, const std::string& truth) {
 
 std::string told(const Diagnosis& d) {
   std::string text = fmt::format("{} {} group {}", to_string(d.verdict), d.effects, d.group);
+  if (!d.added.empty()) text += "; " + test::added_in_words(d);
   for (const BudgetRung& r : d.budget.rungs)
     text += fmt::format("; {}{} {:.2f} [{:.2f}, {:.2f}]", r.law, r.added ? "" : " (not added)", r.share,
                         r.share_ci95.low, r.share_ci95.high);
-  text += fmt::format("; {:.1f} Hz, {:.2g} of {:.2g}, left {:.2g}, floor {:.2g}; {:.3g} floors in x1",
-                      d.budget.band_hz, d.mismatch.before_torque, d.mismatch.input_torque, d.budget.remains,
-                      d.mismatch.floor_torque, d.mismatch.before / d.mismatch.floor);
+  text += fmt::format(
+      "; {:.1f} Hz, {:.2g} of {:.2g}, left {:.2g}, floor {:.2g}; {:.3g} to {:.3g} floors in x1",
+      d.budget.band_hz, d.mismatch.before_torque, d.mismatch.input_torque, d.budget.remains,
+      d.mismatch.floor_torque, d.mismatch.before / d.mismatch.floor, d.mismatch.after / d.mismatch.floor);
   if (d.closed_loop)
     text += fmt::format("; in closed loop {:.3g} to {:.3g} mrad", 1e3 * d.closed_loop->before,
                         1e3 * d.closed_loop->after);
@@ -104,6 +107,13 @@ std::string told(const Diagnosis& d) {
 std::string in_words(const test::LoopCase& c) {
   const std::string again = c.redrawn == 0 ? "" : fmt::format("; drawn {} times", 1 + c.redrawn);
   return fmt::format("{} {} ({:.0f} % missing; {}{})", c.seed, c.effect, 100.0 * c.missing, c.set_up, again);
+}
+
+/// To be counted over several runs: lines of a run that was ended are as good.
+const char* mark_of(const Answer& a) {
+  if (!(a.floors > 2.0)) return "below 2 floors";
+  if (!a.is_effect()) return a.helped ? "helped" : "not told";
+  return a.first ? "RIGHT" : a.in_group ? "GROUP" : "WRONG";
 }
 
 Answer examine(const test::LoopCase& c) {
@@ -123,7 +133,7 @@ Answer examine(const test::LoopCase& c) {
   for (std::size_t i = 1; i < d.added.size(); ++i)
     a.wrong_later = a.wrong_later || (d.added[i].established && !holds(d.added[i].group, c.effect));
   a.floors = d.mismatch.before / d.mismatch.floor;
-  a.line = fmt::format("{}: {}; {:.1f} s", in_words(c), told(d), a.seconds);
+  a.line = fmt::format("{}: {}: {}; {:.1f} s", in_words(c), mark_of(a), told(d), a.seconds);
   return a;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "diagnosis/added_in_words.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/mismatch_size.h"
 #include "gapscope/diagnosis/diagnosis.h"
@@ -72,6 +73,7 @@ StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
   row.group = static_cast<int>(d.effects.size());
   row.details =
       fmt::format("[{}] leaves {:.3g}", fmt::join(d.effects, " "), d.mismatch.after / d.mismatch.floor);
+  if (!d.added.empty()) row.details += "; " + added_in_words(d) + ";";
   if (d.laws.empty()) return row;
   const LastResortLaw& law = d.laws.front();
   row.first = law.law;
