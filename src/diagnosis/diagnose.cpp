@@ -257,6 +257,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   std::string left = added.accepted ? motion_left(study.held_out, added.after) : "";
   if (!left.empty()) added = {};
   Diagnosis diagnosis = verdict_on(study, found, added, ladder, left.empty());
+  open_undetermined(options.coordinates, diagnosis);
   if (!left.empty()) diagnosis.warnings.push_back("no effect is named: with it, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);

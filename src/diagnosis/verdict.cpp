@@ -41,6 +41,39 @@ bool may_be_pieces(const Additions& added) {
   return added.effects.size() > 2 && !std::all_of(added.effects.begin(), added.effects.end(), same);
 }
 
+/// Leaves the cause open of what was added and has a property.
+template <class Property>
+void open_causes(Diagnosis& d, Property is_open, Coordinates coordinates) {
+  for (AddedEffect& a : d.added) a.established = a.established && !is_open(a);
+  if (!d.added.empty() && !d.added.front().established) d.verdict = DiagnosisVerdict::kHelps;
+  d.sentence = sentence_of(d, coordinates);
+}
+
+/// Whether a number says how much there is of an effect: of a law that contains a simpler one a share of its
+/// own where it has one, else the first.
+bool is_amount(const EffectEntry& entry, std::size_t i) {
+  const auto is_share = [](const EffectParameterSpec& p) {
+    return (p.scale == Scale::kOne || p.scale == Scale::kLevel) && p.absent == 0.0;
+  };
+  const auto own = entry.parameters.subspan(1);
+  const bool has_share = contained_effect(entry) != nullptr && std::any_of(own.begin(), own.end(), is_share);
+  return has_share ? i > 0 && is_share(entry.parameters[i]) : i == 0;
+}
+
+/// Whether the 95 % interval of all that says how much there is of an effect holds zero. (Of a knee or a
+/// stiffness that is without a bound where the effect is absent, the interval of the inverse then does.)
+bool may_be_absent(const AddedEffect& a) {
+  const EffectEntry& entry = *find_effect(a.effect);
+  bool absent = false;
+  for (std::size_t i = 0; i < a.parameters.size(); ++i) {
+    const Interval& ci95 = a.parameters[i].ci95;
+    if (!is_amount(entry, i) || std::isnan(ci95.low)) continue;
+    if (ci95.low > 0.0 || ci95.high < 0.0) return false;
+    absent = true;
+  }
+  return absent;
+}
+
 /// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
 /// them, or comes to the floor like three of several variables, they are no causes. Their cause stays open
 /// where one of another variable than the first does nearly as well, or one of a variable of theirs takes
@@ -59,11 +92,9 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
   const auto on_top = search_last_resort(study, added.after);
   const bool another =
       !at_end && instead && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
-  if ((another && better > -kRule.indistinct) || (on_top && continues_one(*on_top, added))) {
-    d.verdict = DiagnosisVerdict::kHelps;
-    for (AddedEffect& a : d.added) a.established = false;
-    d.sentence = sentence_of(d, study.options.coordinates);
-  }
+  if ((another && better > -kRule.indistinct) || (on_top && continues_one(*on_top, added)))
+    open_causes(
+        d, [](const AddedEffect&) { return true; }, study.options.coordinates);
   tell_law(study, on_top, d);
   return d;
 }
@@ -74,6 +105,12 @@ bool continues_one(const LawSearch& law, const Additions& added) {
   return std::any_of(added.effects.begin(), added.effects.end(), [&](const Addition& a) {
     return variable_of(*a.entry) == variable_of(*law.after.entry);
   });
+}
+
+void open_undetermined(Coordinates coordinates, Diagnosis& d) {
+  const bool comes_no_nearer = d.mismatch.after > d.mismatch.before;
+  const auto is_open = [&](const AddedEffect& a) { return comes_no_nearer || may_be_absent(a); };
+  if (std::any_of(d.added.begin(), d.added.end(), is_open)) open_causes(d, is_open, coordinates);
 }
 
 Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
@@ -99,11 +136,9 @@ void tell_stopped(const Study& study, const Additions& added, bool by_balance, D
   if (d.verdict == DiagnosisVerdict::kNone) return;
   if (added.accepted && (at_floor(added.after) || added.explained) && !may_be_pieces(added)) return;
   d.stopped = true;
-  if (!by_balance && d.verdict == DiagnosisVerdict::kEffect) {
-    d.verdict = DiagnosisVerdict::kHelps;
-    for (AddedEffect& a : d.added) a.established = false;
-  }
-  d.sentence = sentence_of(d, study.options.coordinates);
+  const bool is_cause = by_balance || d.verdict != DiagnosisVerdict::kEffect;
+  open_causes(
+      d, [&](const AddedEffect&) { return !is_cause; }, study.options.coordinates);
 }
 
 }  // namespace gapscope::internal::diagnosis

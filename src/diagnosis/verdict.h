@@ -15,6 +15,11 @@ Diagnosis verdict_on(const Study& study, const Findings& found, const Additions&
 /// Whether a free-form law on top of effects is of a variable of theirs: they are a part of a function of it.
 bool continues_one(const LawSearch& law, const Additions& added);
 
+/// Leaves causes open that the recordings do not determine: an effect whose amount's 95 % interval holds zero
+/// may be absent, and with effects that bring the held-out motion no nearer the torque that they take is paid
+/// for elsewhere. Where that is the first one, they help at most.
+void open_undetermined(Coordinates coordinates, Diagnosis& d);
+
 /// What a search that was asked to finish before its end may say: it names no cause away from the floor,
 /// since neither further steps nor laws of last resort had their turn. The torque balance has seen its end.
 void tell_stopped(const Study& study, const Additions& added, bool by_balance, Diagnosis& d);
