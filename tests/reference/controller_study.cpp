@@ -102,9 +102,11 @@ ReferenceModel servo_model(const Servo& s, std::uint64_t seed) {
   return model;
 }
 
-bool named(const FitSummary& summary, const std::string& key) {
+/// Whether one warning says of both that they change together.
+bool named(const FitSummary& summary, const std::string& key, const std::string& other) {
   for (const Remark& w : summary.warnings)
-    if (w.text().find(key) != std::string::npos && w.text().find("change together") != std::string::npos)
+    if (w.text().find(key) != std::string::npos && w.text().find(other) != std::string::npos &&
+        w.text().find("change together") != std::string::npos)
       return true;
   return false;
 }
@@ -219,7 +221,8 @@ int main_study(int argc, char** argv) {
     const Servo s = drawn_servo(seed, anchored);
     const FitSummary found = fit_one(commanded_recording(s), servo_model(s, seed));
     ++trusts[to_string(found.trust)];
-    confounded += named(found, "controller.velocity.gain");
+    const bool told = named(found, "controller.velocity.gain", "motor_coulomb_friction");
+    confounded += told;
     if (verbose) fmt::print("{} {}", seed, to_string(found.trust));
     const std::map<std::string, double> truth = {
         {"controller.velocity.gain", s.controller.speed_gain},
@@ -229,12 +232,12 @@ int main_study(int argc, char** argv) {
         {"motor_coulomb_friction.level_nm", s.drive.effects.motor.friction.level_nm}};
     count(found, truth, tallies, verbose);
     if (found.trust == FitTrust::kGood) count(found, truth, of_good, false);
-    if (verbose) fmt::print("{}\n", named(found, "controller.velocity.gain") ? "  confounded" : "");
+    if (verbose) fmt::print("{}\n", told ? "  confounded" : "");
     std::fflush(stdout);
   }
   for (const auto& [trust, n] : trusts) fmt::print("{} {}\n", trust, n);
   const Interval told = wilson(confounded, drives);
-  fmt::print("gain said to be confounded {} of {} [{:.1f}, {:.1f}]\n", confounded, drives, 100.0 * told.low,
+  fmt::print("gain said to be confounded with friction {} of {} [{:.1f}, {:.1f}]\n", confounded, drives, 100.0 * told.low,
              100.0 * told.high);
   print(tallies);
   fmt::print("of those whose trust is good\n");
