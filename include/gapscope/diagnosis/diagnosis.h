@@ -76,7 +76,9 @@ struct RankedEffect {
 /// An effect that was added to the model: what it takes of the held-out error, and whether it is its cause.
 struct AddedEffect {
   std::string effect;
-  bool established = false;  ///< no other effect and no free law of another variable does nearly as well
+  /// No other effect and no free law of another variable does nearly as well, its amount is more than none,
+  /// and the held-out motion comes nearer
+  bool established = false;
   std::vector<std::string> group;  ///< itself, and the rivals that this recording cannot tell from it
   double probability = kNaN;
   std::vector<NamedValue> parameters;
