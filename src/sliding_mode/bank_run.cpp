@@ -54,7 +54,7 @@ double first_speed(const MotorTrace& trace, const signals::SignalFacts& facts) {
   return (trace.x1[m] - trace.x1[0]) / (trace.dt * static_cast<double>(m));
 }
 
-double quiet_share(const BankRun& run, std::size_t bound) {
+double quiet_share(const BankErrors& run, std::size_t bound) {
   std::size_t quiet = 0;
   for (std::size_t i = 0; i < run.samples(); ++i)
     quiet += std::abs(run.error(i, bound)) < 2.0 * run.floor[bound];
@@ -62,6 +62,23 @@ double quiet_share(const BankRun& run, std::size_t bound) {
 }
 
 }  // namespace
+
+std::vector<double> chatter_floors(const signals::SignalFacts& facts, double dt,
+                                   std::span<const double> bounds, Discretisation discretisation) {
+  const auto y = surrogate(facts, dt);
+  const auto ramp = run_errors(y, dt, started(y[0], 0.5 * facts.speed_rms, dt, bounds, discretisation));
+  std::vector<double> floors;
+  for (std::size_t j = 0; j < bounds.size(); ++j) {
+    const double chatter = quantile(column(ramp, bounds.size(), j, kSettle), 0.999);
+    floors.push_back(std::max({chatter, 1.5 * facts.noise, 1e-12 * facts.amplitude}));
+  }
+  return floors;
+}
+
+void raise_by_lag(BankRun& run, double dt) {
+  const double lag = run.bounds[smallest_sliding(run)] * dt * dt;
+  for (double& floor : run.floor) floor = std::max(floor, lag);
+}
 
 std::size_t smallest_sliding(const BankRun& run) {
   for (std::size_t j = 0; j < run.quiet.size(); ++j)
@@ -84,97 +101,21 @@ BoundBank started_bank(const MotorTrace& trace, const signals::SignalFacts& fact
   return started(trace.x1[0], first_speed(trace, facts), trace.dt, bounds, discretisation);
 }
 
-BankRun run_bank(const MotorTrace& trace, const signals::SignalFacts& facts, std::vector<double> bounds,
-                 Discretisation discretisation) {
-  BankRun run;
+BankErrors run_bank(const MotorTrace& trace, const signals::SignalFacts& facts, std::vector<double> bounds,
+                    Discretisation discretisation) {
+  BankErrors run;
+  run.floor = chatter_floors(facts, trace.dt, bounds, discretisation);
+  run.errors = run_errors(trace.x1, trace.dt, started_bank(trace, facts, bounds, discretisation));
   run.bounds = std::move(bounds);
-  const std::size_t m = run.bounds.size();
-  const auto y = surrogate(facts, trace.dt);
-  const auto ramp =
-      run_errors(y, trace.dt, started(y[0], 0.5 * facts.speed_rms, trace.dt, run.bounds, discretisation));
-  run.errors = run_errors(trace.x1, trace.dt, started_bank(trace, facts, run.bounds, discretisation));
-  for (std::size_t j = 0; j < m; ++j) {
-    const double chatter = quantile(column(ramp, m, j, kSettle), 0.999);
-    run.floor.push_back(std::max({chatter, 1.5 * facts.noise, 1e-12 * facts.amplitude}));
-    run.quiet.push_back(quiet_share(run, j));
-  }
-  if (discretisation == Discretisation::kForwardEuler)
-    return run;  // its chatter of O(L dt²) covers the lag below
-  // Steps that do not chatter lag by ÿ dt² instead, which the ramp does not show.
-  const double lag = run.bounds[smallest_sliding(run)] * trace.dt * trace.dt;
-  for (std::size_t j = 0; j < m; ++j) {
-    run.floor[j] = std::max(run.floor[j], lag);
-    run.quiet[j] = quiet_share(run, j);
-  }
+  const auto count = [&] {
+    run.quiet.clear();
+    for (std::size_t j = 0; j < run.bounds.size(); ++j) run.quiet.push_back(quiet_share(run, j));
+  };
+  count();
+  if (discretisation == Discretisation::kForwardEuler) return run;  // its chatter of O(L dt²) covers the lag
+  raise_by_lag(run, trace.dt);
+  count();
   return run;
-}
-
-std::vector<Excursion> find_excursions(const BankRun& run, std::size_t bound) {
-  std::vector<Excursion> found;
-  const double floor = run.floor[bound];
-  const std::size_t n = run.samples();
-  std::size_t free_from = 0;  // samples before this belong to the last excursion
-  for (std::size_t i = 0; i < n; ++i) {
-    const double e = run.error(i, bound);
-    if (!(std::abs(e) > 2.0 * floor)) continue;  // also what is no number
-    Excursion x{bound, e > 0.0 ? 1 : -1, i, i, i, 0.0};
-    while (x.start > free_from && run.error(x.start, bound) * x.sign > floor) --x.start;
-    for (x.end = i; x.end < n && run.error(x.end, bound) * x.sign > 0.5 * floor; ++x.end) {
-      if (run.error(x.end, bound) * x.sign <= x.height) continue;
-      x.height = run.error(x.end, bound) * x.sign;
-      x.peak = x.end;
-    }
-    free_from = i = x.end - 1;
-    found.push_back(x);
-  }
-  return found;
-}
-
-double abruptness(const BankRun& run, std::size_t bound, double height) {
-  const bool is_highest = bound + 1 == run.bounds.size();
-  return run.bounds[bound] * (is_highest ? height / (2.0 * run.floor[bound]) : 1.0);
-}
-
-namespace {
-
-void join(BankEvent& event, const Excursion& x, double k2) {
-  event.last = x.bound;
-  ++event.seen;
-  if (event.seen <= 4 && x.peak > event.start) event.latency = std::max(event.latency, x.peak - event.start);
-  if (event.steps.size() < 3) event.steps.push_back(std::sqrt(k2 * x.height / 0.102));
-}
-
-}  // namespace
-
-std::vector<BankEvent> link_events(const BankRun& run, const std::vector<std::vector<Excursion>>& excursions,
-                                   std::size_t tolerance) {
-  std::vector<BankEvent> events;
-  for (std::size_t j = excursions.size(); j-- > 0;) {
-    std::sort(events.begin(), events.end(),
-              [](const BankEvent& a, const BankEvent& b) { return a.start < b.start; });
-    const std::size_t known = events.size();
-    const double k2 = SuperTwistingGains::from_bound(run.bounds[j]).k2;
-    for (const Excursion& x : excursions[j]) {
-      bool joined = false;
-      const auto first =
-          std::partition_point(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(known),
-                               [&](const BankEvent& e) { return e.start + tolerance < x.start; });
-      for (auto e = first - events.begin(); e < static_cast<std::ptrdiff_t>(known); ++e) {
-        BankEvent& event = events[static_cast<std::size_t>(e)];
-        if (event.start >= x.end) break;
-        if (event.sign != x.sign) continue;
-        if (event.last != j) join(event, x, k2);
-        joined = true;
-      }
-      if (joined) continue;
-      events.push_back({x.sign, x.start, x.peak, j, j, 0, 0.0, {}, abruptness(run, j, x.height), 0});
-      join(events.back(), x, k2);
-    }
-  }
-  std::sort(events.begin(), events.end(),
-            [](const BankEvent& a, const BankEvent& b) { return a.start < b.start; });
-  for (BankEvent& event : events) event.step = median(event.steps);
-  return events;
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -13,14 +13,14 @@ namespace {
 constexpr std::size_t kFewestOfBend = 8;
 constexpr double kStandsOut = 4.0;  ///< squared error without the bend, over that with it
 
-std::vector<double> samples_of(const BankRun& run, std::size_t first, std::size_t end) {
+std::vector<double> samples_of(const BankErrors& run, std::size_t first, std::size_t end) {
   std::vector<double> e;
   for (std::size_t i = first; i < end; ++i) e.push_back(run.error(i, 0));
   return e;
 }
 
 /// First sample after the peak that noise and chatter cannot explain.
-std::size_t clearly_fallen(const BankRun& run, const Excursion& x) {
+std::size_t clearly_fallen(const BankErrors& run, const Excursion& x) {
   std::size_t i = x.peak + 1;
   while (i < x.end && x.sign * run.error(i, 0) > x.height - 3.0 * run.floor[0]) ++i;
   return i;
@@ -36,7 +36,7 @@ std::vector<KinkShape> impact_shapes(double longest) {
 
 }  // namespace
 
-double bend_before_peak(const BankRun& run, const Excursion& ramp, double since) {
+double bend_before_peak(const BankErrors& run, const Excursion& ramp, double since) {
   const double flight = static_cast<double>(ramp.peak) - since;
   const auto back = std::max(kFewestOfBend, static_cast<std::size_t>(std::max(0.25 * flight, 0.0)));
   const std::size_t first = ramp.peak - std::min(back, ramp.peak);
@@ -56,7 +56,7 @@ double bend_before_peak(const BankRun& run, const Excursion& ramp, double since)
   return stands_out && !at_the_rim ? best.time : static_cast<double>(ramp.peak);
 }
 
-std::optional<double> bend_at_release(const BankRun& run, const Excursion& ramp, std::size_t turn) {
+std::optional<double> bend_at_release(const BankErrors& run, const Excursion& ramp, std::size_t turn) {
   const auto flight = static_cast<double>(ramp.peak - turn);
   const auto back = static_cast<std::size_t>(0.6 * flight), ahead = static_cast<std::size_t>(0.3 * flight);
   if (turn < ramp.start + back || back + ahead < kFewestOfBend) return std::nullopt;

@@ -46,7 +46,7 @@ std::optional<BoundMap> bound_map(const MotorTrace& trace, const signals::Signal
   const auto lead = std::min(first, static_cast<std::size_t>(kLead * half));
   const auto width = static_cast<std::size_t>(std::ceil(shown / static_cast<double>(kColumns)));
   const auto columns = static_cast<std::size_t>(shown) / width;
-  const BankRun run =
+  const BankErrors run =
       run_bank(part(trace, first - lead, lead + columns * width), facts,
                fine_grid(bound_grid(facts, trace.dt), estimate.paper_bound), Discretisation::kMatched);
   BoundMap map{trace.file, trace.time(first), trace.dt * static_cast<double>(width), run.bounds, {}};

@@ -104,9 +104,9 @@ double nice_number(double value) {
 double scale_of(std::span<const ImpactAnalysis> analyses, const std::vector<ErrorTrace>& traces) {
   double ratio = 0.0;
   for (std::size_t i = 0; i < traces.size(); ++i) {
-    std::vector<double> sizes;
-    for (std::size_t k = traces[i].error.size() / 10; k < traces[i].error.size(); ++k)
-      sizes.push_back(std::abs(traces[i].error[k]));
+    const std::span<const double> settled = std::span(traces[i].error).subspan(traces[i].error.size() / 10);
+    std::vector<double> sizes(settled.begin(), settled.end());
+    for (double& size : sizes) size = std::abs(size);
     const double peak = quantile(std::move(sizes), 0.998);
     if (peak > 0.0) ratio = std::max(ratio, 0.5 * analyses[i].facts.travel / peak);
   }

@@ -86,7 +86,7 @@ bool FrozenSearch::try_to_learn() {
 }
 
 void FrozenSearch::learn(const signals::SignalFacts& facts, const MotorTrace& trace) {
-  const BankRun run = run_bank(trace, facts, bound_grid(facts, dt_), Discretisation::kMatched);
+  const BankMarks run = mark_bank(trace, facts, bound_grid(facts, dt_));
   frozen_.facts = facts;
   frozen_.bounds = run.bounds, frozen_.floor = run.floor, frozen_.quiet = run.quiet;
   frozen_.sliding = smallest_sliding(run);
@@ -124,10 +124,11 @@ void FrozenSearch::read_core(std::size_t end) {
   bank_.front().run(std::span<const double>(x1_).subspan(known), dt_,
                     std::span(run_.errors).subspan(known * m));
   const MotorTrace trace = window();
-  const TransitionContext context{trace, frozen_.facts, run_};
+  const BankMarks marks = marks_of(run_);
+  const TransitionContext context{trace, frozen_.facts, marks};
   const double half_period = frozen_.facts.half_period / dt_;
   const std::vector<BankEvent> events =
-      main_events(all_events(run_, half_period), run_, frozen_.least, half_period);
+      main_events(all_events(marks, half_period), marks, frozen_.least, half_period);
   for (std::size_t i = 0; i < events.size(); ++i) {
     const std::size_t start = offset_ + events[i].start;
     if (start < core_ || start >= end) continue;

@@ -82,7 +82,7 @@ class FrozenSearch {
   TurnCounter turns_;
 
   std::vector<double> u_, x1_;                    ///< the window; all samples until something was learnt
-  BankRun run_;                                   ///< the same of its errors
+  BankErrors run_;                                ///< the same of its errors
   std::size_t offset_ = 0;                        ///< of its first sample in the recording
   std::size_t core_ = 0;                          ///< first sample whose impacts were not read yet
   std::size_t hop_ = 0, before_ = 0, after_ = 0;  ///< [samples]

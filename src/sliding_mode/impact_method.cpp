@@ -12,8 +12,9 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-void read_passages(const MotorTrace& trace, const std::vector<BankEvent>& events, ImpactAnalysis& a) {
-  const TransitionContext context{trace, a.facts, a.run};
+void read_passages(const MotorTrace& trace, const BankMarks& marks, const std::vector<BankEvent>& events,
+                   ImpactAnalysis& a) {
+  const TransitionContext context{trace, a.facts, marks};
   for (std::size_t i = 1; i < events.size(); ++i)
     if (events[i].sign != events[i - 1].sign)
       a.passages.push_back(read_passage(context, events[i - 1], events[i], a.run.bounds[a.sliding]));
@@ -31,10 +32,11 @@ double stroke(const MotorTrace& trace, const signals::SignalFacts& facts) {
 
 void search(const MotorTrace& trace, ImpactAnalysis& a) {
   if (!a.facts.defect.empty()) return;
-  a.run = run_bank(trace, a.facts, bound_grid(a.facts, trace.dt), Discretisation::kMatched);
+  const BankMarks marks = mark_bank(trace, a.facts, bound_grid(a.facts, trace.dt));
+  a.run = marks;  // but for the marks, of which there are as many as samples
   a.sliding = smallest_sliding(a.run);
   const double half_period = stroke(trace, a.facts);
-  const std::vector<BankEvent> all = all_events(a.run, half_period);
+  const std::vector<BankEvent> all = all_events(marks, half_period);
   std::vector<BankEvent> events;
   if (const auto least = least_top(all, a.run, a.facts.half_periods))
     events = main_events(all, a.run, *least, half_period);
@@ -46,7 +48,7 @@ void search(const MotorTrace& trace, ImpactAnalysis& a) {
   a.smallest_visible_gap =
       above < a.run.bounds.size() ? smallest_visible_gap(trace, a.facts, a.run, above) : kInfinity;
   a.finest_gap = smallest_visible_gap(trace, a.facts, a.run, a.sliding);
-  read_passages(trace, events, a);
+  read_passages(trace, marks, events, a);
   read_coasting(trace, a.facts, a.repeats, a.passages);
 }
 

@@ -50,7 +50,7 @@ bool follows(const Excursion& ramp, const Excursion& next) {
 }
 
 /// First sample after the peak at which e_x has lost this share of its height.
-std::size_t fallen(const BankRun& run, const Excursion& x, double share) {
+std::size_t fallen(const BankErrors& run, const Excursion& x, double share) {
   std::size_t i = x.peak;
   while (i < x.end && x.sign * run.error(i, 0) > (1.0 - share) * x.height) ++i;
   return i;
@@ -59,7 +59,7 @@ std::size_t fallen(const BankRun& run, const Excursion& x, double share) {
 /// One ramp of e_x. At rest before it (S2): t1 is the last sample at rest, and e_x flips its sign at the
 /// impact. Away from zero since before the reversal of x1: t1 is where it bends away, and it loses half its
 /// height.
-Marks read_ramp(const MotorTrace& trace, const signals::SignalFacts& facts, const BankRun& run,
+Marks read_ramp(const MotorTrace& trace, const signals::SignalFacts& facts, const BankErrors& run,
                 const Excursion& ramp, std::size_t quiet_from, bool flips) {
   Marks marks{static_cast<double>(ramp.start), 0.0, "", false};
   const double quiet_samples = std::max(3.0, kQuietShare * facts.half_period / trace.dt);
@@ -98,7 +98,7 @@ GapEvent event_of(const MotorTrace& trace, const Marks& marks, int direction) {
 
 /// The excursions that count on the scale of e_x (S2): lower ones than a share of what each half period
 /// reaches are rest.
-std::vector<Excursion> excursions_on_scale(const BankRun& run, std::size_t half_periods) {
+std::vector<Excursion> excursions_on_scale(const BankErrors& run, std::size_t half_periods) {
   std::vector<Excursion> all = find_excursions(run, 0);
   std::vector<double> heights;
   for (const Excursion& x : all) heights.push_back(x.height);
@@ -116,7 +116,7 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
   reading.bound = bound;
   const signals::SignalFacts& facts = analysis.facts;
   if (!facts.defect.empty()) return reading;
-  const BankRun run = run_bank(trace, facts, {bound}, discretisation);
+  const BankErrors run = run_bank(trace, facts, {bound}, discretisation);
   reading.quiet = run.quiet[0];
   const auto excursions = excursions_on_scale(run, facts.half_periods);
   for (std::size_t i = 1; i + 1 < excursions.size(); ++i) {

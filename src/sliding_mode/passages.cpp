@@ -23,12 +23,11 @@ bool dominates(const BankEvent& strong, const BankEvent& weak, const BankRun& ru
 }
 
 /// Abruptness of the second half of [from, to): what the motion before the impact needs [rad/s²].
-double bound_needed_before(const BankRun& run, std::size_t from, std::size_t to) {
-  for (std::size_t j = run.bounds.size(); j-- > 0;) {
-    double most = 0.0;
-    for (std::size_t i = (from + to) / 2; i < to; ++i) most = std::max(most, std::abs(run.error(i, j)));
-    if (most > 2.0 * run.floor[j]) return abruptness(run, j, most);
-  }
+double bound_needed_before(const BankMarks& run, std::size_t from, std::size_t to) {
+  const std::size_t middle = (from + to) / 2;
+  for (std::size_t j = run.bounds.size(); j-- > 0;)
+    for (std::size_t i = middle; i < to; ++i)
+      if (run.is_loud(i, j)) return abruptness(run, j, run.highest_peak(middle, to));
   return 0.0;
 }
 
@@ -43,10 +42,8 @@ bool thrown_off(const TransitionContext& context, const BankEvent& before, const
 
 }  // namespace
 
-std::vector<BankEvent> all_events(const BankRun& run, double half_period) {
-  std::vector<std::vector<Excursion>> excursions;
-  for (std::size_t j = 0; j < run.bounds.size(); ++j) excursions.push_back(find_excursions(run, j));
-  return link_events(run, excursions, static_cast<std::size_t>(std::max(4.0, 0.01 * half_period)));
+std::vector<BankEvent> all_events(const BankMarks& run, double half_period) {
+  return link_events(run, run.excursions, static_cast<std::size_t>(std::max(4.0, 0.01 * half_period)));
 }
 
 std::optional<double> least_top(std::span<const BankEvent> events, const BankRun& run,
@@ -90,7 +87,7 @@ std::size_t top_bound(std::span<const std::size_t> tops, double share, std::size
 
 Transition read_passage(const TransitionContext& context, const BankEvent& before, const BankEvent& impact,
                         double sliding) {
-  const BankRun& run = context.run;
+  const BankMarks& run = context.run;
   const std::size_t from = before.start, to = impact.start;
   Transition t = read_transition(context, impact, from);
   const double needed = std::max(

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sliding_mode/bank_run.h"
+#include "sliding_mode/bank_marks.h"
 #include "sliding_mode/transition.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -14,7 +14,7 @@ constexpr double kMiddle = 0.5;     ///< of the main events: the bound that deci
 constexpr double kMostTops = 0.95;  ///< … what an impact at every reversal would stand out of
 
 /// Everything that a bank of bounds saw happen to the motor.  @param half_period  [samples]
-std::vector<BankEvent> all_events(const BankRun& run, double half_period);
+std::vector<BankEvent> all_events(const BankMarks& run, double half_period);
 
 /// How abrupt a main event must be at least, as a bound [rad/s²]: a sixth of the weakest of the strongest,
 /// one for each half period. Nothing where fewer than kFewestHalfPeriods events are persistent.

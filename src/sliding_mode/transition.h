@@ -8,7 +8,7 @@
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 #include "signals/signal_facts.h"
-#include "sliding_mode/bank_run.h"
+#include "sliding_mode/bank_marks.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -53,7 +53,7 @@ struct Transition {
 struct TransitionContext {
   const MotorTrace& trace;
   const signals::SignalFacts& facts;
-  const BankRun& run;
+  const BankMarks& run;
 };
 
 /// The passage that ends in `impact` and began after sample `from`.

@@ -66,7 +66,7 @@ Errors errors_of(const internal::sliding_mode::PaperReading& reading,
 /// Median height of e_x within 10 ms after the impacts, over its floor.
 double spike_over_floor(const MotorTrace& trace, const internal::sliding_mode::ImpactAnalysis& analysis,
                         double bound, Discretisation d, const std::vector<GapPassage>& passages) {
-  const internal::sliding_mode::BankRun run =
+  const internal::sliding_mode::BankErrors run =
       internal::sliding_mode::run_bank(trace, analysis.facts, {bound}, d);
   std::vector<double> heights;
   for (const GapPassage& p : passages) {
