@@ -13,24 +13,18 @@ RecordingTerm::RecordingTerm(const RecordingCost& cost, double& simulations)
 }
 
 bool RecordingTerm::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
-  const auto n = static_cast<std::size_t>(cost_.numbers());
   const auto& sizes = parameter_block_sizes();
   std::vector<double> q;
-  q.reserve(n);
-  for (std::size_t b = 0; b < sizes.size(); ++b) q.insert(q.end(), blocks[b], blocks[b] + sizes[b]);
-  std::vector<double> all(jacobians == nullptr ? 0 : cost_.samples() * n);
-  const Evaluation done = cost_.evaluate(q.data(), residuals, jacobians == nullptr ? nullptr : all.data());
-  simulations_ += done.simulations;
-  if (!done.valid || jacobians == nullptr) return done.valid;
-  std::size_t first = 0;
+  std::vector<DerivativeColumn> columns;
   for (std::size_t b = 0; b < sizes.size(); ++b) {
-    const auto width = static_cast<std::size_t>(sizes[b]);
-    if (jacobians[b] != nullptr)
-      for (std::size_t k = 0; k < cost_.samples(); ++k)
-        std::copy_n(&all[k * n + first], width, jacobians[b] + k * width);
-    first += width;
+    q.insert(q.end(), blocks[b], blocks[b] + sizes[b]);
+    for (int i = 0; i < sizes[b] && jacobians != nullptr; ++i)
+      columns.push_back(
+          {jacobians[b] == nullptr ? nullptr : jacobians[b] + i, static_cast<std::size_t>(sizes[b])});
   }
-  return true;
+  const Evaluation done = cost_.evaluate(q.data(), residuals, columns);
+  simulations_ += done.simulations;
+  return done.valid;
 }
 
 PriorTerm::PriorTerm(const Parameter& parameter, std::size_t place, std::size_t count)

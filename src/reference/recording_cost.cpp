@@ -25,8 +25,9 @@ RecordingCost::RecordingCost(const FitProblem& problem, std::size_t recording, c
       gains_(observer_hz, problem.recordings[recording]),
       floor_(problem.floors[recording]) {}
 
-template <class T>
-bool RecordingCost::run(const T* q, T* out) const {
+/// Hands `keep` the index and the residual of each sample.
+template <class T, class Keep>
+bool RecordingCost::run(const T* q, const Keep& keep) const {
   const ModelNumbers<T> numbers = problem_.numbers(q);
   std::array<T, kStates> initial;
   for (std::size_t i = 0; i < kStates; ++i) initial[i] = T(start_.q[i]);
@@ -35,66 +36,72 @@ bool RecordingCost::run(const T* q, T* out) const {
   const PlantModel<T> model = problem_.plant_model(numbers);
   const DriveState<T> state = problem_.state(start_, T(0.5 * model.drive.gap), initial.data());
   const double scale = 1.0 / floor_;
-  const auto keep = [&](std::size_t i, const DriveStepper<T>& stepper) {
-    out[i] = (recording_.x1[i] - stepper.measured()) * scale;
+  const auto visit = [&](std::size_t i, const DriveStepper<T>& stepper) {
+    keep(i, T((recording_.x1[i] - stepper.measured()) * scale));
   };
-  if (!problem_.controller) return roll_out(model, state, recording_, gains_, keep);
+  if (!problem_.controller) return roll_out(model, state, recording_, gains_, visit);
   const std::vector<T> u = problem_.commanded(numbers, place_);
-  return roll_out(model, state, recording_, std::span<const T>(u), gains_, keep);
+  return roll_out(model, state, recording_, std::span<const T>(u), gains_, visit);
 }
 
+/// Derivatives by the N numbers from `first` on, or as many as are left.
 template <int N>
-bool RecordingCost::run_chunk(const double* q, int first, int count, double* residuals,
-                              double* jacobian) const {
-  const auto n = static_cast<std::size_t>(numbers());
+bool RecordingCost::run_chunk(const double* q, int first, double* residuals,
+                              std::span<const DerivativeColumn> columns) const {
+  const auto n = static_cast<std::size_t>(numbers()), begin = static_cast<std::size_t>(first);
   std::vector<Jet<N>> jets(n);
   for (std::size_t i = 0; i < n; ++i) jets[i] = Jet<N>(q[i]);
-  for (int i = 0; i < count; ++i) jets[static_cast<std::size_t>(first + i)].v[i] = 1.0;
-  std::vector<Jet<N>> out(recording_.size());
-  if (!run(jets.data(), out.data())) return false;
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    residuals[k] = out[k].a;
-    for (int i = 0; i < count; ++i) jacobian[k * n + static_cast<std::size_t>(first + i)] = out[k].v[i];
-  }
-  const std::size_t last = out.size() - 1;
-  return std::isfinite(residuals[last]) && out[last].v.allFinite();
+  const auto part = columns.subspan(begin, std::min<std::size_t>(N, n - begin));
+  for (std::size_t i = 0; i < part.size(); ++i) jets[begin + i].v[static_cast<int>(i)] = 1.0;
+  bool finite = false;
+  const bool valid = run(jets.data(), [&](std::size_t k, const Jet<N>& r) {
+    residuals[k] = r.a;
+    for (std::size_t i = 0; i < part.size(); ++i)
+      if (part[i].first != nullptr) part[i].first[k * part[i].stride] = r.v[static_cast<int>(i)];
+    if (k + 1 == recording_.size()) finite = std::isfinite(r.a) && r.v.allFinite();
+  });
+  return valid && finite;
 }
 
 Evaluation RecordingCost::evaluate(const double* q, double* residuals, double* jacobian) const {
+  std::vector<DerivativeColumn> columns;
+  const auto n = static_cast<std::size_t>(numbers());
+  for (std::size_t i = 0; i < n && jacobian != nullptr; ++i) columns.push_back({jacobian + i, n});
+  return evaluate(q, residuals, columns);
+}
+
+Evaluation RecordingCost::evaluate(const double* q, double* residuals,
+                                   std::span<const DerivativeColumn> columns) const {
   Evaluation done;
   if (stop_requested() || problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return done;
-  if (jacobian == nullptr) {
+  if (columns.empty()) {
     done.simulations += 1.0;
-    if (!run(q, residuals)) return done;
-  } else {
-    for (int first = 0; first < std::max(1, numbers());) {
-      const int left = numbers() - first;
-      const int count = std::min(left, 12);
-      done.simulations += left <= 4 ? kJet4Cost : left <= 8 ? kJet8Cost : kJet12Cost;
-      const bool valid = left <= 4   ? run_chunk<4>(q, first, count, residuals, jacobian)
-                         : left <= 8 ? run_chunk<8>(q, first, count, residuals, jacobian)
-                                     : run_chunk<12>(q, first, count, residuals, jacobian);
-      if (!valid) return done;
-      first += std::max(1, count);
-    }
+    if (!run(q, [&](std::size_t k, double r) { residuals[k] = r; })) return done;
   }
-  apply_loss(residuals, jacobian);
+  for (int first = 0; first < std::ssize(columns); first += 12) {
+    const auto left = std::ssize(columns) - first;
+    done.simulations += left <= 4 ? kJet4Cost : left <= 8 ? kJet8Cost : kJet12Cost;
+    const bool valid = left <= 4   ? run_chunk<4>(q, first, residuals, columns)
+                       : left <= 8 ? run_chunk<8>(q, first, residuals, columns)
+                                   : run_chunk<12>(q, first, residuals, columns);
+    if (!valid) return done;
+  }
+  apply_loss(residuals, columns);
   done.valid = true;
   return done;
 }
 
 /// Huber: r stays within the width w; beyond it becomes √(2 w |r| − w²), whose square is Huber's loss.
-void RecordingCost::apply_loss(double* residuals, double* jacobian) const {
+void RecordingCost::apply_loss(double* residuals, std::span<const DerivativeColumn> columns) const {
   const double width = problem_.options.loss_width / floor_;
   if (!(width > 0.0)) return;
-  const auto n = static_cast<std::size_t>(numbers());
   for (std::size_t k = 0; k < recording_.size(); ++k) {
     const double r = residuals[k];
     if (std::abs(r) <= width) continue;
     const double root = std::sqrt(2.0 * width * std::abs(r) - width * width);
     residuals[k] = std::copysign(root, r);
-    if (jacobian == nullptr) continue;
-    for (std::size_t i = 0; i < n; ++i) jacobian[k * n + i] *= width / root;
+    for (const DerivativeColumn& column : columns)
+      if (column.first != nullptr) column.first[k * column.stride] *= width / root;
   }
 }
 

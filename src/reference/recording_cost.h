@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "reference/fit_problem.h"
 #include "reference/observer.h"
 
@@ -9,6 +11,12 @@ namespace gapscope::internal::reference {
 struct Evaluation {
   bool valid = false;        ///< false: the motion diverged, or was refused
   double simulations = 0.0;  ///< spent on it, a Jet run counted as its measured cost in plain ones
+};
+
+/// Where the derivatives by one number go: that of each sample `stride` places after the one before.
+struct DerivativeColumn {
+  double* first = nullptr;  ///< null: nowhere
+  std::size_t stride = 0;
 };
 
 /// Residuals of one recording, in units of its floor: innovations (measured − predicted) of the model run as
@@ -24,16 +32,20 @@ class RecordingCost {
   /// @param jacobian row-major (samples × numbers), or null
   Evaluation evaluate(const double* q, double* residuals, double* jacobian) const;
 
+  /// @param columns one for each number; none: only the residuals are asked for
+  Evaluation evaluate(const double* q, double* residuals, std::span<const DerivativeColumn> columns) const;
+
   std::size_t samples() const { return recording_.size(); }
   int numbers() const { return static_cast<int>(shared_ + states_.size()); }
   const std::vector<int>& states() const { return states_; }  ///< the initial numbers that are free
 
  private:
-  template <class T>
-  bool run(const T* q, T* out) const;
+  template <class T, class Keep>
+  bool run(const T* q, const Keep& keep) const;
   template <int N>
-  bool run_chunk(const double* q, int first, int count, double* residuals, double* jacobian) const;
-  void apply_loss(double* residuals, double* jacobian) const;
+  bool run_chunk(const double* q, int first, double* residuals,
+                 std::span<const DerivativeColumn> columns) const;
+  void apply_loss(double* residuals, std::span<const DerivativeColumn> columns) const;
 
   const FitProblem& problem_;
   const MotorTrace& recording_;
