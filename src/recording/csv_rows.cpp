@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 
 #include "gapscope/base/errors.h"
@@ -11,16 +9,12 @@
 namespace gapscope::internal::recording {
 namespace {
 
-std::string whole_file(const std::string& path) {
+std::ifstream opened(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in && (errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == EIO))
     throw MachineError(path + ": cannot be opened: " + std::strerror(errno));
   if (!in) throw ConfigError(path, "cannot be opened, expected a readable file");
-  std::string text(static_cast<std::size_t>(std::filesystem::file_size(path)), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) throw MachineError(path + ": cannot be read to its end");
-  return text;
+  return in;
 }
 
 void add_row(CsvRow& row, EarlierRow earlier, RecordedRows& table) {
@@ -51,17 +45,16 @@ std::vector<std::string> csv_names(const std::string& path) {
 }
 
 RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, EarlierRow earlier) {
-  const std::string text = whole_file(path);
+  std::ifstream in = opened(path);
   RecordedRows table;
   table.path = path;
   CsvRow row(path, columns);
-  for (std::string_view rest = text; !rest.empty();) {
-    const auto end = std::min(rest.find('\n'), rest.size());
-    if (row.next(rest.substr(0, end))) add_row(row, earlier, table);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+  for (std::string line; std::getline(in, line);) {
+    table.open_end = in.eof();
+    if (row.next(line)) add_row(row, earlier, table);
   }
+  if (in.bad()) throw MachineError(path + ": cannot be read to its end");
   row.require_header();
-  table.open_end = !text.empty() && text.back() != '\n';
   return table;
 }
 
