@@ -37,10 +37,9 @@ double change(std::span<const double> u, double lag, std::size_t stride, double 
 
 /// Best lag in [low, high] by a grid that closes in.
 double refine(std::span<const double> u, double low, double high, std::size_t stride, double var) {
-  double best = 0.5 * (low + high), width = 0.5 * (high - low);
+  double best = 0.5 * (low + high), width = 0.5 * (high - low), least = change(u, best, stride, var);
   for (; width > 1e-4; width *= 0.5) {
     const double centre = best;
-    double least = change(u, centre, stride, var);
     for (const double lag : {centre - 0.5 * width, centre + 0.5 * width})
       if (const double c = change(u, lag, stride, var); c < least) least = c, best = lag;
   }

@@ -50,6 +50,7 @@ std::vector<double> without_drift(const MotorTrace& trace, double period) {
   const auto lag = static_cast<std::size_t>(std::lround(period / trace.dt));
   if (lag == 0) return level;
   std::vector<double> gains;
+  gains.reserve(level.size() - std::min(lag, level.size()));
   for (std::size_t i = lag; i < level.size(); ++i) gains.push_back(trace.x1[i] - trace.x1[i - lag]);
   const double per_sample = median(std::move(gains)) / static_cast<double>(lag);
   for (std::size_t i = 0; i < level.size(); ++i) level[i] -= per_sample * static_cast<double>(i);
