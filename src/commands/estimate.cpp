@@ -10,7 +10,7 @@ namespace gapscope {
 
 RunOutcome make_estimate(const Configuration& c, const Estimators& wanted, const Progress& progress) {
   const std::vector<FileHash> sources = sources_of(c);
-  RunOutcome outcome = run_pipeline(c, wanted, progress);
+  RunOutcome outcome = run_pipeline(c, wanted, progress, 0);
   require_unchanged(c, sources);
   outcome.result.sources = sources;
   return outcome;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/parallel.h"
 #include "gapscope/base/version.h"
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/comparison.h"
@@ -112,15 +113,16 @@ ErrorTrace at_recorded(const Recording& recorded, const Recording& grid, const E
 }
 
 /// The estimate of the grids, or of the recordings where there are none.
-GapEstimate model_free(const Configuration& c, const LoadedRecordings& grids, RunResult& r) {
+GapEstimate model_free(const Configuration& c, const LoadedRecordings& grids,
+                       const std::vector<Recording>& recordings, std::vector<std::string>& notes) {
   if (grids.recordings.empty()) {
-    const std::vector<MotorTrace> traces = traces_of(r.recordings);
-    return detect_gap(traces, detector_options(c, traces, r.notes));
+    const std::vector<MotorTrace> traces = traces_of(recordings);
+    return detect_gap(traces, detector_options(c, traces, notes));
   }
   const std::vector<MotorTrace> traces = grids.motor_traces();
-  GapEstimate g = detect_gap(traces, detector_options(c, traces, r.notes));
+  GapEstimate g = detect_gap(traces, detector_options(c, traces, notes));
   for (std::size_t i = 0; i < g.traces.size(); ++i)
-    g.traces[i] = at_recorded(r.recordings[i], grids.recordings[i], g.traces[i]);
+    g.traces[i] = at_recorded(recordings[i], grids.recordings[i], g.traces[i]);
   return g;
 }
 
@@ -128,9 +130,34 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
+/// Both estimators, side by side where there are threads: neither knows of the other.
+void estimate(const Configuration& c, const Estimators& wanted, const LoadedRecordings& grids,
+              const Progress& progress, int threads, RunOutcome& out) {
+  RunResult& r = out.result;
+  std::vector<std::string> notes;  // of the detector
+  if (wanted.model_free) progress("model-free detector");
+  if (wanted.reference) progress("reference fit");
+  parallel_for(2, threads, [&](std::size_t which) {
+    stop_point();
+    if (which == 0 && wanted.model_free)
+      r.model_free =
+          timed(out.timing.model_free_s, [&] { return model_free(c, grids, r.recordings, notes); });
+    if (which == 1 && wanted.reference)
+      r.reference = timed(out.timing.reference_s,
+                          [&] { return fit(traces_of(r.recordings), c.reference_model(), c.fit); });
+  });
+  append(r.notes, notes);
+  if (!wanted.reference) return;
+  note_defaults(c.model, r.notes);
+  if (c.anchor) r.notes.push_back(c.anchor->told(c.coordinates));
+  if (c.controller && c.controller->estimates())
+    internal::run::command_anew(fitted_controller(*c.controller, *r.reference), r.recordings);
+}
+
 }  // namespace
 
-RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const Progress& progress) {
+RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const Progress& progress,
+                        int threads) {
   if (wanted.reference) require_reference_model(c);
   RunOutcome out;
   RunResult& r = out.result;
@@ -150,21 +177,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   out.warnings = std::move(loaded.warnings);
   r.recordings = std::move(loaded.recordings);
   if (c.simulation && c.simulation->plant.structure.has_load) r.simulated_gap = c.simulation->plant.drive.gap;
-  if (wanted.model_free) {
-    stop_point();
-    progress("model-free detector");
-    r.model_free = timed(out.timing.model_free_s, [&] { return model_free(c, grids, r); });
-  }
-  if (wanted.reference) {
-    stop_point();
-    progress("reference fit");
-    note_defaults(c.model, r.notes);
-    if (c.anchor) r.notes.push_back(c.anchor->told(c.coordinates));
-    r.reference = timed(out.timing.reference_s,
-                        [&] { return fit(traces_of(r.recordings), c.reference_model(), c.fit); });
-    if (c.controller && c.controller->estimates())
-      internal::run::command_anew(fitted_controller(*c.controller, *r.reference), r.recordings);
-  }
+  estimate(c, wanted, grids, progress, threads, out);
   if (c.encoder.sides == EncoderSides::kBoth)
     r.second_encoder = validate_by_load(r.recordings, r.reference ? &*r.reference : nullptr);
   put_into_words(r);

@@ -27,9 +27,10 @@ struct RunOutcome {
 /// Data, both estimators, comparison: everything of `run`, `detect` and `fit` but the writing. Uneven rows
 /// need a resampling for the detector; the reference takes them as they are where that is for the detector
 /// alone.
+/// @param threads  from two on the estimators work side by side; 0: as many as there are cores
 /// @throws ConfigError, Interrupted
 RunOutcome run_pipeline(const Configuration& configuration, const Estimators& wanted,
-                        const Progress& progress);
+                        const Progress& progress, int threads = 1);
 
 struct LoadedRecordings {
   std::vector<Recording> recordings;
