@@ -16,8 +16,8 @@ Panel map(const ReportView& view, const std::string& title, const std::vector<do
   Series s;
   s.style = measured_style();
   s.style.width = 3.0;
-  s.x = view.over_time("", {}, view.recording->x1, view.window).y;
-  s.y = view.over_time("", {}, y, view.window).y;
+  const auto x_part = view.part(view.recording->x1, view.window), y_part = view.part(y, view.window);
+  s.x.assign(x_part.begin(), x_part.end()), s.y.assign(y_part.begin(), y_part.end());
   panel.series.push_back(s);
   return panel;
 }

@@ -57,8 +57,9 @@ Panel loop(const ReportView& view, const DriveSignal& drive, const LineStyle& st
   s.style = style;
   s.style.dashes.clear();  // a loop run through many times fills its dashes
   s.style.width = 3.0;
-  s.x = view.over_time("", {}, without_noise(view, drive.values), view.window).y;
-  s.y = view.over_time("", {}, view.state, view.window).y;
+  const std::vector<double> smooth = without_noise(view, drive.values);
+  const auto x = view.part(smooth, view.window), y = view.part(view.state, view.window);
+  s.x.assign(x.begin(), x.end()), s.y.assign(y.begin(), y.end());
   panel.series.push_back(s);
   return panel;
 }

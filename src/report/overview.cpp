@@ -16,11 +16,10 @@ void borrow(FigureData& sheet, const std::vector<FigureData>& figures, const std
             std::size_t index, double height, const std::string& title = "") {
   for (const FigureData& figure : figures) {
     if (figure.file != file || !figure.missing.empty() || index >= figure.panels.size()) continue;
-    Panel panel = figure.panels[index];
+    Panel& panel = sheet.panels.emplace_back(figure.panels[index]);
     if (!title.empty()) panel.title = title;
     panel.height = height;
     panel.x_labels = true;
-    sheet.panels.push_back(panel);
   }
 }
 

@@ -1,6 +1,8 @@
 #include "gapscope/report/report.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <ostream>
 
@@ -18,8 +20,8 @@ namespace gapscope {
 namespace {
 
 void append(std::vector<internal::report::FigureData>& all,
-            const std::vector<internal::report::FigureData>& more) {
-  all.insert(all.end(), more.begin(), more.end());
+            std::vector<internal::report::FigureData>&& more) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/decimate.h"
 #include "report/signals.h"
 #include "report/wording.h"
 
@@ -11,6 +12,10 @@ namespace {
 
 constexpr std::size_t kMostHalfPeriods = 14;  // that a column can show apart
 constexpr std::size_t kShownHalfPeriods = 8;
+
+/// Of a long line: the first, lowest, highest and last sample of each are kept. Twenty times the pixels of
+/// any panel, so that a picture looks as all of them would.
+constexpr std::size_t kLineColumns = 1 << 15;
 
 std::size_t accepted_in(const RunResult& run, const std::string& file) {
   if (!run.model_free) return 0;
@@ -82,6 +87,7 @@ void find_window(ReportView& view) {
 ReportView::ReportView(const RunResult& result)
     : run(result), recording(shown_recording(result)), length_unit(position_unit(result)) {
   if (recording == nullptr) return;
+  time.reserve(recording->size());
   for (std::size_t i = 0; i < recording->size(); ++i) time.push_back(recording->time(i));
   find_traces(*this);
   find_state(*this);
@@ -114,16 +120,23 @@ std::string ReportView::true_gap_name() const {
   return std::isfinite(run.simulated_gap) ? "simulated gap" : "read off $x_1$–$x_2$";
 }
 
+std::span<const double> ReportView::part(const std::vector<double>& values, const Interval& interval) const {
+  const std::size_t first = index(interval.low), end = std::min(index(interval.high) + 1, values.size());
+  return std::span(values).subspan(std::min(first, end), end - std::min(first, end));
+}
+
 Series ReportView::over_time(const std::string& label, const LineStyle& style,
                              const std::vector<double>& values, const Interval& interval) const {
   Series s;
   s.label = label;
   s.style = style;
-  const std::size_t first = index(interval.low), last = index(interval.high);
-  for (std::size_t i = first; i <= last && i < values.size(); ++i) {
-    s.x.push_back(time[i]);
-    s.y.push_back(values[i]);
+  const std::span<const double> y = part(values, interval), x = part(time, interval).first(y.size());
+  const bool interrupted = std::any_of(y.begin(), y.end(), [](double v) { return std::isnan(v); });
+  if (interrupted || y.size() <= 4 * kLineColumns) {
+    s.x.assign(x.begin(), x.end()), s.y.assign(y.begin(), y.end());
+    return s;
   }
+  for (const std::size_t i : decimate_columns(x, y, kLineColumns)) s.x.push_back(x[i]), s.y.push_back(y[i]);
   return s;
 }
 

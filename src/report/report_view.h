@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,9 @@ struct ReportView {
   double true_gap() const;  ///< of the simulated plant, else read off the x1–x2 map; NaN
   std::string true_gap_name() const;
 
-  /// A line over time, cut to an interval.
+  /// The samples of an interval.
+  std::span<const double> part(const std::vector<double>& values, const Interval& interval) const;
+  /// A line over time, cut to an interval; of a long one no more samples than a picture can show.
   Series over_time(const std::string& label, const LineStyle& style, const std::vector<double>& values,
                    const Interval& interval) const;
   Axis time_axis(const Interval& interval) const;

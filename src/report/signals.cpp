@@ -9,19 +9,20 @@
 namespace gapscope::internal::report {
 
 std::vector<double> difference_of(std::span<const double> a, std::span<const double> b) {
-  std::vector<double> result;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) result.push_back(a[i] - b[i]);
+  std::vector<double> result(std::min(a.size(), b.size()));
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = a[i] - b[i];
   return result;
 }
 
 std::vector<double> times(std::span<const double> a, double factor) {
-  std::vector<double> result;
-  for (const double v : a) result.push_back(factor * v);
+  std::vector<double> result(a.begin(), a.end());
+  for (double& v : result) v *= factor;
   return result;
 }
 
 std::vector<double> moving_mean(const std::vector<double>& values, std::size_t reach) {
   std::vector<double> sums = {0.0}, result;
+  sums.reserve(values.size() + 1), result.reserve(values.size());
   for (const double v : values) sums.push_back(sums.back() + v);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::size_t r = std::min({reach, i, values.size() - 1 - i});

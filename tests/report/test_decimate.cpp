@@ -5,6 +5,8 @@
 
 #include "gapscope/base/random.h"
 #include "report/decimate.h"
+#include "report/report_view.h"
+#include "report/signals.h"
 
 namespace gapscope::internal::report {
 namespace {
@@ -41,6 +43,37 @@ TEST(DecimateColumns, KeepsTheExtremesOfEveryColumn) {
 TEST(DecimateColumns, LeavesAShortTraceAlone) {
   const std::vector<double> x = {0.0, 1.0, 2.0}, y = {1.0, NAN, 3.0};
   EXPECT_EQ(decimate_columns(x, y, 10), (std::vector<std::size_t>{0, 1, 2}));
+}
+
+RunResult long_run(std::size_t samples) {
+  RunResult run;
+  Recording r;
+  r.dt = 1e-3;
+  for (std::size_t i = 0; i < samples; ++i) r.x1.push_back(std::sin(1e-5 * static_cast<double>(i)));
+  r.u = r.x1;
+  run.recordings.push_back(std::move(r));
+  return run;
+}
+
+TEST(OverTime, KeepsTheSpikesOfALongLineButNotAllOfIt) {
+  RunResult run = long_run(1'000'000);
+  std::vector<double>& x1 = run.recordings[0].x1;
+  x1[123'457] = 7.0, x1[876'543] = -7.0;
+  const ReportView view(run);
+  const Series line = view.over_time("", {}, x1, {view.time.front(), view.time.back()});
+  EXPECT_LT(line.x.size(), 140'000u);
+  EXPECT_EQ(line.x.size(), line.y.size());
+  EXPECT_EQ(peak_to_peak(line.y), 14.0);
+  EXPECT_EQ(line.x.front(), view.time.front());
+  EXPECT_EQ(line.x.back(), view.time.back());
+  EXPECT_EQ(view.part(x1, {view.time.front(), view.time.back()}).size(), x1.size());
+}
+
+TEST(OverTime, LeavesAnInterruptedLineAlone) {
+  RunResult run = long_run(200'000);
+  run.recordings[0].x1[1000] = kNaN;
+  const ReportView view(run);
+  EXPECT_EQ(view.over_time("", {}, run.recordings[0].x1, {0.0, 1e9}).y.size(), 200'000u);
 }
 
 TEST(ThinOut, LeavesNoHoleWiderThanOneStepMoreThanAsked) {
