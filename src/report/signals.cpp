@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "gapscope/base/parallel.h"
 #include "gapscope/base/require.h"
 
 namespace gapscope::internal::report {
@@ -103,11 +104,13 @@ std::vector<double> correlation(std::span<const double> a, std::span<const doubl
   const std::vector<double> other = a.data() == b.data() ? std::vector<double>() : without_mean(b);
   const std::vector<double>& later = other.empty() ? first : other;
   const double power = std::sqrt(inner_product(first, first.data()) * inner_product(later, later.data()));
-  std::vector<double> c;
-  for (std::size_t k = 0; k <= lags && k < first.size(); k += step) {
+  if (first.empty()) return {};
+  std::vector<double> c(std::min(lags, first.size() - 1) / step + 1);
+  parallel_for(c.size(), 0, [&](std::size_t i) {
+    const std::size_t k = i * step;
     const double sum = inner_product({first.data(), first.size() - k}, &later[k]);
-    c.push_back(power > 0.0 ? sum / power : kNaN);
-  }
+    c[i] = power > 0.0 ? sum / power : kNaN;
+  });
   return c;
 }
 
