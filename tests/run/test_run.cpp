@@ -41,6 +41,16 @@ class Recorded {
   ScratchFolder folder_;
 };
 
+TEST(RunPipeline, SaysTheSameWhetherItsEstimatorsWorkInTurnOrSideBySide) {
+  const Configuration c = parse_configuration(kSimulated, "simulated.yaml");
+  const StoredResult in_turn = stored_run_result(run_pipeline(c, {true, true}, kSilent, 1).result);
+  const StoredResult beside = stored_run_result(run_pipeline(c, {true, true}, kSilent, 2).result);
+  EXPECT_EQ(in_turn.json, beside.json);
+  ASSERT_EQ(in_turn.traces.size(), beside.traces.size());
+  for (std::size_t i = 0; i < in_turn.traces[0].columns.size(); ++i)
+    EXPECT_EQ(in_turn.traces[0].columns[i].numbers, beside.traces[0].columns[i].numbers);
+}
+
 TEST(RunPipeline, AsksOnlyTheEstimatorsThatAreWanted) {
   const Configuration c = parse_configuration(kSimulated, "simulated.yaml");
   const RunResult result = run_pipeline(c, {true, false}, kSilent).result;
