@@ -49,26 +49,40 @@ void open_causes(Diagnosis& d, Property is_open, Coordinates coordinates) {
   d.sentence = sentence_of(d, coordinates);
 }
 
-/// Whether a number says how much there is of an effect: of a law that contains a simpler one a share of its
-/// own where it has one, else the first.
-bool is_amount(const EffectEntry& entry, std::size_t i) {
-  const auto is_share = [](const EffectParameterSpec& p) {
-    return (p.scale == Scale::kOne || p.scale == Scale::kLevel) && p.absent == 0.0;
+/// Whether another effect that was added has the level of the same simple law: the recordings determine their
+/// sum, and neither alone.
+bool shares_level(const AddedEffect& a, const std::vector<AddedEffect>& added) {
+  const auto simplest = [](const AddedEffect& of) {
+    const EffectEntry* entry = find_effect(of.effect);
+    const EffectEntry* contained = contained_effect(*entry);
+    return contained == nullptr ? entry : contained;
   };
-  const auto own = entry.parameters.subspan(1);
-  const bool has_share = contained_effect(entry) != nullptr && std::any_of(own.begin(), own.end(), is_share);
-  return has_share ? i > 0 && is_share(entry.parameters[i]) : i == 0;
+  return std::any_of(added.begin(), added.end(), [&](const AddedEffect& other) {
+    return other.effect != a.effect && simplest(other) == simplest(a);
+  });
+}
+
+/// The numbers that say how much there is of an effect: of a law that contains a simpler one its own shares
+/// where it has some, else the first. A level that is shared says nothing, nor does a share of it.
+std::vector<std::size_t> amounts_of(const EffectEntry& entry, bool shared) {
+  std::vector<std::size_t> own;
+  for (std::size_t i = 1; contained_effect(entry) != nullptr && i < entry.parameters.size(); ++i) {
+    const EffectParameterSpec& p = entry.parameters[i];
+    if (p.absent == 0.0 && (p.scale == Scale::kOne || p.scale == Scale::kLevel)) own.push_back(i);
+  }
+  if (own.empty()) own.push_back(0);
+  if (shared)
+    std::erase_if(own, [&](std::size_t i) { return i == 0 || entry.parameters[i].scale == Scale::kLevel; });
+  return own;
 }
 
 /// Whether the 95 % interval of all that says how much there is of an effect holds zero. (Of a knee or a
 /// stiffness that is without a bound where the effect is absent, the interval of the inverse then does.)
-bool may_be_absent(const AddedEffect& a) {
-  const EffectEntry& entry = *find_effect(a.effect);
+bool may_be_absent(const AddedEffect& a, const std::vector<AddedEffect>& added) {
   bool absent = false;
-  for (std::size_t i = 0; i < a.parameters.size(); ++i) {
-    const Interval& ci95 = a.parameters[i].ci95;
-    if (!is_amount(entry, i) || std::isnan(ci95.low)) continue;
-    if (ci95.low > 0.0 || ci95.high < 0.0) return false;
+  for (const std::size_t i : amounts_of(*find_effect(a.effect), shares_level(a, added))) {
+    if (i >= a.parameters.size() || std::isnan(a.parameters[i].ci95.low)) continue;
+    if (a.parameters[i].ci95.low > 0.0 || a.parameters[i].ci95.high < 0.0) return false;
     absent = true;
   }
   return absent;
@@ -109,7 +123,7 @@ bool continues_one(const LawSearch& law, const Additions& added) {
 
 void open_undetermined(Coordinates coordinates, Diagnosis& d) {
   const bool comes_no_nearer = d.mismatch.after > d.mismatch.before;
-  const auto is_open = [&](const AddedEffect& a) { return comes_no_nearer || may_be_absent(a); };
+  const auto is_open = [&](const AddedEffect& a) { return comes_no_nearer || may_be_absent(a, d.added); };
   if (std::any_of(d.added.begin(), d.added.end(), is_open)) open_causes(d, is_open, coordinates);
 }
 

@@ -34,6 +34,8 @@ AddedEffect effect(const char* name, std::vector<NamedValue> parameters) {
 
 const AddedEffect kFriction = effect("motor_coulomb_friction", {number("level_nm", 0.9, 1.1)});
 
+const AddedEffect kDelay = effect("input_delay", {number("delay_s", 0.9, 1.1)});
+
 Diagnosis judged(Diagnosis d) {
   open_undetermined({}, d);
   return d;
@@ -62,10 +64,15 @@ TEST(OpenCauses, AKneeThatMayLieAnywhereMayBeNone) {
                   .established);
 }
 
+/// With another effect that is one.
+bool is_cause_beside(std::vector<NamedValue> numbers, const char* name, const AddedEffect& other) {
+  return judged(of_two(effect(name, std::move(numbers)), other)).verdict == DiagnosisVerdict::kEffect;
+}
+
 TEST(OpenCauses, OfALawThatContainsASimplerOneItsOwnShareCounts) {
   const auto level = number("level_nm", 0.9, 1.1), no_level = number("level_nm", -0.1, 0.3);
   const auto is_cause = [](std::vector<NamedValue> numbers, const char* name) {
-    return judged(of_two(effect(name, std::move(numbers)), kFriction)).verdict == DiagnosisVerdict::kEffect;
+    return is_cause_beside(std::move(numbers), name, kDelay);
   };
   EXPECT_FALSE(is_cause({level, number("ratio", -0.1, 0.2)}, "load_dependent_friction"));
   EXPECT_TRUE(is_cause({no_level, number("ratio", 0.1, 0.2)}, "load_dependent_friction"));
@@ -73,6 +80,18 @@ TEST(OpenCauses, OfALawThatContainsASimplerOneItsOwnShareCounts) {
   EXPECT_TRUE(is_cause({level, none, some}, "friction_asymmetry")) << "one of two";
   EXPECT_FALSE(is_cause({level, none, number("viscous_ratio", -0.3, 0.2)}, "friction_asymmetry"));
   EXPECT_TRUE(is_cause({level, number("length_rad", -0.1, 0.2)}, "presliding_friction")) << "has no share";
+}
+
+TEST(OpenCauses, ALevelThatTwoLawsShareSaysNothingOfEither) {
+  const auto no_level = number("level_nm", -5.0, 6.0), no_share = number("stiction_ratio", -1.0, 2.0);
+  const AddedEffect asymmetry = effect("friction_asymmetry", {no_level, number("coulomb_ratio", 0.1, 0.2)});
+  EXPECT_TRUE(is_cause_beside({no_level}, "motor_coulomb_friction", asymmetry));
+  EXPECT_FALSE(is_cause_beside({no_level}, "motor_coulomb_friction", kDelay));
+  EXPECT_TRUE(is_cause_beside({no_level, no_share}, "stribeck_friction", asymmetry))
+      << "a share of that level";
+  EXPECT_FALSE(is_cause_beside({no_level, no_share}, "stribeck_friction", kDelay));
+  EXPECT_FALSE(is_cause_beside({no_level, number("ratio", -0.1, 0.2)}, "load_dependent_friction", asymmetry))
+      << "a share of the load";
 }
 
 TEST(OpenCauses, WhatIsNotToldIsNotHeldAgainstThem) {
