@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "gapscope/base/require.h"
+#include "gapscope/base/text.h"
+#include "gapscope/recording/supply.h"
+#include "reference/torque_scale.h"
 
 namespace gapscope::internal::reference {
 namespace {
@@ -34,20 +37,12 @@ bool all_at_rows(const FitProblem& problem, const DriveController& controller) {
                      [&](const MotorTrace& t) { return updates_at_rows(controller, t); });
 }
 
-/// The inertia that the motor sees while in contact; NaN where it is not given.
-double given_inertia(const ReferenceModel& model) {
-  const double motor = model.parameters[place::kMotorInertia].value;
-  if (!model.structure.has_load || model.structure.load == LoadKind::kLocked) return motor;
-  return motor * (1.0 + model.parameters[place::kMassRatio].value);
-}
-
 /// Of a controller whose leading number is 1 so far.
 double suggested_leading(const FitProblem& problem, const ReferenceModel& model) {
-  const signals::OneBody body = signals::as_one_body(problem.recordings);
-  const double km = model.parameters[place::kTorqueConstant].value, inertia = given_inertia(model);
-  const double by_inertia = inertia / ((km > 0.0 ? km : 1.0) * body.inertia);
-  if (std::isfinite(by_inertia) && by_inertia > 0.0) return by_inertia;
-  return body.peak_input > 0.0 ? 1.0 / body.peak_input : 1.0;
+  const TorqueScale scale = torque_scale(problem.recordings, model);
+  const double km = model.parameters[place::kTorqueConstant].value;
+  if (const double by_torque = scale.constant / (km > 0.0 ? km : 1.0); by_torque > 0.0) return by_torque;
+  return scale.body.peak_input > 0.0 ? 1.0 / scale.body.peak_input : 1.0;
 }
 
 void bound_delay(Parameter& p, double dt) {
@@ -67,13 +62,28 @@ void bound_gain(Parameter& p, double size, bool leading) {
   if (std::isnan(p.high)) p.high = sign > 0.0 ? most : -least;
 }
 
+/// Whether a supply multiplies what the controller asks for, which is then a duty.
+bool has_supply(const FitProblem& problem) {
+  return std::any_of(problem.recordings.begin(), problem.recordings.end(),
+                     [](const MotorTrace& r) { return is_supplied(*r.command); });
+}
+
+/// What one unit of the controller's output is; where the torque constant is 1, the gain has its size.
+std::string output_unit(const FitProblem& problem) {
+  if (!has_supply(problem)) return "unit of u";
+  const auto is_one = [](const Parameter& p) {
+    return p.id == drive_number(place::kTorqueConstant) && !p.estimated && p.start == 1.0;
+  };
+  return std::any_of(problem.parameters.begin(), problem.parameters.end(), is_one) ? "N m/V" : "duty";
+}
+
 Parameter parameter_of_controller(int index, const ParameterSetting& setting, const DriveController& start,
-                                  double dt) {
+                                  double dt, const std::string& output) {
   const ControllerNumberSpec& spec = kControllerNumbers[index];
   DriveController c = start;
   Parameter p;
   p.id = number_of_controller(index);
-  p.key = spec.key, p.unit = spec.unit;
+  p.key = spec.key, p.unit = replaced(spec.unit, "unit of u", output);
   if (index == controller_place::kGain && c.kind == ControllerKind::kCascade) p.unit = "1/s";
   p.estimated = setting.estimate;
   p.given = std::isfinite(setting.value);
@@ -107,10 +117,11 @@ void command_inputs(FitProblem& problem, const ReferenceModel& model) {
 
 void add_controller(FitProblem& problem, const ControllerModel& model) {
   const double dt = problem.recordings.front().dt;
+  const std::string output = output_unit(problem);
   for (int i = 0; i < kControllerNumberCount; ++i) {
     const ParameterSetting& setting = model.numbers[static_cast<std::size_t>(i)];
     if (!setting.estimate && !(std::abs(setting.value) > 0.0)) continue;
-    problem.parameters.push_back(parameter_of_controller(i, setting, *problem.controller, dt));
+    problem.parameters.push_back(parameter_of_controller(i, setting, *problem.controller, dt, output));
   }
 }
 

@@ -5,8 +5,8 @@
 namespace gapscope::internal::reference {
 
 /// Gives the recordings the inputs that the controller makes of their targets at its start, and the problem
-/// that controller. A leading number without a value is the one at which the model's inertia, where it is
-/// given, moves as recorded; else the one at which the largest input is 1.
+/// that controller. A leading number without a value is the one at which what the model knows in units of
+/// torque or inertia, see torque_scale(), moves as recorded; else the one at which the largest input is 1.
 /// @throws std::logic_error for a recording without a command
 void command_inputs(FitProblem& problem, const ReferenceModel& model);
 

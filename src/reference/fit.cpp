@@ -42,6 +42,8 @@ double report_parameters(const FitProblem& problem, const FitOutcome& outcome, F
     f.key = p.key, f.unit = p.unit, f.start = f.value = p.start;
     if (p.estimated) {
       f = fitted(p, determined, outcome.solution.q[i], i);
+      if (std::isfinite(p.impossible))
+        summary.warnings.push_back(words::impossible_start(p.key, p.impossible, p.start, p.unit));
       if (f.at_bound) summary.warnings.push_back(words::at_bound(f.key, f.value, f.unit));
       if (problem.options.profile && f.identifiable) {
         const Profile profile = profile_interval(problem, outcome.solution, outcome.objective_hz, i,

@@ -5,6 +5,7 @@
 
 #include "gapscope/base/require.h"
 #include "reference/controller_numbers.h"
+#include "reference/torque_scale.h"
 #include "signals/encoder.h"
 
 namespace gapscope::internal::reference {
@@ -15,17 +16,19 @@ using namespace place;
 /// Rates [1/sample] that a recording can still show, for derived bounds, and beyond which no trial is made.
 constexpr double kVisible = 2.0;
 constexpr double kStiffest = 6.0;
+constexpr double kBeyond = 1.5;  ///< a given start over the most that there can be: it is of another unit
 
 /// The size that each number probably has, from the balance of the recordings and the numbers that are given.
-std::array<double, kDriveParameterCount> suggested(const signals::OneBody& rough,
-                                                   const ReferenceModel& model) {
+/// @param constant  torque per unit of u where it is not given
+std::array<double, kDriveParameterCount> suggested(const signals::OneBody& rough, const ReferenceModel& model,
+                                                   double constant) {
   const auto given = [&](int n, double otherwise) {
     const double v = model.parameters[static_cast<std::size_t>(n)].value;
     return v > 0.0 ? v : otherwise;
   };
   std::array<double, kDriveParameterCount> s{};
   const bool free_load = model.structure.has_load && model.structure.load == LoadKind::kFree;
-  const double km = s[kTorqueConstant] = given(kTorqueConstant, 1.0);
+  const double km = s[kTorqueConstant] = given(kTorqueConstant, constant);
   const double peak = std::max(km * rough.peak_input, 1e-300);
   const double speed = std::max(rough.speed, 1e-300), travel = std::max(rough.travel, 1e-300);
   const double inertia = rough.inertia > 0.0 ? km * rough.inertia : 0.01 * peak / speed;
@@ -122,13 +125,19 @@ Parameter parameter_of_effect(ParameterId id, const EffectEntry& effect, const P
                               const ScaleContext& context) {
   const EffectParameterSpec& spec = effect.parameters[static_cast<std::size_t>(id.index)];
   const double scale = scale_value(spec.scale, context);
-  Parameter p = start_parameter(id, setting, spec.low * scale + 0.1 * (spec.high - spec.low) * scale);
+  const double usual = spec.low * scale + 0.1 * (spec.high - spec.low) * scale;
+  Parameter p = start_parameter(id, setting, usual);
   p.key = std::string(effect.name) + "." + spec.key;
   p.unit = spec.unit;
   if (!p.estimated) return p;
   const bool known_period = p.given && id.index == effect.period_at() && effect.turns_with != Shaft::kNone;
   const Interval derived =
       known_period ? Interval{0.5 * p.start, 2.0 * p.start} : Interval{spec.low * scale, spec.high * scale};
+  if (p.given && std::isnan(setting.high) && p.start > kBeyond * derived.high) {
+    p.impossible = p.start;
+    p.given = false;
+    p.start = usual;
+  }
   set_bounds(p, setting, derived, -kInfinity);
   p.typical = p.start != 0.0 ? std::abs(p.start) : 0.01 * std::max(std::abs(p.low), std::abs(p.high));
   p.coordinate = p.low >= 0.0 ? Coordinate::logarithmic(p.typical) : Coordinate::linear(p.start, p.typical);
@@ -221,9 +230,17 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   problem.structure = model.structure;
   problem.options = options;
   if (model.controller) command_inputs(problem, model);
-  problem.rough = signals::as_one_body(problem.recordings);
+  const ParameterSetting& constant = model.parameters[kTorqueConstant];
+  const bool scaled = constant.estimate && std::isnan(constant.value);
+  TorqueScale scale{.body = {}, .constant = 1.0};
+  if (scaled)
+    scale = torque_scale(problem.recordings, model);
+  else
+    scale.body = signals::as_one_body(problem.recordings);
+  problem.rough = scale.body;
   for (const MotorTrace& r : recordings) problem.floors.push_back(signals::encoder_floor(r));
-  const std::array<double, kDriveParameterCount> sizes = suggested(problem.rough, model);
+  const std::array<double, kDriveParameterCount> sizes =
+      suggested(problem.rough, model, scale.constant > 0.0 ? scale.constant : 1.0);
   add_drive(problem, model, sizes);
   const ScaleContext context = scales(problem, sizes);
   if (model.controller) add_controller(problem, *model.controller);

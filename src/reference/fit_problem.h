@@ -53,7 +53,8 @@ struct Parameter {
   double low = kNaN, high = kNaN;
   double typical = kNaN;  ///< size at which it would matter
   bool estimated = false;
-  bool given = true;  ///< false: the start was derived from the recordings
+  bool given = true;         ///< false: the start was derived from the recordings
+  double impossible = kNaN;  ///< a start that was given and is beyond what the drive can have
   std::optional<Prior> prior;
   Coordinate coordinate;
 

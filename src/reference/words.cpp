@@ -59,8 +59,7 @@ std::string excitation_for(const std::string& key) {
   if (key == "controller.delay") return "steps of the target, or faster updates of it";
   if (key.starts_with("controller."))
     return "a known mass on a known arm, a known inertia or a known friction torque (anchor), or the "
-           "recorded "
-           "input";
+           "recorded input";
   const auto found = advice.find(key);
   return found == advice.end() ? "an input that brings this effect out" : found->second;
 }
@@ -105,6 +104,13 @@ Remark worse_than_still(double ratio) {
           "the free run misses the motion by {:.3g} times what a motor that stood still would: look at the "
           "sign and the unit of u first (gapscope check).",
           {ratio}};
+}
+
+Remark impossible_start(const std::string& key, double start, double begun, const std::string& unit) {
+  return {"impossible_start",
+          "{} was to start at {:.3g} {}, which is more than this drive can have (is it in units of u, from "
+          "before the torque constant was known?): the fit began at {:.3g} {} instead.",
+          {key, start, RemarkUnit{unit}, begun, RemarkUnit{unit}}};
 }
 
 Remark at_bound(const std::string& key, double value, const std::string& unit) {
@@ -201,8 +207,7 @@ Remark residual_patterned() {
 Remark another_gap(double from, double to) {
   return {"another_gap",
           "the gap is {:.3g} [rad] on one part of the recordings and {:.3g} [rad] on another: what the model "
-          "takes "
-          "for a gap is something else, and none is reported.",
+          "takes for a gap is something else, and none is reported.",
           {from, to}};
 }
 Remark values_move(const Remark& where, const std::vector<ValueShift>& moved) {

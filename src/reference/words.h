@@ -20,6 +20,10 @@ Remark free_run_departs(double observer_hz);
 Remark not_random(double lag1, double quantiser);
 Remark worse_than_still(double ratio);
 
+// Where it began.
+/// @param begun  the start in its place
+Remark impossible_start(const std::string& key, double start, double begun, const std::string& unit);
+
 // What is determined.
 Remark at_bound(const std::string& key, double value, const std::string& unit);
 Remark no_trace(const std::string& key);

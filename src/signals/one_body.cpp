@@ -38,9 +38,11 @@ double slope(const MotorTrace& r, std::size_t first, std::size_t n) {
   return sum / (weight * r.dt);
 }
 
-/// Rows of the balance of one recording, with a constant of integration of its own.
+/// Rows of the balance of one recording, with a constant of integration of its own; N: 4, or 5 with what is
+/// known.
+template <int N>
 struct Balance {
-  std::vector<std::array<double, 4>> rows;  ///< w, x, ∫sign w, t
+  std::vector<std::array<double, N>> rows;  ///< w, x, ∫sign w, t, ∫known
   std::vector<double> impulse;              ///< ∫u
 };
 
@@ -50,47 +52,57 @@ double time_before(const MotorTrace& r, std::size_t sample, std::size_t stride) 
   return r.stamps[sample] - r.stamps[sample - stride];
 }
 
-Balance balance_of(const MotorTrace& r) {
-  Balance b;
+/// @param known of each sample [N m]; read where N is 5
+template <int N>
+Balance<N> balance_of(const MotorTrace& r, std::span<const double> known) {
+  Balance<N> b;
   const std::size_t n = speed_window(r);
   const std::size_t stride = std::max<std::size_t>(1, (r.size() - n) / kRows);
-  double impulse = 0.0, direction = 0.0;
+  double impulse = 0.0, direction = 0.0, momentum = 0.0;
   std::size_t done = 0;
   for (std::size_t first = 0; first + n <= r.size(); first += stride) {
     const double w = slope(r, first, n);
     const std::size_t centre = first + n / 2;
-    for (; done < centre; ++done) impulse += r.u[done] * r.step(done);
+    for (; done < centre; ++done) {
+      impulse += r.u[done] * r.step(done);
+      if constexpr (N == 5) momentum += known[done] * r.step(done);
+    }
     if (first > 0) direction += (w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0) * time_before(r, centre, stride);
     b.rows.push_back({w, r.x1[centre] - r.x1[0], direction, r.elapsed(centre)});
+    if constexpr (N == 5) b.rows.back()[4] = momentum;
     b.impulse.push_back(impulse);
   }
   return b;
 }
 
 /// Means over one recording removed: its constant of integration.
-void centre(Balance& b) {
-  std::array<double, 4> sums{};
+template <int N>
+void centre(Balance<N>& b) {
+  std::array<double, N> sums{};
   double total = 0.0;
   const double count = static_cast<double>(b.rows.size());
   for (std::size_t i = 0; i < b.rows.size(); ++i) {
-    for (std::size_t j = 0; j < 4; ++j) sums[j] += b.rows[i][j] / count;
+    for (std::size_t j = 0; j < N; ++j) sums[j] += b.rows[i][j] / count;
     total += b.impulse[i] / count;
   }
   for (std::size_t i = 0; i < b.rows.size(); ++i) {
-    for (std::size_t j = 0; j < 4; ++j) b.rows[i][j] -= sums[j];
+    for (std::size_t j = 0; j < N; ++j) b.rows[i][j] -= sums[j];
     b.impulse[i] -= total;
   }
 }
 
-}  // namespace
-
-OneBody as_one_body(std::span<const MotorTrace> recordings) {
+/// @param known of each recording; read where N is 5
+template <int N>
+OneBody balanced(std::span<const MotorTrace> recordings, std::span<const std::vector<double>> known) {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  using Matrix = Eigen::Matrix<double, N, N>;
   OneBody body;
-  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  Matrix normal = Matrix::Zero();
+  Vector right = Vector::Zero();
   double squares = 0.0, count = 0.0;
-  for (const MotorTrace& r : recordings) {
-    Balance b = balance_of(r);
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    const MotorTrace& r = recordings[k];
+    Balance<N> b = balance_of<N>(r, N == 5 ? std::span<const double>(known[k]) : std::span<const double>());
     for (const auto& row : b.rows) {
       squares += row[0] * row[0];
       body.peak_speed = std::max(body.peak_speed, std::abs(row[0]));
@@ -98,7 +110,7 @@ OneBody as_one_body(std::span<const MotorTrace> recordings) {
     count += static_cast<double>(b.rows.size());
     centre(b);
     for (std::size_t i = 0; i < b.rows.size(); ++i) {
-      const Eigen::Map<const Eigen::Vector4d> row(b.rows[i].data());
+      const Eigen::Map<const Vector> row(b.rows[i].data());
       normal += row * row.transpose();
       right += row * b.impulse[i];
     }
@@ -107,17 +119,23 @@ OneBody as_one_body(std::span<const MotorTrace> recordings) {
     for (const double u : r.u) body.peak_input = std::max(body.peak_input, std::abs(u));
   }
   body.speed = std::sqrt(squares / std::max(1.0, count));
-  const Eigen::Vector4d scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
-  const Eigen::Matrix4d scaled =
-      scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
-  const Eigen::Vector4d solution = (scaled + 1e-9 * Eigen::Matrix4d::Identity())
-                                       .ldlt()
-                                       .solve(right.cwiseQuotient(scale))
-                                       .cwiseQuotient(scale);
+  const Vector scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  const Matrix scaled = scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
+  const Vector solution =
+      (scaled + 1e-9 * Matrix::Identity()).ldlt().solve(right.cwiseQuotient(scale)).cwiseQuotient(scale);
   body.inertia = solution[0];
   body.damping = solution[1];
   body.friction = solution[2];
+  if constexpr (N == 5) body.known = solution[4];
   return body;
+}
+
+}  // namespace
+
+OneBody as_one_body(std::span<const MotorTrace> recordings) { return balanced<4>(recordings, {}); }
+
+OneBody as_one_body(std::span<const MotorTrace> recordings, std::span<const std::vector<double>> known) {
+  return balanced<5>(recordings, known);
 }
 
 }  // namespace gapscope::internal::signals

@@ -1,19 +1,21 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "gapscope/recording/recording.h"
 
 namespace gapscope::internal::signals {
 
 /// What the recordings show at first sight, as one body: the momentum balance
-///   M w + D x + F ∫sign(w) dt + B t + C = ∫ u dt
+///   M w + D x + F ∫sign(w) dt + B t + C (+ K ∫ known dt) = ∫ u dt
 /// solved by least squares, so nothing is differentiated twice. In units of u; for starting points only. It
 /// reads u and x1 alone, but M, D and F are those of a drive: nothing for a detector that knows of none.
 struct OneBody {
   double inertia = 0.0;     ///< M, of motor and load together [unit of u s²/rad]
   double damping = 0.0;     ///< D [unit of u s/rad]
   double friction = 0.0;    ///< F [unit of u]
+  double known = 0.0;       ///< K, that it takes for a torque known in N m [unit of u/(N m)]
   double travel = 0.0;      ///< of x1, peak to peak, largest recording [rad]
   double speed = 0.0;       ///< rms of w1 [rad/s]
   double peak_speed = 0.0;  ///< largest |w1| [rad/s]
@@ -21,5 +23,9 @@ struct OneBody {
 };
 
 OneBody as_one_body(std::span<const MotorTrace> recordings);
+
+/// The same beside a torque that is known in N m: with K it tells the scale of u.
+/// @param known what the motor brings against it, of each sample of each recording [N m]
+OneBody as_one_body(std::span<const MotorTrace> recordings, std::span<const std::vector<double>> known);
 
 }  // namespace gapscope::internal::signals
