@@ -82,7 +82,7 @@ double curvature_of_flanks(Samples u, const std::vector<bool>& plateau) {
 /// Bits of a register that holds a signed number and was read as an unsigned one: small numbers and numbers
 /// just below 2^bits, nothing in between; 0: u is none.
 int unsigned_register(Samples u) {
-  if (!whole_numbers(u)) return 0;
+  if (u.empty() || !whole_numbers(u)) return 0;
   for (const int bits : {8, 16, 32}) {
     const double all = std::ldexp(1.0, bits);
     const auto negative = [&](double x) { return x >= 0.75 * all && x < all; };
@@ -178,10 +178,11 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
             "record what drives the motor while it moves"};
   const std::string found =
       fmt::format("{:.4g} to {:.4g} units of u, noise {:.2g}", low, high, facts.input_noise);
-  if (const int bits = unsigned_register(u))
+  if (const int bits = unsigned_register(m.register_input))
     return {"input", Severity::kSpoils,
-            found + fmt::format(", nothing in between: a signed register of {} bits, read without its sign",
-                                bits),
+            found + fmt::format(": its column is a signed register of {} bits, read without its sign (small "
+                                "numbers, and numbers just below {:.0f})",
+                                bits, std::ldexp(1.0, bits)),
             fmt::format("recording: registers: {{input: {}}} (--input-register {}), so that {:.0f} is -1",
                         bits, bits, std::ldexp(1.0, bits) - 1.0)};
   if (facts.input_peak > kLeastOfCounts && whole_numbers(u))

@@ -51,6 +51,17 @@ Recording on_grid(RecordedRows rows, const ReadOptions& options) {
   return r;
 }
 
+/// The numbers in the input's column; where the rows have a unit or a supply, the file is read for them.
+std::vector<double> as_it_stands(const RecordedRows& rows, const std::string& path, ReadOptions options) {
+  RecordingColumns& columns = options.columns;
+  const UnitScale& unit = columns.scales.input;
+  if (!columns.reads_input() || unit.register_bits > 0) return {};
+  if (columns.voltage.empty() && unit.factor == unit.divisor) return rows.u;
+  columns.voltage.clear();
+  columns.scales.input = {};
+  return internal::recording::read_window(path, options, internal::recording::EarlierRow::kSkipped).u;
+}
+
 std::string wrapped(const std::string& text, std::size_t indent) {
   constexpr std::size_t kWidth = 110;
   std::string out, line;
@@ -109,6 +120,7 @@ std::string Inspection::report() const {
 Inspection inspect(const std::string& path, const ReadOptions& options, Coordinates coordinates) {
   Material m;
   m.rows = internal::recording::read_window(path, options, internal::recording::EarlierRow::kSkipped);
+  m.register_input = as_it_stands(m.rows, path, options);
   m.recording = on_grid(m.rows, options);
   m.resampled = options.resample_rate.has_value();
   m.coordinates = coordinates;

@@ -18,10 +18,11 @@ namespace gapscope::internal::inspection {
 
 /// A recording as it is looked at.
 struct Material {
-  recording::RecordedRows rows;  ///< as they stand in the file
-  Recording recording;           ///< the same on a uniform grid
-  signals::SignalFacts signal;   ///< of its x1
-  bool resampled = false;        ///< on request: also for fit and diagnose, which need no grid
+  recording::RecordedRows rows;        ///< as they stand in the file
+  std::vector<double> register_input;  ///< the input's column as it stands, without unit and supply
+  Recording recording;                 ///< the rows on a uniform grid
+  signals::SignalFacts signal;         ///< of its x1
+  bool resampled = false;              ///< on request: also for fit and diagnose, which need no grid
   Coordinates coordinates;
   const char* unit() const { return coordinates.position_unit(); }
   /// "246.4 mm", "50 nm": with the prefix that keeps the number between 1 and 1000.

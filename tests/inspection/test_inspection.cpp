@@ -1,4 +1,5 @@
 // Every question of a check must be answered one way by a good recording and the other way by a spoilt one.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,6 +50,25 @@ TEST(Inspection, AStepThatIsARoundNumberOfRadiansMayBeOneOfMetres) {
   for (double& x : rows.x1) x = 5e-8 * std::round(x / 5e-8);
   EXPECT_THAT(finding(inspected(rows), "encoder").found, HasSubstr("a round number"));
   EXPECT_THAT(finding(inspected(good()), "encoder").found, Not(HasSubstr("a round number")));
+}
+
+TEST(Inspection, ARegisterWithoutItsSignIsSeenBehindUnitAndSupply) {
+  const Rows rows = changed([](Rows& r) {
+    for (double& u : r.u) u = std::fmod(std::round(885.0 * u) + 65536.0, 65536.0);
+  });
+  std::string text = "t,u,x1,volts\n";
+  for (std::size_t i = 0; i < rows.t.size(); ++i)
+    text +=
+        fmt::format("{:.9g},{},{:.12g},{}\n", rows.t[i], rows.u[i], rows.x1[i], 7.0 + 0.1 * double(i % 3));
+  const TemporaryFile file(text);
+  ReadOptions options;
+  options.columns.voltage = "volts";
+  options.columns.scales.input = {0.0011299, 1.0, 0};
+  const Inspection blind = inspect(file.path(), options);
+  EXPECT_EQ(finding(blind, "input").severity, Severity::kSpoils);
+  EXPECT_THAT(finding(blind, "input").advice, HasSubstr("--input-register 16"));
+  options.columns.scales.input.register_bits = 16;
+  EXPECT_EQ(finding(inspect(file.path(), options), "input").severity, Severity::kFine);
 }
 
 struct Fault {
