@@ -62,19 +62,20 @@ std::string_view read_piece(std::array<char, 1 << 16>& buffer) {
   }
 }
 
-std::string resolved_settings(const RecordingColumns& columns, double quantum) {
+std::string resolved_settings(const RecordingColumns& columns, double quantum, double rate) {
   Configuration c;
   c.recording.emplace();
   c.recording->reading.columns = columns;
+  if (rate > 0.0) c.recording->reading.resample_rate = rate;
   c.encoder.quantum = quantum;
   return resolved_reading(c);
 }
 
 class Session {
  public:
-  Session(const RecordingColumns& columns, double quantum)
-      : csv_("standard input", columns),
-        settings_(settings_line(resolved_settings(columns, quantum))),
+  Session(const RecordingColumns& columns, double quantum, double rate)
+      : csv_("standard input", columns, rate),
+        settings_(settings_line(resolved_settings(columns, quantum, rate))),
         quantum_(quantum) {}
 
   /// To the end of the input, or to whatever stops it; the summary comes last in any case.
@@ -153,10 +154,10 @@ class Session {
 
 }  // namespace
 
-void detect_stream(const RecordingColumns& columns, double quantum) {
+void detect_stream(const RecordingColumns& columns, double quantum, double resample_rate) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
-    Session(columns, quantum).run();
+    Session(columns, quantum, resample_rate).run();
   } catch (const ReaderGone&) {  // as `| head` does: no fault of the recording
   }
 }

@@ -26,7 +26,8 @@ struct EstimateArguments {
   FigureFormats figures;
   bool stream = false;  ///< the rest is for `detect --stream` alone
   RecordingColumns columns;
-  double quantum = 0.0;  ///< [rad]; 0: as the samples show
+  double quantum = 0.0;   ///< [rad]; 0: as the samples show
+  double resample = 0.0;  ///< [Hz]; 0: as it stands
 };
 
 void estimate(const EstimateArguments& a, const Configuration& c, const std::string& folder,
@@ -105,8 +106,17 @@ void add_streaming(CommandLine& detect, const std::shared_ptr<EstimateArguments>
       .value("RAD")
       .within(1e-15, 1e3)
       .needs(stream);
+  detect
+      .add_option("--resample", a->resample,
+                  "of a stream whose time is not uniform: rate that it is brought to [Hz]")
+      .value("RATE")
+      .within(1e-3, 1e7)
+      .needs(stream);
   detect.action([a, config] {
-    if (a->stream) return require_three_columns(a->columns), detect_stream(a->columns, a->quantum);
+    if (a->stream) {
+      require_three_columns(a->columns);
+      return detect_stream(a->columns, a->quantum, a->resample);
+    }
     if (!config.given()) throw_missing("CONFIG");
     with_configuration(a->config, [&](const Configuration& c) { estimate_axes(*a, c, {true, false}); });
   });
@@ -165,6 +175,7 @@ void add_detect(CommandLine& app) {
       "half periods from turn to turn of the motion; detect on a whole recording counts from one passing of "
       "its\n"
       "middle to the next, which is one more where the recording begins at an end of the travel.\n"
+      "Time that is not uniform takes --resample RATE, as resample: does in a configuration.\n"
       "Memory does not grow. detector: {frozen: true} makes detect and run do the same on a whole "
       "recording,\n"
       "with the same events. Against a detector that sees all of it first, a stream cannot take back what "

@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "gapscope/base/errors.h"
@@ -58,6 +60,38 @@ TEST(CsvStream, GivesWhatTheFileGivesHoweverItIsCut) {
       ASSERT_EQ(samples[i].x1, whole.x1[i]);
     }
   }
+}
+
+/// Rows that come 2 to 4 ms apart.
+std::string uneven_rows(int count) {
+  std::string text = "t,u,x1\n";
+  double t = 0.25;
+  for (int i = 0; i < count; ++i) {
+    text += fmt::format("{:.17g},{:.17g},{:.17g}\n", t, std::sin(0.7 * i), std::cos(0.05 * i));
+    t += 0.003 + 0.001 * std::sin(2.3 * i);
+  }
+  return text;
+}
+
+TEST(CsvStream, BringsUnevenRowsToARateAsAWholeFileIsBrought) {
+  const std::string text = uneven_rows(400);
+  const testing::TemporaryFile file(text);
+  for (const double rate : {60.0, 250.0, 3000.0}) {
+    ReadOptions options;
+    options.resample_rate = rate;
+    const Recording whole = read_recording(file.path(), options);
+    CsvStream csv("standard input", {}, rate);
+    const auto samples = read(csv, text, 17);
+    ASSERT_EQ(samples.size(), whole.size()) << rate;
+    EXPECT_EQ(csv.start(), whole.start);
+    EXPECT_EQ(csv.dt(), whole.dt);
+    for (std::size_t i = 0; i < samples.size(); ++i) {  // but for the rounding of sums
+      ASSERT_NEAR(samples[i].t, whole.time(i), 1e-12);
+      ASSERT_NEAR(samples[i].u, whole.u[i], 1e-11) << i;
+      ASSERT_NEAR(samples[i].x1, whole.x1[i], 1e-11) << i;
+    }
+  }
+  EXPECT_THAT(stream_refusal(uneven_rows(1200)), HasSubstr("or --resample RATE (here about 333"));
 }
 
 TEST(CsvStream, RefusesBrokenLinesWithTheirNumber) {

@@ -10,7 +10,8 @@
 namespace gapscope {
 
 /// A CSV (see read_recording()) that arrives piece by piece and need not end. The sampling interval is that
-/// of the first kClockRows rows; every later step must be within 0.1 % of it. Keeps no row that was taken.
+/// of the first kClockRows rows; every later step must be within 0.1 % of it. Where the time is not uniform,
+/// the rows can be brought to a rate, as `resample:` does of a whole recording. Keeps no row that was taken.
 class CsvStream {
  public:
   static constexpr std::size_t kClockRows = 1000;
@@ -23,7 +24,8 @@ class CsvStream {
   };
 
   /// @param name  for messages: "standard input"
-  explicit CsvStream(std::string name, const RecordingColumns& columns = {});
+  /// @param resample_rate  that the rows are brought to [Hz]; 0: they are taken as they stand
+  explicit CsvStream(std::string name, const RecordingColumns& columns = {}, double resample_rate = 0.0);
   ~CsvStream();
 
   /// Takes a piece of the text, cut anywhere. Rows before a broken one can still be taken.
