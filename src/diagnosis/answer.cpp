@@ -42,6 +42,9 @@ Answer from_model_free(const Findings& f, AnswerTrust trust) {
   Answer a{g.gap, g.ci95, AnswerSource::kModelFree, trust, "", {}};
   a.sentence =
       "The backlash gap is " + with_interval(g.gap, g.ci95, f.coordinates) + ", measured without a model";
+  if (g.method == GapMethod::kPaper)
+    a.sentence += fmt::format(", with the bound that was given (L = {:.3g} {})", g.bound,
+                              f.coordinates.unit("rad/s^2"));
   return a;
 }
 
@@ -191,6 +194,8 @@ bool coasts_better(const FitSummary& fit) { return fit.innovation_rmse >= fit.co
 
 std::string step_without_model(const GapEstimate& g) {
   const bool open = g.verdict == GapVerdict::kInconclusive, loop = g.lost_motion.read();
+  if (open && g.reason.code() == "locked_with_bound")
+    return "Set detector: bound to auto: it reads the lost-motion loop, a given bound reads impacts alone.";
   if (g.reason.code() == "encoder_on_load")
     return "For a reading without a model, record the motor's position as well.";
   if (open && g.reason.codes().find("bounds_to_try") != std::string::npos)
@@ -198,8 +203,7 @@ std::string step_without_model(const GapEstimate& g) {
   for (const char* slow : {"too_slow", "only_large_gaps", "no_impact_stands_out"})
     if (open && !loop && g.reason.code() == slow)
       return "For a reading without a model, record a faster motion (higher frequency or amplitude), the "
-             "output "
-             "free.";
+             "output free.";
   if (open && !loop)
     return "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell "
            "at the reversals, the output free.";
@@ -207,14 +211,12 @@ std::string step_without_model(const GapEstimate& g) {
   if (open && levels > 1)
     return fmt::format(
         "The recording has {} torque levels already, and the smallest bounds the gap: ramps at half of it "
-        "would "
-        "bring that limit down, as wind-up shrinks with the torque.",
+        "would bring that limit down, as wind-up shrinks with the torque.",
         levels);
   if (open ||
       (levels < 2 && g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kPlayAtZeroTorque))
     return "Repeat the ramps at half and at twice the torque: the part of the lost motion that grows with it "
-           "is "
-           "no gap.";
+           "is no gap.";
   return "";
 }
 

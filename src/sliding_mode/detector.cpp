@@ -19,6 +19,7 @@ namespace {
 
 using internal::signals::SignalFacts;
 using internal::sliding_mode::ImpactAnalysis;
+using internal::sliding_mode::LoopSearch;
 using internal::sliding_mode::PaperReading;
 namespace words = internal::sliding_mode::words;
 
@@ -181,7 +182,7 @@ std::vector<SignalFacts> facts_of(std::span<const MotorTrace> recordings) {
 }
 
 /// The loop alone.
-GapEstimate by_loop(const internal::sliding_mode::LoopSearch& loops) {
+GapEstimate by_loop(const LoopSearch& loops) {
   if (loops.estimate) return *loops.estimate;
   GapEstimate estimate;
   estimate.verdict = GapVerdict::kInconclusive;
@@ -189,13 +190,6 @@ GapEstimate by_loop(const internal::sliding_mode::LoopSearch& loops) {
   estimate.quantity = GapQuantity::kPlayAtZeroTorque;
   estimate.reason = words::no_loop(loops.why_not);
   return estimate;
-}
-
-/// A load that does not move cannot be told to rest: what is missing is a loop.
-void speak_of_locked_output(const internal::sliding_mode::LoopSearch& loops, GapEstimate& estimate) {
-  if (estimate.verdict != GapVerdict::kInconclusive) return;
-  estimate.reason =
-      words::locked_without_loop(loops.why_not.empty() ? words::loop_not_asked_for() : loops.why_not);
 }
 
 /// As a stream would tell it.
@@ -217,9 +211,12 @@ GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const Detector
 
 /// One e_x with the bound that was given.
 GapEstimate detect_paper(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
-                         std::span<const SignalFacts> facts, const DetectorOptions& options) {
+                         std::span<const SignalFacts> facts, const LoopSearch& loops,
+                         const DetectorOptions& options) {
   GapEstimate estimate = decide_paper(recordings, analyses, options.bound);
-  if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
+  if (options.locked)
+    internal::sliding_mode::speak_of_locked_output(loops, estimate);
+  else if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
     estimate.reason += bounds_to_try(recordings, analyses);
   keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
   keep_map(recordings, facts, options, estimate);
@@ -240,14 +237,14 @@ bool load_rests(std::span<const ImpactAnalysis> analyses) {
 /// The bank of bounds, by single periods or by their mean; the loop where that tells no gap.
 GapEstimate detect_auto(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
                         std::span<const double> intervals, std::span<const SignalFacts> facts,
-                        const internal::sliding_mode::LoopSearch& loops, const DetectorOptions& options) {
+                        const LoopSearch& loops, const DetectorOptions& options) {
   GapEstimate estimate = internal::sliding_mode::decide_gap(analyses, intervals);
   if (estimate.verdict != GapVerdict::kBacklash) read_mean_periods(recordings, analyses, estimate);
   if (estimate.verdict != GapVerdict::kBacklash && !options.locked && load_rests(analyses))
     if (const auto pooled = internal::sliding_mode::read_pooled(recordings, facts)) return *pooled;
   const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.decides || options.locked);
   if (estimate.verdict != GapVerdict::kBacklash && loops.estimate && ask_loop) return *loops.estimate;
-  if (options.locked) speak_of_locked_output(loops, estimate);
+  if (options.locked) internal::sliding_mode::speak_of_locked_output(loops, estimate);
   return estimate;
 }
 
@@ -282,7 +279,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
     intervals.push_back(recordings[i].dt);
   }
   const bool paper = options.bound > 0.0;
-  GapEstimate estimate = paper ? detect_paper(recordings, analyses, facts, options)
+  GapEstimate estimate = paper ? detect_paper(recordings, analyses, facts, loops, options)
                                : detect_auto(recordings, analyses, intervals, facts, loops, options);
   if (loops.estimate) estimate.lost_motion = loops.estimate->lost_motion;
   if (paper || estimate.method == GapMethod::kLostMotion) return estimate;

@@ -134,4 +134,11 @@ LoopSearch read_lost_motion(std::span<const MotorTrace> recordings,
   return search;
 }
 
+void speak_of_locked_output(const LoopSearch& loops, GapEstimate& estimate) {
+  if (estimate.verdict != GapVerdict::kInconclusive) return;
+  const Remark why = loops.why_not.empty() ? words::loop_not_asked_for() : loops.why_not;
+  const bool by_bound = estimate.method == GapMethod::kPaper && loops.estimate;
+  estimate.reason = by_bound ? words::locked_with_bound() : words::locked_without_loop(why);
+}
+
 }  // namespace gapscope::internal::sliding_mode

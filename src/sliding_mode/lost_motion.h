@@ -35,4 +35,8 @@ struct LoopSearch {
 LoopSearch read_lost_motion(std::span<const MotorTrace> recordings,
                             std::span<const signals::SignalFacts> facts);
 
+/// A load that does not move cannot be told to rest: an inconclusive estimate gets a reason that speaks of
+/// the loop.
+void speak_of_locked_output(const LoopSearch& loops, GapEstimate& estimate);
+
 }  // namespace gapscope::internal::sliding_mode

@@ -182,6 +182,12 @@ Remark locked_without_loop(const Remark& why) {
          why +
          Remark("advice", "; ramp the torque slowly to and fro beyond the friction, three times or more");
 }
+Remark locked_with_bound() {
+  return {
+      "locked_with_bound",
+      "the output is locked, so that no impact shows, and one e_x with a given bound reads impacts alone; "
+      "the lost-motion loop, which this recording has, is read with detector: bound: auto"};
+}
 Remark lost_motion_means(LostMotionCause cause, double free_run, double alone, bool levels_differ) {
   const Remark differ =
       levels_differ

@@ -143,6 +143,15 @@ TEST(LostMotion, ALockedDriveIsNeverToldToLetItsLoadRest) {
   EXPECT_THAT(estimate.reason.text(), HasSubstr("ramp the torque slowly"));
 }
 
+TEST(LostMotion, ALockedDriveWithAGivenBoundIsToldOfItsLoop) {
+  const Recording slow = ramps(locked());
+  const MotorTrace trace = slow.motor_trace();
+  const GapEstimate estimate = detect_gap({&trace, 1}, {.locked = true, .bound = 1.0});
+  ASSERT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
+  EXPECT_EQ(estimate.reason.code(), "locked_with_bound");
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("detector: bound: auto"));
+}
+
 TEST(LostMotion, TheMethodThatIsAskedForIsTheOneThatAnswers) {
   const Recording slow = ramps(locked()), fast = fast_locked();
   const MotorTrace ramped = slow.motor_trace(), shaken = fast.motor_trace();

@@ -44,6 +44,7 @@ std::vector<Remark> all_remarks() {
           words::no_loop(words::stands_still()),
           words::loop_not_asked_for(),
           words::locked_without_loop(words::does_not_follow(51.0)),
+          words::locked_with_bound(),
           words::lost_motion_means(LostMotionCause::kGap, 0.03, 9.0, true),
           words::lost_motion_means(LostMotionCause::kFriction, 0.0, 1.0, false),
           words::lost_motion_means(LostMotionCause::kOpen, 0.0, 1.0, true),
