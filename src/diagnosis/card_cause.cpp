@@ -112,17 +112,30 @@ std::string fall(const CardFacts& f, const Card& card) {
   return fmt::format("from {} to {}", error.number(m.before), error(m.after));
 }
 
+/// Whether the torque that is told has an effect in it.
+bool is_counted(const AddedEffect& a, const Diagnosis& d) { return !contains(d.budget.uncounted, a.effect); }
+
 std::string shares(const CardFacts& f, const Card& card) {
-  std::vector<std::string> all;
+  std::vector<std::string> all, others;
   const auto& added = f.diagnosis->added;
-  for (const AddedEffect& a : added) all.push_back(with_asides(a, f, added.size() > 1));
-  return enumerated(shortened(all)) + (all.size() > 1 ? " bring it down " : " brings it down ") +
-         fall(f, card);
+  for (const AddedEffect& a : added)
+    (is_counted(a, *f.diagnosis) ? all : others).push_back(with_asides(a, f, added.size() > 1));
+  std::string text;
+  if (!all.empty())
+    text = enumerated(shortened(all)) + (all.size() > 1 ? " bring it down " : " brings it down ") +
+           fall(f, card);
+  if (others.empty()) return text;
+  return text + (text.empty() ? "" : "; ") + enumerated(shortened(others)) +
+         (others.size() > 1 ? " help" : " helps") + " the simulated motion, and no size of " +
+         (others.size() > 1 ? "them" : "it") + " in " + f.coordinates.torque_word() + " is known";
 }
 
-/// Whether each effect has the torque that it leaves.
+/// Whether each effect has the torque that it leaves, and the last one that of the fitted model.
 bool has_rungs(const Diagnosis& d) {
-  return d.added.size() > 1 && std::isfinite(d.mismatch.before_torque) &&
+  if (d.added.size() < 2 || !d.budget.uncounted.empty()) return false;
+  const SharedUnit torque(d.mismatch.before_torque, "");  // a law that cannot be added may stand between them
+  return std::isfinite(d.mismatch.before_torque) &&
+         torque.number(d.added.back().after_torque) == torque.number(d.mismatch.after_torque) &&
          std::all_of(d.added.begin(), d.added.end(),
                      [](const AddedEffect& a) { return std::isfinite(a.after_torque); });
 }

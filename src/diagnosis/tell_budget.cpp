@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
@@ -49,6 +50,39 @@ BudgetRung rung_of(const view::Budget& budget, std::size_t i, const std::vector<
   return rung;
 }
 
+/// Whether a model with these effects has this one, or one that contains it.
+bool has(const std::vector<std::string>& effects, const std::string& effect) {
+  return std::any_of(effects.begin(), effects.end(), [&](const std::string& e) {
+    const EffectEntry* entry = find_effect(e);
+    return e == effect || (entry != nullptr && entry->contains != nullptr && entry->contains == effect);
+  });
+}
+
+/// What a model with the effects that were added leaves, as far as the budget has one.
+struct CountedModel {
+  double rms = kNaN;
+  std::vector<std::string> effects;  ///< of those that were added
+};
+
+/// The model without the laws that nobody can add; where one of the others was not added either, the budget
+/// down to that one.
+CountedModel counted_of(const view::Budget& budget, const std::vector<std::string>& added) {
+  CountedModel counted{budget.addable_rms, {}};
+  bool all = true;
+  for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
+    counted.effects.emplace_back(budget.addable[i].law->effect);
+    all = all && has(added, counted.effects.back());
+  }
+  if (all) return counted;
+  counted = {budget.nominal_rms, {}};
+  for (const view::Rung& rung : budget.rungs) {
+    if (!rung.helps || !has(added, rung.choice().law->effect)) break;
+    counted.rms = rung.rms;
+    counted.effects.emplace_back(rung.choice().law->effect);
+  }
+  return counted;
+}
+
 double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
 
 }  // namespace
@@ -71,11 +105,22 @@ std::vector<NamedValue> values_in(const ReferenceModel& model, const EffectEntry
   return found == nullptr ? std::vector<NamedValue>{} : effect_values(*found);
 }
 
+void count_added(const view::Budget& budget, Diagnosis& d) {
+  const CountedModel counted =
+      d.effects.empty() ? CountedModel{budget.nominal_rms, {}} : counted_of(budget, d.effects);
+  d.budget.with_effects = counted.rms;
+  for (const std::string& effect : d.effects) {
+    const EffectEntry* simpler = contained_effect(*find_effect(effect));
+    const bool in_part = simpler != nullptr && contains(counted.effects, simpler->name);
+    if (!in_part && !contains(counted.effects, effect)) d.budget.uncounted.push_back(effect);
+  }
+}
+
 void tell_budget(const Study& study, const view::Budget& budget, Diagnosis& d) {
   ErrorBudget& told = d.budget;
   told.band_hz = budget.band.hz;
   told.input = budget.input_rms, told.nominal = budget.nominal_rms;
-  told.with_effects = d.effects.empty() ? budget.nominal_rms : budget.addable_rms;
+  count_added(budget, d);
   told.remains = budget.rms;
   told.encoder = budget.floors.encoder;
   told.repeatability = budget.floors.repeatability;

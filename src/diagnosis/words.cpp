@@ -103,7 +103,8 @@ std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
     const std::string name = name_of(a, d, coordinates);
     a.established ? causes.push_back(name) : open.push_back(name + likeness(a.group));
   }
-  const std::string fall = d.budget.exists() ? torque_fall(d, coordinates) : error_fall(d);
+  const bool counted = d.budget.exists() && d.budget.uncounted.empty();
+  const std::string fall = counted ? torque_fall(d, coordinates) : error_fall(d);
   const char* const with = d.added.size() > 1 ? "them" : "it";
   if (causes.empty())
     return fmt::format("Adding {} helps, but the cause stays open: with {} {}.", fmt::join(open, ", then "),

@@ -160,6 +160,12 @@ std::string budget_table(const DiagnosisResult& r) {
         "that "
         "counts from where it was switched on does not keep the phase: where other recordings judge, it is "
         "refitted in each of them.\n";
+  if (!b.uncounted.empty()) {
+    std::vector<std::string> names;
+    for (const std::string& effect : b.uncounted) names.push_back(readable(effect));
+    text += fmt::format("\n`fitted.yaml` has {}, too, which no line of this table counts.\n",
+                        fmt::join(names, " and "));
+  }
   std::vector<std::string> floors;
   for (const Floor& f : floors_of(b))
     floors.push_back(fmt::format("{} ({})", quantity_beside(f.size, b.nominal, budget_unit(r)), f.name));

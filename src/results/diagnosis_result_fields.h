@@ -120,6 +120,7 @@ void fields(Archive& archive, ErrorBudget& b) {
   archive("repeatability_floor_nm", b.repeatability);
   archive("records_floor_nm", b.records);
   archive.list("rungs", b.rungs);
+  archive.seldom("uncounted", b.uncounted);
 }
 
 template <class Archive>
@@ -286,6 +287,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("version", d.result.version);
   coordinates_field(archive, d.result.coordinates);
   archive.seldom("input", d.result.input);
+  archive.seldom("simulated_data", d.result.simulated_data);
   archive.configuration(d.result.configuration);
   archive.added_list("sources", d.result.sources);
   archive.list("held_out", d.held_out);

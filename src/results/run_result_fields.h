@@ -233,6 +233,7 @@ void fields(Archive& archive, Document& d) {
   archive.seldom("second_encoder", d.run.second_encoder);
   archive("simulated_gap_rad", d.run.simulated_gap);
   archive("notes", d.run.notes);
+  archive.seldom("simulated_data", d.run.simulated_data);
   archive.configuration(d.run.configuration);
   archive.added_list("sources", d.run.sources);
   archive.list("recordings", d.recordings);

@@ -160,6 +160,24 @@ TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
                  "from 10"));
 }
 
+/// Between the lines of a budget there may be laws that the model cannot have, and effects beside them.
+TEST(Card, TellsTheTorqueOfTheModelThatFittedYamlHas) {
+  Diagnosis d = slide_diagnosis();
+  d.budget.band_hz = 8.0;
+  d.mismatch.after_torque = 3.0;  // the last line, 2.0, has a law beside both that nobody can add
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      StartsWith("Motor Coulomb friction (takes 60 %) and cogging torque (takes 50 %) bring it down from 10 "
+                 "to 3 N (20.0 % to 6.0 %)"));
+  d.budget.uncounted = {"cogging_torque"};
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      StartsWith(
+          "Motor Coulomb friction (takes 60 %) brings it down from 10 to 3 N (20.0 % to 6.0 %); cogging "
+          "torque (takes 50 %) helps the simulated motion, and no size of it in force is known; "
+          "`fitted.yaml` has them"));
+}
+
 TEST(Card, TellsAnAmountWithItsInterval) {
   Diagnosis d = slide_diagnosis();
   d.added[0].parameters = {{"level_nm", "N m", 20.54, {20.1, 20.98}}};

@@ -84,5 +84,31 @@ TEST(Words, OfTwoLinesOfOneLawEachTellsItsOwnNumbers) {
   EXPECT_FALSE(internal::diagnosis::is_of(share, budget.rungs[1].choice().model.back()));
 }
 
+/// Of a budget whose second line nobody has added, the first one is told; without one, what the model has.
+TEST(Words, TheTorqueThatIsToldIsOfWhatWasAdded) {
+  namespace view = internal::torque_view;
+  const auto term = [](const char* name) {
+    return view::Term{&view::law(name), kNaN, Eigen::VectorXd::Zero(1)};
+  };
+  view::Budget budget;
+  budget.nominal_rms = 10.0, budget.addable_rms = 3.0;
+  for (const auto& [name, rms] : {std::pair{"motor_coulomb_friction", 6.0}, {"load_unbalance", 3.0}}) {
+    view::Rung rung;
+    rung.helps = true, rung.rms = rms;
+    rung.ranking = {{&view::law(name), {term(name)}, {}, {}}};
+    budget.rungs.push_back(rung);
+    budget.addable.push_back(term(name));
+  }
+  Diagnosis d;
+  d.effects = {"motor_coulomb_friction", "torque_saturation"};
+  internal::diagnosis::count_added(budget, d);
+  EXPECT_EQ(d.budget.with_effects, 6.0);
+  EXPECT_EQ(d.budget.uncounted, std::vector<std::string>{"torque_saturation"});
+  d.budget = {}, d.effects = {"load_unbalance", "motor_coulomb_friction"};
+  internal::diagnosis::count_added(budget, d);
+  EXPECT_EQ(d.budget.with_effects, 3.0);
+  EXPECT_TRUE(d.budget.uncounted.empty());
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -34,6 +34,7 @@ struct ErrorBudget {
   double repeatability = kNaN;  ///< floor: what does not come back after a period of the input
   double records = kNaN;  ///< floor: by how much one set of numbers misses recordings that each fit alone
   std::vector<BudgetRung> rungs;
+  std::vector<std::string> uncounted = {};  ///< effects that were added and that with_effects does not have
 
   bool exists() const;
   double floor() const;  ///< the largest of the three

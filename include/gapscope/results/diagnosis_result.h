@@ -15,14 +15,15 @@ namespace gapscope {
 
 /// All that `diagnose` leaves behind, and all that its report is drawn from.
 struct DiagnosisResult {
-  std::string name;                      ///< of the configuration
-  std::string version;                   ///< of gapscope
-  std::string configuration;             ///< resolved_yaml(), which is stored with its SHA-256
-  Coordinates coordinates;               ///< of a translation: rad and N·m mean m and N
-  Diagnosis diagnosis;                   ///< the fitted model is not stored here but in fitted.yaml
-  std::vector<FileHash> sources = {};    ///< the configuration and every recording that it names
-  std::optional<InputFacts> input = {};  ///< absent where nothing is known of it
-  std::optional<Answer> answer = {};     ///< with the gap of the estimate in the same folder, if there is one
+  std::string name;                              ///< of the configuration
+  std::string version;                           ///< of gapscope
+  std::string configuration;                     ///< resolved_yaml(), which is stored with its SHA-256
+  Coordinates coordinates;                       ///< of a translation: rad and N·m mean m and N
+  Diagnosis diagnosis;                           ///< the fitted model is not stored here but in fitted.yaml
+  std::vector<FileHash> sources = {};            ///< the configuration and every recording that it names
+  std::optional<InputFacts> input = {};          ///< absent where nothing is known of it
+  std::vector<std::string> simulated_data = {};  ///< sentences on data that no drive has made
+  std::optional<Answer> answer = {};  ///< with the gap of the estimate in the same folder, if there is one
   std::optional<SimulatorComparison> simulated = {};  ///< the user's simulator, where its answer was given
 };
 

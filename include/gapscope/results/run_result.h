@@ -32,7 +32,9 @@ struct RunResult {
   double simulated_gap = kNaN;                  ///< 2β of the simulated plant [rad]; NaN for recorded data
   std::vector<Recording> recordings;            ///< stored as traces, not in the JSON
   std::optional<InputFacts> input = {};         ///< absent where nothing is known of it
-  std::vector<std::string> notes;               ///< what was done to the data, readings of the configuration
+  std::vector<std::string> simulated_data =
+      {};                          ///< sentences on data that no drive has made; empty: none known
+  std::vector<std::string> notes;  ///< what was done to the data, readings of the configuration
 };
 
 /// Wall times; the only stored result that is not a function of input, seed and version.
