@@ -9,6 +9,8 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/presets.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/inspection/reach.h"
@@ -131,6 +133,7 @@ void tell_order(const std::vector<RecordingArguments>& all) {
 
 void check_all(const CheckArguments& a) {
   const std::vector<RecordingArguments> all = asked(a);
+  print_warnings(preset_remarks(a.recording));
   if (all.size() > 1 && (a.json || !a.output.empty() || !a.picture.empty()))
     throw ConfigError(fmt::format(
         "gapscope: --json, --picture and --output are of one report, expected one file and one axis "

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,9 @@ void warn_of_idle_settings(const ConfigArguments& arguments, const Configuration
 /// Does the work with the configuration and its settings; what is wrong with a setting names it.
 void with_configuration(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work);
 
+/// In place of a number that the fit finds.
+inline constexpr const char* kSought = "estimate";
+
 /// A recording that is named on the command line, and how it is to be read.
 struct RecordingArguments {
   std::string file;
@@ -76,9 +80,10 @@ struct RecordingArguments {
   std::vector<double> window;  ///< empty or two [s]
   double resample = 0.0;       ///< 0: as it stands [Hz]
   bool translation = false;
-  std::string voltage;  ///< empty: none
-  std::string target;   ///< empty: none; else the input is what the controller makes of it
-  DriveController controller;
+  std::string voltage;         ///< empty: none
+  std::string target;          ///< empty: none; else the input is what the controller makes of it
+  std::string gain;            ///< of that controller: a number, or estimate
+  DriveController controller;  ///< its other numbers
   DeclaredUnits units;
   RegisterBits registers;
   GearRatios gear;
@@ -87,9 +92,11 @@ struct RecordingArguments {
   std::string preset;  ///< how a common drive writes its recordings; empty: as they are declared
   std::string axis;    ///< of a machine with several; empty: the file has one
 
+  bool gain_sought() const { return gain == kSought; }
   EncoderConfig encoder() const;
   Coordinates coordinates() const { return translation ? Coordinates::kTranslation : Coordinates::kRotation; }
-  RecordingConfig configuration() const;  ///< @throws ConfigError naming the option
+  std::optional<DriveController> commanding() const;  ///< @throws ConfigError for half of it
+  RecordingConfig configuration() const;              ///< @throws ConfigError naming the option
   /// Each of the axes that are asked for, as if it had been asked for alone; where it is none, these
   /// themselves.
   std::vector<RecordingArguments> each_axis() const;

@@ -10,6 +10,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/base/statistics.h"
 #include "gapscope/config/starter.h"
 
 namespace gapscope::cli {
@@ -21,8 +22,9 @@ struct InitArguments {
   RecordingArguments recording;
   std::string held_out;  ///< a second recording; empty: none
   std::string output;
-  std::string model;        ///< empty: as the detector sees it
-  std::string from, joint;  ///< of a simulator's model; empty: none
+  std::string model;                               ///< empty: as the detector sees it
+  std::string from, joint;                         ///< of a simulator's model; empty: none
+  double mass = kNaN, arm = kNaN, inertia = kNaN;  ///< known of the drive [kg, m, kg m² or kg]
 };
 
 StarterModel model_of(const std::string& word) {
@@ -39,6 +41,14 @@ std::optional<JointNumbers> nominal_of(const InitArguments& a) {
                                           numbers.slides ? "slides" : "turns",
                                           numbers.slides ? "--translation" : "no --translation"));
   return numbers;
+}
+
+/// What fixes the scale of the torques; nothing: none is known
+std::optional<AnchorConfig> anchor_of(const InitArguments& a) {
+  AnchorConfig anchor;
+  anchor.mass = a.mass, anchor.arm = a.arm, anchor.inertia = a.inertia;
+  if (std::isnan(a.mass) && std::isnan(a.inertia)) return {};
+  return anchor;
 }
 
 /// Both recordings, as if a configuration had named them.
@@ -63,13 +73,13 @@ std::string named_after(const std::string& axis, std::string yaml) {
 }
 
 void write_starter(const InitArguments& a, const RecordingArguments& r, bool several) {
-  const std::optional<JointNumbers> nominal = nominal_of(a);
+  const StarterKnowledge known{model_of(a.model), nominal_of(a), anchor_of(a), r.gain_sought()};
   const std::string output = output_of(a, r, several);
   require_file_name(output, {r.file, a.held_out}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
-  const Starter starter =
-      starter_configuration(recordings_of(a, r), r.encoder(), r.coordinates(),
-                            parent.empty() ? "." : parent.string(), model_of(a.model), nominal);
+  const Starter starter = starter_configuration(recordings_of(a, r), r.encoder(), r.coordinates(),
+                                                parent.empty() ? "." : parent.string(), known);
+  parse_configuration(starter.yaml, output);  // throws where an anchor does not suit the drive
   write_text(output, several ? named_after(r.axis, starter.yaml) : starter.yaml, "");
   print_warnings(starter.spoiling);
   fmt::print("{:<12}{}\n{:<12}{}\n{:<12}{}gapscope run {} (or detect, fit, diagnose)\n", "written", output,
@@ -102,6 +112,22 @@ void add_init(CommandLine& app) {
       command.add_option("--joint", arguments->joint, "joint in it that is the drive").value("NAME");
   from.needs(joint);
   joint.needs(from);
+  Option mass =
+      command.add_option("--mass", arguments->mass, "known mass on an arm that turns with the position [kg]")
+          .value("MASS")
+          .within(1e-9, 1e9);
+  Option arm = command.add_option("--arm", arguments->arm, "its distance from the axis [m]")
+                   .value("LENGTH")
+                   .within(1e-9, 1e6);
+  mass.needs(arm);
+  arm.needs(mass);
+  Option inertia = command
+                       .add_option("--inertia", arguments->inertia,
+                                   "known inertia of the motor's side [kg m^2; of a slide kg]")
+                       .value("INERTIA")
+                       .within(1e-12, 1e9);
+  for (Option* anchor : {&mass, &inertia}) anchor->excludes(from);
+  inertia.excludes(mass);
   command.footer(
       "Reads off the recording what it tells: columns, a rate for the detector where time is not uniform,\n"
       "the step of the encoder [rad], and whether the model needs a gap, a locked output or one body (the\n"
@@ -110,6 +136,9 @@ void add_init(CommandLine& app) {
       "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1, unless --input-unit "
       "is\n"
       "one of torque or force) or left to the fit.\n"
+      "--mass with --arm, or --inertia, is what sets the scale where nobody knows torque_constant: it is "
+      "then\n"
+      "written as anchor:, and the fit finds torque_constant.\n"
       "A gap that the detector does not see (inconclusive) is a GUESS too.\n"
       "--preset dynamixel, feetech, odrive, moteus or twincat declares the columns and units that these "
       "drives "
@@ -123,8 +152,9 @@ void add_init(CommandLine& app) {
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
   command.action([arguments] {
     const auto all = arguments->recording.each_axis();
-    for (const DrivePreset& p : drive_presets())
-      if (arguments->recording.preset == p.name) fmt::print("{:<12}{}; {}\n", "preset", p.what, p.note);
+    if (const std::string banner = preset_banner(arguments->recording); !banner.empty())
+      fmt::print("{:<12}{}\n", "preset", banner);
+    print_warnings(preset_remarks(arguments->recording));
     for (const RecordingArguments& one : all) write_starter(*arguments, one, all.size() > 1);
   });
 }

@@ -27,8 +27,15 @@ struct DrivePreset {
 
 std::span<const DrivePreset> drive_presets();
 
-/// Everything that was not given beside it, as the preset has it.
+/// Everything that was not given beside it, as the preset has it. An input of another name than the preset's
+/// may be another quantity: it keeps the unit that it was given, or none.
 /// @throws ConfigError where the file has none of its columns
 RecordingArguments with_preset(RecordingArguments arguments);
+
+/// What it is and what to know of it, where its input is the one that is read; empty without a preset.
+std::string preset_banner(const RecordingArguments& arguments);
+
+/// What of the preset does not hold, or holds for a column of another name; empty without a preset.
+std::vector<std::string> preset_remarks(const RecordingArguments& arguments);
 
 }  // namespace gapscope::cli

@@ -21,6 +21,21 @@ EncoderConfig RecordingArguments::encoder() const {
   return encoder;
 }
 
+std::optional<DriveController> RecordingArguments::commanding() const {
+  if (target.empty() && gain.empty()) return {};
+  if (target.empty())
+    throw ConfigError(
+        "gapscope: --controller-gain stands without --target, expected the column of the commanded position "
+        "beside it");
+  if (gain.empty())
+    throw ConfigError(
+        "gapscope: --target stands without --controller-gain, expected the gain of the servo's position "
+        "controller beside it, or --controller-gain estimate where nobody knows it");
+  DriveController c = controller;
+  c.gain = decimal(gain).value_or(1.0);  // one that is sought begins there
+  return c;
+}
+
 RecordingConfig RecordingArguments::configuration() const {
   if (units.position == "counts" && (bits == 0 || translation))
     throw ConfigError(
@@ -45,9 +60,7 @@ RecordingConfig RecordingArguments::configuration() const {
   o.columns.voltage = voltage;
   o.columns.target = target;
   if (!target.empty() && input.empty()) o.columns.input_column = InputColumn::kNone;
-  if (target.empty() != std::isnan(controller.gain))
-    throw ConfigError("gapscope: --target and --controller-gain go together, expected both or neither");
-  if (!target.empty()) o.controller = controller;
+  o.controller = commanding();
   if (!axis.empty() && axis != kAllAxes) o.columns = columns_of_axis(o.columns, axis);
   require_three_columns(o.columns);
   o.columns.scales = declared_scales(
@@ -115,9 +128,16 @@ void add_controller_options(CommandLine& command, RecordingArguments& a) {
       .add_option("--target", a.target,
                   "column of the commanded position, of which the controller below makes the input")
       .value("NAME");
-  command.add_option("--controller-gain", a.controller.gain, "input unit per rad of position error")
+  command
+      .add_option(
+          "--controller-gain", a.gain,
+          "input unit (with --voltage: duty) per rad of position error, or estimate: the fit finds it")
       .value("GAIN")
-      .within(-1e12, 1e12);
+      .accepts([](const std::string& text) {
+        return std::string(text == kSought || std::abs(decimal(text).value_or(kInfinity)) <= 1e12
+                               ? ""
+                               : "expected a number up to 1e12, or estimate");
+      });
   command.add_option("--controller-derivative", a.controller.derivative, "input unit per rad/s of it")
       .value("GAIN")
       .within(-1e12, 1e12);

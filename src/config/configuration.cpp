@@ -196,7 +196,10 @@ InputFacts Configuration::input_facts() const {
   if (!recording) return input;
   const Quantity torque = coordinates.rotational() ? Quantity::kTorque : Quantity::kForce;
   const bool of_a_supply = !recording->reading.columns.voltage.empty();  // a duty times its volts
-  input.unit = of_a_supply ? "V" : si_unit(torque, recording->units.input);
+  const bool of_a_gain = !recording->reading.columns.reads_input() && internal::config::gain_is_torque(*this);
+  input.unit = of_a_gain     ? coordinates.torque_unit()
+               : of_a_supply ? "V"
+                             : si_unit(torque, recording->units.input);
   return input;
 }
 

@@ -6,6 +6,7 @@
 
 #include "config/parameter_setting.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope::internal::config {
 namespace {
@@ -129,14 +130,16 @@ void require_estimable(const Value& controller, const RecordingConfig& recording
         "none");
 }
 
-void write_law(YamlWriter& out, const char* name, const LawKeys& keys, const ControllerModel& model) {
+void write_law(YamlWriter& out, const char* name, const LawKeys& keys, const ControllerModel& model,
+               const std::string& unit_of_output) {
   out.open(name);
   for (const LawKey& key : keys) {
+    const std::string unit = replaced(key.range.unit, "unit of u", unit_of_output);
     if (key.fixed == nullptr) {
       const ParameterSetting& setting = model.numbers[static_cast<std::size_t>(key.number)];
-      out.quantity(key.key, setting_text(setting), key.range.unit);
+      out.quantity(key.key, setting_text(setting), unit);
     } else if (const double value = model.fixed.*key.fixed; std::isfinite(value)) {
-      out.quantity(key.key, yaml_number(value), key.range.unit);
+      out.quantity(key.key, yaml_number(value), unit);
     }
   }
   out.close();
@@ -167,6 +170,15 @@ void require_controlled(const Configuration& c, bool controlled) {
                               ", expected it beside a recording under a controller: that is given");
 }
 
+/// Beside a simulation the excitation is its target.
+void read_simulated(const Value& controller, const ControllerModel& model, Configuration& c) {
+  if (model.estimates())
+    controller.fail("has a number to be estimated beside a simulation, expected numbers");
+  if (c.simulation->independent)
+    controller.fail("stands beside plant: independent, expected plant: simulator");
+  c.controller = model;
+}
+
 }  // namespace
 
 void read_controller(const Section& root, Configuration& c) {
@@ -180,21 +192,34 @@ void read_controller(const Section& root, Configuration& c) {
         "recording.columns has a target, expected controller: {position: {gain: ...}} beside it, "
         "which makes the input of it");
   const ControllerModel model = read_laws(*controller);
-  if (!target)
-    controller->fail(c.recording
-                         ? "stands without the target, expected recording: columns: {target: ...}"
-                         : "stands beside simulation, expected it with recording: columns: {target: ...}");
+  if (c.simulation) return read_simulated(*controller, model, c);
+  if (!target) controller->fail("stands without the target, expected recording: columns: {target: ...}");
   if (model.estimates()) require_estimable(*controller, *c.recording);
   c.controller = model;
   c.recording->reading.controller = model.at_start();
 }
 
-void write_controller(YamlWriter& out, const ControllerModel& model) {
+bool gain_is_torque(const Configuration& c) {
+  const auto at = static_cast<std::size_t>(place::kTorqueConstant);
+  const ParameterSetting& constant = c.model.parameters[at];
+  return c.model.given && c.controller && !constant.estimate && constant.value == 1.0 && !c.model.guessed[at];
+}
+
+std::string controller_output_unit(bool supplied, bool is_torque, const DeclaredUnits& units,
+                                   Coordinates coordinates) {
+  if (supplied) return is_torque ? coordinates.torque_unit() + std::string("/V") : "duty";
+  const Quantity torque = coordinates.rotational() ? Quantity::kTorque : Quantity::kForce;
+  const std::string unit = si_unit(torque, units.input);
+  return unit.empty() ? "unit of u" : unit;
+}
+
+void write_controller(YamlWriter& out, const ControllerModel& model, const std::string& unit_of_output) {
   const ControllerKind kind = model.fixed.kind;
   out.open("controller");
   if (kind != ControllerKind::kVelocity)
-    write_law(out, "position", kind == ControllerKind::kCascade ? kPositionOfCascade : kPositionAlone, model);
-  if (kind != ControllerKind::kPosition) write_law(out, "velocity", kVelocity, model);
+    write_law(out, "position", kind == ControllerKind::kCascade ? kPositionOfCascade : kPositionAlone, model,
+              unit_of_output);
+  if (kind != ControllerKind::kPosition) write_law(out, "velocity", kVelocity, model, unit_of_output);
   out.close();
 }
 
@@ -205,7 +230,9 @@ Json controller_schema() {
                             "of the position that is recorded; beside velocity its gain [1/s] asks "
                             "for a speed, and it has gain and dead_band alone"));
   controller.add("velocity", law_schema(kVelocity, "of the speed, of which alone the target is one"));
-  Json schema = controller.schema("of the drive's firmware: makes the input of recording: columns: target");
+  Json schema = controller.schema(
+      "of the drive's firmware: makes the input of recording: columns: target, or of the excitation "
+      "[rad] of a simulation");
   schema["minProperties"] = 1;
   return schema;
 }

@@ -11,7 +11,14 @@ namespace gapscope::internal::config {
 /// @throws ConfigError where one of the two stands alone
 void read_controller(const Section& root, Configuration& configuration);
 
-void write_controller(YamlWriter& out, const ControllerModel& model);
+/// Whether u, which a controller makes, is told in units of torque: the torque constant is 1, and no guess.
+bool gain_is_torque(const Configuration& configuration);
+
+/// What one unit of its output is: "duty", which the supply's voltage multiplies, "A", or "unit of u".
+/// @param is_torque  the torque constant is 1, so that the gain has its size: then "N m/V"
+std::string controller_output_unit(bool supplied, bool is_torque, const DeclaredUnits& units,
+                                   Coordinates coordinates);
+void write_controller(YamlWriter& out, const ControllerModel& model, const std::string& unit_of_output);
 
 Json controller_schema();
 

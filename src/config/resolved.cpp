@@ -195,10 +195,15 @@ void write_reading(YamlWriter& out, const Configuration& c) {
   if (c.recording) write_recording(out, *c.recording);
   if (c.simulation) write_simulation(out, *c.simulation, c.coordinates);
   write_encoder(out, c.encoder);
+  const bool supplied = (c.simulation && !c.simulation->excitation.voltage_column.empty()) ||
+                        (c.recording && !c.recording->reading.columns.voltage.empty());
+  const std::string unit = internal::config::controller_output_unit(
+      supplied, internal::config::gain_is_torque(c), c.recording ? c.recording->units : DeclaredUnits{},
+      c.coordinates);
   if (c.controller)
-    internal::config::write_controller(out, *c.controller);
+    internal::config::write_controller(out, *c.controller, unit);
   else if (c.recording && c.recording->reading.controller)
-    internal::config::write_controller(out, ControllerModel::known(*c.recording->reading.controller));
+    internal::config::write_controller(out, ControllerModel::known(*c.recording->reading.controller), unit);
   out.entry("coordinates", c.coordinates.name());
 }
 

@@ -9,6 +9,7 @@
 
 #include "config/controller_reader.h"
 #include "config/starter_choice.h"
+#include "config/starter_motor.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/base/plain_name.h"
@@ -18,10 +19,15 @@
 namespace gapscope {
 namespace {
 
+using internal::config::anchor_text;
 using internal::config::as_modelled;
+using internal::config::Begin;
 using internal::config::chosen_structure;
 using internal::config::StarterChoice;
-using internal::config::yaml_number;
+using internal::config::suggest_anchor;
+using internal::config::write_estimated;
+using internal::config::write_friction;
+using internal::config::write_motor;
 using internal::config::yaml_text;
 using internal::config::YamlWriter;
 
@@ -91,14 +97,18 @@ void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f
                         coordinates.position_unit()));
 }
 
-/// Where a fit begins: with the numbers of a simulator's model, of the recording read as one body, or
-/// without.
-struct Begin {
-  JointNumbers numbers;
-  std::string from;              ///< "read, as one body"
-  bool input_is_torque = false;  ///< torque_constant is 1, and no guess
-  bool nominal = false;
-};
+/// The controller that makes the input of the target.
+void write_commanding(YamlWriter& out, const RecordingConfig& recording, bool sought,
+                      Coordinates coordinates) {
+  ControllerModel model = ControllerModel::known(*recording.reading.controller);
+  if (sought)
+    model.numbers[static_cast<std::size_t>(leading_number(model.fixed.kind))] = ParameterSetting::sought();
+  internal::config::write_controller(
+      out, model,
+      internal::config::controller_output_unit(!recording.reading.columns.voltage.empty(),
+                                               sought && !std::isfinite(model.fixed.saturation),
+                                               recording.units, coordinates));
+}
 
 Begin begin_of(const RecordingFacts& f, bool one_body, const std::optional<JointNumbers>& nominal) {
   if (nominal) return {*nominal, "of joint " + printable(nominal->joint, 40), true};
@@ -109,57 +119,11 @@ Begin begin_of(const RecordingFacts& f, bool one_body, const std::optional<Joint
   return begin;
 }
 
-/// {value: …, estimate: true} with a number that is known, else without.
-void write_estimated(YamlWriter& out, const char* key, double value, const std::string& unit,
-                     const std::string& from) {
-  const bool known = value > 0.0;
-  out.entry(key, known ? fmt::format("{{value: {:.3g}, estimate: true}}", value) : "{estimate: true}",
-            unit + "; " + (known ? from : "the fit finds its start"));
-}
-
 /// Whether u is declared as what drives x1, in N m or N; a gear between the two makes another torque of it.
 bool is_drive_torque(const RecordingConfig& r, Coordinates coordinates) {
   const bool turns = coordinates.rotational();
   const std::string unit = si_unit(turns ? Quantity::kTorque : Quantity::kForce, r.units.input);
   return unit == (turns ? "N m" : "N") && r.gear.position == 1.0;
-}
-
-void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
-  if (begin.input_is_torque)
-    out.entry("torque_constant", "1", std::string("u is in ") + coordinates.torque_unit() + " already");
-  else if (begin.numbers.torque_constant > 0.0)
-    out.entry("torque_constant", yaml_number(begin.numbers.torque_constant),
-              coordinates.with_units("[N m] per unit of u; ") + begin.from);
-  else
-    out.entry("torque_constant", "{value: 1, guess: true}",
-              coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u. "
-                                     "Where it is known: torque_constant: 0.172, say"));
-  const bool settled = begin.input_is_torque || begin.numbers.torque_constant > 0.0;
-  write_estimated(
-      out, "motor_inertia", begin.numbers.inertia,
-      coordinates.unit("kg m^2") + (settled ? "" : " (over torque_constant)") + "; better the sheet's",
-      begin.from);
-  write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad"), begin.from);
-}
-
-/// Where torque_constant is a guess: one number with a unit of torque settles it.
-void suggest_anchor(YamlWriter& out, Coordinates coordinates) {
-  out.comment(
-      "No sheet tells torque_constant? Delete its line and that of motor_inertia, and say what you know:");
-  out.comment("anchor: {inertia: 8.8e-4}  # " + coordinates.unit("kg m^2") + ", of the motor's side" +
-              (coordinates.rotational() ? "; or {mass: 0.49, arm: 0.1}  # kg, m" : ""));
-}
-
-/// Coulomb friction, where it was read: a diagnosis then begins with what is missing beside it.
-void write_friction(YamlWriter& out, double friction, const std::string& from, Coordinates coordinates) {
-  const char* const others = "`gapscope effects` lists what else a drive may have";
-  if (!(friction > 0.0)) return out.entry("effects", "[]", others);
-  out.open("effects");
-  out.comment(others);
-  out.entry("- motor_coulomb_friction",
-            fmt::format("{{level_nm: {{value: {:.3g}, estimate: true}}}}", friction),
-            coordinates.torque_unit() + ("; " + from));
-  out.close();
 }
 
 void write_load(YamlWriter& out, const StarterChoice& choice, const Begin& begin, Coordinates coordinates) {
@@ -194,7 +158,7 @@ void write_model(YamlWriter& out, const StarterChoice& choice, const Begin& begi
               "one body; for a drive with a gap: {estimate: true}, and gap, contact_stiffness alike");
   if (load) write_load(out, choice, begin, coordinates);
   out.close();
-  write_friction(out, begin.numbers.friction, begin.from, coordinates);
+  write_friction(out, begin, coordinates);
   out.close();
 }
 
@@ -211,8 +175,8 @@ std::string head(bool guesses, Coordinates coordinates) {
 }  // namespace
 
 Starter starter_configuration(RecordingConfig config, const EncoderConfig& encoder, Coordinates coordinates,
-                              const std::string& folder, StarterModel model,
-                              const std::optional<JointNumbers>& nominal) {
+                              const std::string& folder, const StarterKnowledge& known) {
+  const std::optional<JointNumbers>& nominal = known.nominal;
   const std::string& recording = config.files.front().path;
   ReadOptions& options = config.reading;
   Inspection seen = inspect(recording, options, coordinates);
@@ -222,9 +186,9 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   const Recording r = read_recording(recording, options);
   for (const RecordedFile& held : config.held_out)
     read_recording(held.path, config.reading_of(held, UnevenRows::kStamped));  // throws what diagnose would
-  const StarterChoice choice = nominal && model == StarterModel::kAsSeen
+  const StarterChoice choice = nominal && known.model == StarterModel::kAsSeen
                                    ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
-                                   : chosen_structure(model, r.motor_trace(), r.encoder, coordinates);
+                                   : chosen_structure(known.model, r.motor_trace(), r.encoder, coordinates);
   Starter starter;
   starter.model = choice.why;
   YamlWriter out(coordinates);
@@ -237,15 +201,22 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
   write_recording(out, folder, config, irregular);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
-  if (config.reading.controller)
-    internal::config::write_controller(out, ControllerModel::known(*config.reading.controller));
+  if (config.reading.controller) write_commanding(out, config, known.gain_sought, coordinates);
   out.entry("coordinates", coordinates.name());
   const bool one_body = choice.structure == StarterModel::kOneBody;
   Begin begin = begin_of(seen.facts, one_body, nominal);
   begin.input_is_torque = !(begin.numbers.torque_constant > 0.0) && is_drive_torque(config, coordinates);
+  begin.gain_sought = known.gain_sought && !std::isfinite(config.reading.controller->saturation);
+  begin.anchored = known.anchor.has_value();
+  begin.knows_inertia = begin.anchored && (std::isfinite(known.anchor->inertia) ||
+                                           (one_body && std::isfinite(known.anchor->mass)));
+  if (begin.anchored && std::isfinite(known.anchor->friction)) begin.numbers.friction = kNaN;
   write_model(out, choice, begin, coordinates);
   out.entry("detector", "{bound: auto}");
-  if (!begin.input_is_torque && !(begin.numbers.torque_constant > 0.0)) suggest_anchor(out, coordinates);
+  if (known.anchor)
+    out.entry("anchor", anchor_text(*known.anchor), "known of the drive: sets the scale of all torques");
+  else if (!begin.settled())
+    suggest_anchor(out, begin.gain_sought, coordinates);
   starter.guesses = out.text().find("GUESS") != std::string::npos;
   starter.yaml = head(starter.guesses, coordinates) + out.text();
   return starter;

@@ -22,7 +22,10 @@ Written written(const std::optional<double>& value) {
   if (!value) return {};
   return yaml_number(*value);
 }
-Written written(const std::string& value) { return yaml_text(value); }
+Written written(const std::string& value) {
+  if (value.empty()) return {};
+  return yaml_text(value);
+}
 Written written(const std::vector<double>& value) { return fmt::format("[{}]", fmt::join(value, ", ")); }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/results/sha256.h"
 #include "gapscope/run/run_pipeline.h"
+#include "gapscope/simulation/closed_loop.h"
 #include "gapscope/simulation/simulate.h"
 #include "independent_plant/simulate.h"
 
@@ -171,7 +172,11 @@ Recording simulated_recording(const Configuration& c) {
   options.encoder = {c.position_quantum(), s.noise};
   const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
   stop_point();
-  Recording r = s.independent ? independent_recording(c, u) : simulate(s.plant.plant_model(), u, options);
+  Recording r = c.controller
+                    ? simulate_under_controller(s.plant.plant_model(), c.controller->at_start(), u, options,
+                                                supply_of(s.excitation, s.rate, s.samples()))
+                : s.independent ? independent_recording(c, u)
+                                : simulate(s.plant.plant_model(), u, options);
   const bool load = c.encoder.sides == EncoderSides::kLoad && !r.x2.empty();
   if (c.encoder.sides == EncoderSides::kBoth || (load && s.independent))
     r.x2 = encoder_reads(r.x2, options.encoder, s.seed);

@@ -97,8 +97,10 @@ class DriveInLoop {
 }  // namespace
 
 Recording simulate_under_controller(const PlantModel<double>& model, const DriveController& controller,
-                                    std::span<const double> target, const SimulationOptions& options) {
+                                    std::span<const double> target, const SimulationOptions& options,
+                                    std::span<const double> supply) {
   GAPSCOPE_REQUIRE(options.rate > 0.0 && controller.delay >= 0.0);
+  GAPSCOPE_REQUIRE(supply.empty() || supply.size() == target.size());
   Recording r;
   r.dt = 1.0 / options.rate;
   r.quantum = options.encoder.quantum;
@@ -114,11 +116,11 @@ Recording simulate_under_controller(const PlantModel<double>& model, const Drive
     if (model.structure.has_load) r.x2.push_back(load ? position : state.x2);
     r.mode.push_back(mode_of(loop.drive()));
     rows->t.push_back(r.time(i)), rows->position.push_back(position);
-    loop.row(target[i], position);
+    rows->supply.push_back(supply.empty() ? 1.0 : supply[i]);
+    loop.row(target[i], position, rows->supply.back());
     r.u.push_back(loop.until(r.time(i + 1)));
   }
   rows->target.assign(target.begin(), target.end());
-  rows->supply.assign(target.size(), 1.0);
   r.command = rows;
   return r;
 }

@@ -86,6 +86,7 @@ void recorded_fields(Excitation& e, FieldVisitor& v) {
   v.field({"file", "", "recording (CSV), relative to the configuration"}, e.file);
   v.field({"time", "", "its column of the time [s]"}, e.time_column);
   v.field({"input", "", "its column of the input"}, e.input_column);
+  v.field({"voltage", "", "its column of the supply's voltage, beside a controller"}, e.voltage_column);
 }
 
 }  // namespace

@@ -88,13 +88,13 @@ std::vector<double> steps(const Excitation& e, double rate, std::size_t count, s
   });
 }
 
-std::vector<double> recorded(const Excitation& e, double rate, std::size_t count) {
+std::vector<double> recorded(const Excitation& e, const std::string& column, double rate, std::size_t count) {
   const std::string path = (std::filesystem::path(e.folder) / e.file).lexically_normal().string();
   if (std::error_code unreachable; !std::filesystem::exists(path, unreachable))
     throw ConfigError(path, "is not there, expected the recording whose input is played");
   ReadOptions options;
   options.columns.time = e.time_column;
-  options.columns.input = options.columns.position = e.input_column;
+  options.columns.input = options.columns.position = column;
   options.columns.load_position = "";
   options.uneven = UnevenRows::kStamped;
   Recording recording = read_recording(path, options);
@@ -131,7 +131,7 @@ std::vector<double> without_offset(const Excitation& e, double rate, std::size_t
     case ExcitationKind::kSteps:
       return steps(e, rate, count, seed);
     case ExcitationKind::kRecorded:
-      return recorded(e, rate, count);
+      return recorded(e, e.input_column, rate, count);
   }
   return {};
 }
@@ -144,6 +144,11 @@ std::vector<double> sample(const Excitation& excitation, double rate, std::size_
   std::vector<double> u = without_offset(excitation, rate, count, seed);
   for (double& value : u) value += excitation.offset;
   return u;
+}
+
+std::vector<double> supply_of(const Excitation& excitation, double rate, std::size_t count) {
+  if (excitation.kind != ExcitationKind::kRecorded || excitation.voltage_column.empty()) return {};
+  return recorded(excitation, excitation.voltage_column, rate, count);
 }
 
 }  // namespace gapscope

@@ -1,4 +1,5 @@
 // What `init` writes is taken by the other commands as it is.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,6 +66,47 @@ TEST(Init, AnInputInTorqueLeavesNothingToGuess) {
   const auto geared =
       place.run("init r.csv --model one_body --input-unit 'N m' --gear-ratio 2 -o geared.yaml");
   EXPECT_THAT(geared.out, HasSubstr("fill in what is marked GUESS")) << "at which shaft is that torque?";
+}
+
+/// What is known of the drive sets the scale: no number in units of the input stays for the fit to begin
+/// with.
+TEST(Init, AnAnchorLeavesTheTorqueConstantToTheFitAndWhatWasReadInItsUnits) {
+  Workplace place;
+  const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
+  place.file("r.csv", one_body_csv(input));
+  EXPECT_EQ(place.run("init r.csv --model one_body --inertia 8.78e-4 -o known.yaml").status, 0);
+  const std::string yaml = testing::text_of(place.folder() / "known.yaml");
+  EXPECT_THAT(yaml, HasSubstr("anchor: {inertia: 0.000878}"));
+  EXPECT_THAT(yaml, HasSubstr("motor_damping: {estimate: true}"));
+  EXPECT_THAT(yaml, Not(HasSubstr("GUESS")));
+  const auto fit = place.run("fit known.yaml -o report");
+  EXPECT_EQ(fit.status, 0) << fit.err;
+  EXPECT_THAT(fit.out, ::testing::ContainsRegex("torque_constant +0[.]17[0-9]+ N m"));
+  EXPECT_EQ(place.run("init r.csv --model one_body --mass 0.5 --arm 0.1 -o mass.yaml").status, 0);
+  EXPECT_THAT(testing::text_of(place.folder() / "mass.yaml"), HasSubstr("anchor: {mass: 0.5, arm: 0.1}"));
+  EXPECT_EQ(place.run("init r.csv --mass 0.5 -o m.yaml").status, 2);
+  EXPECT_THAT(place.run("init r.csv --model locked --mass 0.5 --arm 0.1 -o m.yaml").err,
+              HasSubstr("on a load that is locked"));
+}
+
+TEST(Init, AServoThatTakesGoalsMayHaveAGainThatNobodyKnows) {
+  Workplace place;
+  std::string text = "t,goal,x1,volts\n";
+  for (int i = 0; i < 400; ++i)
+    text += fmt::format("{},{},{},7\n", 0.005 * i, std::sin(0.02 * i), 0.9 * std::sin(0.02 * i - 0.1));
+  place.file("servo.csv", text);
+  const std::string init = "init servo.csv --model one_body --target goal";
+  EXPECT_THAT(place.run(init).err, HasSubstr("or --controller-gain estimate where nobody knows it"));
+  EXPECT_THAT(place.run("init servo.csv --controller-gain 2").err, HasSubstr("stands without --target"));
+  EXPECT_EQ(place.run(init + " --controller-gain much").status, 2);
+  const auto known = place.run(init + " --controller-gain estimate --mass 0.5 --arm 0.1 -o servo.yaml");
+  EXPECT_EQ(known.status, 0) << known.err;
+  const std::string yaml = testing::text_of(place.folder() / "servo.yaml");
+  EXPECT_THAT(yaml, HasSubstr("target: \"goal\""));
+  EXPECT_THAT(yaml, HasSubstr("gain: {estimate: true}"));
+  EXPECT_THAT(yaml, HasSubstr("torque_constant: 1  # not known apart from the controller's gain"));
+  EXPECT_EQ(place.run(init + " --controller-gain 2 --voltage volts -o duty.yaml").status, 0);
+  EXPECT_THAT(testing::text_of(place.folder() / "duty.yaml"), HasSubstr("gain: 2  # duty per rad"));
 }
 
 TEST(Init, BeginsWithTheNumbersOfAMuJoCoModel) {

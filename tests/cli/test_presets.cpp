@@ -87,6 +87,31 @@ const std::vector<PresetCase> kPresetCases = {
      {"units: {time: \"ms\", input: \"permille\", position: \"deg\"}"}},
 };
 
+/// An input of another name may be another quantity.
+TEST(PresetOfOtherColumns, SaysWhatItLeavesOutForAColumnOfAnotherName) {
+  const testing::Rows rows = testing::rig();
+  std::string text = "timestamp,load,present_position,volts\n";
+  for (std::size_t i = 0; i < rows.t.size(); ++i)
+    text += fmt::format("{:.9g},{},{:.9g},7.4\n", rows.t[i], std::round(500.0 * rows.u[i]),
+                        std::round(4096.0 / 6.283185307 * rows.x1[i]));
+  Workplace place;
+  place.file("log.csv", text);
+  const auto named = place.run("init log.csv --model gap --preset dynamixel --input load");
+  EXPECT_EQ(named.status, 0) << named.err;
+  EXPECT_THAT(named.out, ::testing::Not(HasSubstr("u = duty x volts")));
+  EXPECT_THAT(named.err, HasSubstr("not of 'load': u is read as it stands"));
+  EXPECT_THAT(named.err,
+              HasSubstr("--input-unit 0.00113 --input-register 16 --voltage COLUMN --voltage-unit 0.1"));
+  EXPECT_THAT(testing::text_of(place.folder() / "log.yaml"), ::testing::Not(HasSubstr("0.00113")));
+  const auto told = place.run(
+      "check log.csv --preset dynamixel --input load --input-unit 0.00113 --input-register 16 --voltage "
+      "volts "
+      "--voltage-unit V");
+  EXPECT_EQ(told.err, "");
+  EXPECT_THAT(place.run("check log.csv --preset dynamixel --input load --position volts").err,
+              HasSubstr("'volts' is read in counts"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Preset, ::testing::ValuesIn(kPresetCases),
                          [](const auto& tested) { return std::string(tested.param.name); });
 

@@ -91,10 +91,33 @@ TEST(Controller, IsRefusedWhereItCannotServe) {
         parse_configuration(
             "simulation: {rate: 1000, duration: 1, excitation: {sine: {amplitude: 1, frequency: 1}}}\n"
             "model: {parameters: {motor_inertia: 1, torque_constant: 1, mass_ratio: 0, motor_damping: 0}}\n"
-            "controller: {position: {gain: 1}}\n",
+            "controller: {position: {gain: estimate}}\n",
             "c.yaml");
       }),
-      HasSubstr("c.yaml:3: controller stands beside simulation, expected it with recording:"));
+      HasSubstr("c.yaml:3: controller has a number to be estimated beside a simulation"));
+}
+
+TEST(Controller, OfASimulationTakesTheExcitationForItsTarget) {
+  const std::string text =
+      "simulation: {rate: 1000, duration: 1, excitation: {sine: {amplitude: 1, frequency: 1}}}\n"
+      "model: {parameters: {motor_inertia: 1, torque_constant: 1, mass_ratio: 0, motor_damping: 0}}\n"
+      "controller: {position: {gain: 2}}\n";
+  const Configuration c = parse_configuration(text, "c.yaml");
+  ASSERT_TRUE(c.controller);
+  EXPECT_EQ(c.controller->at_start().gain, 2.0);
+  EXPECT_EQ(resolved_yaml(parse_configuration(resolved_yaml(c), "c.yaml")), resolved_yaml(c));
+}
+
+/// The unit of what the controller gives: the supply multiplies a duty, else it is that of the input.
+TEST(Controller, IsWrittenInItsTrueUnit) {
+  const auto written = [](const std::string& columns, const std::string& units) {
+    return resolved_yaml(parse_configuration(
+        "recording: {file: a.csv, columns: " + columns + units + "}\ncontroller: {position: {gain: 2}}\n",
+        "c.yaml"));
+  };
+  EXPECT_THAT(written("{target: goal, voltage: volts}", ""), HasSubstr("gain: 2  # duty per rad"));
+  EXPECT_THAT(written("{target: goal}", ", units: {input: mA}"), HasSubstr("gain: 2  # A per rad"));
+  EXPECT_THAT(written("{target: goal}", ""), HasSubstr("gain: 2  # unit of u per rad"));
 }
 
 TEST(Controller, HasNumbersThatTheFitFinds) {

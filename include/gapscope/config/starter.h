@@ -6,6 +6,7 @@
 
 #include "gapscope/config/data_config.h"
 #include "gapscope/config/joint_numbers.h"
+#include "gapscope/config/model_config.h"
 
 namespace gapscope {
 
@@ -20,19 +21,27 @@ struct Starter {
   std::vector<std::string> spoiling;  ///< what `check` says will spoil the estimates
 };
 
+/// What is known of the drive beside its recording.
+struct StarterKnowledge {
+  StarterModel model = StarterModel::kAsSeen;  ///< kAsSeen: the detector decides
+  /// What a simulator's model says: the fit begins with its numbers. Its gap, or the detector's where it has
+  /// none, decides the structure where nobody asks for another.
+  std::optional<JointNumbers> nominal = {};
+  /// What fixes the scale of the torques: torque_constant is then left to the fit, and with it every number
+  /// that was read in units of u.
+  std::optional<AnchorConfig> anchor = {};
+  bool gain_sought = false;  ///< of the controller that makes the input of the target: the fit finds it
+};
+
 /// Reads off a recording what it tells (columns, a rate for the detector, encoder, whether there is a gap, a
 /// locked output or one body, and of one body the first numbers) and marks the rest as GUESS or leaves it to
-/// the fit. Torques are in units of u until torque_constant is given; gaps do not depend on it.
+/// the fit. Torques are in units of u until torque_constant or an anchor is given; gaps do not depend on it.
 /// @param recording  one file, and at most one that is held out
 /// @param encoder what is known of it; else the step that is seen
-/// @param model   kAsSeen: the detector decides
 /// @param folder  where the configuration will be: the recording is named relative to it
-/// @param nominal what a simulator's model says: the fit begins with its numbers. Its gap, or the detector's
-///   where it has none, decides the structure where nobody asks for another
 /// @throws ConfigError where a recording cannot be read
 Starter starter_configuration(RecordingConfig recording, const EncoderConfig& encoder,
                               Coordinates coordinates, const std::string& folder,
-                              StarterModel model = StarterModel::kAsSeen,
-                              const std::optional<JointNumbers>& nominal = {});
+                              const StarterKnowledge& known = {});
 
 }  // namespace gapscope

@@ -43,6 +43,7 @@ struct Excitation {
   std::string file;    ///< recording (CSV) whose input is played again, as it was named
   std::string folder;  ///< that the name is relative to; empty: the working folder
   std::string time_column = "t", input_column = "u";
+  std::string voltage_column = {};  ///< of the supply, where the input is the target of a controller
 
   /// The fields that belong to the kind.
   void fields(FieldVisitor& v);
@@ -53,6 +54,9 @@ struct Excitation {
 /// @throws std::logic_error if excitation_problem() has something to say; ConfigError for a recording that
 /// cannot be read, is shorter, or was sampled at another rate.
 std::vector<double> sample(const Excitation& excitation, double rate, std::size_t count, std::uint64_t seed);
+
+/// The supply's voltage beside a recorded input [V]; empty without a column for it.  @throws as sample()
+std::vector<double> supply_of(const Excitation& excitation, double rate, std::size_t count);
 
 /// What is wrong with an excitation at this rate [Hz] and duration [s], and what was expected; empty if
 /// nothing.

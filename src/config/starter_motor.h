@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "config/yaml_writer.h"
+#include "gapscope/config/joint_numbers.h"
+#include "gapscope/config/model_config.h"
+
+/// What a first configuration says of the motor, and of the scale of its torques.
+namespace gapscope::internal::config {
+
+/// Where a fit begins: with the numbers of a simulator's model, of the recording read as one body, or
+/// without.
+struct Begin {
+  JointNumbers numbers;
+  std::string from;              ///< "read, as one body"
+  bool input_is_torque = false;  ///< torque_constant is 1, and no guess
+  bool nominal = false;          ///< the numbers are a simulator's
+  bool knows_inertia = false;    ///< by the anchor, or that it is a mass and no less
+  bool gain_sought = false;      ///< of the controller, which takes the size of the torque constant
+  bool anchored = false;  ///< the torque constant is left to the fit, and all that was read in units of u
+
+  bool settled() const { return input_is_torque || anchored || numbers.torque_constant > 0.0; }
+};
+
+/// {value: ..., estimate: true} with a number that is known, else without.
+void write_estimated(YamlWriter& out, const char* key, double value, const std::string& unit,
+                     const std::string& from);
+
+/// Torque constant, inertia and damping.
+void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates);
+
+/// Coulomb friction, where it was read: a diagnosis then begins with what is missing beside it.
+void write_friction(YamlWriter& out, const Begin& begin, Coordinates coordinates);
+
+/// "{mass: 0.49, arm: 0.1}"
+std::string anchor_text(const AnchorConfig& anchor);
+
+/// Where torque_constant is a guess: one number with a unit of torque settles it.
+void suggest_anchor(YamlWriter& out, bool gain_sought, Coordinates coordinates);
+
+}  // namespace gapscope::internal::config
