@@ -21,9 +21,14 @@ std::string fitted_model(const Configuration& c, const Diagnosis& d, const Refer
                          const MotorTrace& recording) {
   if (d.traces.empty()) return model_yaml(c, fitted, "", recording);
   const MismatchTrace& t = d.traces.front();
-  const MotorTrace held_out{t.file, t.start, t.dt, t.u, t.x1, recording.quantum, t.stamps};
-  return model_yaml(c, fitted, held_out_trace_name(0, t.file), held_out,
-                    begin_of(fitted, held_out, d.observer_hz));
+  MotorTrace held_out{t.file, t.start, t.dt, t.u, t.x1, recording.quantum, t.stamps};
+  const DriveState<double> begin = begin_of(fitted, held_out, d.observer_hz);
+  CommandRows rows;
+  rows.target = t.target, rows.supply = t.supply;
+  if (c.recording && !c.recording->held_out.empty())
+    rows.gain_times = c.recording->held_out.front().gain_times;
+  if (!t.target.empty()) held_out.command = &rows;
+  return model_yaml(c, fitted, held_out_trace_name(0, t.file), held_out, begin, d.controller);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/config/begun_model.h"
 #include "gapscope/config/configuration.h"
+#include "gapscope/recording/supply.h"
 
 namespace gapscope {
 namespace {
@@ -45,6 +46,15 @@ SimulationConfig replay_of(const MotorTrace& recording, const std::string& trace
   s.excitation.file = trace;
   s.excitation.time_column = "t_s";
   return s;
+}
+
+/// The same under the controller that made the input: of the target in the trace.
+void command(const DriveController& controller, const CommandRows& rows, Configuration& c) {
+  DriveController then = controller_during(rows, controller);
+  Excitation& e = c.simulation->excitation;
+  e.input_column = "target_rad";
+  if (is_supplied(rows)) e.voltage_column = "supply";
+  c.controller = ControllerModel::known(then);
 }
 
 /// Of a parabola through the first samples, as many as it takes to see the encoder move; 0 if it hardly does.
@@ -118,7 +128,8 @@ namespace {
 
 /// @param begin  null: not known
 std::string begun_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
-                       const MotorTrace& recording, const DriveState<double>* begin) {
+                       const MotorTrace& recording, const DriveState<double>* begin,
+                       const std::optional<DriveController>& controller) {
   Configuration c = with_model(given, fitted);
   std::string input = "its input";
   if (!c.simulation) {
@@ -128,6 +139,10 @@ std::string begun_yaml(const Configuration& given, const ReferenceModel& fitted,
     else
       begin_with(recording, c.model.structure, *c.simulation);
     input = (trace.empty() ? "a sine like the input of " : "the input of ") + shown(recording.file);
+    if (controller && recording.command != nullptr && !trace.empty()) {
+      command(*controller, *recording.command, c);
+      input = "its controller and the goal of " + shown(recording.file);
+    }
   }
   set_plant(c);
   return yaml_of(c,
@@ -138,12 +153,13 @@ std::string begun_yaml(const Configuration& given, const ReferenceModel& fitted,
 
 std::string model_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
                        const MotorTrace& recording) {
-  return begun_yaml(given, fitted, trace, recording, nullptr);
+  return begun_yaml(given, fitted, trace, recording, nullptr, {});
 }
 
 std::string model_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
-                       const MotorTrace& recording, const DriveState<double>& begin) {
-  return begun_yaml(given, fitted, trace, recording, &begin);
+                       const MotorTrace& recording, const DriveState<double>& begin,
+                       const std::optional<DriveController>& controller) {
+  return begun_yaml(given, fitted, trace, recording, &begin, controller);
 }
 
 std::string experiment_yaml(const Configuration& given, const ReferenceModel& model,
@@ -166,12 +182,19 @@ std::string fit_yaml(const Configuration& given, const FitSummary& fit, const st
   GAPSCOPE_REQUIRE(!fit.initial_states.empty());
   Configuration c = with_model(given, fitted_model(given.reference_model(), fit));
   if (!c.simulation) c.simulation = replay_of(recording, trace);
+  if (recording.command != nullptr && given.recording && given.recording->reading.controller)
+    command(
+        given.controller ? fitted_controller(*given.controller, fit) : *given.recording->reading.controller,
+        *recording.command, c);
   const DriveState<double>& start = fit.initial_states.front().state;
   c.simulation->initial = {start.x1, start.w1, start.x2, start.w2};
   c.simulation->noise = 0.0;
   set_plant(c);
-  return yaml_of(c,
-                 "The fitted model under the input of its recording; `gapscope simulate` runs it as it is.");
+  return yaml_of(c, c.controller
+                        ? "The fitted model under its controller and the goal of its recording; `gapscope "
+                          "simulate` runs it as it is."
+                        : "The fitted model under the input of its recording; `gapscope simulate` runs it as "
+                          "it is.");
 }
 
 }  // namespace gapscope

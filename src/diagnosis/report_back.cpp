@@ -15,6 +15,7 @@
 #include "diagnosis/under_controller.h"
 #include "diagnosis/where.h"
 #include "diagnosis/words.h"
+#include "gapscope/recording/supply.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -56,6 +57,12 @@ std::vector<BlameShift> blame_of(const ScoredModel& before, const ScoredModel& a
   return blame;
 }
 
+/// Of the rows that a controller made the input of, those of the trace.
+std::vector<double> part_of(const std::vector<double>& rows, const MotorTrace& t) {
+  const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(t.command_first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(t.size())};
+}
+
 std::vector<MismatchTrace> traces_of(const Study& study, const std::vector<Playback>& before,
                                      const std::vector<Playback>& after) {
   std::vector<MismatchTrace> traces;
@@ -74,6 +81,10 @@ std::vector<MismatchTrace> traces_of(const Study& study, const std::vector<Playb
                         before[r].mode,
                         {t.stamps.begin(), t.stamps.end()}};
     trace.encoder = study.sheet.structure.reads_load() ? EncoderSide::kLoad : EncoderSide::kMotor;
+    if (t.command != nullptr) {
+      trace.target = part_of(t.command->target, t);
+      if (is_supplied(*t.command)) trace.supply = part_of(t.command->supply, t);
+    }
     if (r < after.size()) trace.error_after = after[r].free, trace.torque_after = after[r].torque;
     traces.push_back(std::move(trace));
   }

@@ -34,7 +34,9 @@ void require_consistent(const Diagnosis& d) {
 TraceSet set_of(const MismatchTrace& m) {
   Recording r{m.file, m.start, m.dt, m.u, m.x1, {}, m.mode, 0.0, "", false, m.stamps, m.encoder};
   if (m.encoder == EncoderSide::kLoad) std::swap(r.x1, r.x2);
-  return {std::move(r), {}, {}, m.error_before, m.error_after, m.torque_before, m.torque_after};
+  TraceSet set{std::move(r), {}, {}, m.error_before, m.error_after, m.torque_before, m.torque_after};
+  set.target = m.target, set.supply = m.supply;
+  return set;
 }
 
 StoredMismatch store(std::size_t index, const MismatchTrace& m, const TraceSink& sink) {
@@ -69,6 +71,7 @@ MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
   m.mode = std::move(set.recording.mode), m.stamps = std::move(set.recording.stamps);
   m.error_before = std::move(set.error_before), m.error_after = std::move(set.error_after);
   m.torque_before = std::move(set.torque_before), m.torque_after = std::move(set.torque_after);
+  m.target = std::move(set.target), m.supply = std::move(set.supply);
   return m;
 }
 

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/require.h"
+#include "gapscope/recording/supply.h"
 #include "results/json_archive.h"
 #include "results/json_schema.h"
 #include "results/run_result_fields.h"
@@ -57,6 +60,16 @@ void make_folder(const fs::path& folder) {
   if (error) throw std::runtime_error(folder.string() + ": cannot be created: " + error.message());
 }
 
+/// Target and supply of its samples; without a supply none.
+std::pair<std::vector<double>, std::vector<double>> commanded_part(const Recording& r) {
+  const CommandRows& rows = *r.command;
+  const auto part_of = [&](const std::vector<double>& values) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(r.command_first);
+    return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(r.size()));
+  };
+  return {part_of(rows.target), is_supplied(rows) ? part_of(rows.supply) : std::vector<double>()};
+}
+
 /// Takes the samples along, so that a long recording is held once.
 StoredRecording store_recording(std::size_t index, Recording& recording, ErrorTrace* error, FitTrace* fit,
                                 const TraceSink& sink) {
@@ -69,6 +82,7 @@ StoredRecording store_recording(std::size_t index, Recording& recording, ErrorTr
                       recording.quantum, recording.resampling};
   stored.recording.encoder = recording.encoder;
   TraceSet set;
+  if (recording.command) std::tie(set.target, set.supply) = commanded_part(recording);
   set.recording = std::move(recording);
   if (error) set.error = std::move(*error);
   if (fit) set.fit = std::move(*fit);

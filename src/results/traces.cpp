@@ -81,6 +81,10 @@ constexpr NumberColumn kNumbers[] = {
         "stand_in_x1_rad", [](auto& s) -> auto& { return s.stand_in; }),
     column<double>(
         "mended_x1_rad", [](auto& s) -> auto& { return s.mended; }),
+    column<double>(
+        "target_rad", [](auto& s) -> auto& { return s.target; }),
+    column<double>(
+        "supply", [](auto& s) -> auto& { return s.supply; }),
 };
 constexpr ModeColumn kModeColumns[] = {
     column<Mode>(

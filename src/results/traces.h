@@ -21,6 +21,8 @@ struct TraceSet {
   /// Of a user's simulator, of the model that stands in for it, and of that one with its first row mended
   /// [rad].
   std::vector<double> simulator = {}, stand_in = {}, mended = {};
+  /// What u was made of by a controller: the target [rad], and the supply that multiplies its output [V].
+  std::vector<double> target = {}, supply = {};
 };
 
 /// Writes the filled columns only; an undefined number is an empty field.  @throws std::runtime_error

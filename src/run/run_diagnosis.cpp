@@ -102,6 +102,7 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
     d.fitted.controller.reset();
     return d;
   }
+  d.controller = d.fitted.controller ? d.fitted.controller->at_start() : recordings.controller;
   const std::string found = internal::run::controller_found(c, d, recordings.train.recordings);
   if (!found.empty()) d.warnings.push_back(found);
   d.fitted.controller.reset();

@@ -170,6 +170,8 @@ struct MismatchTrace {
   std::vector<Mode> mode;                           ///< of the nominal model
   std::vector<double> stamps = {};                  ///< time of each sample [s]; empty: evenly sampled
   EncoderSide encoder = EncoderSide::kMotor;        ///< of the load: x1 is that of the load
+  /// What u was made of by a controller [rad], and the supply that multiplies its output [V]; empty: neither.
+  std::vector<double> target = {}, supply = {};
 
   double time(std::size_t i) const {
     return stamps.empty() ? start + dt * static_cast<double>(i) : stamps[i];
@@ -208,8 +210,9 @@ struct Diagnosis {
   std::vector<DetectableEffect> detectable;
 
   std::vector<Rival> rivals;  ///< models between which these recordings do not decide well; empty: they do
-  NextExperiment next_experiment;         ///< that would; left to the caller, as it takes time
-  std::optional<ClosedLoop> closed_loop;  ///< where a controller is at work that is known
+  NextExperiment next_experiment;                  ///< that would; left to the caller, as it takes time
+  std::optional<ClosedLoop> closed_loop;           ///< where a controller is at work that is known
+  std::optional<DriveController> controller = {};  ///< that controller, as fitted with what was added
 
   std::string brief_report() const;  ///< one line: log, command line
 };
