@@ -1,11 +1,42 @@
 #include "gapscope/base/input_facts.h"
 
+#include <cctype>
+#include <string_view>
+
 #include "gapscope/base/text.h"
 
 namespace gapscope {
 
+namespace {
+
+constexpr std::string_view kUnit = "unit of u", kUnits = "units of u";
+
+bool ends_in_letter(const std::string& text, std::size_t at) {
+  return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
+}
+
+/// "look at the unit of u" speaks of the unit itself.
+bool is_spoken_of(const std::string& text, std::size_t at) {
+  constexpr std::string_view kThe = "the ";
+  return at >= kThe.size() && text.compare(at - kThe.size(), kThe.size(), kThe) == 0;
+}
+
+bool follows_number(const std::string& text, std::size_t at) {
+  return at >= 2 && text[at - 1] == ' ' && std::isdigit(static_cast<unsigned char>(text[at - 2])) != 0;
+}
+
+}  // namespace
+
 std::string with_input_unit(const std::string& text, const InputFacts& input) {
-  return input.unit.empty() ? text : replaced(text, "units of u", input.unit);
+  std::string out = input.unit.empty() ? text : replaced(text, std::string(kUnits), input.unit);
+  for (std::size_t at = out.find(kUnit); at != out.npos; at = out.find(kUnit, at + 1)) {
+    if (ends_in_letter(out, at + kUnit.size()) || is_spoken_of(out, at)) continue;
+    if (!input.unit.empty())
+      out.replace(at, kUnit.size(), input.unit);
+    else if (follows_number(out, at))
+      out.replace(at, kUnit.size(), kUnits);
+  }
+  return out;
 }
 
 }  // namespace gapscope

@@ -61,12 +61,12 @@ std::string reference_line(const FitSummary& f, Coordinates coordinates) {
 }
 
 /// Every number that the fit found, but for the gap.
-void print_parameters(const FitSummary& f, Coordinates coordinates) {
+void print_parameters(const FitSummary& f, const InputFacts& input, Coordinates coordinates) {
   std::size_t width = 23;
   for (const FittedParameter& p : f.parameters) width = std::max(width, p.key.size());
   for (const FittedParameter& p : f.parameters) {
     if (!p.estimated || p.key == "gap") continue;
-    const std::string unit = p.unit == "-" ? "" : " " + coordinates.unit(p.unit);
+    const std::string unit = p.unit == "-" ? "" : " " + with_input_unit(coordinates.unit(p.unit), input);
     const std::string interval = f.rejected()      ? "model rejected"
                                  : !p.identifiable ? "not identifiable"
                                  : std::isnan(p.ci95.low)
@@ -100,7 +100,12 @@ std::string closed_loop_line(const ClosedLoop& c, Coordinates coordinates) {
 
 /// What everybody wants to know, last: it is what stays in view.
 void print_card(const Card& card) {
-  for (const CardLine& l : card.lines()) line(l.name, l.text);
+  for (const CardLine& l : card.lines()) {
+    if (!card.is_diagnosed() && (&l.text == &card.cause || &l.text == &card.helps)) continue;
+    const bool all = !card.is_diagnosed() && &l.text == &card.place;
+    line(all ? "diagnosis" : l.name,
+         all ? "Place, cause and what helps: run `gapscope diagnose CONFIG`." : l.text);
+  }
 }
 
 }  // namespace
@@ -122,7 +127,8 @@ void print_headline(const std::string& folder, const RunResult& r) {
   if (r.model_free && r.model_free->lost_motion.read())
     line("lost motion", lost_motion_line(r.model_free->lost_motion, r.coordinates));
   if (r.reference) line("reference", reference_line(*r.reference, r.coordinates));
-  if (r.reference && !r.model_free) print_parameters(*r.reference, r.coordinates);
+  if (r.reference && !r.model_free)
+    print_parameters(*r.reference, r.input.value_or(InputFacts{}), r.coordinates);
   if (r.comparison && std::isfinite(r.comparison->difference))
     line("difference", comparison_line(*r.comparison, r.coordinates));
   if (r.comparison && !std::isnan(r.comparison->map_width))

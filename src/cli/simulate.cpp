@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "cli/commands.h"
@@ -24,25 +23,15 @@ struct SimulateArguments {
   bool quiet = false;
 };
 
-/// A recording with the mode of the coupling, which no encoder tells.
-bool is_simulated(const std::string& file) {
-  std::ifstream in(file);
-  std::string header, row;
-  std::getline(in, header) && std::getline(in, row);
-  const std::string mode = row.substr(row.rfind(',') + 1);
-  const bool told = mode == "gap" || mode == "impact" || mode.starts_with("engagement");
-  return header.starts_with("t,u,x1") && header.ends_with(",mode") && told;
-}
-
 void simulate_to_file(const SimulateArguments& a, const Configuration& c) {
   if (!c.simulation)
     throw ConfigError(c.file, "there is no simulation, expected simulation: to make data from");
-  require_file_name(a.file, source_paths(c), is_simulated);
+  require_file_name(a.file, source_paths(c), is_made_by_simulate);
   const Progress progress = progress_on_terminal(a.quiet);
   progress("simulating " + c.name);
   const Recording r = simulated_recording(c);
   stop_point();
-  write_csv(a.file, r, require_file_name(a.file, source_paths(c), is_simulated));
+  write_csv(a.file, r, require_file_name(a.file, source_paths(c), is_made_by_simulate));
   if (fs::is_regular_file(a.file) && !a.file.starts_with("/dev/"))  // which may be standard output itself
     fmt::print("{}: {} samples at {} Hz\n", a.file, r.size(), c.simulation->rate);
 }

@@ -112,6 +112,16 @@ void sort_by_worst(std::vector<TriedInput>& tried) {
   });
 }
 
+/// Inputs that were halved to stay within the travel may have become another one of the library.
+void keep_each_once(std::vector<TriedInput>& tried) {
+  std::vector<std::string> seen;
+  std::erase_if(tried, [&](const TriedInput& t) {
+    if (contains(seen, t.input)) return true;
+    seen.push_back(t.input);
+    return false;
+  });
+}
+
 double peak_of(const MotorTrace& t) {
   double peak = 0.0;
   for (const double u : t.u) peak = std::max(peak, std::abs(u));
@@ -173,6 +183,7 @@ NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& 
   std::stable_sort(next.tried.begin(), next.tried.begin() + std::min(kConfirmed, next.tried.size()),
                    [](const TriedInput& a, const TriedInput& b) { return a.worst > b.worst; });
   std::erase_if(next.tried, [](const TriedInput& t) { return std::isnan(t.worst); });
+  keep_each_once(next.tried);
   if (!next.proposes()) {
     next.sentence = "No input within the limits can be played on these models.";
     return next;

@@ -1,7 +1,5 @@
 #include "report/draw_figure.h"
 
-#include <sstream>
-
 #include "report/rich_text.h"
 #include "report/svg_canvas.h"
 
@@ -11,30 +9,9 @@ namespace {
 constexpr double kBetween = 34.0;  // rows, and columns
 constexpr double kFarFromTicks = 120.0;
 
-/// Breaks a text into lines no wider than `width`; never within a formula.
-std::vector<std::string> wrapped(const std::string& text, double width, const Typesetter& typesetter,
-                                 double size = kTextSize, bool bold = false) {
-  std::vector<std::string> lines;
-  std::istringstream words(text);
-  std::string word, part;
-  while (words >> part) {
-    word += (word.empty() ? "" : " ") + part;
-    if (std::count(word.begin(), word.end(), '$') % 2 != 0) continue;
-    const bool fits =
-        !lines.empty() && typesetter.measure(lines.back() + " " + word, size, bold).width <= width;
-    if (fits)
-      lines.back() += " " + word;
-    else
-      lines.push_back(word);
-    word.clear();
-  }
-  return lines;
-}
-
 /// Everything in its place: the frames of a column begin at one line, those of a row share their upper edge.
 struct FigurePlan {
-  std::vector<std::string> title;   // of the figure, in lines
-  std::vector<std::string> titles;  // of the panels
+  std::vector<std::string> title;  // in lines
   std::vector<std::string> lines;
   std::vector<Margins> margins;  // of each panel
   std::vector<PanelPlan> panels;
@@ -85,8 +62,9 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
   const double column_width =
       (figure.width - 2 * kRim - kBetween * static_cast<double>(columns - 1)) / static_cast<double>(columns);
   for (const std::string& line : figure.lines)
-    for (std::string& part : wrapped(line, figure.width - 2 * kRim, typesetter)) plan.lines.push_back(part);
-  plan.title = wrapped(figure.title, figure.width - 2 * kRim, typesetter, kTitleSize, true);
+    for (std::string& part : typesetter.wrapped(line, figure.width - 2 * kRim, kTextSize))
+      plan.lines.push_back(part);
+  plan.title = typesetter.wrapped(figure.title, figure.width - 2 * kRim, kTitleSize, true);
   double y = kRim + title_height(plan) + 0.65 * kTitleSize +
              1.35 * kTextSize * static_cast<double>(plan.lines.size());
   if (!plan.lines.empty()) y += kBetween;
@@ -94,8 +72,7 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
     double above = 0.0, below = 0.0;
     const std::size_t end = std::min(first + columns, figure.panels.size());
     for (std::size_t i = first; i < end; ++i) {
-      plan.titles.push_back(panel_title(figure, i));
-      plan.panels.push_back(plan_panel(figure.panels[i], plan.titles[i],
+      plan.panels.push_back(plan_panel(figure.panels[i], panel_title(figure, i),
                                        column_width - plan.margins[i].left - plan.margins[i].right,
                                        typesetter));
       above = std::max(above, plan.panels[i].above);
@@ -120,7 +97,7 @@ void paint(Canvas& canvas, const FigureData& figure, const FigurePlan& plan, con
                            (0.9 + 1.35 * static_cast<double>(i)) * kTextSize},
                 plan.lines[i], {kTextSize});
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
-    draw_panel(canvas, figure.panels[i], plan.panels[i], plan.titles[i], plan.corners[i],
+    draw_panel(canvas, figure.panels[i], plan.panels[i], plan.corners[i],
                label_margin(figure.panels[i], plan.margins[i].left, typesetter), typesetter);
 }
 

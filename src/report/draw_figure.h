@@ -24,7 +24,7 @@ cv::Mat draw(const FigureData& figure);
 std::string draw_as_svg(const FigureData& figure);
 
 /// Draws one panel with the upper left corner of its frame at `corner`.
-void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, const std::string& title,
-                Point corner, double left_margin, const Typesetter& typesetter);
+void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, Point corner, double left_margin,
+                const Typesetter& typesetter);
 
 }  // namespace gapscope::internal::report

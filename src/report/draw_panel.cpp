@@ -83,11 +83,11 @@ class PanelPainter {
   }
 
   /// The strip above the frame: title, legend, names of the vertical marks.
-  void above(const std::string& title) {
+  void above() {
     double y = frame_.y - plan_.above;
-    if (!title.empty()) {
-      const TextMetrics metrics = typesetter_.measure(title, kTextSize, true);
-      canvas_.text({frame_.x, y + metrics.ascent}, title, {kTextSize, Align::kLeft, kInk, true});
+    for (const std::string& line : plan_.title) {
+      const TextMetrics metrics = typesetter_.measure(line, kTextSize, true);
+      canvas_.text({frame_.x, y + metrics.ascent}, line, {kTextSize, Align::kLeft, kInk, true});
       y += metrics.height() + kTitleGap;
     }
     legend({frame_.x, y});
@@ -243,15 +243,15 @@ class PanelPainter {
 
 }  // namespace
 
-void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, const std::string& title,
-                Point corner, double left_margin, const Typesetter& typesetter) {
+void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, Point corner, double left_margin,
+                const Typesetter& typesetter) {
   PanelPainter painter(canvas, panel, plan, corner, typesetter);
   painter.background();
   painter.tiles();
   painter.data();
   painter.ticks();
   painter.labels(left_margin);
-  painter.above(title);
+  painter.above();
   painter.dimensions();
 }
 

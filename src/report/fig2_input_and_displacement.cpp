@@ -25,13 +25,14 @@ Panel state_and_error(const ReportView& view) {
   panel.x = view.time_axis(view.window);
   panel.y = {"displacement", view.length_unit, {}, {}, {}};
   panel.height = 480.0;
-  panel.title = view.state.empty() ? "Estimation error" : view.state_title();
+  panel.title = view.state.empty() ? view.error_title() : view.state_title();
   double target = kNaN;
   if (!view.state.empty()) {
     const bool fitted = view.source == StateSource::kFitted;
     panel.series.push_back(view.over_time(view.state_name(), fitted ? reference_style() : measured_style(),
                                           view.state, view.window));
     target = 0.5 * peak_to_peak(panel.series.back().y);
+    if (view.error) panel.title = view.error_title(panel.title + " and $e_x$");
   }
   if (view.error)
     panel.series.push_back(

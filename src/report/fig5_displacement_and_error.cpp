@@ -68,7 +68,7 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
                           at_events(view, "regained, $t_2$", Marker::kDisc, false)})
     if (!s.x.empty()) displacement.series.push_back(s);
   Panel error;
-  error.title = "Estimation error";
+  error.title = view.error_title();
   error.x = displacement.x;
   error.y = {"error $e_x$", view.length_unit, {}, {}, {}};
   error.height = 360.0;

@@ -25,6 +25,11 @@ const GapEvent* typical(const std::vector<GapEvent>& events) {
   return best;
 }
 
+/// Whether the verdict is that there is a gap; else nothing here is an estimate of it.
+bool is_told(const ReportView& view) {
+  return view.run.model_free && view.run.model_free->verdict == GapVerdict::kBacklash;
+}
+
 /// Is S5 itself the estimate of this passage, to within 1 %?
 bool uncorrected(const GapEvent& e) {
   return std::abs(std::abs(e.x1_t2 - e.x1_t1) - e.gap) <= 0.01 * std::abs(e.gap);
@@ -40,7 +45,7 @@ Panel displacement_panel(const ReportView& view, const OnePassage& p) {
   panel.series.push_back(view.over_time("", measured_style(), view.recording->position(), p.window));
   for (const double y : {p.event.x1_t1, p.event.x1_t2}) panel.y_marks.push_back({y, guide_style(), ""});
   const double s5 = std::abs(p.event.x1_t2 - p.event.x1_t1);
-  const std::string name = uncorrected(p.event) ? "$2\\hat{β}$" : "$|x_1(t_2) − x_1(t_1)|$";
+  const std::string name = is_told(view) && uncorrected(p.event) ? "$2\\hat{β}$" : "$|x_1(t_2) − x_1(t_1)|$";
   panel.dimensions.push_back(
       {{std::min(p.event.x1_t1, p.event.x1_t2), std::max(p.event.x1_t1, p.event.x1_t2)},
        name + " = " + quantity(s5, view.length_unit)});
@@ -52,7 +57,7 @@ Panel error_panel(const ReportView& view, const OnePassage& p) {
   panel.x = view.time_axis(p.window);
   panel.y = {"$e_x$", view.length_unit, {}, {}, {}};
   panel.height = 400.0;
-  panel.title = "Estimation error";
+  panel.title = view.error_title();
   if (view.error) panel.series.push_back(view.over_time("", model_free_style(), view.error->error, p.window));
   return panel;
 }
@@ -70,7 +75,9 @@ std::string reading(const ReportView& view, const OnePassage& p) {
   std::string text = fmt::format(
       "contact is lost at t1 = {:.4f} s and regained at t2 = {:.4f} s, {} later; x1 moves {}", e.t1, e.t2,
       quantity(e.t2 - e.t1, "s"), quantity(std::abs(e.x1_t2 - e.x1_t1), view.length_unit));
-  if (!uncorrected(e))
+  if (!is_told(view))
+    text += ", which is no estimate of a gap: the verdict is inconclusive";
+  else if (!uncorrected(e))
     text += ", which the travel of the load turns into an estimate of " + quantity(e.gap, view.length_unit);
   text += std::isfinite(p.converged)
               ? fmt::format("; e_x had been near zero since t_c = {:.4f} s", p.converged)
@@ -129,6 +136,7 @@ FigureData fig6_one_period(const ReportView& view) {
     return missing_figure(figure.file, figure.title,
                           view.run.model_free ? "no passage of the gap was accepted"
                                               : "the model-free detector was not asked for");
+  if (!is_told(view)) figure.title = "What looks like a passage of the gap";
   figure.panels = {displacement_panel(view, *passage), error_panel(view, *passage)};
   if (!view.error) {
     figure.panels.pop_back();

@@ -101,6 +101,38 @@ std::string bounds_line(const RunResult& run) {
   return text + ".\n";
 }
 
+constexpr std::size_t kTablePassages = 24;  ///< all of them are in result.json
+
+/// The passages of the gap that the estimate rests on, and those that were set aside.
+std::string passage_table(const RunResult& run) {
+  if (!run.model_free || run.model_free->events.empty()) return "";
+  const std::vector<GapEvent>& events = run.model_free->events;
+  const bool several = run.recordings.size() > 1;
+  double largest = 0.0;
+  for (const GapEvent& e : events)
+    largest = std::max({largest, std::abs(e.gap), std::abs(e.x1_t2 - e.x1_t1)});
+  const auto length = [&](double value) {
+    return std::isfinite(value) ? quantity_beside(value, largest, position_unit(run)) : "–";
+  };
+  std::string text = fmt::format(
+      "\n## Passages of the gap\n\nx1 from the loss of contact at t1 to the impact at t2; 2β is what each "
+      "tells of "
+      "the gap, with its standard error.{}\n\n| {}t1 [s] | t2 [s] | x1 | moves by | 2β | standard error | "
+      "used "
+      "|\n|{}---|---|---|---|---|---|---|\n",
+      events.size() > kTablePassages
+          ? fmt::format(" The first {} of {}; `result.json` has all.", kTablePassages, events.size())
+          : "",
+      several ? "recording | " : "", several ? "---|" : "");
+  for (std::size_t i = 0; i < std::min(events.size(), kTablePassages); ++i) {
+    const GapEvent& e = events[i];
+    text += fmt::format("| {}{:.4f} | {:.4f} | {} | {} | {} | {} | {} |\n", several ? e.file + " | " : "",
+                        e.t1, e.t2, e.direction > 0 ? "rises" : "falls", length(std::abs(e.x1_t2 - e.x1_t1)),
+                        length(e.gap), length(e.std), e.accepted ? "yes" : "no: " + e.remark);
+  }
+  return text;
+}
+
 std::string parameter_table(const RunResult& run) {
   if (!run.reference || run.reference->parameters.empty()) return "";
   const FitSummary& fit = *run.reference;
@@ -202,7 +234,7 @@ std::string estimate_text(const RunResult& run, const Timing& timing) {
   if (run.model_free && run.model_free->lost_motion.read())
     text += "\nLost motion: " + sentence(run.model_free->lost_motion.meaning.text()) + "\n";
   text += bounds_line(run);
-  text += timing_line(timing) + parameter_table(run) + second_encoder_table(run);
+  text += timing_line(timing) + passage_table(run) + parameter_table(run) + second_encoder_table(run);
   if (run.reference)
     text += bullet_section("What would sharpen the reference", texts_of(run.reference->advice));
   if (run.answer && run.answer->next.size() > 1)

@@ -23,6 +23,12 @@ void borrow(FigureData& sheet, const std::vector<FigureData>& figures, const std
   }
 }
 
+std::string title_of(const std::vector<FigureData>& figures, const std::string& file) {
+  for (const FigureData& figure : figures)
+    if (figure.file == file) return figure.title;
+  return "";
+}
+
 /// Which of several recordings the figures over time show.
 std::string drawn_recording(const ReportView& view) {
   if (view.recording == nullptr || view.run.recordings.size() < 2) return "";
@@ -56,8 +62,8 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   borrow(sheet, figures, "fig2_input_and_displacement.png", 0, 420.0);
   borrow(sheet, figures, "fig5_displacement_and_error.png", 0, 420.0);
   if (sheet.panels.size() < 2) borrow(sheet, figures, "fig2_input_and_displacement.png", 1, 420.0);
-  borrow(sheet, figures, "fig6_one_period.png", 0, 480.0, "One passage of the gap");
-  borrow(sheet, figures, "fig6_one_period.png", 1, 480.0, "Its estimation error");
+  borrow(sheet, figures, "fig6_one_period.png", 0, 480.0, title_of(figures, "fig6_one_period.png"));
+  borrow(sheet, figures, "fig6_one_period.png", 1, 480.0, view.error_title("Its estimation error"));
   if (sheet.panels.size() < 3) borrow(sheet, figures, "fig5_displacement_and_error.png", 1, 420.0);
   borrow(sheet, figures, "lost_motion_loop.png", 0, 480.0, "Displacement against input");
   if (has_something_to_compare(view))

@@ -96,7 +96,9 @@ PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
   plan.y = plan_axis(panel.y, y_range(panel), panel.height, true, typesetter);
   plan.entries = legend_entries(panel);
   if (!plan.entries.empty()) plan.legend = flowing_legend(plan.entries, width, typesetter);
-  if (!title.empty()) plan.above += typesetter.measure(title, kTextSize, true).height() + kTitleGap;
+  plan.title = typesetter.wrapped(title, width, kTextSize, true);
+  for (const std::string& line : plan.title)
+    plan.above += typesetter.measure(line, kTextSize, true).height() + kTitleGap;
   plan.above += plan.legend.height;
   if (has_mark_labels(panel)) plan.above += 1.35 * kTextSize;
   if (panel.x_labels)

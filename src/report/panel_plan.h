@@ -75,6 +75,7 @@ struct PanelPlan {
   AxisPlan x, y;
   double width = 0.0, height = 0.0;  ///< of the frame
   double above = 0.0, below = 0.0;   ///< room for what stands outside of it
+  std::vector<std::string> title;    ///< in lines that are no wider than the frame
   std::vector<LegendEntry> entries;
   Legend legend;
 

@@ -148,6 +148,14 @@ Axis ReportView::time_axis(const Interval& interval) const {
   return axis;
 }
 
+std::string ReportView::error_title(const std::string& title) const {
+  if (!run.model_free) return title;
+  const double bound =
+      std::isfinite(run.model_free->bound_t1) ? run.model_free->bound_t1 : run.model_free->bound;
+  if (!std::isfinite(bound)) return title;
+  return title + ", $L$ = " + rounded(bound) + " " + run.coordinates.shown_unit("rad/s^2");
+}
+
 std::string ReportView::state_name() const {
   return source == StateSource::kFitted ? "$x_1 − x_2$, fitted" : "$x_1 − x_2$";
 }

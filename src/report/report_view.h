@@ -41,6 +41,8 @@ struct ReportView {
   Series over_time(const std::string& label, const LineStyle& style, const std::vector<double>& values,
                    const Interval& interval) const;
   Axis time_axis(const Interval& interval) const;
+  /// "Estimation error, L = 6 rad/s²": with the bound of the differentiator whose e_x is drawn.
+  std::string error_title(const std::string& title = "Estimation error") const;
   bool reads_load() const { return recording && recording->encoder == EncoderSide::kLoad; }
   std::string position_name() const { return reads_load() ? "$x_2$" : "$x_1$"; }  ///< that estimators read
   std::string state_title() const;  ///< "Backlash state", and whether the model that has it was rejected

@@ -32,14 +32,20 @@ std::string card_text(const Card& card) {
   static constexpr std::array kTitles = {"Gap", "Mismatch", "Place", "Cause", "What helps", "Next step"};
   std::string text = "\n";
   std::size_t i = 0;
-  for (const CardLine& line : card.lines())
-    text += fmt::format("- **{}:** {}\n", kTitles[i++], typeset(line.text));
+  for (const CardLine& line : card.lines()) {
+    const char* const title = kTitles[i++];
+    if (!card.is_diagnosed() && (&line.text == &card.cause || &line.text == &card.helps)) continue;
+    const bool all = !card.is_diagnosed() && &line.text == &card.place;
+    text += fmt::format("- **{}:** {}\n", all ? "Place, cause, what helps" : title, typeset(line.text));
+  }
   return text;
 }
 
 std::string story_text(const DriveStory& s) {
   std::string text = "# " + name_of(s) + "\n";
   if (!s.note.empty()) text += "\n> " + s.note + "\n";
+  for (const std::string& line : s.run ? s.run->simulated_data : s.diagnosis->simulated_data)
+    text += "\n> " + line + "\n";
   text += card_text(drive_card(s.run, s.diagnosis));
   std::string detail = bullet_section("Warnings", all_warnings(s));
   if (s.run) detail += estimate_text(*s.run, s.timing);
@@ -48,7 +54,8 @@ std::string story_text(const DriveStory& s) {
   if (s.run) detail += bullet_section("Notes", notes_of(*s.run));
   const std::string words = glossary_section(text + detail);
   if (!words.empty()) text += "\nTerms are explained under [Words](#words).\n";
-  return text + detail + words +
+  const std::optional<InputFacts>& input = s.run ? s.run->input : s.diagnosis->input;
+  return with_input_unit(text + detail + words, input.value_or(InputFacts{})) +
          fmt::format("\ngapscope {}\n", (s.run ? s.run->version : s.diagnosis->version));
 }
 

@@ -72,7 +72,7 @@ class MapRow {
     const double left = kRoom * informative_reach(s_.after, known_or_zero(r_.diagnosis.budget.remains));
     const bool own = left < kOwnScale * peak;
     figure.panels.push_back(
-        scatter("W" + with_added(r_).substr(1) + ", over " + over + (own ? ", to its own scale" : ""), x, of,
+        scatter("W" + with_added(r_).substr(1) + ", over " + over + (own ? " (own scale)" : ""), x, of,
                 s_.after, own ? left : std::max(peak, left)));
   }
 

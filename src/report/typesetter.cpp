@@ -1,9 +1,11 @@
 #include "report/typesetter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
+#include <sstream>
 #include <stdexcept>
 
 namespace gapscope::internal::report {
@@ -121,6 +123,24 @@ void Typesetter::draw_hat(cv::Mat& image, cv::Point2d at, const PlacedRun& p, Co
   for (const Point& corner : hat_of(p, bold))
     hat.emplace_back(cvRound((at.x + corner.x) * 16.0), cvRound((at.y + corner.y) * 16.0));
   cv::polylines(image, hat, false, bgr(colour), pixels(hat_width(p, bold)), cv::LINE_AA, kShift);
+}
+
+std::vector<std::string> Typesetter::wrapped(const std::string& text, double width, double size,
+                                             bool bold) const {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  std::string word, part;
+  while (words >> part) {
+    word += (word.empty() ? "" : " ") + part;
+    if (std::count(word.begin(), word.end(), '$') % 2 != 0) continue;
+    const bool fits = !lines.empty() && measure(lines.back() + " " + word, size, bold).width <= width;
+    if (fits)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+    word.clear();
+  }
+  return lines;
 }
 
 }  // namespace gapscope::internal::report

@@ -5,6 +5,7 @@
 #include <opencv2/freetype.hpp>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "report/geometry.h"
 #include "report/palette.h"
@@ -42,6 +43,10 @@ class Typesetter {
   /// @param size em [px]
   std::vector<PlacedRun> place(const std::string& markup, double size, bool bold = false) const;
   TextMetrics measure(const std::string& markup, double size, bool bold = false) const;
+
+  /// The text in lines no wider than `width`; never broken within a formula.
+  std::vector<std::string> wrapped(const std::string& text, double width, double size,
+                                   bool bold = false) const;
 
   /// The circumflex over an estimate, from the left end of the baseline [px, y downwards].
   Polyline hat_of(const PlacedRun& placed, bool bold) const;

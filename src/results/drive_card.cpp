@@ -17,12 +17,13 @@ std::optional<Answer> better_than(const Answer* estimate, const DiagnosisResult&
 
 Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
   CardFacts facts;
+  std::optional<InputFacts> input;
   if (run != nullptr) {
     facts.answer = run->answer ? &*run->answer : nullptr;
     facts.reference = run->reference ? &*run->reference : nullptr;
     facts.coordinates = run->coordinates;
     if (run->answer) facts.tolerance = run->answer->tolerance;
-    facts.constant_guessed = run->input && run->input->constant_guessed;
+    input = run->input;
   }
   std::optional<Answer> better;
   if (diagnosis != nullptr) {
@@ -31,10 +32,14 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
     facts.simulated = diagnosis->simulated ? &*diagnosis->simulated : nullptr;
     facts.diagnosis = &diagnosis->diagnosis;
     facts.coordinates = diagnosis->coordinates;
-    facts.constant_guessed = diagnosis->input && diagnosis->input->constant_guessed;
+    input = diagnosis->input;
     if (run == nullptr && diagnosis->answer) facts.tolerance = diagnosis->answer->tolerance;
   }
-  return card_of(facts);
+  facts.constant_guessed = input && input->constant_guessed;
+  Card card = card_of(facts);
+  for (std::string* line : {&card.gap, &card.mismatch, &card.place, &card.cause, &card.helps, &card.next})
+    *line = with_input_unit(*line, input.value_or(InputFacts{}));
+  return card;
 }
 
 namespace {

@@ -7,12 +7,14 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/text.h"
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/inspection/reach.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
 #include "run/run_simulator.h"
+#include "run/simulated_words.h"
 
 namespace gapscope {
 namespace {
@@ -60,12 +62,29 @@ std::string other_way_round(const Configuration& c, const DiagnosisRecordings& r
       c.input_facts());
 }
 
+/// A servo that holds a position takes goals, not inputs.
+bool takes_goals(const Configuration& c) {
+  return c.recording && !c.recording->reading.columns.target.empty();
+}
+
+std::string other_goal(const std::vector<Rival>& rivals) {
+  return fmt::format(
+      "Record other goals (faster or slower ones, another amplitude), or the same ones at another gain of "
+      "the "
+      "controller, and hold that recording out: these do not tell {} from {}.",
+      readable(rivals[0].effect), readable(rivals[1].effect));
+}
+
 /// Where the recordings do not decide: what would.
 void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
                  Diagnosis& d) {
   if (d.rivals.size() < 2) return;
   if (finish_requested()) {
     if (!d.stopped) d.warnings.push_back("stopped before the experiment was looked for that would decide.");
+    return;
+  }
+  if (takes_goals(c)) {
+    d.next_experiment.sentence = other_goal(d.rivals);
     return;
   }
   options.progress("looking for the experiment that would tell");
@@ -127,11 +146,13 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
                          diagnose_recordings(c, recordings, options)};
   result.sources = sources;
   result.input = internal::run::known_input(c);
+  result.simulated_data = internal::run::simulated_words(c);
   result.answer.emplace().tolerance = c.tolerance;
   Diagnosis& d = result.diagnosis;
   const std::vector<std::string> guesses = internal::run::guess_warnings(c);
   warnings.insert(warnings.end(), guesses.begin(), guesses.end());
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
+  for (std::string& warning : d.warnings) warning = with_input_unit(warning, c.input_facts());
   if (!simulated.empty() && finish_requested())
     d.warnings.emplace_back("stopped before the simulator was looked at.");
   else if (!simulated.empty())

@@ -16,6 +16,7 @@
 #include "gapscope/sliding_mode/detector.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
+#include "run/simulated_words.h"
 
 namespace gapscope {
 namespace {
@@ -166,6 +167,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.configuration = resolved_yaml(c);
   r.coordinates = c.coordinates;
   r.input = internal::run::known_input(c);
+  r.simulated_data = internal::run::simulated_words(c);
   const UnevenRows uneven = wanted.reference ? UnevenRows::kStamped : UnevenRows::kRefused;
   LoadedRecordings loaded = load_recordings(c, uneven, progress);
   const LoadedRecordings grids = wanted.model_free && wanted.reference
@@ -184,6 +186,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
   if (r.reference) append(out.warnings, texts_of(r.reference->warnings));
   if (r.reference) append(out.warnings, internal::run::guess_warnings(c));
+  for (std::string& warning : out.warnings) warning = with_input_unit(warning, c.input_facts());
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);
   r.answer = answer_of({r.model_free ? &*r.model_free : nullptr, r.reference ? &*r.reference : nullptr,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "diagnosis/look_alikes.h"
 
@@ -43,6 +44,8 @@ TEST(NextExperiment, StaysWithinItsLimits) {
   EXPECT_EQ(a.next.u.size(), 2000u);
   for (const double u : a.next.u) EXPECT_LE(std::abs(u), 0.9 * (1.0 + 1e-9));
   for (const TriedInput& t : a.next.tried) EXPECT_LE(t.travel, *high - *low);
+  std::set<std::string> inputs;
+  for (const TriedInput& t : a.next.tried) EXPECT_TRUE(inputs.insert(t.input).second) << "twice: " << t.input;
 }
 
 TEST(NextExperiment, RanksByTheWorseDirection) {

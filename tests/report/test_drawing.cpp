@@ -65,9 +65,12 @@ TEST(Drawing, BreaksALabelOrATitleThatIsTooLong) {
     panel.height = 330.0, panel.x_labels = i == 1;
     panel.x = {"time $t$", "s", {0.0, 1.0}, {}, {}};
     panel.y = {"torque $K_m u$", "N·m", {-5.0, 5.0}, {}, {}, {}, "$K_m$ guessed"};
+    if (i == 1)
+      panel.title = "A title of a panel that goes on, over the angle, the speed and the input, and on";
   }
   const Drawing drawing = draw_with_notes(figure);
   expect_clear_texts(figure, drawing);
+  EXPECT_EQ(drawing.plans[1].title.size(), 2u);
   EXPECT_EQ(drawing.plans[0].y.lines, (std::vector<std::string>{"torque $K_m u$", "(N·m, $K_m$ guessed)"}));
   figure.panels[0].height = figure.panels[1].height = 600.0;
   EXPECT_EQ(draw_with_notes(figure).plans[0].y.lines.size(), 1u);

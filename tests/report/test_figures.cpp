@@ -133,6 +133,24 @@ TEST(Fig6, LeavesOutTcWhereTheErrorWasNeverQuiet) {
   EXPECT_NE(fig6_one_period(ReportView(run)).reading.find("t_c is not drawn"), std::string::npos);
 }
 
+TEST(Fig6, CallsNothingAnEstimateThatTheVerdictDoesNot) {
+  RunResult run = full_run();
+  run.model_free->verdict = GapVerdict::kInconclusive;
+  const FigureData figure = fig6_one_period(ReportView(run));
+  ASSERT_FALSE(figure.panels.empty());
+  EXPECT_EQ(figure.panels[0].dimensions[0].label.find("hat"), std::string::npos);
+  EXPECT_NE(figure.reading.find("no estimate of a gap"), std::string::npos);
+}
+
+TEST(Figures, OfTheErrorTellTheBoundOfItsDifferentiator) {
+  RunResult run = full_run();
+  run.model_free->bound_t1 = 6.0;
+  const ReportView view(run);
+  EXPECT_EQ(fig5_displacement_and_error(view).panels[1].title, "Estimation error, $L$ = 6 rad/s²");
+  EXPECT_NE(fig6_one_period(view).panels[1].title.find("$L$ = 6 rad/s²"), std::string::npos);
+  EXPECT_NE(fig2_input_and_displacement(view).panels.back().title.find("$L$ = 6"), std::string::npos);
+}
+
 TEST(Fig6, NamesTheCorrectionWhereS5IsNotTheEstimate) {
   RunResult run = full_run();
   for (GapEvent& e : run.model_free->events) e.gap *= 0.5;

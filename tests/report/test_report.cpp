@@ -42,6 +42,23 @@ TEST(Report, EveryFigureOfAFullRunIsThereAndNotBlank) {
   EXPECT_TRUE(has(text, "## Warnings\n\n- The load turned on"));
 }
 
+TEST(Report, SaysNearTheTopThatNoDriveMadeTheDataAndListsThePassages) {
+  ScratchFolder scratch;
+  RunResult run = sample_run({.samples = 6000});
+  run.simulated_data = {"The data are simulated."};
+  const std::size_t passages = run.model_free->events.size();
+  write_run_result(scratch.path.string(), run);
+  write_report(scratch.path.string());
+  const std::string text = text_of(scratch.path / "report.md");
+  EXPECT_LT(text.find("> The data are simulated."), text.find("- **Gap:**"));
+  const std::size_t table = text.find("## Passages of the gap");
+  ASSERT_NE(table, std::string::npos);
+  const std::string rows = text.substr(table, text.find("\n## ", table + 1) - table);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), passages + 6);
+  EXPECT_TRUE(has(text, "- **Place, cause, what helps:** "));
+  EXPECT_FALSE(has(text, "- **Cause:** "));
+}
+
 TEST(Report, OfAnInconclusiveDetectionSaysWhyAndWhatIsLeftOut) {
   ScratchFolder scratch;
   RunResult run = sample_run(

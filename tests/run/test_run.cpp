@@ -59,6 +59,15 @@ TEST(RunPipeline, AsksOnlyTheEstimatorsThatAreWanted) {
   EXPECT_EQ(result.simulated_gap, c.simulation->plant.drive.gap);
 }
 
+TEST(RunPipeline, KnowsDataThatNoDriveMade) {
+  const Configuration simulated = parse_configuration(kSimulated, "simulated.yaml");
+  EXPECT_THAT(run_pipeline(simulated, {true, false}, kSilent).result.simulated_data,
+              ElementsAre(HasSubstr("the very equations that are fitted here")));
+  const Recorded recorded;
+  EXPECT_THAT(run_pipeline(recorded.configuration(), {true, false}, kSilent).result.simulated_data,
+              ElementsAre(HasSubstr("drive.csv, again.csv were made by `gapscope simulate`")));
+}
+
 TEST(LoadRecordings, NamesSourcesByTheirContent) {
   const Recorded recorded;
   const std::vector<FileHash> before = sources_of(recorded.configuration());

@@ -12,7 +12,8 @@ struct InputFacts {
   bool told() const { return !unit.empty() || constant_guessed; }
 };
 
-/// A text that speaks of "units of u", with the declared unit in their place.
+/// A text that speaks of "units of u" or "N m per unit of u", with the declared unit in their place; without
+/// one "7 unit of u" reads "7 units of u". "The unit of u" stays.
 std::string with_input_unit(const std::string& text, const InputFacts& input);
 
 }  // namespace gapscope

@@ -46,6 +46,8 @@ struct Card {
   std::optional<bool> good_enough;  ///< by the tolerance; nothing: none is stated, or it cannot be told
 
   std::array<CardLine, 6> lines() const;
+  /// Whether place, cause and what helps are known; else all three say alike who tells them.
+  bool is_diagnosed() const { return place != cause || cause != helps; }
 };
 
 /// What a card is made of. What was not asked for is null, and the card says how to get it.

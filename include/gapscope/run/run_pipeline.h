@@ -9,6 +9,10 @@
 
 namespace gapscope {
 
+/// Whether a file is a recording as `simulate` writes it, with the mode of the coupling, which no encoder
+/// tells.
+bool is_made_by_simulate(const std::string& path);
+
 /// Which of the two estimators a command asks for.
 struct Estimators {
   bool model_free = true;
