@@ -237,8 +237,8 @@ int main_study(int argc, char** argv) {
   }
   for (const auto& [trust, n] : trusts) fmt::print("{} {}\n", trust, n);
   const Interval told = wilson(confounded, drives);
-  fmt::print("gain said to be confounded with friction {} of {} [{:.1f}, {:.1f}]\n", confounded, drives, 100.0 * told.low,
-             100.0 * told.high);
+  fmt::print("gain said to be confounded with friction {} of {} [{:.1f}, {:.1f}]\n", confounded, drives,
+             100.0 * told.low, 100.0 * told.high);
   print(tallies);
   fmt::print("of those whose trust is good\n");
   print(of_good);
