@@ -60,11 +60,15 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   EXPECT_EQ(result["answer"]["from"], "reference");
   EXPECT_NEAR(result["answer"]["gap_rad"].get<double>(), 0.019, 1e-5);
   const auto& card = result["answer"]["card"];
-  EXPECT_THAT(text_of(place.folder() / "reports/right/report.md"),
-              ::testing::StartsWith("# right\n\n- **Gap:** " + card["gap"].get<std::string>() + "\n"));
+  const std::string report = text_of(place.folder() / "reports/right/report.md");
+  EXPECT_THAT(report, ::testing::StartsWith("# right\n\n> right.csv was made by `gapscope simulate`, "));
+  EXPECT_THAT(report, HasSubstr("of a real drive.\n\n- **Gap:** " + card["gap"].get<std::string>() + "\n"));
   std::string all;
-  for (std::string line : {"gap", "mismatch", "place", "cause", "helps", "next"}) {
-    const std::string text = card[line];
+  for (std::string line : {"gap", "mismatch", "place", "next"}) {
+    const bool told = line != "place";  // what nobody has diagnosed is one line
+    const std::string text =
+        told ? card[line] : "Place, cause and what helps: run `gapscope diagnose CONFIG`.";
+    if (!told) line = "diagnosis";
     line.resize(12, ' ');
     all += line + text + "\n";
   }
