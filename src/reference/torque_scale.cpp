@@ -87,9 +87,12 @@ TorqueScale torque_scale(std::span<const MotorTrace> recordings, const Reference
   } else {
     scale.body = signals::as_one_body(recordings);
   }
+  const double by_inertia = scale_by(known_inertia(model), scale.body.inertia);
+  if (!model.parameters[place::kMotorInertia].estimate && std::isfinite(by_inertia))
+    scale.constant = by_inertia;
   const double friction = 0.5 * (plant.motor_friction_plus + plant.motor_friction_minus);
   if (std::isnan(scale.constant)) scale.constant = scale_by(friction, scale.body.friction);
-  if (std::isnan(scale.constant)) scale.constant = scale_by(known_inertia(model), scale.body.inertia);
+  if (std::isnan(scale.constant)) scale.constant = by_inertia;
   return scale;
 }
 

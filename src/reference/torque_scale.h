@@ -13,9 +13,9 @@ struct TorqueScale {
   double constant = kNaN;  ///< [N m per unit of u]; NaN: nothing is known
 };
 
-/// The momentum balance of the recordings beside what is known of the model: the torque of effects whose size
-/// is given (the gravity of a mass), else a dry friction that is given, else the inertia. For starting
-/// points only.
+/// The momentum balance of the recordings beside what is known of the model: an inertia that is fixed, else
+/// the torque of effects whose size is given (the gravity of a mass), else a dry friction that is given, else
+/// the inertia that is sought from where it starts. For starting points only.
 TorqueScale torque_scale(std::span<const MotorTrace> recordings, const ReferenceModel& model);
 
 }  // namespace gapscope::internal::reference
