@@ -73,7 +73,7 @@ constexpr Word kWords[] = {
     {"in engagement", "in engagement", "the contact is closed on either side: motor and load move as one"},
     {"(established)", "established",
      "of a cause: no other effect, and no free curve over another quantity, explains these recordings nearly "
-     "as well"},
+     "as well; its amount is more than none, and the simulated motion comes nearer"},
     {"(cause open)", "cause open", "it takes its share of the error, but another cause may do so as well"},
     {" σ |", "σ", "rms of the encoder's noise"},
     {"if spread evenly", "if spread evenly",
