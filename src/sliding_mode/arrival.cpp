@@ -21,8 +21,9 @@ constexpr double kStay = 0.1;  ///< of the flight: a rest, no turn
 constexpr double kFollows = 1.3;
 /// Standard deviations of the mean square that roundings may leave, of a rest each: they are uniform, so that
 /// of one is 2/√5 of its mean, and at most twice the mean above it. 3380020 and 3387027 gap trapezoid, which
-/// do rest alone, leave 0.6 to 0.8 of the mean; arrivals at a load 2 to 11 (4100062, 4100205, 4100220 gap
-/// sine, 3380009 gap trapezoid).
+/// do rest alone, leave 0.6 to 0.8 of the mean; arrivals at a load that are told by it 2 to 30 (eight of
+/// 4100001 600 gap sine). Half tells nothing more of these; double loses 4100017 and 4100220, which leave 2.0
+/// and 2.1 of 13 rests.
 constexpr double kRoundingSpread = 3.0;
 
 /// How far the torque would have moved a motor without friction against the passage while it rested [rad].

@@ -41,7 +41,8 @@ constexpr double kMost = 0.6;             ///< of the half periods, and of what 
 /// Of a gap, that the motor may go on before its impact shows. Four of 871001 150 gap sine and 3376001 60 gap
 /// multisine that 0.07 withheld read -0.3 to 3.6 % off, within their intervals, where these are narrow enough
 /// to be told; beyond 0.12 they are not (871114, 871058). From kSoft on, they stay as wide as those of coarse
-/// encoders.
+/// encoders: of 101 told (of 4100001 600 gap sine and 4310001 120 gap sine wide) half and double change 12
+/// intervals, by up to a fifth; all 101 hold either way, and none becomes too wide to be told.
 constexpr double kMostHidden = 0.12, kSoft = 0.07;
 constexpr double kMostOfTravel = 0.8;   ///< largest gap, as a share of the travel
 constexpr double kFarthest = 2.0;       ///< that a load may travel, in gaps, if the rest is to be a gap
