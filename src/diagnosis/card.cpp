@@ -173,6 +173,10 @@ std::string next_line(const CardFacts& f, const Card& card) {
   const Diagnosis& d = *f.diagnosis;
   if (d.stopped) return "Run `gapscope diagnose CONFIG` to its end.";
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
+  if (is_added(d) && d.verdict == DiagnosisVerdict::kHelps)
+    return "Try `fitted.yaml` on another motion; what the cause is takes a recording of that, too (other "
+           "speeds, other "
+           "loads).";
   if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
   if (d.verdict == DiagnosisVerdict::kNone) return "None.";
   return "Record the drive in another motion (other speeds, other loads) and diagnose that.";

@@ -58,8 +58,19 @@ std::vector<std::string> shortened(std::vector<std::string> all) {
 std::string open_causes(const CardFacts& f) {
   const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
   if (open.empty()) return "";
-  return enumerated(shortened(open)) + (open.size() > 1 ? " help too, their cause" : " helps, its cause") +
-         " is open" + (others.empty() ? "" : ": it may as well be " + enumerated(shortened(others), "or"));
+  const std::string several = names(f, true).empty() ? " help, their cause" : " help too, their cause";
+  return enumerated(shortened(open)) + (open.size() > 1 ? several : " helps, its cause") + " is open" +
+         (others.empty() ? "" : ": it may as well be " + enumerated(shortened(others), "or"));
+}
+
+/// That the first cause is more likely outside of the catalogue; probabilities were learned where the
+/// candidates' own refits decide, above the encoder's floor.
+std::string outside_words(const Diagnosis& d) {
+  const bool learned = d.mismatch.floor_from != FloorSource::kRepeatability && !d.ranking.empty() &&
+                       !d.effects.empty() && d.ranking.front().effect == d.effects.front();
+  if (d.verdict != DiagnosisVerdict::kHelps || !learned || !(d.outside_probability > 0.5)) return "";
+  return fmt::format("; most likely ({:.0f} %) the cause is none of the catalogue's",
+                     100.0 * d.outside_probability);
 }
 
 /// Whether an amount is the effect's alone: laws that contain a simpler one share its amount with it.
@@ -197,7 +208,7 @@ std::string cause_line(const CardFacts& f) {
   const std::string open = open_causes(f);
   if (text.empty() && open.empty() && d.stopped)
     return "Not told: the search was stopped before its end." + simulator;
-  text += (text.empty() || open.empty() ? "" : "; ") + open;
+  text += (text.empty() || open.empty() ? "" : "; ") + open + outside_words(d);
   return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text) + simulator;
 }
 

@@ -219,6 +219,21 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
             "(established).");
 }
 
+TEST(Card, SaysWhereMostLikelyNothingOfTheCatalogueIsTheCause) {
+  Diagnosis d = slide_diagnosis();
+  d.verdict = DiagnosisVerdict::kHelps;
+  for (AddedEffect& a : d.added) a.established = false;
+  d.outside_probability = 0.88;
+  d.ranking.resize(1);
+  d.ranking.front().effect = d.effects.front();
+  const Card card = card_of(facts_of(nullptr, &d));
+  EXPECT_THAT(card.cause, HasSubstr(" help, their cause is open"));
+  EXPECT_THAT(card.cause, EndsWith("; most likely (88 %) the cause is none of the catalogue's."));
+  EXPECT_THAT(card.next, StartsWith("Try `fitted.yaml` on another motion;"));
+  d.ranking.front().effect = "input_delay";  // another one was added: the budget decided
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, Not(HasSubstr("most likely")));
+}
+
 TEST(Card, JudgesTheToleranceThatWasStated) {
   const Answer answer = sharp_answer();
   const Diagnosis d = slide_diagnosis();
