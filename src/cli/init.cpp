@@ -82,9 +82,10 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
   parse_configuration(starter.yaml, output);  // throws where an anchor does not suit the drive
   write_text(output, several ? named_after(r.axis, starter.yaml) : starter.yaml, "");
   print_warnings(starter.spoiling);
-  fmt::print("{:<12}{}\n{:<12}{}\n{:<12}{}gapscope run {} (or detect, fit, diagnose)\n", "written", output,
-             "model", starter.model, "next", starter.guesses ? "fill in what is marked GUESS, then " : "",
-             output);
+  fmt::print("{:<12}{}\n{:<12}{}\n", "written", output, "model", starter.model);
+  if (known.anchor) fmt::print("{:<12}{}\n", "anchor", known.anchor->told(r.coordinates()));
+  fmt::print("{:<12}{}gapscope run {} (or detect, fit, diagnose)\n", "next",
+             starter.guesses ? "fill in what is marked GUESS, then " : "", output);
 }
 
 }  // namespace

@@ -34,9 +34,9 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
-  const std::string words = "changes with the direction of motion";
-  return denser_than_chance(most) ? fmt::format("{} ({:.0f} % of it {})", words, 100.0 * most.share, most.bin)
-                                  : words;
+  return "changes with the direction of motion " +
+         (denser_than_chance(most) ? fmt::format("({:.0f} % of it {})", 100.0 * most.share, most.bin)
+                                   : "(as large in both)");
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {

@@ -82,7 +82,8 @@ TEST(Init, AnAnchorLeavesTheTorqueConstantToTheFitAndWhatWasReadInItsUnits) {
   const auto fit = place.run("fit known.yaml -o report");
   EXPECT_EQ(fit.status, 0) << fit.err;
   EXPECT_THAT(fit.out, ::testing::ContainsRegex("torque_constant +0[.]17[0-9]+ N m"));
-  EXPECT_EQ(place.run("init r.csv --model one_body --mass 0.5 --arm 0.1 -o mass.yaml").status, 0);
+  EXPECT_THAT(place.run("init r.csv --model one_body --mass 0.5 --arm 0.1 -o mass.yaml").out,
+              HasSubstr("a mass of 0.5 kg on an arm of 0.1 m (gravity up to 0.4903 N m"));
   EXPECT_THAT(testing::text_of(place.folder() / "mass.yaml"), HasSubstr("anchor: {mass: 0.5, arm: 0.1}"));
   EXPECT_EQ(place.run("init r.csv --mass 0.5 -o m.yaml").status, 2);
   EXPECT_THAT(place.run("init r.csv --model locked --mass 0.5 --arm 0.1 -o m.yaml").err,

@@ -21,5 +21,15 @@ TEST(Headline, NamesAPhaseOfTheContactOnlyWhereTheErrorIsDenserThanChance) {
   EXPECT_TRUE(headline_with(0.4, 0.2).starts_with("in engagement"));
 }
 
+TEST(Headline, SaysInWhichDirectionTheErrorIsOrThatItIsInBoth) {
+  MismatchPlace place;
+  place.mode = {{"gap", 0.0, 0.0}, {"engagement", 1.0, 1.0}, {"impact", 0.0, 0.0}};
+  place.follows = {ResidualPattern::kDirection};
+  place.direction = {{"backward", 0.5, 0.5}, {"forward", 0.5, 0.5}};
+  EXPECT_EQ(headline_of(place, {}), "changes with the direction of motion (as large in both)");
+  place.direction = {{"backward", 0.9, 0.5}, {"forward", 0.1, 0.5}};
+  EXPECT_EQ(headline_of(place, {}), "changes with the direction of motion (90 % of it backward)");
+}
+
 }  // namespace
 }  // namespace gapscope::internal::diagnosis
