@@ -118,9 +118,9 @@ TEST(ImplantedCheck, IsTheSameOnAnyNumberOfThreadsAndWhenItIsMadeAgain) {
 }
 
 TEST(ImplantedCheck, AnswersScoresAndGoesOnWhereItStopped) {
-  const auto excluded = test::among({"motor_coulomb_friction", "stribeck_friction", "input_dead_zone",
-                                     "cogging_torque", "encoder_eccentricity", "input_delay"})
-                            .excluded;
+  const auto excluded =
+      test::among({"motor_coulomb_friction", "input_dead_zone", "cogging_torque", "encoder_eccentricity"})
+          .excluded;
   const OwnDrive drive(kFive + fmt::format("diagnosis: {{exclude: [{}]}}\n", fmt::join(excluded, ", ")));
   const std::string folder = (drive.folder() / "check").string();
   const BlindScore score = run_implanted_check(drive.configuration(), folder, 2);
