@@ -63,12 +63,13 @@ std::string open_causes(const CardFacts& f) {
          (others.empty() ? "" : ": it may as well be " + enumerated(shortened(others), "or"));
 }
 
-/// That the first cause is more likely outside of the catalogue; probabilities were learned where the
-/// candidates' own refits decide, above the encoder's floor.
-std::string outside_words(const Diagnosis& d) {
+/// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
+/// learned where the candidates' own refits decide, above the encoder's floor.
+std::string outside_words(const CardFacts& f) {
+  const Diagnosis& d = *f.diagnosis;
   const bool learned = d.mismatch.floor_from != FloorSource::kRepeatability && !d.ranking.empty() &&
                        !d.effects.empty() && d.ranking.front().effect == d.effects.front();
-  if (d.verdict != DiagnosisVerdict::kHelps || !learned || !(d.outside_probability > 0.5)) return "";
+  if (!names(f, true).empty() || !learned || !(d.outside_probability > 0.5)) return "";
   return fmt::format("; most likely ({:.0f} %) the cause is none of the catalogue's",
                      100.0 * d.outside_probability);
 }
@@ -208,7 +209,7 @@ std::string cause_line(const CardFacts& f) {
   const std::string open = open_causes(f);
   if (text.empty() && open.empty() && d.stopped)
     return "Not told: the search was stopped before its end." + simulator;
-  text += (text.empty() || open.empty() ? "" : "; ") + open + outside_words(d);
+  text += (text.empty() || open.empty() ? "" : "; ") + open + outside_words(f);
   return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text) + simulator;
 }
 

@@ -230,6 +230,9 @@ TEST(Card, SaysWhereMostLikelyNothingOfTheCatalogueIsTheCause) {
   EXPECT_THAT(card.cause, HasSubstr(" help, their cause is open"));
   EXPECT_THAT(card.cause, EndsWith("; most likely (88 %) the cause is none of the catalogue's."));
   EXPECT_THAT(card.next, StartsWith("Try `fitted.yaml` on another motion;"));
+  d.added.back().established = true;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, Not(HasSubstr("most likely")));
+  d.added.back().established = false;
   d.ranking.front().effect = "input_delay";  // another one was added: the budget decided
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, Not(HasSubstr("most likely")));
 }
