@@ -66,7 +66,7 @@ GapEstimate frozen(const MotorTrace& trace) { return detect_gap({&trace, 1}, {.f
 
 TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnDrivesOfTheIndependentPlant) {
   std::size_t events = 0;
-  for (std::uint64_t seed = 910001; seed < 910009; ++seed) {
+  for (std::uint64_t seed = 910001; seed < 910006; ++seed) {
     independent_plant::BlindCase c =
         independent_plant::random_drive(seed, independent_plant::Waveform::kSine);
     c.options.tolerance = independent_plant::kFastTolerance;
@@ -78,7 +78,7 @@ TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnDrivesOfTheIndependentPlant
       expect_same(stream(trace, pause), batch);
     events += batch.events.size();
   }
-  EXPECT_GT(events, 20u);
+  EXPECT_GT(events, 12u);
 }
 
 TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnRealRecordings) {
