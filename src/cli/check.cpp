@@ -12,6 +12,7 @@
 #include "cli/console.h"
 #include "cli/presets.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_facts.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/inspection/reach.h"
 #include "gapscope/report/recording_picture.h"
@@ -116,19 +117,21 @@ MotionReach reach_of(const RecordingArguments& r) {
   return gapscope::reach_of({&trace, 1});
 }
 
-/// Of two recordings the one that takes the drive farther is to be fitted.
+/// Which of two recordings is to be fitted.
 void tell_order(const std::vector<RecordingArguments>& all) {
   if (all.size() != 2) return;
-  const MotionReach reach[] = {reach_of(all[0]), reach_of(all[1])};
-  for (const std::size_t farther : {0U, 1U}) {
-    const std::string more = goes_farther(reach[1 - farther], reach[farther], all[0].coordinates());
-    if (more.empty()) continue;
-    fmt::print(
-        "\n{:<12}{} asks more of the drive ({})\n{:<12}-> fit it and hold the other one out: recording: "
-        "{{file: {}, held_out: {}}}\n",
-        "order", printable(all[farther].file, 200), more, "", printable(all[farther].file, 200),
-        printable(all[1 - farther].file, 200));
+  const FittingOrder order = fitting_order(reach_of(all[0]), reach_of(all[1]), all[0].coordinates());
+  const std::string why = with_input_unit(order.why, reading_of(all[0]).input_facts());
+  if (order.fit == FittingOrder::Fit::kEither) {
+    fmt::print("\n{:<12}either may be fitted: {}\n", "order", why);
+    return;
   }
+  const bool first = order.fit == FittingOrder::Fit::kFirst;
+  const std::string fitted = printable(all[first ? 0 : 1].file, 200);
+  fmt::print(
+      "\n{0:<12}{1} asks more of the drive ({2})\n{3:<12}-> fit it and hold the other one out: recording: "
+      "{{file: {1}, held_out: {4}}}\n",
+      "order", fitted, why, "", printable(all[first ? 1 : 0].file, 200));
 }
 
 void check_all(const CheckArguments& a) {

@@ -8,6 +8,7 @@
 #include "cli/console.h"
 #include "cli/presets.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_facts.h"
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
@@ -79,11 +80,14 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
   const fs::path parent = fs::path(output).parent_path();
   const Starter starter = starter_configuration(recordings_of(a, r), r.encoder(), r.coordinates(),
                                                 parent.empty() ? "." : parent.string(), known);
-  parse_configuration(starter.yaml, output);  // throws where an anchor does not suit the drive
+  const Configuration read =
+      parse_configuration(starter.yaml, output);  // throws where an anchor does not suit
   write_text(output, several ? named_after(r.axis, starter.yaml) : starter.yaml, "");
   print_warnings(starter.spoiling);
   fmt::print("{:<12}{}\n{:<12}{}\n", "written", output, "model", starter.model);
   if (known.anchor) fmt::print("{:<12}{}\n", "anchor", known.anchor->told(r.coordinates()));
+  if (!starter.order.empty())
+    fmt::print("{:<12}{}\n", "order", with_input_unit(starter.order, read.input_facts()));
   fmt::print("{:<12}{}gapscope run {} (or detect, fit, diagnose)\n", "next",
              starter.guesses ? "fill in what is marked GUESS, then " : "", output);
 }
@@ -96,7 +100,8 @@ void add_init(CommandLine& app) {
   add_recording_arguments(command, arguments->recording);
   command
       .add_option("--held-out", arguments->held_out,
-                  "a second recording of this drive, which diagnose judges by (default: the last third)")
+                  "a second recording of this drive, which diagnose judges by (default: the last third); the "
+                  "richer one (speed, travel, input, reversals) is better fitted: init says which it is")
       .value("FILE");
   command
       .add_option("-o,--output", arguments->output,

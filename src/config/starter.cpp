@@ -15,6 +15,7 @@
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/inspection/inspection.h"
+#include "gapscope/inspection/reach.h"
 
 namespace gapscope {
 namespace {
@@ -51,10 +52,39 @@ std::string named_from(const std::string& folder, const std::string& recording) 
   return stays ? recording : std::filesystem::proximate(recording, folder).generic_string();
 }
 
+/// Reads both recordings as diagnose would.
+FittingOrder order_of(const RecordingConfig& config, Coordinates coordinates) {
+  std::vector<MotionReach> reach;
+  for (const RecordedFile& file : {config.files.front(), config.held_out.front()}) {
+    const Recording r = read_recording(file.path, config.reading_of(file, UnevenRows::kStamped));
+    const MotorTrace trace = r.motor_trace();
+    reach.push_back(reach_of({&trace, 1}));
+  }
+  return fitting_order(reach[0], reach[1], coordinates);
+}
+
+std::string order_told(const FittingOrder& order, const std::string& fitted, const std::string& held_out) {
+  const std::string first = printable(fitted, 200), second = printable(held_out, 200);
+  switch (order.fit) {
+    case FittingOrder::Fit::kFirst:
+      return fmt::format("good as it is: {} is fitted, which asks more of the drive than {} ({})", first,
+                         second, order.why);
+    case FittingOrder::Fit::kSecond:
+      return fmt::format(
+          "better the other way round: {0} asks more of the drive than {1} ({2}); a model is known only as "
+          "far as it was fitted -> gapscope init {0} --held-out {1}",
+          second, first, order.why);
+    case FittingOrder::Fit::kEither:
+      break;
+  }
+  return fmt::format("either recording may be fitted: {}", order.why);
+}
+
 void write_recording(YamlWriter& out, const std::string& folder, const RecordingConfig& recording,
-                     bool resampled) {
+                     bool resampled, const std::string& order) {
   const ReadOptions& options = recording.reading;
   out.open("recording");
+  if (!order.empty()) out.comment(order);
   out.entry("file", yaml_text(named_from(folder, recording.files.front().path)));
   if (!recording.held_out.empty())
     out.entry("held_out", yaml_text(named_from(folder, recording.held_out.front().path)), "for diagnose");
@@ -184,13 +214,14 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
   const Recording r = read_recording(recording, options);
-  for (const RecordedFile& held : config.held_out)
-    read_recording(held.path, config.reading_of(held, UnevenRows::kStamped));  // throws what diagnose would
   const StarterChoice choice = nominal && known.model == StarterModel::kAsSeen
                                    ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
                                    : chosen_structure(known.model, r.motor_trace(), r.encoder, coordinates);
+  const bool one_body = choice.structure == StarterModel::kOneBody;
   Starter starter;
   starter.model = choice.why;
+  if (!config.held_out.empty())
+    starter.order = order_told(order_of(config, coordinates), recording, config.held_out.front().path);
   YamlWriter out(coordinates);
   for (const Finding& f : seen.findings) {
     const bool settled = f.rule == kTimeRule && irregular;
@@ -199,11 +230,10 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
     out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back() + " -> " + f.advice);
   }
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
-  write_recording(out, folder, config, irregular);
+  write_recording(out, folder, config, irregular, starter.order);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
   if (config.reading.controller) write_commanding(out, config, known.gain_sought, coordinates);
   out.entry("coordinates", coordinates.name());
-  const bool one_body = choice.structure == StarterModel::kOneBody;
   Begin begin = begin_of(seen.facts, one_body, nominal);
   begin.input_is_torque = !(begin.numbers.torque_constant > 0.0) && is_drive_torque(config, coordinates);
   begin.gain_sought = known.gain_sought && !std::isfinite(config.reading.controller->saturation);

@@ -173,6 +173,31 @@ TEST(Init, AHeldOutRecordingIsNamedAndReadByTheDiagnosis) {
   EXPECT_FALSE(place.content().count("other.yaml"));
 }
 
+TEST(Init, SaysWhichOfTwoRecordingsIsBetterFittedAndSwapsNothing) {
+  Workplace place;
+  const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
+  const auto weak = [](double t) { return 0.1 * std::sin(9.0 * t) + 0.06 * std::sin(31.0 * t); };
+  place.file("rich.csv", one_body_csv(input));
+  place.file("poor.csv", one_body_csv(weak));
+  const std::string init = "init --model one_body --input-unit V ";
+  const auto good = place.run(init + "rich.csv --held-out poor.csv -o good.yaml");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(good.out, HasSubstr("order       good as it is: rich.csv is fitted"));
+  EXPECT_THAT(good.out, ::testing::ContainsRegex("input up to 0[.][0-9]+ against 0[.]1[0-9]* V"));
+  const auto wrong = place.run(init + "poor.csv --held-out rich.csv -o wrong.yaml");
+  EXPECT_EQ(wrong.status, 0) << wrong.err;
+  EXPECT_THAT(wrong.out, HasSubstr("order       better the other way round: rich.csv asks more"));
+  EXPECT_THAT(wrong.out, HasSubstr("-> gapscope init rich.csv --held-out poor.csv"));
+  const std::string yaml = testing::text_of(place.folder() / "wrong.yaml");
+  EXPECT_THAT(yaml, HasSubstr("# better the other way round"));
+  EXPECT_THAT(yaml, HasSubstr("file: \"poor.csv\"\n  held_out: \"rich.csv\""));
+  place.file("again.csv", one_body_csv(input));
+  EXPECT_THAT(place.run(init + "rich.csv --held-out again.csv -o same.yaml").out,
+              HasSubstr("either recording may be fitted: both go as far"));
+  EXPECT_THAT(place.run(init + "rich.csv -o alone.yaml").out, Not(HasSubstr("order ")));
+  EXPECT_THAT(place.run("init --help").out, HasSubstr("is better fitted"));
+}
+
 TEST(Init, AGapThatTheDetectorDoesNotSeeIsMarkedAsAGuess) {
   Workplace place;
   TestEncoder encoder;

@@ -34,6 +34,13 @@ TEST(MotionReach, IsTheClosedFormOfASine) {
   EXPECT_NEAR(r.input, 2.0, 1e-3);
 }
 
+TEST(MotionReach, CountsReversalsOfTheMotionAndNoneOfItsNoise) {
+  Recording r = swung(0.5, 5.0, 2.0);  // 20 rad in four seconds, a crest every π
+  EXPECT_EQ(reach(r).reversals, 6);
+  for (std::size_t i = 0; i < r.x1.size(); ++i) r.x1[i] += 0.02 * (i % 2 == 0 ? 1.0 : -1.0);
+  EXPECT_EQ(reach(r).reversals, 6);
+}
+
 TEST(MotionReach, OfSeveralIsTheFarthestOfEach) {
   const Recording wide = swung(0.5, 2.0, 1.0), fast = swung(0.1, 30.0, 2.0);
   const MotorTrace both[] = {wide.motor_trace(), fast.motor_trace()};
@@ -68,6 +75,33 @@ TEST(GoesFarther, AnInputThatIsNotKnownDecidesNothing) {
   MotionReach unknown = reach(swung(0.5, 6.0, 2.0));
   unknown.input = 0.0;
   EXPECT_THAT(goes_farther(unknown, reach(swung(1.0, 6.0, 2.0)), {}), HasSubstr("travel 2 against 1 rad"));
+}
+
+using Fit = FittingOrder::Fit;
+
+TEST(FittingOrder, TakesTheOneThatGoesFartherWhicheverStandsFirst) {
+  const MotionReach slow = reach(swung(0.5, 6.0, 2.0)), fast = reach(swung(0.5, 12.0, 2.0));
+  EXPECT_EQ(fitting_order(slow, fast, {}).fit, Fit::kSecond);
+  const FittingOrder order = fitting_order(fast, slow, {});
+  EXPECT_EQ(order.fit, Fit::kFirst);
+  EXPECT_THAT(order.why, HasSubstr("speed up to 5.98 against 3 rad/s, 15 reversals against 7"));
+}
+
+TEST(FittingOrder, AmongTwoThatGoAsFarCountsReversals) {
+  const MotionReach usual = reach(swung(0.5, 6.0, 2.0));
+  MotionReach busy = usual;
+  busy.reversals = 30;
+  const FittingOrder order = fitting_order(usual, busy, {});
+  EXPECT_EQ(order.fit, Fit::kSecond);
+  EXPECT_EQ(order.why, "30 reversals against 7");
+  EXPECT_EQ(fitting_order(usual, usual, {}).fit, Fit::kEither);
+}
+
+TEST(FittingOrder, LeavesItOpenWhereNeitherCoversTheOther) {
+  const MotionReach wide = reach(swung(0.5, 6.0, 2.0)), fast = reach(swung(0.2, 30.0, 2.0));
+  const FittingOrder order = fitting_order(wide, fast, {});
+  EXPECT_EQ(order.fit, Fit::kEither);
+  EXPECT_THAT(order.why, HasSubstr("neither covers the other: speed up to 3 against 5.89 rad/s, travel 1"));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Starter {
   bool guesses = false;               ///< a number in it is marked GUESS
   std::string model;                  ///< which structure was chosen, and why
   std::vector<std::string> spoiling;  ///< what `check` says will spoil the estimates
+  std::string order;  ///< which of two recordings is better fitted, and why; empty where there is one
 };
 
 /// What is known of the drive beside its recording.

@@ -13,14 +13,25 @@ struct MotionReach {
   double travel = 0.0;  ///< of x1, peak to peak [rad]
   double speed = 0.0;   ///< that 99 % of the samples stay below, over 20 ms [rad/s]
   double input = 0.0;   ///< the same of |u| [unit of u]; 0 where u is not known
+  int reversals = 0;    ///< of the motion, of all recordings together
 };
 
-/// The farthest of several recordings, each quantity for itself.
+/// The farthest of several recordings, each quantity for itself; their reversals are added up.
 MotionReach reach_of(std::span<const MotorTrace> recordings);
 
 /// In what the second goes clearly farther, with its numbers first: "speed up to 12.7 against 4.38 rad/s";
 /// empty where it does not, or where the first goes clearly farther in something else: then neither covers
 /// the other.
 std::string goes_farther(const MotionReach& first, const MotionReach& second, Coordinates coordinates);
+
+/// Which of two recordings is better fitted, the other one being held out.
+struct FittingOrder {
+  enum class Fit { kFirst, kSecond, kEither };
+  Fit fit = Fit::kEither;
+  std::string why;  ///< in what that one goes farther, or that none does, with the numbers of both
+};
+
+/// The one that goes farther (goes_farther()); of two that go as far, the one with clearly more reversals.
+FittingOrder fitting_order(const MotionReach& first, const MotionReach& second, Coordinates coordinates);
 
 }  // namespace gapscope
