@@ -17,25 +17,52 @@ const DrivePreset kPresets[] = {
 #include "cli/presets.inc"
 };
 
-std::vector<std::string> alternatives(const std::string& names) {
-  std::vector<std::string> all;
+/// A name that a column may have, and its unit where that is not the column's.
+struct Alternative {
+  std::string name, unit;
+};
+
+std::vector<Alternative> alternatives_of(const std::string& names) {
+  std::vector<Alternative> all;
   for (std::size_t at = 0, end; at < names.size(); at = end + 1) {
     end = std::min(names.find('|', at), names.size());
-    all.push_back(names.substr(at, end - at));
+    const std::string one = names.substr(at, end - at);
+    const std::size_t sign = std::min(one.find('='), one.size());
+    all.push_back({one.substr(0, sign), one.substr(std::min(sign + 1, one.size()))});
   }
   return all;
 }
 
-/// The first of these names that the file has.  @throws ConfigError where it has none
-std::string column_of(const std::string& names, const std::vector<std::string>& there,
-                      const RecordingArguments& a, const char* option) {
-  const auto all = alternatives(names);
-  for (const std::string& name : all)
-    if (std::find(there.begin(), there.end(), name) != there.end()) return name;
+std::vector<std::string> alternatives(const std::string& names) {
+  std::vector<std::string> all;
+  for (const Alternative& a : alternatives_of(names)) all.push_back(a.name);
+  return all;
+}
+
+/// The unit of a column of that name; the preset's for it, unless that name has one of its own.
+std::string unit_of(const std::string& name, const char* names, const char* unit) {
+  for (const Alternative& a : alternatives_of(names))
+    if (a.name == name && !a.unit.empty()) return a.unit;
+  return unit;
+}
+
+/// The first of these names that the file has; empty where it has none.
+std::string found_of(const char* names, const std::vector<std::string>& there) {
+  for (const std::string& name : alternatives(names))
+    if (contains(there, name)) return name;
+  return "";
+}
+
+/// @throws ConfigError where the file has none of these names
+std::string column_of(const char* names, const std::vector<std::string>& there, const RecordingArguments& a,
+                      const char* option) {
+  const std::string found = found_of(names, there);
+  if (!found.empty()) return found;
   throw ConfigError(a.file,
                     fmt::format("has no column {}, expected one of them for the preset {}, or its own name "
-                                "behind {}",
-                                fmt::join(all, ", "), a.preset, option));
+                                "behind {}; it has {}",
+                                fmt::join(alternatives(names), ", "), a.preset, option,
+                                printable(fmt::format("{}", fmt::join(there, ", ")), 200)));
 }
 
 const DrivePreset* preset_of(const RecordingArguments& a) {
@@ -79,13 +106,15 @@ RecordingArguments with_preset(RecordingArguments a) {
   if (has_its_input(a, *preset)) {
     column(a.input, preset->input, "--input");
     column(a.voltage, preset->voltage, "--voltage");
-    if (a.units.input.empty()) a.units.input = preset->input_unit;
+    if (a.units.input.empty()) a.units.input = unit_of(a.input, preset->input, preset->input_unit);
     if (a.registers.input == 0) a.registers.input = preset->input_register;
   }
   column(a.position, preset->position, "--position");
   if (a.units.time.empty()) a.units.time = preset->time_unit;
-  if (a.units.position.empty()) a.units.position = preset->position_unit;
-  if (a.units.voltage.empty() && !a.voltage.empty()) a.units.voltage = preset->voltage_unit;
+  if (a.units.position.empty())
+    a.units.position = unit_of(a.position, preset->position, preset->position_unit);
+  if (a.units.voltage.empty() && !a.voltage.empty())
+    a.units.voltage = unit_of(a.voltage, preset->voltage, preset->voltage_unit);
   if (a.bits == 0) a.bits = preset->bits;
   return a;
 }
@@ -110,6 +139,11 @@ std::vector<std::string> preset_remarks(const RecordingArguments& a) {
             : fmt::format("the preset {} says nothing of what a controller makes of {}: its supply is not "
                           "read. Where the controller sets a duty, add {}",
                           p.name, shown(a.target), left));
+  if (has_its_input(a, p) && a.units.input.empty()) {
+    const std::string input = a.input.empty() ? found_of(p.input, recorded_names(a.file)) : a.input;
+    if (unit_of(input, p.input, p.input_unit) != p.input_unit)
+      remarks.push_back(fmt::format("{} is read as {}", shown(input), p.other_unit));
+  }
   if (!a.position.empty() && a.units.position.empty() && !is_among(a.position, p.position))
     remarks.push_back(
         fmt::format("{} is read in {}, as the preset {} has it for {}: --position-unit if it is another",

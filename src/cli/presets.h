@@ -12,7 +12,7 @@ namespace gapscope::cli {
 struct DrivePreset {
   const char* name;
   const char* what;
-  const char* time;  ///< names that it may have, with | between them
+  const char* time;  ///< names that it may have, with | between them; NAME=UNIT has a unit of its own
   const char* time_unit;
   const char* input;
   const char* input_unit;
@@ -22,7 +22,8 @@ struct DrivePreset {
   int bits;  ///< of the encoder; 0: not known
   const char* voltage;
   const char* voltage_unit;
-  const char* note;  ///< what to know of it
+  const char* note;        ///< what to know of it
+  const char* other_unit;  ///< what to know of an input that has a unit of its own
 };
 
 std::span<const DrivePreset> drive_presets();

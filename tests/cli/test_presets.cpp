@@ -60,6 +60,16 @@ const std::vector<PresetCase> kPresetCases = {
      {"voltage: \"present_input_voltage\"",
       "units: {input: \"0.00113\", position: \"counts\", voltage: \"0.1\"}", "registers: {input: 16}",
       "encoder: {bits: 12}"}},
+    {"dynamixel",
+     "timestamp,load,position,input_volts",
+     1.0,
+     500.0,
+     1.0,
+     7.4,
+     true,
+     {"input: \"load\", position: \"position\", voltage: \"input_volts\"",
+      "units: {input: \"permille\", position: \"rad\", voltage: \"V\"}", "registers: {input: 16}",
+      "encoder: {bits: 12}"}},
     {"feetech",
      "time,present_load,present_position,present_voltage",
      1.0,
@@ -90,30 +100,47 @@ const std::vector<PresetCase> kPresetCases = {
 /// An input of another name may be another quantity.
 TEST(PresetOfOtherColumns, SaysWhatItLeavesOutForAColumnOfAnotherName) {
   const testing::Rows rows = testing::rig();
-  std::string text = "timestamp,load,present_position,volts\n";
+  std::string text = "timestamp,effort,present_position,volts\n";
   for (std::size_t i = 0; i < rows.t.size(); ++i)
     text += fmt::format("{:.9g},{},{:.9g},7.4\n", rows.t[i], std::round(500.0 * rows.u[i]),
                         std::round(4096.0 / 6.283185307 * rows.x1[i]));
   Workplace place;
   place.file("log.csv", text);
-  const auto named = place.run("init log.csv --model gap --preset dynamixel --input load");
+  const auto named = place.run("init log.csv --model gap --preset dynamixel --input effort");
   EXPECT_EQ(named.status, 0) << named.err;
   EXPECT_THAT(named.out, ::testing::Not(HasSubstr("u = duty x volts")));
-  EXPECT_THAT(named.err, HasSubstr("not of 'load': u is read as it stands"));
+  EXPECT_THAT(named.err, HasSubstr("not of 'effort': u is read as it stands"));
   EXPECT_THAT(named.err,
               HasSubstr("--input-unit 0.00113 --input-register 16 --voltage COLUMN --voltage-unit 0.1"));
   EXPECT_THAT(testing::text_of(place.folder() / "log.yaml"), ::testing::Not(HasSubstr("0.00113")));
   const auto told = place.run(
-      "check log.csv --preset dynamixel --input load --input-unit 0.00113 --input-register 16 --voltage "
+      "check log.csv --preset dynamixel --input effort --input-unit 0.00113 --input-register 16 --voltage "
       "volts "
       "--voltage-unit V");
   EXPECT_EQ(told.err, "");
-  EXPECT_THAT(place.run("check log.csv --preset dynamixel --input load --position volts").err,
+  EXPECT_THAT(place.run("check log.csv --preset dynamixel --input effort --position volts").err,
               HasSubstr("'volts' is read in counts"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Preset, ::testing::ValuesIn(kPresetCases),
-                         [](const auto& tested) { return std::string(tested.param.name); });
+/// Present Load and Present PWM are two units.
+TEST(PresetOfOtherColumns, SaysInWhichUnitALoadIsRead) {
+  const testing::Rows rows = testing::rig();
+  std::string text = "timestamp,load,position,input_volts\n";
+  for (std::size_t i = 0; i < rows.t.size(); ++i)
+    text += fmt::format("{:.9g},{},{:.9g},7.4\n", rows.t[i], std::round(500.0 * rows.u[i]), rows.x1[i]);
+  Workplace place;
+  place.file("log.csv", text);
+  EXPECT_THAT(place.run("check log.csv --preset dynamixel").err,
+              HasSubstr("'load' is read as Present Load, 0.1 % a unit"));
+  EXPECT_EQ(place.run("check log.csv --preset dynamixel --input-unit 0.00113").err, "");
+  place.file("none.csv", "timestamp,duty,position\n0,1,2\n");
+  EXPECT_THAT(place.run("check none.csv --preset dynamixel").err,
+              HasSubstr("--input; it has timestamp, duty, position"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Preset, ::testing::ValuesIn(kPresetCases), [](const auto& tested) {
+  return fmt::format("{}_{}", tested.param.name, tested.index);
+});
 
 }  // namespace
 }  // namespace gapscope
