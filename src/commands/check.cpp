@@ -7,9 +7,20 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/input_facts.h"
 #include "gapscope/base/require.h"
+#include "gapscope/base/text.h"
 #include "gapscope/results/inspection_result.h"
 
 namespace gapscope {
+namespace {
+
+/// With the unit that is declared for u; without one that is said once, where the input is told.
+void tell_unit(Finding& f, const InputFacts& input) {
+  if (f.rule == kInputRule && input.unit.empty())
+    f.found = replaced(f.found, " units of u", " (no unit declared: --input-unit)");
+  f.found = with_input_unit(f.found, input);
+}
+
+}  // namespace
 
 CheckedRecording checked_recording(const Configuration& c, Purpose purpose, const std::string& told_as) {
   GAPSCOPE_REQUIRE(c.recording && !c.recording->files.empty());
@@ -17,7 +28,7 @@ CheckedRecording checked_recording(const Configuration& c, Purpose purpose, cons
   checked.inspection =
       inspect(c.recording->files.front().path, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
   if (!told_as.empty()) checked.inspection.file = told_as;
-  for (Finding& f : checked.inspection.findings) f.found = with_input_unit(f.found, c.input_facts());
+  for (Finding& f : checked.inspection.findings) tell_unit(f, c.input_facts());
   if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(checked.inspection);
   judge_for(purpose, checked.inspection);
   checked.json = inspection_json(checked.inspection, resolved_reading(c));

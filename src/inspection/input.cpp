@@ -25,6 +25,7 @@ constexpr double kAbrupt =
     0.2;  ///< slope just before a plateau, over the rms slope: a rounded crest has less
 constexpr std::size_t kMostForSpectrum = 1u << 16;
 constexpr double kLeastOfCounts = 5.0;  ///< peak of whole numbers that are no rounded torque
+constexpr double kNoNoise = 1e-6;       ///< of the range: what is left of rounding
 constexpr double kOneLine = 0.9;        ///< share of the power that makes one line all there is
 
 struct Extremes {
@@ -174,24 +175,25 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
   facts.input_peak = std::max(std::abs(low), std::abs(high));
   facts.input_noise = signals::noise_from_differences(u);
   if (low == high)
-    return {"input", Severity::kSpoils, fmt::format("u is {:.4g} all the time", low),
+    return {kInputRule, Severity::kSpoils, fmt::format("u is {} all the time", figure(low, 4)),
             "record what drives the motor while it moves"};
-  const std::string found =
-      fmt::format("{:.4g} to {:.4g} units of u, noise {:.2g}", low, high, facts.input_noise);
+  const bool noisy = facts.input_noise > kNoNoise * (high - low);
+  const std::string found = fmt::format("{} to {} units of u, {}", figure(low, 4), figure(high, 4),
+                                        noisy ? "noise " + figure(facts.input_noise, 2) : "no noise");
   if (const int bits = unsigned_register(m.register_input))
-    return {"input", Severity::kSpoils,
+    return {kInputRule, Severity::kSpoils,
             found + fmt::format(": its column is a signed register of {} bits, read without its sign (small "
                                 "numbers, and numbers just below {:.0f})",
                                 bits, std::ldexp(1.0, bits)),
             fmt::format("recording: registers: {{input: {}}} (--input-register {}), so that {:.0f} is -1",
                         bits, bits, std::ldexp(1.0, bits) - 1.0)};
   if (facts.input_peak > kLeastOfCounts && whole_numbers(u))
-    return {"input", Severity::kNote, found + ", whole numbers: counts or percent?",
+    return {kInputRule, Severity::kNote, found + ", whole numbers: counts or percent?",
             "torque_constant has to be N m (N) per one such unit"};
   if (low >= 0.0 || high <= 0.0)
-    return {"input", Severity::kNote, found + ": it never changes its sign",
+    return {kInputRule, Severity::kNote, found + ": it never changes its sign",
             "a gap is passed where the torque reverses; excite around zero if the drive allows it"};
-  return {"input", Severity::kFine, found, ""};
+  return {kInputRule, Severity::kFine, found, ""};
 }
 
 Finding check_clipping(const Material& m, RecordingFacts& facts) {
@@ -208,8 +210,8 @@ Finding check_clipping(const Material& m, RecordingFacts& facts) {
   facts.clipped_share = share;
   return {
       "clipping", Severity::kNote,
-      fmt::format("u is cut off at {:.4g} in {} plateaus, {:.0f} % of the time", facts.input_peak, runs,
-                  100.0 * share),
+      fmt::format("u is cut off at {} in {} plateaus, {:.0f} % of the time", figure(facts.input_peak, 4),
+                  runs, 100.0 * share),
       "no harm if that is what reached the motor; what a limit behind it took away, or what recorded u did, "
       "does not show in u and x1: read u (the current) behind every limit, within the range of what records "
       "it"};

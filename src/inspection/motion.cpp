@@ -56,7 +56,7 @@ Finding check_travel(const Material& m, RecordingFacts& facts) {
             "x1 moves by " + m.length(facts.travel) + " in all, noise " + m.length(m.signal.noise),
             m.signal.defect.empty() ? "raise the excitation" : m.signal.defect.text()};
   const double q = m.recording.quantum, quanta = q > 0.0 ? facts.travel / q : facts.travel / m.signal.noise;
-  const std::string found = fmt::format("{} peak to peak, {} {}", m.length(facts.travel), count_text(quanta),
+  const std::string found = fmt::format("{} peak to peak, {} {}", m.length(facts.travel), figure(quanta),
                                         q > 0.0 ? "steps of the encoder" : "times the noise");
   const char* advice =
       "raise the excitation or lower its frequency: the travel has to be at least 1.5 gaps, a gap at least "
@@ -86,7 +86,7 @@ Finding check_speed(const Material& m, RecordingFacts& facts) {
   const double scale = m.recording.quantum > 0.0 ? m.recording.quantum : m.signal.noise;
   const double per_sample = facts.speed_rms * m.recording.dt / scale;
   const std::string found =
-      fmt::format("{}/s rms, {} {} per sample", m.length(facts.speed_rms), count_text(per_sample),
+      fmt::format("{}/s rms, {} {} per sample", m.length(facts.speed_rms), figure(per_sample),
                   m.recording.quantum > 0.0 ? "steps of the encoder" : "times the noise");
   if (per_sample >= 1.0) return {"speed", Severity::kFine, found, ""};
   return {"speed", Severity::kNote, found,

@@ -147,8 +147,8 @@ Finding check_hold(const Material& m, RecordingFacts&) {
   if (h.share < kMostHeld) return {"fresh samples", Severity::kFine, "x1 is read anew for every row", ""};
   const double rate = 1.0 / (m.recording.dt * h.every);
   return {"fresh samples", Severity::kSpoils,
-          fmt::format("x1 changes in every {:.2g}th row only while it moves: read at some {:.4g} Hz and held",
-                      h.every, rate),
+          fmt::format("x1 changes in every {}th row only while it moves: read at some {:.4g} Hz and held",
+                      figure(h.every, 2), rate),
           fmt::format("record at the rate of the encoder, or recording: resample: {{rate: {:.4g}}}", rate)};
 }
 

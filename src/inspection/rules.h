@@ -32,9 +32,11 @@ struct Material {
   bool moves() const { return signal.speed_rms > 0.0; }
 };
 
-/// "1764", "1.33": three digits, never "1.76e+03".
-inline std::string count_text(double count) {
-  return count >= 999.5 ? fmt::format("{:.0f}", count) : fmt::format("{:.3g}", count);
+/// "65535", "1764", "1.33", "-0.00042": so many digits, all of a larger number, never "6.55e+04".
+inline std::string figure(double value, int digits = 3) {
+  const double size = std::abs(value);
+  return size >= std::pow(10.0, digits) - 0.5 && size < 1e9 ? fmt::format("{:.0f}", value)
+                                                            : fmt::format("{:.{}g}", value, digits);
 }
 
 inline bool whole_numbers(std::span<const double> samples) {

@@ -42,6 +42,18 @@ TEST(Check, ASpoiltRecordingEndsWithThreeAndSaysWhatToDo) {
   EXPECT_EQ(nlohmann::json::parse(json.out)["spoilt"], true);
 }
 
+TEST(Check, WritesNumbersAsAReaderDoesAndSaysWhereNoUnitIsDeclared) {
+  Workplace place;
+  testing::Rows rows = testing::rig();
+  place.file("amperes.csv", rows.csv());
+  EXPECT_THAT(place.run("check amperes.csv --input-unit A").out, HasSubstr("-0.5814 to 0.5814 A, no noise"));
+  for (double& u : rows.u) u = std::fmod(std::round(885.0 * u) + 65536.0, 65536.0);
+  place.file("register.csv", rows.csv());
+  const auto check = place.run("check register.csv");
+  EXPECT_THAT(check.out, HasSubstr("0 to 65533 (no unit declared: --input-unit), noise"));
+  EXPECT_THAT(check.out, ::testing::Not(HasSubstr("e+")));
+}
+
 TEST(Check, SaysWhichOfTwoRecordingsIsToBeFitted) {
   Workplace place;
   place.file("usual.csv", testing::rig().csv());

@@ -9,7 +9,8 @@
 
 namespace gapscope {
 
-inline constexpr const char* kTimeRule = "time";  ///< rows in order, none missing, uniform
+inline constexpr const char* kTimeRule = "time";    ///< rows in order, none missing, uniform
+inline constexpr const char* kInputRule = "input";  ///< its range and its noise
 /// On reversals of the motion: the one rule that concerns the detector alone.
 inline constexpr const char* kReversalsRule = "reversals";
 
