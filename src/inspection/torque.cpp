@@ -20,6 +20,8 @@ constexpr double kLongestDelay = 0.02;  ///< of a measurement that could make it
 constexpr double kFollows = 0.9;        ///< share of x1 that goes with u against a locked output
 constexpr std::size_t kLags = 8;        ///< samples in which a loop answers
 constexpr double kAnswers = 0.15;       ///< correlation that is an answer
+/// Impulse of the inertia over what one body leaves [-], rms, from which on it is seen.
+constexpr double kSeen = 1.0;
 
 /// ∫u dx1 over what it could be at most: u is held, so the sum is exact.
 double work_cosine(const Material& m) {
@@ -99,18 +101,22 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
   const signals::OneBody rough = signals::as_one_body(std::span(&trace, 1));
   facts.inertia = rough.inertia, facts.damping = rough.damping, facts.friction = rough.friction;
   const char* const units = m.coordinates.rotational() ? "kg m^2, N m s, N m" : "kg, N s/m, N";
-  const std::string inertia =
-      rough.inertia > 0.0 ? fmt::format("{:.3g}", rough.inertia) : "too small to be seen";
   if (!(rough.inertia > 0.0) && !(rough.damping > 0.0))
     return {"scale of u", Severity::kNote, "no inertia and no damping is seen in how x1 answers u",
             "look at the sign of u; add faster parts to the excitation"};
-  const std::string friction =
-      rough.friction > 0.0 ? fmt::format("{:.3g}", rough.friction) : "too small to be seen";
-  return {"scale of u", Severity::kFine,
-          fmt::format("as one body: inertia {}, damping {:.3g}, friction {}, each times torque_constant "
-                      "in {}; compare with the sheets of motor and load",
-                      inertia, rough.damping, friction, units),
-          ""};
+  const auto number = [](double value) { return value > 0.0 ? figure(value) : "too small to be seen"; };
+  const std::string found =
+      fmt::format("as one body: inertia {}, damping {}, friction {}, each times torque_constant in {}",
+                  number(rough.inertia), number(rough.damping), number(rough.friction), units);
+  if (rough.inertia > 0.0 && rough.inertia_over_left > kSeen)
+    return {"scale of u", Severity::kFine, found + "; compare with the sheets of motor and load", ""};
+  const std::string drowned =
+      rough.inertia > 0.0 ? fmt::format("is {} of", figure(rough.inertia_over_left, 2)) : "drowns in";
+  return {"scale of u", Severity::kNote,
+          fmt::format("{}; this recording cannot show the inertia of one body: its torque {} what that body "
+                      "leaves unexplained",
+                      found, drowned),
+          "a motion that reverses faster shows it; else fix motor_inertia at what the sheets say"};
 }
 
 Finding check_feedback(const Material& m, RecordingFacts& facts) {

@@ -99,7 +99,7 @@ OneBody balanced(std::span<const MotorTrace> recordings, std::span<const std::ve
   OneBody body;
   Matrix normal = Matrix::Zero();
   Vector right = Vector::Zero();
-  double squares = 0.0, count = 0.0;
+  double squares = 0.0, count = 0.0, brought = 0.0;
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     const MotorTrace& r = recordings[k];
     Balance<N> b = balance_of<N>(r, N == 5 ? std::span<const double>(known[k]) : std::span<const double>());
@@ -113,6 +113,7 @@ OneBody balanced(std::span<const MotorTrace> recordings, std::span<const std::ve
       const Eigen::Map<const Vector> row(b.rows[i].data());
       normal += row * row.transpose();
       right += row * b.impulse[i];
+      brought += b.impulse[i] * b.impulse[i];
     }
     const auto [low, high] = std::minmax_element(r.x1.begin(), r.x1.end());
     body.travel = std::max(body.travel, *high - *low);
@@ -121,8 +122,11 @@ OneBody balanced(std::span<const MotorTrace> recordings, std::span<const std::ve
   body.speed = std::sqrt(squares / std::max(1.0, count));
   const Vector scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Matrix scaled = scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
-  const Vector solution =
-      (scaled + 1e-9 * Matrix::Identity()).ldlt().solve(right.cwiseQuotient(scale)).cwiseQuotient(scale);
+  const auto solver = (scaled + 1e-9 * Matrix::Identity()).ldlt();
+  const Vector solution = solver.solve(right.cwiseQuotient(scale)).cwiseQuotient(scale);
+  const double alone = scale[0] * scale[0] / solver.solve(Vector::Unit(0))[0];  // Σ of w² beyond the others
+  const double left = std::max(brought - solution.dot(right), 1e-18 * brought);
+  if (left > 0.0) body.inertia_over_left = std::abs(solution[0]) * std::sqrt(alone / left);
   body.inertia = solution[0];
   body.damping = solution[1];
   body.friction = solution[2];

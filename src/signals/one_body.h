@@ -20,6 +20,8 @@ struct OneBody {
   double speed = 0.0;       ///< rms of w1 [rad/s]
   double peak_speed = 0.0;  ///< largest |w1| [rad/s]
   double peak_input = 0.0;  ///< [unit of u]
+  /// Rms of what M w says beyond all other terms, over the rms of what the balance leaves [-]
+  double inertia_over_left = 0.0;
 };
 
 OneBody as_one_body(std::span<const MotorTrace> recordings);

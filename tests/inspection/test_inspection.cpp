@@ -35,7 +35,8 @@ using testing::TemporaryFile;
 TEST(Inspection, AGoodRecordingIsTold) {
   const Inspection i = inspected(good());
   EXPECT_FALSE(i.spoilt()) << i.report();
-  EXPECT_THAT(rules_with(i, Severity::kNote), ElementsAre("spectrum")) << i.report();  // one sine
+  EXPECT_THAT(rules_with(i, Severity::kNote), ElementsAre("spectrum", "scale of u"))  // one sine
+      << i.report();
   EXPECT_EQ(i.facts.samples, 8000);
   EXPECT_NEAR(i.facts.rate, 1000.0, 1e-6);
   EXPECT_NEAR(i.facts.quantum, 2.0 * kPi / 262144.0, 1e-9);
@@ -210,6 +211,28 @@ TEST(Inspection, IrregularTimeIsANoteForFitAndDiagnoseAndNeedsAGridForTheDetecto
   const Inspection i = inspected(rows, options);
   EXPECT_EQ(finding(i, "time").severity, Severity::kNote) << i.report();
   EXPECT_FALSE(i.spoilt()) << i.report();
+}
+
+/// Whatever the balance puts for an inertia whose torque drowns in what one body leaves is no measurement.
+TEST(Inspection, ARecordingThatCannotShowAnInertiaSaysSo) {
+  const auto rows_of_body =
+      [](double inertia) {  // under two sines, with a damping of 2 and an odd disturbance
+        return changed([inertia](Rows& r) {
+          for (std::size_t i = 0; i < r.t.size(); ++i) {
+            const double t = r.t[i], slow = 2.0, fast = 9.0;
+            r.x1[i] = 1e-4 * std::round(1e4 * (0.5 * std::sin(slow * t) + 0.1 * std::sin(fast * t)));
+            const double speed = 0.5 * slow * std::cos(slow * t) + 0.1 * fast * std::cos(fast * t);
+            const double acceleration =
+                -0.5 * slow * slow * std::sin(slow * t) - 0.1 * fast * fast * std::sin(fast * t);
+            r.u[i] = inertia * acceleration + 2.0 * speed + 0.3 * std::sin(5.0 * t);
+          }
+        });
+      };
+  const Inspection heavy = inspected(rows_of_body(1.0)), light = inspected(rows_of_body(1e-3));
+  EXPECT_EQ(finding(heavy, "scale of u").severity, Severity::kFine) << heavy.report();
+  EXPECT_EQ(finding(light, "scale of u").severity, Severity::kNote) << light.report();
+  EXPECT_THAT(finding(light, "scale of u").found, HasSubstr("this recording cannot show the inertia"));
+  EXPECT_THAT(finding(light, "scale of u").advice, HasSubstr("motor_inertia"));
 }
 
 TEST(Inspection, APauseOfAgesCostsNoMemory) {
