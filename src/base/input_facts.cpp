@@ -1,5 +1,7 @@
 #include "gapscope/base/input_facts.h"
 
+#include <fmt/format.h>
+
 #include <cctype>
 #include <string_view>
 
@@ -25,9 +27,18 @@ bool follows_number(const std::string& text, std::size_t at) {
   return at >= 2 && text[at - 1] == ' ' && std::isdigit(static_cast<unsigned char>(text[at - 2])) != 0;
 }
 
+/// A torque per unit of a torque is a plain number: "1 N·m per N·m" says nothing.
+std::string without_torque_per_torque(std::string text, const std::string& unit) {
+  if (unit != "N m" && unit != "N") return text;
+  for (const char* torque : {"N·m", "N m", "N"})
+    text = replaced(text, fmt::format("{} per {}", torque, kUnit), fmt::format("(u is in {})", torque));
+  return text;
+}
+
 }  // namespace
 
-std::string with_input_unit(const std::string& text, const InputFacts& input) {
+std::string with_input_unit(const std::string& told, const InputFacts& input) {
+  const std::string text = without_torque_per_torque(told, input.unit);
   std::string out = input.unit.empty() ? text : replaced(text, std::string(kUnits), input.unit);
   for (std::size_t at = out.find(kUnit); at != out.npos; at = out.find(kUnit, at + 1)) {
     if (ends_in_letter(out, at + kUnit.size()) || is_spoken_of(out, at)) continue;

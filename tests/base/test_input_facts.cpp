@@ -15,5 +15,12 @@ TEST(InputFacts, ADeclaredUnitStandsInPlaceOfUnitsOfU) {
   EXPECT_EQ(with_input_unit("0.1 N·m per unit of u", none), "0.1 N·m per unit of u");
 }
 
+/// A torque per torque is a number: "1 N·m per N·m" tells nothing.
+TEST(InputFacts, OfAnInputThatIsATorqueTheConstantIsToldAsANumber) {
+  EXPECT_EQ(with_input_unit("1.00 N·m per unit of u", {"N m", false}), "1.00 (u is in N·m)");
+  EXPECT_EQ(with_input_unit("1 N m per unit of u", {"N m", false}), "1 (u is in N m)");
+  EXPECT_EQ(with_input_unit("1 N per unit of u", {"N", false}), "1 (u is in N)");
+}
+
 }  // namespace
 }  // namespace gapscope

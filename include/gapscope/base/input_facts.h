@@ -13,7 +13,8 @@ struct InputFacts {
 };
 
 /// A text that speaks of "units of u" or "N m per unit of u", with the declared unit in their place; without
-/// one "7 unit of u" reads "7 units of u". "The unit of u" stays.
+/// one "7 unit of u" reads "7 units of u". "The unit of u" stays. Of a u that is a torque "1 N m per unit of
+/// u" reads "1 (u is in N m)".
 std::string with_input_unit(const std::string& text, const InputFacts& input);
 
 }  // namespace gapscope
