@@ -175,11 +175,11 @@ std::string second_encoder_table(const RunResult& run) {
 }
 
 std::string timing_line(const Timing& timing) {
-  std::string text;
-  if (std::isfinite(timing.model_free_s)) text += "model-free " + quantity(timing.model_free_s, "s");
-  if (std::isfinite(timing.reference_s))
-    text += (text.empty() ? "" : ", ") + ("reference " + quantity(timing.reference_s, "s"));
-  return text.empty() ? "" : "\nRun times are in `timing.json`.\n";
+  const bool detected = std::isfinite(timing.model_free_s), fitted = std::isfinite(timing.reference_s);
+  const bool both = detected && fitted && std::isfinite(timing.wall_s);
+  if (!detected && !fitted) return "";
+  return std::string("\nRun times are in `timing.json`") +
+         (both ? "; the estimators run side by side, `wall_s` is that of both.\n" : ".\n");
 }
 
 }  // namespace

@@ -243,6 +243,7 @@ template <class Archive>
 void fields(Archive& archive, Timing& t) {
   archive("model_free_s", t.model_free_s);
   archive("reference_s", t.reference_s);
+  archive.addition("wall_s", t.wall_s);
 }
 
 }  // namespace gapscope::internal::results

@@ -21,12 +21,18 @@
 namespace gapscope {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
 /// A result of f and how long it took [s].
 template <class Function>
 auto timed(double& seconds, const Function& f) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   auto result = f();
-  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  seconds = seconds_since(begin);
   return result;
 }
 
@@ -138,6 +144,7 @@ void estimate(const Configuration& c, const Estimators& wanted, const LoadedReco
   std::vector<std::string> notes;  // of the detector
   if (wanted.model_free) progress("model-free detector");
   if (wanted.reference) progress("reference fit");
+  const auto begin = Clock::now();
   parallel_for(2, threads, [&](std::size_t which) {
     stop_point();
     if (which == 0 && wanted.model_free)
@@ -147,6 +154,7 @@ void estimate(const Configuration& c, const Estimators& wanted, const LoadedReco
       r.reference = timed(out.timing.reference_s,
                           [&] { return fit(traces_of(r.recordings), c.reference_model(), c.fit); });
   });
+  out.timing.wall_s = seconds_since(begin);
   append(r.notes, notes);
   if (!wanted.reference) return;
   note_defaults(c.model, r.notes);

@@ -278,10 +278,14 @@ TEST(RunResult, AnUnwritablePlaceIsNamed) {
 TEST(Timing, ComesBackAndIsUnknownWhereNoFileIs) {
   ScratchFolder scratch;
   EXPECT_TRUE(std::isnan(read_timing(scratch.path.string()).model_free_s));
-  write_timing(scratch.path.string(), {0.1 * kThird, kNaN});
+  write_timing(scratch.path.string(), {0.1 * kThird, kNaN, 0.2 * kThird});
   const Timing back = read_timing(scratch.path.string());
   EXPECT_EQ(back.model_free_s, 0.1 * kThird);
   EXPECT_TRUE(std::isnan(back.reference_s));
+  EXPECT_EQ(back.wall_s, 0.2 * kThird);
+  std::ofstream(scratch.path / "timing.json")
+      << "{\"model_free_s\": 1, \"reference_s\": 2}";  // of version 0.1.0
+  EXPECT_TRUE(std::isnan(read_timing(scratch.path.string()).wall_s));
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ struct RunResult {
 struct Timing {
   double model_free_s = kNaN;
   double reference_s = kNaN;
+  double wall_s = kNaN;  ///< of both estimators, which run side by side: less than their sum
 };
 
 /// Where the columns of a recording are stored: "traces/3_train.csv" for the third, of a file train.csv.
