@@ -25,12 +25,20 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+/// The whole of a short usage, what must be given of a long one.
+std::string brief_usage(Command command) {
+  constexpr std::size_t kFew = 8;
+  if (command.arguments.size() <= kFew) return usage(command);
+  std::erase_if(command.arguments, [](const Argument& a) { return !a.required; });
+  return fmt::format("{} [OPTIONS]; `{} --help` lists them", usage(command), command.name);
+}
+
 /// "gapscope run CONFIG [-o DIR] [--quiet]" of the command that was being read, else the names of all.
 std::string expectation(CLI::App& app) {
   CLI::App* used = &app;
   while (!used->get_subcommands().empty()) used = used->get_subcommands()[0];
   return used == &app ? fmt::format("one of the commands {}", fmt::join(command_names(app), ", "))
-                      : usage(command_of(CommandLine(*used)));
+                      : brief_usage(command_of(CommandLine(*used)));
 }
 
 bool is_unknown_command(const CLI::App& app, const std::string& word) {

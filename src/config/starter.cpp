@@ -177,8 +177,9 @@ void write_model(YamlWriter& out, const StarterChoice& choice, const Begin& begi
   out.comment(choice.why);
   for (const std::string& note : begin.numbers.notes) out.comment(note);
   if (!choice.seen)
-    out.comment(
-        "no gap in this drive: gapscope init --model one_body; an output that stands still: --model locked");
+    out.comment(std::string(load ? "no gap in this drive: gapscope init --model one_body"
+                                 : "a gap in this drive: gapscope init --model gap") +
+                "; an output that stands still: --model locked");
   if (load) out.entry("contact", "compliant");
   if (load) out.entry("load", free ? "free" : "locked");
   out.open("parameters");
@@ -218,6 +219,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
                                    ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
                                    : chosen_structure(known.model, r.motor_trace(), r.encoder, coordinates);
   const bool one_body = choice.structure == StarterModel::kOneBody;
+  if (one_body && choice.seen) judge_for(Purpose::kDiagnosis, seen);  // nobody asks the detector
   Starter starter;
   starter.model = choice.why;
   if (!config.held_out.empty())
@@ -226,8 +228,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   for (const Finding& f : seen.findings) {
     const bool settled = f.rule == kTimeRule && irregular;
     if (f.severity != Severity::kSpoils || settled) continue;
-    starter.spoiling.push_back(f.rule + ": " + f.found);
-    out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back() + " -> " + f.advice);
+    starter.spoiling.push_back(f.rule + ": " + f.found + " -> " + f.advice);
+    out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back());
   }
   out.entry("name", plain_name(recording), "of the report: reports/<name>");
   write_recording(out, folder, config, irregular, starter.order);

@@ -143,6 +143,7 @@ Finding check_jumps(const Material& m, RecordingFacts&) {
 }
 
 Finding check_hold(const Material& m, RecordingFacts&) {
+  if (!m.moves()) return {"fresh samples", Severity::kNote, "cannot be told without motion", "see travel"};
   const signals::HeldSamples h = signals::held_samples(m.recording.motor_trace());
   if (h.share < kMostHeld) return {"fresh samples", Severity::kFine, "x1 is read anew for every row", ""};
   const double rate = 1.0 / (m.recording.dt * h.every);

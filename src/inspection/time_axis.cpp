@@ -114,7 +114,9 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
     return {kTimeRule, Severity::kSpoils,
             fmt::format("t goes on by {:.4g} from row to row: {:.4g} Hz if it is in seconds", s.median,
                         facts.rate),
-            "give t in seconds (row numbers, ms or µs?)"};
+            "give t in seconds, or declare its unit: recording: units: {time: ms} (--time-unit ms; or us, "
+            "ns, or the "
+            "seconds per row number)"};
   if (s.pauses > 0) return pauses(m, s, facts);
   if (!facts.uniform) return jitter(m, s, facts);
   if (m.rows.open_end)

@@ -36,6 +36,22 @@ bool begins_comment(std::string_view text, std::size_t at) {
   return text[at] == '#' && (at == 0 || text[at - 1] == ' ' || text[at - 1] == '\t');
 }
 
+/// What a line is that is no header at all; empty where it may be one.
+std::string no_header(std::string_view line, const std::vector<std::string_view>& fields) {
+  if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF")) return "is text in UTF-16";
+  while (line.ends_with('\r')) line.remove_suffix(1);
+  if (line.find('\r') != line.npos) return "ends its lines with carriage returns alone";
+  const auto is_control = [](char c) { return c != '\t' && static_cast<unsigned char>(c) < 0x20; };
+  if (std::any_of(line.begin(), line.end(), is_control)) return "is no text";
+  const auto is_number = [](std::string_view field) {
+    double value = 0.0;
+    const auto [end, problem] = std::from_chars(field.data(), field.data() + field.size(), value);
+    return problem == std::errc() && end == field.data() + field.size();
+  };
+  if (std::all_of(fields.begin(), fields.end(), is_number)) return "begins with numbers";
+  return "";
+}
+
 }  // namespace
 
 void split_fields(std::string_view text, char separator, std::vector<std::string_view>& fields) {
@@ -117,6 +133,8 @@ void CsvRow::header(std::string_view line) {
     if (rank > most) most = rank, separator_ = separator, fields_ = std::move(fields);
   }
   while (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
+  if (const std::string what = no_header(line, fields_); most.first < 3 && !what.empty())
+    fail(what + ", expected a CSV in UTF-8 that begins with a header with " + wanted());
   width_ = fields_.size();
   t_ = place(columns_.time, true);
   if (columns_.reads_input()) u_ = place(columns_.input, columns_.input_column == InputColumn::kRequired);

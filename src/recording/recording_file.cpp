@@ -19,9 +19,14 @@ namespace {
 using internal::recording::RecordedRows;
 
 void require_samples(const RecordedRows& table, std::size_t count, const std::string& where) {
-  if (count < kFewestSamples)
-    throw ConfigError(table.path,
-                      fmt::format("{} samples{}, expected at least {}", count, where, kFewestSamples));
+  if (count >= kFewestSamples) return;
+  if (count + table.skipped.size() >= kFewestSamples)
+    table.fail(table.skipped.front(),
+               fmt::format("t is not later than in the row before, and so in {} rows, expected time that "
+                           "increases from row to row",
+                           table.skipped.size()));
+  throw ConfigError(table.path, fmt::format("{} sample{}{}, expected at least {}", count,
+                                            count == 1 ? "" : "s", where, kFewestSamples));
 }
 
 void cut_to_window(RecordedRows& table, const std::pair<double, double>& window) {

@@ -76,7 +76,7 @@ BadInput line(const char* name, const char* arguments, const char* message) {
 
 const std::vector<BadInput> kRecordings = {
     recording("no_file", "", "c.yaml:3: there is no recording r.csv"),
-    recording("no_header", with(rows(60), "t,u,x1\n", ""), "r.csv:1: there is no column 't'"),
+    recording("no_header", with(rows(60), "t,u,x1\n", ""), "r.csv:1: begins with numbers"),
     recording("no_position", with(rows(60), "x1", "y"), "r.csv:1: there is no column 'x1'"),
     recording("bars", "t|u|x1\n0|0|0\n", "r.csv:1: there is no column 't'"),
     recording("word", with(rows(60), "0.003000,0.5", "0.003000,half"), "r.csv:5: u is 'half'"),

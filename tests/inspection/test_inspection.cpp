@@ -246,6 +246,11 @@ TEST(Inspection, WhatIsNoRecordingIsRefusedAsEverywhere) {
   const TemporaryFile word("t,u,x1\n0,zero,1\n"), few("t,u,x1\n0,0,0\n1,0,0\n");
   EXPECT_THAT(testing::refusal([&] { inspect(word.path()); }), HasSubstr("r.csv:2: u is 'zero', expected"));
   EXPECT_THAT(testing::refusal([&] { inspect(few.path()); }), HasSubstr("2 samples, expected at least 50"));
+  std::string backwards = "t,u,x1\n";
+  for (int i = 0; i < 100; ++i) backwards += fmt::format("{},1,2\n", 0.01 * (100 - i));
+  const TemporaryFile reversed(backwards);
+  EXPECT_THAT(testing::refusal([&] { inspect(reversed.path()); }),
+              HasSubstr(":3: t is not later than in the row before, and so in 99 rows, expected time that"));
 }
 
 TEST(Inspection, TheRealRecordings) {
