@@ -77,6 +77,8 @@ void add_report(CommandLine& app) {
   CommandLine command = app.add_command("report", "Draws a report again from its stored results");
   command.add_option("DIR", arguments->folder, "folder of a report").required();
   command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
+  command.add_flag("--small", arguments->figures.small,
+                   "each figure at half the size and packed tightly, for a page or a mail");
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(
       "Reads DIR/result.json, DIR/diagnosis.json [rad, s] and DIR/traces; writes report.md, report.html and "

@@ -34,13 +34,19 @@ void put_or_remove(const fs::path& path, const std::string& bytes) {
 }  // namespace
 
 /// The library below has its own words for a machine that is too small.
-std::string picture_bytes(const FigureData& figure) {
+std::string picture_bytes(const FigureData& figure, bool tight) {
   try {
-    return png_bytes(figure.file, draw(figure), pixels_per_metre(figure));
+    return png_bytes(figure.file, draw(figure), pixels_per_metre(figure), tight);
   } catch (const cv::Exception& error) {
     if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
     throw;
   }
+}
+
+std::string small_picture(FigureData figure) {
+  constexpr double kHalf = 0.5;
+  figure.scale *= kHalf;
+  return picture_bytes(figure, true);
 }
 
 std::vector<Picture> write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
@@ -49,7 +55,8 @@ std::vector<Picture> write_report_files(const std::string& folder, const std::ve
   std::vector<std::string> drawings(figures.size());
   parallel_for(figures.size(), 0, [&](std::size_t i) {
     if (!figures[i].missing.empty()) return;
-    pictures[i] = {figures[i].file, picture_bytes(figures[i]), figures[i].width / kColumnPixels};
+    pictures[i] = {figures[i].file, formats.small ? small_picture(figures[i]) : picture_bytes(figures[i]),
+                   figures[i].width / kColumnPixels};
     if (formats.svg) drawings[i] = draw_as_svg(figures[i]);
   });
   for (std::size_t i = 0; i < figures.size(); ++i) {

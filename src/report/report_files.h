@@ -10,7 +10,11 @@
 namespace gapscope::internal::report {
 
 /// A figure as the bytes of a PNG.
-std::string picture_bytes(const FigureData& figure);
+/// @param tight  as few as there may be
+std::string picture_bytes(const FigureData& figure, bool tight = false);
+
+/// The same at half the size, for a page that shows it among its text.
+std::string small_picture(FigureData figure);
 
 /// Draws the figures into a folder, each as its PNG and what else is asked for, side by side on all cores,
 /// and writes report.md beside them; removes those of an earlier result that are missing now.

@@ -68,6 +68,10 @@ TEST(SvgOption, DrawsEachFigureTwiceAndTheNextReportTidiesUp) {
   EXPECT_EQ(count(".svg"), 0);
   ASSERT_EQ(place.run("report d --svg").status, 0);
   EXPECT_EQ(count(".svg"), count(".png"));
+  const auto bytes = [&](const char* file) { return std::filesystem::file_size(place.folder() / file); };
+  const auto usual = bytes("d/fig2_input_and_displacement.png");
+  ASSERT_EQ(place.run("report d --small").status, 0);
+  EXPECT_LT(bytes("d/fig2_input_and_displacement.png"), usual / 2);
 }
 
 }  // namespace

@@ -80,6 +80,30 @@ TEST(Svg, ClipsWhatLeavesTheFrame) {
   EXPECT_EQ(uses, definitions);
 }
 
+cv::Mat read_back(const std::string& bytes) {
+  png_image read{};
+  read.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_memory(&read, bytes.data(), bytes.size()), 0) << read.message;
+  read.format = PNG_FORMAT_BGR;
+  cv::Mat pixels(static_cast<int>(read.height), static_cast<int>(read.width), CV_8UC3);
+  EXPECT_NE(png_image_finish_read(&read, nullptr, pixels.data, 0, nullptr), 0) << read.message;
+  return pixels;
+}
+
+/// 16 levels of each primary colour: a pixel is off by half a step of 17 at most, white and black by nothing.
+TEST(Png, PackedTightlyKeepsItsColoursToHalfAStep) {
+  cv::Mat image(20, 60, CV_8UC3, cv::Scalar(255, 255, 255));
+  for (int x = 0; x < 60; ++x) image.col(x).rowRange(5, 15) = cv::Scalar(4 * x, 200, 255 - 4 * x);
+  const cv::Mat few = read_back(png_bytes("f.png", image, 18823.5, true));
+  ASSERT_EQ(few.size(), image.size());
+  EXPECT_LE(cv::norm(few, image, cv::NORM_INF), 8.0);
+  EXPECT_EQ(few.at<cv::Vec3b>(0, 0), cv::Vec3b(255, 255, 255));
+  cv::Mat many(64, 64, CV_8UC3);  // of more colours than a list has
+  for (int i = 0; i < 64 * 64; ++i)
+    many.at<cv::Vec3b>(i / 64, i % 64) = cv::Vec3i(4 * (i % 64), 4 * (i / 64), i % 251);
+  EXPECT_EQ(cv::norm(read_back(png_bytes("f.png", many, 18823.5, true)), many, cv::NORM_INF), 0.0);
+}
+
 TEST(Png, TellsItsResolutionAndStaysReadable) {
   const cv::Mat image(30, 40, CV_8UC3, cv::Scalar(10, 20, 30));
   const std::string bytes = png_bytes("f.png", image, 18823.5);

@@ -4,7 +4,8 @@ namespace gapscope {
 
 /// What each figure is written as, beside its PNG.
 struct FigureFormats {
-  bool svg = false;  ///< <figure>.svg: drawn from lines and letters, for a journal or a slide
+  bool svg = false;    ///< <figure>.svg: drawn from lines and letters, for a journal or a slide
+  bool small = false;  ///< the PNGs at half the size and in few colours, for a page
 };
 
 }  // namespace gapscope
