@@ -1,4 +1,5 @@
 // A configuration that is read is valid by the published schema; one with a mistake in it is not.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>

@@ -86,5 +86,40 @@ TEST(Documents, TheTutorialShowsWhatCheckAndDetectSay) {
   expect_shown(find_block(tutorial, "", "report      detect"), detect.out);
 }
 
+/// Runs the commands of all sh blocks in turn. @returns what they said, the output of each after the other
+std::string said_by_page(const std::string& page, Workplace& place) {
+  std::string said;
+  for (const Block& block : blocks_of(page)) {
+    if (block.language != "sh") continue;
+    std::istringstream lines(block.text);
+    for (std::string line; std::getline(lines, line);) {
+      constexpr std::string_view kCommand = "gapscope ";
+      if (!line.starts_with(kCommand)) continue;
+      line = std::regex_replace(line.substr(kCommand.size(), line.find("   #") - kCommand.size()),
+                                std::regex("\\$CONFIGS"), (kRoot / "configs").string());
+      const auto outcome = place.run(line);
+      EXPECT_EQ(outcome.status, 0) << line << ": " << outcome.err;
+      said += outcome.out;
+    }
+  }
+  return said;
+}
+
+TEST(Documents, ThePageOfTheSlideRunsAndShowsWhatIsSaid) {
+  Workplace place;
+  const std::string page = text_of(kRoot / "docs/a_slide_with_a_screw.md");
+  const std::string said = said_by_page(page, place);
+  expect_shown(find_block(page, "", "model       one body"), said);
+  expect_shown(find_block(page, "", "verdict     effect"), said);
+}
+
+TEST(Documents, ThePageOfTheServoRunsAndShowsWhatIsSaid) {
+  Workplace place;
+  const std::string page = text_of(kRoot / "docs/a_servo_without_torque.md");
+  const std::string said = said_by_page(page, place);
+  expect_shown(find_block(page, "", "model       one body"), said);
+  expect_shown(find_block(page, "", "verdict     effect"), said);
+}
+
 }  // namespace
 }  // namespace gapscope

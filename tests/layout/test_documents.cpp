@@ -47,6 +47,22 @@ TEST(Documents, NameOnlyFilesThatAreThere) {
   }
 }
 
+/// Each is shown by a page, with the command that draws it, and is no more than such a page needs.
+TEST(Documents, ShowPicturesThatAreSmallAndSayHowTheyAreDrawn) {
+  constexpr std::uintmax_t kMostBytes = 120'000;
+  const std::regex shown(R"rx(!\[[^\]]+\]\((pictures/[\w.]+)\)\n\n\*[^*]*`gapscope report [^`]+ --small`)rx");
+  std::set<std::string> pictures;
+  for (const fs::path& document : documents()) {
+    const std::string text = text_of(document);
+    for (const std::smatch& m : matches(text, shown)) pictures.insert(m[1]);
+  }
+  EXPECT_GE(pictures.size(), 6u);
+  for (const auto& entry : fs::directory_iterator(kProject / "docs/pictures")) {
+    EXPECT_LT(entry.file_size(), kMostBytes) << entry.path();
+    EXPECT_TRUE(pictures.contains("pictures/" + entry.path().filename().string())) << entry.path();
+  }
+}
+
 /// Every constant and every field of the sources with each value that it is given somewhere.
 std::multimap<std::string, double> constants() {
   const std::regex defined(R"rx(\b(k[A-Z]\w+|[a-z]+(?:_[a-z]+)*)\s*=\s*([\d.]+)\s*[;,])rx");
