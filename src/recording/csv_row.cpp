@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -34,6 +35,16 @@ std::string_view unquoted(std::string_view field) {
 /// of what they stand in, as in Microsoft's 1.#QNAN.
 bool begins_comment(std::string_view text, std::size_t at) {
   return text[at] == '#' && (at == 0 || text[at - 1] == ' ' || text[at - 1] == '\t');
+}
+
+/// Whether a column may be meant by a name: "x1 [rad]" or "X1" by "x1".
+bool may_be_meant(std::string_view column, std::string_view name) {
+  const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  if (column.size() < name.size() || (column.size() > name.size() && letter(column[name.size()])))
+    return false;
+  return std::equal(name.begin(), name.end(), column.begin(),
+                    [&](char a, char b) { return lower(a) == lower(b); });
 }
 
 /// What a line is that is no header at all; empty where it may be one.
@@ -102,9 +113,13 @@ int CsvRow::place(const std::string& name, bool required) const {
   const auto found = std::find(fields_.begin(), fields_.end(), name);
   if (found == fields_.end()) {
     if (!required) return -1;
+    const auto meant = std::find_if(fields_.begin(), fields_.end(),
+                                    [&](std::string_view column) { return may_be_meant(column, name); });
     fail(fmt::format(
-        "there is no column {} among {}, expected a header with {}; other names are declared ({})",
-        shown(name), there(), wanted_with(name), "recording: columns, or --time, --input, --position"));
+        "there is no column {} among {}, expected a header with {}; other names{} are declared ({})",
+        shown(name), there(), wanted_with(name),
+        meant == fields_.end() ? "" : fmt::format(", perhaps {} here,", shown(*meant)),
+        "recording: columns, or --time, --input, --position"));
   }
   if (std::find(found + 1, fields_.end(), name) != fields_.end())
     fail(fmt::format("the column {} is there twice, expected it once", shown(name)));

@@ -193,6 +193,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadCsv{"missing_column", "# c\nt,u,y\n" + rows(60),
                "r.csv:2: there is no column 'x1' among 't', 'u', 'y', expected a header with "
                "the columns t, u, x1"},
+        BadCsv{"units_in_brackets", "t [s],u [A],x1 [rad]\n" + rows(60),
+               "other names, perhaps 't [s]' here, are declared (recording: columns, or --time"},
+        BadCsv{"capitals", "t,u,X1\n" + rows(60), "perhaps 'X1' here"},
         BadCsv{"column_twice", "t,u,x1,u\n", "r.csv:1: the column 'u' is there twice"},
         BadCsv{"bars", "t|u|x1\n0|1|2\n", "r.csv:1: there is no column 't'"},
         BadCsv{"decimal_comma", kHead + "0,001,0,5,0,2\n", "r.csv:2: 6 fields, expected 3"},
