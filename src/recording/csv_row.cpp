@@ -82,7 +82,9 @@ void split_fields(std::string_view text, char separator, std::vector<std::string
 bool CsvRow::next(std::string_view line) {
   if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   split_fields(line, separator_, fields_);
-  if (fields_.empty()) return false;
+  const auto is_empty = [](std::string_view field) { return field.empty(); };
+  if (std::all_of(fields_.begin(), fields_.end(), is_empty))
+    return false;  // separators alone, as below a sheet
   if (has_header_) check_width();
   if (has_header_) return true;
   header(line);
@@ -207,8 +209,11 @@ double CsvRow::number(int place, const std::string& column, const UnitScale& sca
   const bool vanishes = std::abs(std::strtod(std::string(text).c_str(), nullptr)) < 1.0;
   if (whole && problem == std::errc::result_out_of_range && vanishes) return 0.0;
   const bool too_large = whole && problem == std::errc() && std::isfinite(value);
-  fail(fmt::format("{} is {}, expected {}", column, text.empty() ? "empty" : shown(text),
-                   too_large ? fmt::format("at most {:g} in size", kLargestNumber) : "a finite number"));
+  fail(fmt::format(
+      "{} is {}, expected {}", column, text.empty() ? "empty" : shown(text),
+      too_large ? fmt::format("at most {:g} in size{}", kLargestNumber,
+                              column == columns_.time ? "; a time in ns is declared (--time-unit ns)" : "")
+                : "a finite number"));
 }
 
 }  // namespace gapscope::internal::recording

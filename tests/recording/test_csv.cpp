@@ -205,6 +205,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCsv{"empty_field", kHead + "0,,1\n", "r.csv:2: u is empty"},
         BadCsv{"nan", kHead + "0,0,nan\n", "r.csv:2: x1 is 'nan'"},
         BadCsv{"infinite", kHead + "0,inf,1\n", "r.csv:2: u is 'inf'"},
+        BadCsv{"nanoseconds", kHead + "1760000000000000000,0,0\n",
+               "a time in ns is declared (--time-unit ns)"},
         BadCsv{"overflow", kHead + "0,0,1e999\n", "r.csv:2: x1 is '1e999'"},
         BadCsv{"binary", kHead + std::string("\x01\x02\0,3,4\n", 7), "r.csv:2: t is '?"},
         BadCsv{"time_repeats", kHead + "0,0,0\n0,0,0\n", "r.csv:3: t goes from 0 to 0 s"},
@@ -212,6 +214,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCsv{"few_rows", kHead + rows(49), "r.csv: 49 samples, expected at least 50"},
         BadCsv{"pause", kHead + rows(60) + "0.2,0,0\n", "r.csv:62: time is not uniform"}),
     [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(Csv, ALineOfSeparatorsAloneIsBlank) {
+  EXPECT_THAT(refusal(kHead + ",,\n" + rows(60) + ";\n"), HasSubstr("r.csv:63: 1 fields, expected 3"));
+  const TemporaryFile sheet(kHead + rows(60) + ",,\n,,\n");
+  EXPECT_EQ(read_recording(sheet.path()).size(), 60u);
+}
 
 TEST(Csv, AMissingFileAFolderAndAnEmptyWindowAreRefused) {
   const TemporaryFile file(kHead + rows(60));
