@@ -101,8 +101,8 @@ std::string closed_loop_line(const ClosedLoop& c, Coordinates coordinates) {
 /// What everybody wants to know, last: it is what stays in view.
 void print_card(const Card& card) {
   for (const CardLine& l : card.lines()) {
-    if (!card.is_diagnosed() && (&l.text == &card.cause || &l.text == &card.helps)) continue;
-    const bool all = !card.is_diagnosed() && &l.text == &card.place;
+    if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
+    const bool all = !card.diagnosed && &l.text == &card.place;
     line(all ? "diagnosis" : l.name,
          all ? "Place, cause and what helps: run `gapscope diagnose CONFIG`." : l.text);
   }

@@ -210,6 +210,7 @@ std::array<CardLine, 6> Card::lines() const {
 
 Card card_of(const CardFacts& f) {
   Card card;
+  card.diagnosed = f.diagnosis != nullptr;
   measure(f, card);
   card.good_enough = good_enough(f, card);
   card.gap = gap_line(f);

@@ -41,12 +41,15 @@ bool may_be_pieces(const Additions& added) {
   return added.effects.size() > 2 && !std::all_of(added.effects.begin(), added.effects.end(), same);
 }
 
-/// Leaves the cause open of what was added and has a property.
-template <class Property>
-void open_causes(Diagnosis& d, Property is_open, Coordinates coordinates) {
-  for (AddedEffect& a : d.added) a.established = a.established && !is_open(a);
+/// Verdict and sentence, once causes were left open.
+void tell_open_causes(Diagnosis& d, Coordinates coordinates) {
   if (!d.added.empty() && !d.added.front().established) d.verdict = DiagnosisVerdict::kHelps;
   d.sentence = sentence_of(d, coordinates);
+}
+
+void open_all_causes(Diagnosis& d, Coordinates coordinates) {
+  for (AddedEffect& a : d.added) a.established = false;
+  tell_open_causes(d, coordinates);
 }
 
 /// Whether another effect that was added has the level of the same simple law: the recordings determine their
@@ -107,8 +110,7 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
   const bool another =
       !at_end && instead && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
   if ((another && better > -kRule.indistinct) || (on_top && continues_one(*on_top, added)))
-    open_causes(
-        d, [](const AddedEffect&) { return true; }, study.options.coordinates);
+    open_all_causes(d, study.options.coordinates);
   tell_law(study, on_top, d);
   return d;
 }
@@ -124,7 +126,9 @@ bool continues_one(const LawSearch& law, const Additions& added) {
 void open_undetermined(Coordinates coordinates, Diagnosis& d) {
   const bool comes_no_nearer = d.mismatch.after > d.mismatch.before;
   const auto is_open = [&](const AddedEffect& a) { return comes_no_nearer || may_be_absent(a, d.added); };
-  if (std::any_of(d.added.begin(), d.added.end(), is_open)) open_causes(d, is_open, coordinates);
+  if (std::none_of(d.added.begin(), d.added.end(), is_open)) return;
+  for (AddedEffect& a : d.added) a.established = a.established && !is_open(a);
+  tell_open_causes(d, coordinates);
 }
 
 Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
@@ -150,9 +154,9 @@ void tell_stopped(const Study& study, const Additions& added, bool by_balance, D
   if (d.verdict == DiagnosisVerdict::kNone) return;
   if (added.accepted && (at_floor(added.after) || added.explained) && !may_be_pieces(added)) return;
   d.stopped = true;
+  const Coordinates coordinates = study.options.coordinates;
   const bool is_cause = by_balance || d.verdict != DiagnosisVerdict::kEffect;
-  open_causes(
-      d, [&](const AddedEffect&) { return !is_cause; }, study.options.coordinates);
+  is_cause ? tell_open_causes(d, coordinates) : open_all_causes(d, coordinates);
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -34,8 +34,8 @@ std::string card_text(const Card& card) {
   std::size_t i = 0;
   for (const CardLine& line : card.lines()) {
     const char* const title = kTitles[i++];
-    if (!card.is_diagnosed() && (&line.text == &card.cause || &line.text == &card.helps)) continue;
-    const bool all = !card.is_diagnosed() && &line.text == &card.place;
+    if (!card.diagnosed && (&line.text == &card.cause || &line.text == &card.helps)) continue;
+    const bool all = !card.diagnosed && &line.text == &card.place;
     text += fmt::format("- **{}:** {}\n", all ? "Place, cause, what helps" : title, typeset(line.text));
   }
   return text;

@@ -46,7 +46,9 @@ TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
   for (const std::string& line : {card.mismatch, card.place, card.cause, card.helps, card.next})
     EXPECT_THAT(line, HasSubstr("`gapscope diagnose CONFIG`"));
   EXPECT_TRUE(std::isnan(card.torque));
+  EXPECT_FALSE(card.diagnosed);
   Diagnosis d = slide_diagnosis();
+  EXPECT_TRUE(card_of(facts_of(nullptr, &d)).diagnosed);
   EXPECT_EQ(card_of(facts_of(nullptr, &d)).gap, "Not estimated here; told by `gapscope run CONFIG`.");
   d.model_gap = ModelGap();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, HasSubstr("one body"));

@@ -44,10 +44,9 @@ struct Card {
   double torque_after = kNaN;       ///< with all that helps [N m]
   double percent_after = kNaN;      ///< the same [%]
   std::optional<bool> good_enough;  ///< by the tolerance; nothing: none is stated, or it cannot be told
+  bool diagnosed = false;  ///< place, cause and what helps are known; else all three say alike who tells them
 
   std::array<CardLine, 6> lines() const;
-  /// Whether place, cause and what helps are known; else all three say alike who tells them.
-  bool is_diagnosed() const { return place != cause || cause != helps; }
 };
 
 /// What a card is made of. What was not asked for is null, and the card says how to get it.
