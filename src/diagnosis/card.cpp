@@ -117,19 +117,18 @@ std::string error_size(const CardFacts& f) {
          " of the held-out motion (" + m.measure + ")";
 }
 
-/// "; no model gets below 0.61 N, by which recordings or parts of one disagree": in the unit of the size, so
-/// that a diagnosis that goes on from another is measured by the same. Empty where no floor in torque is
-/// known.
+/// "; no model gets below 0.61 N, which is the encoder's noise": in the unit of the size, so that a diagnosis
+/// that goes on from another is measured by the same. Empty where no floor in torque is known. Recordings may
+/// disagree by more than a model leaves of those held out: that is no bound.
 std::string torque_floor(const CardFacts& f, const Card& card) {
   const ErrorBudget& b = f.diagnosis->budget;
   const double floor = b.exists() ? b.floor() : kNaN;
   if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
-  const auto is = [floor](double one) { return one >= floor; };
-  const char* const why = is(b.records)         ? "by which recordings or parts of one disagree"
-                          : is(b.repeatability) ? "by which the drive does not repeat itself"
-                                                : "which is the encoder's noise";
-  const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
-  return fmt::format("; no model gets below {}, {}", torque(floor), why);
+  const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
+  if (b.records >= floor) return "; the recordings, or parts of one, disagree by " + size;
+  return "; no model gets below " + size +
+         (b.repeatability >= floor ? ", by which the drive does not repeat itself"
+                                   : ", which is the encoder's noise");
 }
 
 std::string floor_words(const CardFacts& f, const Card& card) {

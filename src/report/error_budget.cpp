@@ -132,6 +132,30 @@ bool budget_decides(const Diagnosis& d) {
          d.ranking.front().effect != d.effects.front();
 }
 
+namespace {
+
+/// What no model gets below; and by how much recordings disagree, which a model may undercut where it is
+/// judged.
+std::string floors_text(const DiagnosisResult& r) {
+  const ErrorBudget& b = r.diagnosis.budget;
+  std::vector<std::string> floors;
+  std::string disagree;
+  for (const Floor& f : floors_of(b)) {
+    const std::string size = quantity_beside(f.size, b.nominal, budget_unit(r));
+    if (f.size == b.records)
+      disagree = " One set of numbers for all recordings, or parts of one, leaves " + size +
+                 " that one for each does not: they disagree by that much, fitted and held out together.";
+    else
+      floors.push_back(fmt::format("{} ({})", size, f.name));
+  }
+  const std::string text =
+      floors.empty() ? ""
+                     : fmt::format(" Floors, which no model gets below: {}.", fmt::join(floors, ", "));
+  return (text + disagree).empty() ? "" : "\n" + (text + disagree).substr(1) + "\n";
+}
+
+}  // namespace
+
 std::string budget_table(const DiagnosisResult& r) {
   const ErrorBudget& b = r.diagnosis.budget;
   if (!b.exists()) return "";
@@ -166,12 +190,7 @@ std::string budget_table(const DiagnosisResult& r) {
     text += fmt::format("\n`fitted.yaml` has {}, too, which no line of this table counts.\n",
                         fmt::join(names, " and "));
   }
-  std::vector<std::string> floors;
-  for (const Floor& f : floors_of(b))
-    floors.push_back(fmt::format("{} ({})", quantity_beside(f.size, b.nominal, budget_unit(r)), f.name));
-  if (!floors.empty())
-    text += fmt::format("\nFloors, which no model gets below: {}.\n", fmt::join(floors, ", "));
-  return text;
+  return text + floors_text(r);
 }
 
 }  // namespace gapscope::internal::report

@@ -119,9 +119,11 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   d.budget.nominal = 10.0, d.budget.records = 0.613, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
   d.budget.input = 50.0, d.budget.remains = 2.0;
   ASSERT_TRUE(d.budget.exists());
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).mismatch,
-      EndsWith("input brings; no model gets below 0.613 N, by which recordings or parts of one disagree."));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
+              EndsWith("input brings; the recordings, or parts of one, disagree by 0.613 N."));
+  d.budget.encoder = 0.7;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
+              EndsWith("input brings; no model gets below 0.7 N, which is the encoder's noise."));
   d.budget.records = 20.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, EndsWith("30 times the encoder floor."))
       << "the floor is above what is missed";

@@ -1,0 +1,35 @@
+// The report of a diagnosis does not contradict itself.
+#include <gmock/gmock.h>
+
+#include "report/diagnosis_figures.h"
+#include "report/error_budget.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// One body of which the budget knows friction.
+DiagnosisResult with_friction() {
+  DiagnosisResult r;
+  ErrorBudget& b = r.diagnosis.budget;
+  b.band_hz = 8.0, b.input = 1.0, b.nominal = 0.1, b.with_effects = b.remains = 0.036, b.encoder = 0.004;
+  b.rungs = {
+      {"motor_coulomb_friction", "motor_coulomb_friction", true, 0.1, 0.036, 0.8, {0.7, 0.9}, 0.8, 0.8, kNaN}};
+  r.diagnosis.effects = {"motor_coulomb_friction"};
+  return r;
+}
+
+TEST(DiagnosisWords, RecordingsThatDisagreeByMoreThanAModelLeavesAreNoFloor) {
+  DiagnosisResult r = with_friction();
+  r.diagnosis.budget.records = 0.044;
+  const std::string text = internal::report::budget_table(r);
+  EXPECT_THAT(text, HasSubstr("Floors, which no model gets below: 4.00 mN·m (encoder). One set of numbers "
+                              "for all recordings, or parts of one, leaves 44.0 mN·m that one for each"));
+  r.diagnosis.budget.encoder = kNaN;
+  EXPECT_THAT(internal::report::budget_table(r), Not(HasSubstr("no model gets below")));
+}
+
+}  // namespace
+}  // namespace gapscope
