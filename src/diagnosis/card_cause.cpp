@@ -58,9 +58,20 @@ std::vector<std::string> shortened(std::vector<std::string> all) {
 std::string open_causes(const CardFacts& f) {
   const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
   if (open.empty()) return "";
-  const std::string several = names(f, true).empty() ? " help, their cause" : " help too, their cause";
+  const bool beside = !names(f, true).empty() && !rests_on_open_cause(*f.diagnosis);
+  const std::string several = beside ? " help too, their cause" : " help, their cause";
   return enumerated(shortened(open)) + (open.size() > 1 ? several : " helps, its cause") + " is open" +
          (others.empty() ? "" : ": it may as well be " + enumerated(shortened(others), "or"));
+}
+
+/// "friction (established)"; on top of what is open, with what else that holds.
+std::string established_causes(const CardFacts& f) {
+  const std::vector<std::string> causes = names(f, true);
+  if (causes.empty()) return "";
+  const std::string all = enumerated(shortened(causes));
+  if (!rests_on_open_cause(*f.diagnosis)) return all + " (established)";
+  return fmt::format("with {} in the model, {} {} established", names(f, false).size() > 1 ? "them" : "it",
+                     all, causes.size() > 1 ? "are" : "is");
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -204,12 +215,11 @@ std::string cause_line(const CardFacts& f) {
   const std::string simulator = simulator_words(f.simulated);
   if (d.verdict == DiagnosisVerdict::kNone)
     return "Nothing is missing that this recording could show." + simulator;
-  const std::vector<std::string> causes = names(f, true);
-  std::string text = causes.empty() ? "" : enumerated(shortened(causes)) + " (established)";
-  const std::string open = open_causes(f);
-  if (text.empty() && open.empty() && d.stopped)
+  std::string text = established_causes(f), then = open_causes(f);
+  if (text.empty() && then.empty() && d.stopped)
     return "Not told: the search was stopped before its end." + simulator;
-  text += (text.empty() || open.empty() ? "" : "; ") + open + outside_words(f);
+  if (rests_on_open_cause(d)) std::swap(text, then);
+  text += (text.empty() || then.empty() ? "" : "; ") + then + outside_words(f);
   return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text) + simulator;
 }
 

@@ -109,6 +109,11 @@ std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
   if (causes.empty())
     return fmt::format("Adding {} helps, but the cause stays open: with {} {}.", fmt::join(open, ", then "),
                        with, fall);
+  if (rests_on_open_cause(d))
+    return fmt::format(
+        "Adding {} helps, but {} cause stays open; with {} in the model, {} {} established: with all {}.",
+        fmt::join(open, ", then "), open.size() > 1 ? "their" : "its", open.size() > 1 ? "them" : "it",
+        fmt::join(causes, ", then "), causes.size() > 1 ? "are" : "is", fall);
   std::string text = fmt::format("The model lacks {}", fmt::join(causes, ", then "));
   if (!open.empty())
     text += fmt::format("; {} {} as well, though {} cause stays open", fmt::join(open, " and "),
@@ -165,6 +170,11 @@ std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
 }
 
 }  // namespace
+
+bool rests_on_open_cause(const Diagnosis& d) {
+  return !d.added.empty() && !d.added.front().established &&
+         std::any_of(d.added.begin(), d.added.end(), [](const AddedEffect& a) { return a.established; });
+}
 
 std::string name_of(const AddedEffect& added, const Diagnosis& d, Coordinates coordinates) {
   for (const Turned& t : kTurned)

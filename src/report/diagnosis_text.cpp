@@ -142,7 +142,11 @@ std::string added_table(const DiagnosisResult& r) {
   std::string text;
   const std::vector<AddedEffect>& added = r.diagnosis.added;
   for (const AddedEffect& a : added) {
-    std::string effect = fmt::format("`{}` ({})", a.effect, a.established ? "established" : "cause open");
+    const bool on_top = a.established && !added.front().established;
+    std::string effect = fmt::format("`{}` ({})", a.effect,
+                                     on_top          ? "established with `" + added.front().effect + "`"
+                                     : a.established ? "established"
+                                                     : "cause open");
     if (const AddedEffect* other = with_these_numbers(a, added)) {
       text += fmt::format("| {} | | within `{}` |\n", effect, other->effect);
       continue;

@@ -47,7 +47,9 @@ TEST(OpenCauses, AnAmountWhoseIntervalHoldsZeroMayBeNone) {
   EXPECT_EQ(first.verdict, DiagnosisVerdict::kHelps);
   EXPECT_FALSE(first.added[0].established);
   EXPECT_TRUE(first.added[1].established);
-  EXPECT_THAT(first.sentence, HasSubstr("its cause stays open"));
+  EXPECT_THAT(first.sentence,
+              HasSubstr("Adding load unbalance helps, but its cause stays open; with it in the model, motor "
+                        "Coulomb friction is established: with all "));
   const Diagnosis second = judged(of_two(kFriction, perhaps));
   EXPECT_EQ(second.verdict, DiagnosisVerdict::kEffect);
   EXPECT_TRUE(second.added[0].established);

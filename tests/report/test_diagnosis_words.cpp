@@ -31,5 +31,17 @@ TEST(DiagnosisWords, RecordingsThatDisagreeByMoreThanAModelLeavesAreNoFloor) {
   EXPECT_THAT(internal::report::budget_table(r), Not(HasSubstr("no model gets below")));
 }
 
+TEST(DiagnosisWords, ACauseOnTopOfAnOpenOneIsEstablishedWithThat) {
+  DiagnosisResult r = with_friction();
+  AddedEffect friction, delay;
+  friction.effect = "motor_coulomb_friction", friction.parameters = {{"level_nm", "N m", 0.1}};
+  delay.effect = "input_delay", delay.parameters = {{"delay_s", "s", 0.01}};
+  delay.established = true;
+  r.diagnosis.added = {friction, delay};
+  const std::string text = internal::report::diagnosis_text(r);
+  EXPECT_THAT(text, HasSubstr("| `motor_coulomb_friction` (cause open) |"));
+  EXPECT_THAT(text, HasSubstr("| `input_delay` (established with `motor_coulomb_friction`) |"));
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -1,0 +1,44 @@
+// What the card says of the cause, of the trust and of the controller.
+#include <gmock/gmock.h>
+
+#include "gapscope/diagnosis/answer.h"
+#include "gapscope/diagnosis/card.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// 0.1 N m, of which friction takes 0.06 and a delay 0.02 more.
+Diagnosis of_friction_and_delay(bool first, bool second) {
+  Diagnosis d;
+  d.verdict = first ? DiagnosisVerdict::kEffect : DiagnosisVerdict::kHelps;
+  d.effects = {"motor_coulomb_friction", "input_delay"};
+  d.added = {
+      {"motor_coulomb_friction", first, {"motor_coulomb_friction", "quadratic_drag"}, kNaN, {}, 0.6, {}, 0.04},
+      {"input_delay", second, {"input_delay"}, kNaN, {}, 0.5, {}, 0.02}};
+  d.mismatch.before = 3e-3, d.mismatch.after = 1e-3, d.mismatch.floor = 1e-4;
+  d.mismatch.before_torque = 0.1, d.mismatch.after_torque = 0.02, d.mismatch.input_torque = 0.5;
+  return d;
+}
+
+Card card_of(const Diagnosis& d) {
+  CardFacts f;
+  f.diagnosis = &d;
+  return gapscope::card_of(f);
+}
+
+TEST(CardCause, ALaterOneIsEstablishedWithAnOpenFirstOneInTheModel) {
+  EXPECT_EQ(card_of(of_friction_and_delay(false, true)).cause,
+            "Motor Coulomb friction helps, its cause is open: it may as well be quadratic drag; with it in the "
+            "model, input delay is established.");
+  EXPECT_EQ(card_of(of_friction_and_delay(true, true)).cause,
+            "Motor Coulomb friction and input delay (established).");
+  EXPECT_EQ(card_of(of_friction_and_delay(true, false)).cause,
+            "Motor Coulomb friction (established); input delay helps, its cause is open.");
+}
+
+}  // namespace
+}  // namespace gapscope
