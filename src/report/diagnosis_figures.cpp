@@ -153,7 +153,9 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   figure.reading =
       fmt::format("{} comes first of {} candidates", readable(ranking.front().effect), ranking.size());
   if (ranking.size() > 1) figure.reading += fmt::format(", {} second", readable(ranking[1].effect));
-  figure.reading += budget_decides(r.diagnosis) ? ", each alone; the error budget decides." : ".";
+  figure.reading += budget_decides(r.diagnosis) ? ", each alone; the error budget decides, for " +
+                                                      readable(r.diagnosis.effects.front()) + "."
+                                                : ".";
   return figure;
 }
 

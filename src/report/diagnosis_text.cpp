@@ -80,11 +80,15 @@ std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
 }
 
 /// What the probabilities are worth here.
-std::string probability_words(const Diagnosis& d) {
+std::string probability_words(const DiagnosisResult& r) {
+  const Diagnosis& d = r.diagnosis;
   if (!std::isfinite(d.outside_probability)) return "";
   if (budget_decides(d))
-    return " What each does alone, to the free run, did not decide here: the error budget did, and no "
-           "probabilities were learned for it.";
+    return fmt::format(
+        " What each does alone, to the free run, did not decide here: the error budget did, by what is left of "
+        "the {} once each is refitted with all before it. It begins with `{}`; no probabilities were learned "
+        "for it.",
+        r.coordinates.torque_word(), d.effects.front());
   if (d.mismatch.floor_from == FloorSource::kRepeatability)
     return " It is judged by its repeatability floor, for which no probabilities were learned: the verdict "
            "rests on the held-out errors alone.";
@@ -94,6 +98,12 @@ std::string probability_words(const Diagnosis& d) {
       d.outside_probability);
 }
 
+/// With the card's choice marked.
+std::string remark_of(const RankedEffect& e, const Diagnosis& d) {
+  if (!contains(d.effects, e.effect)) return e.remark;
+  return "**in the card**" + (e.remark.empty() ? "" : "; " + e.remark);
+}
+
 std::string ranking_table(const DiagnosisResult& r) {
   if (r.diagnosis.ranking.empty()) return "";
   const bool learned =
@@ -101,7 +111,7 @@ std::string ranking_table(const DiagnosisResult& r) {
   std::string text =
       "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive; "
       "`gapscope effects --laws` has the law of each and what its parameters mean." +
-      probability_words(r.diagnosis) +
+      probability_words(r) +
       fmt::format(
           "\n\n| effect |{} explained share | error removed | windows better | parameters | remark "
           "|\n|---|{}---|---|---|---|---|\n",
@@ -112,7 +122,7 @@ std::string ranking_table(const DiagnosisResult& r) {
                         : std::isfinite(e.probability) ? fmt::format(" {:.2f} |", e.probability)
                                                        : " – |",
                         rounded(e.rel), rounded(e.shrink), rounded(e.windows_better),
-                        parameters_of(e, r.coordinates), e.remark);
+                        parameters_of(e, r.coordinates), remark_of(e, r.diagnosis));
   return text;
 }
 

@@ -43,5 +43,18 @@ TEST(DiagnosisWords, ACauseOnTopOfAnOpenOneIsEstablishedWithThat) {
   EXPECT_THAT(text, HasSubstr("| `input_delay` (established with `motor_coulomb_friction`) |"));
 }
 
+TEST(DiagnosisWords, TheRankingSaysWhichRowTheCardTookAndWhy) {
+  DiagnosisResult r = with_friction();
+  r.diagnosis.outside_probability = 0.5;
+  r.diagnosis.ranking.resize(2);
+  r.diagnosis.ranking[0].effect = "backlash";
+  r.diagnosis.ranking[1].effect = "motor_coulomb_friction", r.diagnosis.ranking[1].remark = "at a bound";
+  const std::string text = internal::report::diagnosis_text(r);
+  EXPECT_THAT(text, HasSubstr("the error budget did, by what is left of the torque"));
+  EXPECT_THAT(text, HasSubstr("It begins with `motor_coulomb_friction`"));
+  EXPECT_THAT(text, HasSubstr(" | **in the card**; at a bound |"));
+  EXPECT_THAT(internal::report::diagnosis_ranking(r).reading, HasSubstr("decides, for motor Coulomb friction"));
+}
+
 }  // namespace
 }  // namespace gapscope
