@@ -66,9 +66,10 @@ std::string gap_verdict(const CardFacts& f) {
 
 std::string gap_line(const CardFacts& f) {
   if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
-  const bool known = f.answer->trust != AnswerTrust::kNone;
-  return as_sentence(known ? f.answer->sentence : without_asides(f.answer->sentence)) +
-         fmt::format(" Trust: {}.", to_string(f.answer->trust)) + gap_verdict(f);
+  const bool known = f.answer->trust != AnswerTrust::kNone, measured = !known && f.lost_motion;
+  return as_sentence(known || measured ? f.answer->sentence : without_asides(f.answer->sentence)) +
+         (measured ? " Trust in a gap: " : " Trust: ") + to_string(f.answer->trust) +
+         (measured ? "; the lost motion is measured." : ".") + gap_verdict(f);
 }
 
 std::string torque_verdict(const CardFacts& f, const Card& card) {

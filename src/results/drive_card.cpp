@@ -22,6 +22,7 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
     facts.answer = run->answer ? &*run->answer : nullptr;
     facts.reference = run->reference ? &*run->reference : nullptr;
     facts.coordinates = run->coordinates;
+    facts.lost_motion = run->model_free && run->model_free->lost_motion.read();
     if (run->answer) facts.tolerance = run->answer->tolerance;
     input = run->input;
   }

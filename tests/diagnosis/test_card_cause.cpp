@@ -40,5 +40,16 @@ TEST(CardCause, ALaterOneIsEstablishedWithAnOpenFirstOneInTheModel) {
             "Motor Coulomb friction (established); input delay helps, its cause is open.");
 }
 
+TEST(CardTrust, IsInAGapWhereLostMotionIsMeasured) {
+  Answer answer;
+  answer.sentence = "The lost motion at zero torque is 30 mrad (95 %: 17 to 43); the gap is at most 43 mrad.";
+  CardFacts f;
+  f.answer = &answer, f.lost_motion = true;
+  EXPECT_EQ(gapscope::card_of(f).gap,
+            answer.sentence + " Trust in a gap: none; the lost motion is measured.");
+  f.lost_motion = false;
+  EXPECT_THAT(gapscope::card_of(f).gap, HasSubstr("43 mrad. Trust: none."));
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -57,6 +57,7 @@ struct CardFacts {
   const SimulatorComparison* simulated = nullptr;  ///< the user's simulator, where its answer was given
   Coordinates coordinates;
   Tolerance tolerance;
+  bool lost_motion = false;       ///< that of the loop is read: measured, whatever it means
   bool constant_guessed = false;  ///< torque_constant is a guess, and the torques rest on it
 };
 
