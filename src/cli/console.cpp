@@ -92,12 +92,6 @@ std::string validation_line(const RunResult& r) {
                      r.coordinates.thousandths(s.floor));
 }
 
-/// What users of a drive see that holds a position.
-std::string closed_loop_line(const ClosedLoop& c, Coordinates coordinates) {
-  return fmt::format("{} rms of the position error under the controller, {} with what was added",
-                     coordinates.thousandths(c.before), coordinates.thousandths(c.after));
-}
-
 /// What everybody wants to know, last: it is what stays in view.
 void print_card(const Card& card) {
   for (const CardLine& l : card.lines()) {
@@ -144,7 +138,6 @@ void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {
   line("report", folder);
   line("verdict", to_string(d.verdict));
   for (const std::string& effect : d.effects) line("effect", effect);
-  if (d.closed_loop) line("closed loop", closed_loop_line(*d.closed_loop, r.coordinates));
   if (r.simulated) line("simulator", r.simulated->sentence);
   if (r.answer) print_card(r.answer->card);
 }

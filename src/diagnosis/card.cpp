@@ -141,12 +141,24 @@ std::string floor_words(const CardFacts& f, const Card& card) {
                      SharedUnit(1.0, "").number(m.before / m.floor), floor_name(m.floor_from));
 }
 
+/// " Under its controller the model is 392 mrad off; with what was added it is 56 mrad off (rms of ...)."
+std::string closed_loop_words(const CardFacts& f) {
+  if (!f.diagnosis->closed_loop) return "";
+  const ClosedLoop& c = *f.diagnosis->closed_loop;
+  const SharedUnit position(std::isfinite(c.before) ? c.before : c.after, f.coordinates.position_unit());
+  const auto is = [&](double error) {
+    return std::isfinite(error) ? "is " + position(error) + " off" : std::string("runs away");
+  };
+  return fmt::format(" Under its controller the model {}{} (rms of the position).", is(c.before),
+                     is_added(*f.diagnosis) ? "; with what was added it " + is(c.after) : "");
+}
+
 std::string mismatch_line(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr) return fitted_line(f) + torque_verdict(f, card);
   const bool torque = std::isfinite(card.torque);
   return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f, card) + "." +
          (torque && f.constant_guessed ? " Its unit rests on torque_constant, a guess." : "") +
-         torque_verdict(f, card);
+         closed_loop_words(f) + torque_verdict(f, card);
 }
 
 std::string place_line(const CardFacts& f) {

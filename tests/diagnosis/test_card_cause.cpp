@@ -51,5 +51,17 @@ TEST(CardTrust, IsInAGapWhereLostMotionIsMeasured) {
   EXPECT_THAT(gapscope::card_of(f).gap, HasSubstr("43 mrad. Trust: none."));
 }
 
+TEST(CardMismatch, TellsTheErrorUnderTheController) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  EXPECT_THAT(card_of(d).mismatch, Not(HasSubstr("controller")));
+  d.closed_loop = ClosedLoop{0.392, 0.0561, {}};
+  EXPECT_THAT(card_of(d).mismatch, HasSubstr(" Under its controller the model is 392 mrad off; with what was "
+                                             "added it is 56.1 mrad off (rms of the position)."));
+  d.closed_loop->before = kNaN;
+  EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model runs away; with what was added it is 56.1 mrad off"));
+  d.closed_loop->before = 0.392, d.added.clear();
+  EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model is 392 mrad off (rms of the position)."));
+}
+
 }  // namespace
 }  // namespace gapscope
