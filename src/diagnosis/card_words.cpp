@@ -57,18 +57,30 @@ std::string as_sentence(std::string text) {
   return text;
 }
 
+namespace {
+
+/// Who tells the gap without a model. An encoder on the load shows none, so that `detect` would send the
+/// reader back.
+std::string told_without_model(const Diagnosis& d) {
+  const bool on_load = !d.traces.empty() && d.traces.front().encoder == EncoderSide::kLoad;
+  return on_load ? "that takes the motor's position, which is not recorded." : "`gapscope detect CONFIG`.";
+}
+
+}  // namespace
+
 std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinates) {
   constexpr const char* kElsewhere = "Not estimated here; told by `gapscope run CONFIG`.";
   if (diagnosis == nullptr || !diagnosis->model_gap) return kElsewhere;
   switch (diagnosis->model_gap->origin) {
     case GapOrigin::kNone:
-      return "The model is one body and has none; whether the recording shows one: `gapscope detect CONFIG`.";
+      return "The model is one body and has none; whether the recording shows one: " +
+             told_without_model(*diagnosis);
     case GapOrigin::kGiven:
       return "The model takes it as known, " + coordinates.thousandths(diagnosis->model_gap->value) +
-             "; an estimate: `gapscope detect CONFIG`.";
+             "; an estimate: " + told_without_model(*diagnosis);
     case GapOrigin::kEstimated:
-      return "The fitted model does not follow the recordings well enough to tell it; without a model: "
-             "`gapscope detect CONFIG`.";
+      return "The fitted model does not follow the recordings well enough to tell it; without a model: " +
+             told_without_model(*diagnosis);
   }
   return kElsewhere;
 }

@@ -16,9 +16,15 @@ Diagnosis of_friction_and_delay(bool first, bool second) {
   Diagnosis d;
   d.verdict = first ? DiagnosisVerdict::kEffect : DiagnosisVerdict::kHelps;
   d.effects = {"motor_coulomb_friction", "input_delay"};
-  d.added = {
-      {"motor_coulomb_friction", first, {"motor_coulomb_friction", "quadratic_drag"}, kNaN, {}, 0.6, {}, 0.04},
-      {"input_delay", second, {"input_delay"}, kNaN, {}, 0.5, {}, 0.02}};
+  d.added = {{"motor_coulomb_friction",
+              first,
+              {"motor_coulomb_friction", "quadratic_drag"},
+              kNaN,
+              {},
+              0.6,
+              {},
+              0.04},
+             {"input_delay", second, {"input_delay"}, kNaN, {}, 0.5, {}, 0.02}};
   d.mismatch.before = 3e-3, d.mismatch.after = 1e-3, d.mismatch.floor = 1e-4;
   d.mismatch.before_torque = 0.1, d.mismatch.after_torque = 0.02, d.mismatch.input_torque = 0.5;
   return d;
@@ -31,9 +37,10 @@ Card card_of(const Diagnosis& d) {
 }
 
 TEST(CardCause, ALaterOneIsEstablishedWithAnOpenFirstOneInTheModel) {
-  EXPECT_EQ(card_of(of_friction_and_delay(false, true)).cause,
-            "Motor Coulomb friction helps, its cause is open: it may as well be quadratic drag; with it in the "
-            "model, input delay is established.");
+  EXPECT_EQ(
+      card_of(of_friction_and_delay(false, true)).cause,
+      "Motor Coulomb friction helps, its cause is open: it may as well be quadratic drag; with it in the "
+      "model, input delay is established.");
   EXPECT_EQ(card_of(of_friction_and_delay(true, true)).cause,
             "Motor Coulomb friction and input delay (established).");
   EXPECT_EQ(card_of(of_friction_and_delay(true, false)).cause,
@@ -61,6 +68,19 @@ TEST(CardMismatch, TellsTheErrorUnderTheController) {
   EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model runs away; with what was added it is 56.1 mrad off"));
   d.closed_loop->before = 0.392, d.added.clear();
   EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model is 392 mrad off (rms of the position)."));
+}
+
+TEST(CardGap, OfAnEncoderOnTheLoadIsNotSentToTheDetector) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.model_gap = ModelGap();
+  d.traces.resize(1);
+  EXPECT_THAT(card_of(d).gap, HasSubstr("`gapscope detect CONFIG`"));
+  d.traces.front().encoder = EncoderSide::kLoad;
+  for (const GapOrigin origin : {GapOrigin::kNone, GapOrigin::kGiven, GapOrigin::kEstimated}) {
+    d.model_gap->origin = origin;
+    EXPECT_THAT(card_of(d).gap, HasSubstr(": that takes the motor's position, which is not recorded."));
+    EXPECT_THAT(card_of(d).gap, Not(HasSubstr("gapscope detect")));
+  }
 }
 
 }  // namespace
