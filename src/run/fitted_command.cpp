@@ -34,6 +34,17 @@ bool is_determined(const FitSummary& found) {
                       [](const FittedParameter& p) { return is_of_controller(p) && !p.identifiable; });
 }
 
+/// "controller.position.gain 1.14": as fitted.yaml has the numbers that were estimated.
+std::string numbers_written(const ControllerModel& model) {
+  DriveController controller = model.at_start();
+  std::vector<std::string> numbers;
+  for (int i = 0; i < kControllerNumberCount; ++i)
+    if (model.numbers[static_cast<std::size_t>(i)].estimate)
+      numbers.push_back(
+          fmt::format("{} {:.4g}", kControllerNumbers[i].key, controller_number(controller, i)));
+  return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
 /// What the fit says of the controller's numbers: with which others they change.
 std::string confounded_with(const FitSummary& found, Coordinates coordinates) {
   std::string said;
@@ -132,9 +143,10 @@ SettledController settle_controller(const Configuration& c, std::vector<Recordin
             "the recordings do not determine the controller that was to be estimated, and the diagnosis "
             "takes as known what a fit of the model as it is came to, all torques in proportion: " +
                 numbers + confounded_with(found, c.coordinates)};
-  return {controller, starting_at(*c.controller, controller),
-          "the controller is estimated anew with each step of the diagnosis; the model as it is takes " +
-              numbers};
+  return {
+      controller, starting_at(*c.controller, controller),
+      "the controller is estimated anew with each step of the diagnosis; fitted with the model as it is: " +
+          numbers};
 }
 
 std::string controller_found(const Configuration& c, const Diagnosis& d,
@@ -145,7 +157,10 @@ std::string controller_found(const Configuration& c, const Diagnosis& d,
   if (found.status == FitStatus::kFailed) return {};
   const std::string when = d.effects.empty() ? "the controller, as nothing was added: "
                                              : "the controller with what the diagnosis has added: ";
-  return when + numbers_told(found) + (is_determined(found) ? "" : confounded_with(found, c.coordinates)) +
+  return when + numbers_told(found) +
+         "; these are of a last fit, which tells their intervals, and `fitted.yaml` has " +
+         numbers_written(*d.fitted.controller) + " of the search" +
+         (is_determined(found) ? "" : confounded_with(found, c.coordinates)) +
          (lacks_something(found) ? confounded_with_what_is_missing(c, d, fitted) : "");
 }
 

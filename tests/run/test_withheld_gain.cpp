@@ -64,6 +64,8 @@ TEST(WithheldGain, IsFoundWithWhatTheDiagnosisHasAdded) {
   const std::string said = said_of_gain({"motor_coulomb_friction", "quadratic_drag"});
   EXPECT_THAT(said, HasSubstr("with what the diagnosis has added"));
   EXPECT_THAT(said, Not(HasSubstr("confounded")));
+  EXPECT_THAT(said, HasSubstr("; these are of a last fit, which tells their intervals, and `fitted.yaml` has "
+                              "controller.velocity.gain "));
   double gain = 0.0;
   const std::string key = "controller.velocity.gain ";
   ASSERT_NE(said.find(key), std::string::npos) << said;
