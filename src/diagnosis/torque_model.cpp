@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "diagnosis/effect_starts.h"
 
@@ -55,6 +56,16 @@ void put_into(ReferenceModel& model, ModelEffect effect) {
   model.effects.push_back(effect);
 }
 
+/// The balance does not bound static friction, which would drive the motor below a ratio of -1: it gets the
+/// least that a fit may come to.
+void bound_static_friction(ReferenceModel& model) {
+  for (ModelEffect& effect : model.effects) {
+    if (effect.entry->name != std::string_view("stribeck_friction")) continue;
+    ParameterSetting& ratio = effect.parameters[1];
+    if (ratio.estimate) ratio.value = std::max(ratio.value, effect.entry->parameters[1].low);
+  }
+}
+
 }  // namespace
 
 view::Drive drive_of(const view::Model& terms, const view::Budget& budget, const ReferenceModel& model) {
@@ -84,6 +95,7 @@ ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
     put_into(model, searched_effect(*find_effect(term.law->effect),
                                     term.law->values(term.theta, term.shape, drive), budget.scales.turns));
   }
+  bound_static_friction(model);
   return model;
 }
 

@@ -1,0 +1,38 @@
+// The model that takes the terms of the torque balance.
+#include <gtest/gtest.h>
+
+#include "diagnosis/torque_model.h"
+
+namespace gapscope {
+namespace {
+
+namespace view = internal::torque_view;
+
+view::Term term(const char* name, std::initializer_list<double> theta, double shape = kNaN) {
+  view::Term t{&view::law(name), shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(theta.size()))};
+  std::copy(theta.begin(), theta.end(), t.theta.begin());
+  return t;
+}
+
+/// By one body: 0.1 N m of Coulomb friction, and at low speed so much more.
+ReferenceModel with_dip(double more) {
+  view::Budget budget;
+  budget.nominal = view::nominal_model();
+  budget.addable = {term("inertia", {1e-3}), term("viscous", {1e-2}), term("motor_coulomb_friction", {0.1}),
+                    term("stribeck_friction", {more}, 0.5)};
+  return internal::diagnosis::with_terms({}, budget);
+}
+
+TEST(TorqueModel, FrictionAtRestDoesNotDriveTheMotor) {
+  for (const auto& [more, ratio] : {std::pair{0.05, 0.5}, {-0.05, -0.5}, {-0.12, -0.9}}) {
+    const ReferenceModel model = with_dip(more);
+    ASSERT_EQ(model.effects.size(), 1u);
+    const ModelEffect& stribeck = model.effects.front();
+    ASSERT_EQ(std::string(stribeck.entry->name), "stribeck_friction");
+    EXPECT_DOUBLE_EQ(stribeck.parameters[0].value, 0.1);
+    EXPECT_DOUBLE_EQ(stribeck.parameters[1].value, ratio) << "the least that a fit may come to is -0.9";
+  }
+}
+
+}  // namespace
+}  // namespace gapscope
