@@ -266,7 +266,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
     tell_detectable(study, found, diagnosis);
   if (!ladder.added.empty() && diagnosis.mismatch.after > diagnosis.mismatch.before)
     diagnosis.warnings.push_back(
-        "with what was added the residual torque falls, but the error in x1 grows: a model whose inertia is "
+        "with what was added the missing torque falls, but the error in x1 grows: a model whose inertia is "
         "too "
         "large hides in x1 what it lacks.");
   if (diagnosis.stopped)

@@ -12,7 +12,7 @@ namespace gapscope::internal::diagnosis {
 struct Harmonic {
   double periods = kNaN;  ///< N [1/rad · rad = cycles per turn]
   double sine = 0.0, cosine = 0.0;
-  double explained = 0.0;  ///< share of the squared residual torque
+  double explained = 0.0;  ///< share of the squared correcting torque
 };
 
 /// The normal equations of a torque that is regressed on the sine and the cosine of one line.
@@ -29,8 +29,8 @@ struct LineSums {
   Harmonic line(double periods) const;
 };
 
-/// The residual torque over the motor angle, line by line: regression on a grid of N from one cycle over the
-/// travel to hundreds, in rising order.
+/// The correcting torque over the motor angle, line by line: regression on a grid of N from one cycle over
+/// the travel to hundreds, in rising order.
 /// @param torque one series per recording [N m]
 /// @param torque_constant multiplies u where the line follows the drive's torque; 0: it does not
 std::vector<Harmonic> angle_spectrum(std::span<const std::vector<double>> torque,

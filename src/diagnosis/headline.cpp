@@ -27,7 +27,7 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
   if (!place.phase) return "";
   const auto phase = static_cast<std::size_t>(*place.phase);
   if (!denser_than_chance(place.mode[phase])) return "";
-  return fmt::format("{} ({:.0f} % of the squared residual {} in {:.0f} % of the time)", kWhere[phase],
+  return fmt::format("{} ({:.0f} % of the squared correcting {} in {:.0f} % of the time)", kWhere[phase],
                      100.0 * place.mode[phase].share, coordinates.torque_word(),
                      100.0 * place.mode[phase].expected);
 }

@@ -8,11 +8,11 @@
 
 namespace gapscope::internal::diagnosis {
 
-/// How far a pattern orders a residual torque.
+/// How far a pattern orders a correcting torque.
 struct PatternStrength {
   ResidualPattern pattern = ResidualPattern::kMode;
   double strength =
-      0.0;  ///< 0: none; 1: all of the residual torque. Share of its square that means over the
+      0.0;  ///< 0: none; 1: all of the correcting torque. Share of its square that means over the
             ///< quantity explain; for time and mode, what is elsewhere than it would be at random
 };
 
@@ -23,7 +23,7 @@ double cycles_of(const ModelEffect& effect);
 /// is but one.
 std::optional<ContactPhase> densest_phase(const std::vector<MapShare>& mode);
 
-/// What the residual torque follows: that of an effect that was found, always, then the strongest pattern.
+/// What the correcting torque follows: that of an effect that was found, always, then the strongest pattern.
 std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength>& patterns,
                                                const ModelEffect* effect);
 

@@ -50,7 +50,7 @@ bool play_slow(const PlantModel<double>& model, const DriveState<double>& start,
                              });
 }
 
-/// Residual torque of an observer's innovation.
+/// Correcting torque of an observer's innovation.
 class ResidualTorque {
  public:
   ResidualTorque(const PlantModel<double>& model, const reference::ObserverGains& gains)

@@ -33,7 +33,7 @@ struct Playback {
   std::vector<double> innovation;  ///< at the gain that the model was fitted with [rad]
   std::vector<double> free;        ///< error of free runs restarted from that observer's state [rad]
   std::vector<double> slow, fast;  ///< innovations at the slow and the fast observer [rad]
-  std::vector<double> torque;      ///< residual torque from the fast ones [N m]
+  std::vector<double> torque;      ///< correcting torque from the fast ones [N m]
   std::vector<double> ripple;      ///< the same from the ripple observer
   std::vector<double> w1;          ///< of the fast observer [rad/s]
   std::vector<Mode> mode;

@@ -27,10 +27,10 @@ class HeldOutChange {
   /// The change without what the model's free numbers would say of it: δ − D (D⁺ δ) of the innovations, D
   /// their differences by the numbers, and the same numbers' part of the free runs.
   HeldOutErrors beyond_numbers(const HeldOutErrors& change) const;
-  /// By how much the residual torque of another model differs, a series for each recording [N m]; empty where
-  /// its motion diverges.
+  /// By how much the correcting torque of another model differs, a series for each recording [N m]; empty
+  /// where its motion diverges.
   std::vector<std::vector<double>> torque_by(const ReferenceModel& other) const;
-  /// The strongest lines of the residual torque less so much, as the search for periodic effects begins.
+  /// The strongest lines of the correcting torque less so much, as the search for periodic effects begins.
   /// @param torque_constant see angle_spectrum()
   std::vector<Harmonic> lines_with(const std::vector<std::vector<double>>& change, double factor,
                                    double torque_constant) const;
@@ -48,7 +48,7 @@ class HeldOutChange {
   const ReferenceModel& model_;
   std::vector<reference::RecordingStart> starts_;
   HeldOutErrors errors_;
-  std::vector<Playback> played_;             ///< with the residual torque
+  std::vector<Playback> played_;             ///< with the correcting torque
   Eigen::MatrixXd innovation_by_, free_by_;  // (samples × numbers)
 };
 

@@ -131,7 +131,7 @@ double at_sample(const std::string& variable, const MotorTrace& t, const Playbac
   return std::isnan(period) ? t.x1[i] : t.x1[i] - period * std::floor(t.x1[i] / period);
 }
 
-/// Means of the residual torque over bins of the variable, of each direction.
+/// Means of the correcting torque over bins of the variable, of each direction.
 std::vector<ResidualBin> residual_of(const Study& study, const LawSearch& found, Interval range,
                                      const std::vector<Playback>& before,
                                      const std::vector<Playback>& after) {

@@ -22,7 +22,7 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
 /// mean square, in which the worst ones count, and beyond them as far as that of any effect.
 Interval law_shrink_interval(const Study& study, const ScoredModel& before, const ScoredModel& after);
 
-/// Restarted free runs, innovations at both gains and the residual torque, side by side.
+/// Restarted free runs, innovations at both gains and the correcting torque, side by side.
 std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<Playback>& before,
                                          const std::vector<Playback>& after);
 

@@ -36,7 +36,7 @@ struct SearchEffort {
   /// resort.
   std::size_t leaders = 5;
   double far_better = 0.5;   ///< of the mean square: another minimum, or an effect that explains much
-  std::size_t lines = 3;     ///< of the residual torque that periodic effects begin with and that are told
+  std::size_t lines = 3;     ///< of the correcting torque that periodic effects begin with and that are told
   std::size_t branches = 2;  ///< first steps that are followed where the best is unsure
   std::size_t most_effects = 4;
   /// Work after which no further step is begun [nominal fits]: the last right step of nine pairs began at 8
@@ -45,7 +45,7 @@ struct SearchEffort {
   double most_nominal_fits = 20.0;
 };
 
-/// Lines of the residual torque over the motor angle. One cycle over the travel is as wide as a line.
+/// Lines of the correcting torque over the motor angle. One cycle over the travel is as wide as a line.
 struct LineSearch {
   std::size_t bins = 2048;   ///< of the motor angle
   double step = 0.2;         ///< between lines that are tried [cycles over the travel]; as many as bins
@@ -58,7 +58,7 @@ inline constexpr LineSearch kLineSearch;
 /// When a thing is worth a word, beside the rule by which effects are named. The two of other recordings were
 /// set on the seeds 860001 to 860140 of study_diagnosis (known).
 struct Telling {
-  double strength = 0.25;    ///< share of the residual torque that a pattern explains to be named
+  double strength = 0.25;    ///< share of the correcting torque that a pattern explains to be named
   double dense = 1.5;        ///< times what an error without a place would have in a phase of the contact
   double most_left = 0.25;   ///< of the motion: 0.02 on drives, 0.5 and more where u moves nothing
   double drift = 1.6;        ///< growth of the difference from one period to two that is a drift
@@ -68,7 +68,7 @@ struct Telling {
   double on_grid = 0.1;      ///< mean distance from whole quanta of samples that are counted in it [quanta]
   double other_recording = 4.0;  ///< times that another recording shows more or less of what is missing
   double floor_spread = 0.5;     ///< by which recordings of a drive differ near the floor [floor]
-  int fewest_in_bin = 20;        ///< samples of a residual torque whose mean is drawn
+  int fewest_in_bin = 20;        ///< samples of a correcting torque whose mean is drawn
   double inflation = 2.0;  ///< of a torque's interval: blocks of one recording agree too well for the next
 };
 inline constexpr Telling kTelling;

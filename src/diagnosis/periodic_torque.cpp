@@ -11,7 +11,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// What the observer makes of a torque: the double pole that its residual torque answers with, of uneven
+/// What the observer makes of a torque: the double pole that its correcting torque answers with, of uneven
 /// sampling at the mean step.
 class Passed {
  public:

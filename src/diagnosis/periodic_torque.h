@@ -8,8 +8,8 @@
 
 namespace gapscope::internal::diagnosis {
 
-/// The lines of a model's residual torque over the motor angle: those whose period was given, and those that
-/// stand out where the model was fitted and hold on what is held out.
+/// The lines of a model's correcting torque over the motor angle: those whose period was given, and those
+/// that stand out where the model was fitted and hold on what is held out.
 /// @param held_out playbacks of the model
 std::vector<PeriodicTorque> periodic_torques(const Study& study, const ReferenceModel& model,
                                              const std::vector<Playback>& held_out);
@@ -20,13 +20,13 @@ std::vector<double> given_periods(const DiagnosisKnowledge& known);
 /// Torque series of playbacks from the ripple observer, spikes cut.
 std::vector<std::vector<double>> ripples_of(const std::vector<Playback>& playbacks);
 
-/// A line of the residual torque that stands out.
+/// A line of the correcting torque that stands out.
 struct TorqueLine {
   Harmonic line;
   double over = 0.0;  ///< its share of the squared torque over the median of its neighbours'
 };
 
-/// Lines of the residual torque over the motor angle that stand out from what it shows at neighbouring
+/// Lines of the correcting torque over the motor angle that stand out from what it shows at neighbouring
 /// periods, strongest first; each is taken out before the next one is looked for. The period is a number like
 /// any other: it is searched for on a fine grid and then refined.
 /// @param torque see ripples_of()

@@ -21,8 +21,8 @@ namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
-/// Lines that periodic effects begin with: the strongest of the residual torque, one that stands out from its
-/// neighbours, and those whose period was given.
+/// Lines that periodic effects begin with: the strongest of the correcting torque, one that stands out from
+/// its neighbours, and those whose period was given.
 std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback>& playbacks,
                                   std::span<const TorqueLine> standing, double torque_constant) {
   std::vector<Harmonic> lines = strongest_lines(playbacks, study.train, torque_constant, study.effort.lines);
@@ -39,7 +39,7 @@ std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback
   return lines;
 }
 
-/// Starts of every candidate; those of periodic effects from the residual torque of the model so far.
+/// Starts of every candidate; those of periodic effects from the correcting torque of the model so far.
 std::vector<std::vector<EffectStart>> all_starts(const Study& study, const ScoredModel& before,
                                                  std::span<const EffectEntry* const> entries) {
   const std::vector<Playback> playbacks = play_on_train(study, before.fitted.model);

@@ -84,7 +84,7 @@ std::vector<MapShare> class_map(const std::vector<Sample>& samples, const std::v
   return map;
 }
 
-/// Power of the residual torque in octaves, by a plain Fourier sum over a thinned series of each recording;
+/// Power of the correcting torque in octaves, by a plain Fourier sum over a thinned series of each recording;
 /// of uneven sampling over its mean step.
 std::vector<MapShare> frequency_map(const std::vector<Playback>& playbacks, const HeldOut& held_out) {
   const std::vector<double> edges = {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
@@ -147,7 +147,7 @@ void fill_maps(const std::vector<Sample>& samples, Coordinates coordinates, Mism
       samples, [](const Sample& s) { return s.time; }, "s");
 }
 
-/// Share of the squared residual torque that its means over bins of a quantity explain.
+/// Share of the squared correcting torque that its means over bins of a quantity explain.
 double explained(const std::vector<Sample>& samples, const SampleValue& of, int bins) {
   double low = kInfinity, high = -kInfinity, square = 0.0;
   for (const Sample& s : samples) low = std::min(low, of(s)), high = std::max(high, of(s));

@@ -77,7 +77,7 @@ std::string effect_sentence(const Diagnosis& d) {
   return text + fmt::format(", to {}.", ratio(d.mismatch.remains, d));
 }
 
-/// "the residual force on held-out data falls from 9.66 N to 1.1 N (17.8 % to 2.0 % of what the input
+/// "the missing force on held-out data falls from 9.66 N to 1.1 N (17.8 % to 2.0 % of what the input
 /// brings)"
 std::string torque_fall(const Diagnosis& d, Coordinates coordinates) {
   const MismatchSize& m = d.mismatch;
@@ -85,7 +85,7 @@ std::string torque_fall(const Diagnosis& d, Coordinates coordinates) {
   const double both[] = {100.0 * m.before_torque / m.input_torque, 100.0 * m.after_torque / m.input_torque};
   const Percents percent(both);
   return fmt::format(
-      "the residual {} on held-out data falls from {} to {} ({} to {} of what the input brings)",
+      "the missing {} on held-out data falls from {} to {} ({} to {} of what the input brings)",
       coordinates.torque_word(), torque(m.before_torque), torque(m.after_torque), percent(both[0]),
       percent(both[1]));
 }

@@ -5,7 +5,7 @@
 
 #include "gapscope/results/diagnosis_result.h"
 
-/// The residual torque as figures show it: in the band in which the error budget judges it, at a scale that
+/// The correcting torque as figures show it: in the band in which the error budget judges it, at a scale that
 /// shows what it tells.
 namespace gapscope::internal::report {
 

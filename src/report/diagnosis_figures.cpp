@@ -58,7 +58,7 @@ Panel pair_panel(const DiagnosisResult& r, const MismatchTrace& t, const std::st
 Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::vector<MapShare>& map) {
   Panel panel;
   panel.title = title;
-  panel.x = {"share of the squared residual " + torque_word(r), "", {0.0, 1.0}, {}, {}};
+  panel.x = {"share of the squared correcting " + torque_word(r), "", {0.0, 1.0}, {}, {}};
   Series share{"share", {kVermillion, 4.0, {}}, {}, {}},
       expected{"if spread evenly", {kGrey, 4.0, {}}, {}, {}};
   share.joined = expected.joined = false;
@@ -109,8 +109,8 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
                                      {position_name(r) + " − free run", length_unit(r), {}, {}, {}},
                                      t->error_before, t->error_after));
   const ErrorBudget& budget = r.diagnosis.budget;
-  figure.panels.push_back(pair_panel(r, *t, "Residual " + torque_word(r) + band_words(budget, *t),
-                                     residual_axis(r), within_band(budget, *t, t->torque_before),
+  figure.panels.push_back(pair_panel(r, *t, "Correcting " + torque_word(r) + band_words(budget, *t),
+                                     correction_axis(r), within_band(budget, *t, t->torque_before),
                                      within_band(budget, *t, t->torque_after)));
   Panel input =
       time_panel("Held-out recording", {"displacement " + position_name(r), length_unit(r), {}, {}, {}}, *t);
@@ -179,7 +179,7 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
     if (!says_nothing(map)) figure.panels.push_back(map_panel(r, title, map));
   if (figure.panels.empty())
     return missing_figure(figure.file, figure.title, "the error is alike everywhere");
-  figure.reading = "The residual " + torque_word(r) + ": " + w.headline + ".";
+  figure.reading = "The correcting " + torque_word(r) + ": " + w.headline + ".";
   return figure;
 }
 

@@ -18,13 +18,19 @@
 namespace gapscope::internal::report {
 namespace {
 
+/// The stored name of a measure in words.
+std::string measure_name(const std::string& stored) {
+  constexpr std::string_view kStored = "residual ";
+  return stored.starts_with(kStored) ? "correcting " + stored.substr(kStored.size()) : stored;
+}
+
 std::string measures_table(const DiagnosisResult& r) {
   std::string text =
       "\n## How large, on held-out data\n\n| measure (median over windows) | nominal model | with all that "
       "was added | floor |\n|---|---|---|---|\n";
   for (const MismatchMeasure& m : r.diagnosis.measures) {
     const std::string unit = Coordinates().shown_unit(m.unit);  // that of this drive already
-    text += fmt::format("| {} | {} | {} | {} |\n", m.name, quantity(m.before, unit),
+    text += fmt::format("| {} | {} | {} | {} |\n", measure_name(m.name), quantity(m.before, unit),
                         quantity_beside(m.after, m.before, unit),
                         std::isfinite(m.floor) ? quantity_beside(m.floor, m.before, unit) : "–");
   }
@@ -85,7 +91,8 @@ std::string probability_words(const DiagnosisResult& r) {
   if (!std::isfinite(d.outside_probability)) return "";
   if (budget_decides(d))
     return fmt::format(
-        " What each does alone, to the free run, did not decide here: the error budget did, by what is left of "
+        " What each does alone, to the free run, did not decide here: the error budget did, by what is left "
+        "of "
         "the {} once each is refitted with all before it. It begins with `{}`; no probabilities were learned "
         "for it.",
         r.coordinates.torque_word(), d.effects.front());

@@ -20,9 +20,10 @@ inline std::string length_unit(const DiagnosisResult& r) { return r.coordinates.
 inline std::string torque_unit_of(const DiagnosisResult& r) { return r.coordinates.shown_unit("N m"); }
 inline std::string torque_word(const DiagnosisResult& r) { return r.coordinates.torque_word(); }
 /// Short where the unit needs a word: it stands beside a frame that is not high.
-inline Axis residual_axis(const DiagnosisResult& r) {
+inline Axis correction_axis(const DiagnosisResult& r) {
   const std::string note = torque_note(r.input);
-  return {note.empty() ? "residual " + torque_word(r) : "residual", torque_unit_of(r), {}, {}, {}, {}, note};
+  return {
+      note.empty() ? "correcting " + torque_word(r) : "correction", torque_unit_of(r), {}, {}, {}, {}, note};
 }
 inline bool reads_load(const DiagnosisResult& r) {
   return !r.diagnosis.traces.empty() && r.diagnosis.traces.front().encoder == EncoderSide::kLoad;

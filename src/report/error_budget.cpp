@@ -82,7 +82,7 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   const ErrorBudget& b = r.diagnosis.budget;
   FigureData figure;
   figure.file = "diagnosis_budget.png";
-  figure.title = "Error budget: residual " + torque_of(r) + " on held-out data";
+  figure.title = "Error budget: missing " + torque_of(r) + " on held-out data";
   if (!b.exists()) {
     figure = missing_figure(figure.file, figure.title, "the drive has a contact that opens and closes");
     figure.expected = false;
@@ -93,8 +93,8 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   const std::vector<Floor> floors = floors_of(b);
   const double end = longest_bar(b), reach = kFarFloor * end;
   const bool seen = !floors.empty() && floors.front().size <= reach;
-  panel.x = residual_axis(r);
-  panel.x.name = "residual " + torque_of(r);
+  panel.x = correction_axis(r);
+  panel.x.name = "missing " + torque_of(r);
   panel.x.range = {0.0, 1.02 * (seen ? std::max(end, floors.front().size) : end)};
   double row = 0.0;
   const auto add = [&](const std::string& text, double from, double to, double left, const Colour& colour) {
@@ -117,9 +117,13 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   figure.width = 2000.0;
   figure.panels.push_back(panel);
   figure.reading =
-      fmt::format("The residual {} falls from {} to {}, {} of what the input brings.", torque_of(r),
+      fmt::format("The missing {} falls from {} to {}, {} of what the input brings", torque_of(r),
                   quantity(b.nominal, budget_unit(r)), quantity(b.remains, budget_unit(r)),
                   percents_of(b)(percent_of_input(b, b.remains)));
+  figure.reading += has(true) && has(false)
+                        ? ", with laws that this model cannot have; to " +
+                              quantity_beside(b.with_effects, b.nominal, budget_unit(r)) + " without them."
+                        : ".";
   if (!seen && !floors.empty())
     figure.reading += fmt::format(" The floor ({}), {}, lies outside of the figure.", floors.front().name,
                                   quantity(floors.front().size, budget_unit(r)));
@@ -149,8 +153,7 @@ std::string floors_text(const DiagnosisResult& r) {
       floors.push_back(fmt::format("{} ({})", size, f.name));
   }
   const std::string text =
-      floors.empty() ? ""
-                     : fmt::format(" Floors, which no model gets below: {}.", fmt::join(floors, ", "));
+      floors.empty() ? "" : fmt::format(" Floors, which no model gets below: {}.", fmt::join(floors, ", "));
   return (text + disagree).empty() ? "" : "\n" + (text + disagree).substr(1) + "\n";
 }
 
@@ -161,8 +164,9 @@ std::string budget_table(const DiagnosisResult& r) {
   if (!b.exists()) return "";
   const Percents percent = percents_of(b);
   std::string text = fmt::format(
-      "\n## Error budget\n\nHeld-out residual {}, rms below {} Hz; the input brings {}. Every line refits "
-      "all numbers of the "
+      "\n## Error budget\n\nMissing {}: what the input brings and the model does not, rms on held-out data "
+      "below "
+      "{} Hz. The input brings {} in all. Every line refits all numbers of the "
       "lines above it. *Share*: of the mean square that was left (95 % by blocks of held-out time); *alone*: "
       "of "
       "what the nominal model leaves; *last*: of what all the others leave, which is what no other can "

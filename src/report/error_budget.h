@@ -7,7 +7,7 @@
 
 namespace gapscope::internal::report {
 
-/// The error budget as a waterfall: what each law takes of the held-out residual torque, down to the floors.
+/// The error budget as a waterfall: what each law takes of the missing torque, down to the floors.
 FigureData diagnosis_budget(const DiagnosisResult& result);
 
 /// Whether its laws were added where the candidates' own refits begin with another effect: then these did not

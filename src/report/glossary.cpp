@@ -47,8 +47,20 @@ constexpr Word kWords[] = {
     {"prediction at", "prediction at ... Hz",
      "what an observer with its poles there still misses at the next sample: slow drifts show at the lower, "
      "ripple at the higher one"},
-    {"residual torque", "residual torque", "the torque that would correct the observer at 30 Hz"},
-    {"residual force", "residual force", "the force that would correct the observer at 30 Hz"},
+    {"issing torque", "missing torque",
+     "rms of the torque that the input brings and the model does not, on held-out data and below the "
+     "frequency "
+     "that the error budget tells (with no budget: the correcting torque): the torque that the card tells"},
+    {"issing force", "missing force",
+     "rms of the force that the input brings and the model does not, on held-out data and below the "
+     "frequency "
+     "that the error budget tells (with no budget: the correcting force): the force that the card tells"},
+    {"orrecting torque", "correcting torque",
+     "the torque that would correct an observer at 30 Hz, sample by sample: noise of the encoder is in it. "
+     "Figures over time, position, speed and input show what of it is slow"},
+    {"orrecting force", "correcting force",
+     "the force that would correct an observer at 30 Hz, sample by sample: noise of the encoder is in it. "
+     "Figures over time, position, speed and input show what of it is slow"},
     {"error removed", "error removed",
      "(error before − after) / (before − floor), as median over windows: 1 reaches the floor, below 0 it is "
      "worse"},
@@ -73,7 +85,8 @@ constexpr Word kWords[] = {
     {"in engagement", "in engagement", "the contact is closed on either side: motor and load move as one"},
     {"(established", "established",
      "of a cause: no other effect, and no free curve over another quantity, explains these recordings nearly "
-     "as well; its amount is more than none, and the simulated motion comes nearer. *Established with* another: "
+     "as well; its amount is more than none, and the simulated motion comes nearer. *Established with* "
+     "another: "
      "as long as that one, whose own cause is open, is in the model"},
     {"(cause open)", "cause open", "it takes its share of the error, but another cause may do so as well"},
     {" σ |", "σ", "rms of the encoder's noise"},

@@ -68,7 +68,7 @@ Panel panel_of(const DiagnosisResult& r, const LastResortLaw& law, const std::st
   Panel panel;
   panel.title = title;
   panel.x = variable_axis(r, law);
-  panel.y = residual_axis(r);
+  panel.y = correction_axis(r);
   panel.height = 520.0;
   add_bins(law, with, panel);
   return panel;
@@ -86,7 +86,7 @@ FigureData diagnosis_law(const DiagnosisResult& r) {
   }
   const LastResortLaw& law = r.diagnosis.laws.front();
   figure.title = "What remains is a function of " + law.variable;
-  figure.panels = {panel_of(r, law, "Residual without the law", false),
+  figure.panels = {panel_of(r, law, "Without the law", false),
                    panel_of(r, law, "The law, and what it leaves on top of it", true)};
   figure.panels.back().series.push_back(drawn_curve(law));
   Interval range{0.0, 0.0};  // the same in both
@@ -98,7 +98,7 @@ FigureData diagnosis_law(const DiagnosisResult& r) {
   for (Panel& panel : figure.panels) panel.y.range = range;
   figure.width = 3200.0, figure.columns = 2;
   figure.reading = fmt::format(
-      "Means of the held-out residual {} over bins of the {}; the law with its 95 % intervals, all other "
+      "Means of the held-out correcting {} over bins of the {}; the law with its 95 % intervals, all other "
       "numbers "
       "refitted with it.",
       r.coordinates.torque_word(), law.variable);
@@ -111,7 +111,7 @@ std::string law_table(const DiagnosisResult& r) {
     text += fmt::format(
         "\n## What remains, as a function of {}\n\nThe law says nothing of a cause. Refitted in the "
         "simulator it "
-        "takes {} of the held-out error above the floor (95 %: {} to {}); the residual {} falls from {} to "
+        "takes {} of the held-out error above the floor (95 %: {} to {}); the correcting {} falls from {} to "
         "{}. "
         "`{}` holds the table to add to the motor's {}, `fitted_with_law.yaml` the model with the law. The "
         "interval is for recordings within the table: what lies beyond it has not been seen.\n",

@@ -7,7 +7,7 @@
 
 namespace gapscope::internal::report {
 
-/// The residual torque over the variable that it is a function of, by direction, with the fitted law drawn
+/// The correcting torque over the variable that it is a function of, by direction, with the fitted law drawn
 /// through it, and what the law leaves.
 FigureData diagnosis_law(const DiagnosisResult& result);
 

@@ -48,7 +48,7 @@ Sampled sampled(const ErrorBudget& budget, const MismatchTrace& t, bool both) {
 
 double known_or_zero(double size) { return std::isfinite(size) ? size : 0.0; }
 
-/// The residual torque over one variable, before and after.
+/// The correcting torque over one variable, before and after.
 class MapRow {
  public:
   MapRow(const DiagnosisResult& r, const Sampled& s, const std::string& band, bool both)
@@ -82,7 +82,7 @@ class MapRow {
     Panel panel;
     panel.title = title;
     panel.x = x;
-    panel.y = residual_axis(r_);
+    panel.y = correction_axis(r_);
     if (peak > 0.0) panel.y.range = {-peak, peak};
     panel.height = 520.0;
     Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}},
@@ -176,7 +176,7 @@ FigureData diagnosis_torque_map(const DiagnosisResult& r) {
   const MismatchTrace* t = shown_trace(r);
   const ErrorBudget& budget = r.diagnosis.budget;
   const std::string band = t == nullptr ? "" : band_words(budget, *t);
-  figure.title = "Residual " + torque_word(r) + band;
+  figure.title = "Correcting " + torque_word(r) + band;
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
   const bool both = added(r) && t->torque_after.size() == t->x1.size();
   const Sampled s = sampled(budget, *t, both);

@@ -16,7 +16,7 @@ struct TraceSet {
   Recording recording;  ///< start, dt and the texts are the caller's, the columns are in the file
   ErrorTrace error;     ///< empty columns where there is none
   FitTrace fit;
-  /// Of a diagnosis: errors of restarted free runs [rad] and residual torques [N m].
+  /// Of a diagnosis: errors of restarted free runs [rad] and correcting torques [N m].
   std::vector<double> error_before, error_after, torque_before, torque_after;
   /// Of a user's simulator, of the model that stands in for it, and of that one with its first row mended
   /// [rad].

@@ -17,7 +17,7 @@ TEST(Headline, NamesAPhaseOfTheContactOnlyWhereTheErrorIsDenserThanChance) {
   EXPECT_EQ(headline_with(0.82, 0.8), "no clear order in angle, speed, input or time");
   EXPECT_EQ(headline_with(0.6, 0.8), "no clear order in angle, speed, input or time");
   EXPECT_TRUE(
-      headline_with(0.98, 0.8).starts_with("in engagement (98 % of the squared residual torque in 80 %"));
+      headline_with(0.98, 0.8).starts_with("in engagement (98 % of the squared correcting torque in 80 %"));
   EXPECT_TRUE(headline_with(0.4, 0.2).starts_with("in engagement"));
 }
 

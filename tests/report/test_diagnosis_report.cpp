@@ -90,7 +90,7 @@ TEST(DiagnosisReport, EveryFigureIsThereAndNotBlankAndTheTextShowsTheBlame) {
   }
   EXPECT_NE(text.find("| `motor_damping` | 0.0800 N·m s/rad"), std::string::npos) << text;
   EXPECT_NE(text.find("33 % high"), std::string::npos) << text;
-  EXPECT_NE(text.find("| residual torque | 100 mN·m | 10.0 mN·m | – |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| correcting torque | 100 mN·m | 10.0 mN·m | – |"), std::string::npos) << text;
   EXPECT_NE(text.find("| 259 mrad | 24.3 | 2.00 mN·m | 31 times | 19 of 20 | yes |"), std::string::npos)
       << text;
 }

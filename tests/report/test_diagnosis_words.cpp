@@ -7,6 +7,7 @@
 namespace gapscope {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -15,8 +16,16 @@ DiagnosisResult with_friction() {
   DiagnosisResult r;
   ErrorBudget& b = r.diagnosis.budget;
   b.band_hz = 8.0, b.input = 1.0, b.nominal = 0.1, b.with_effects = b.remains = 0.036, b.encoder = 0.004;
-  b.rungs = {
-      {"motor_coulomb_friction", "motor_coulomb_friction", true, 0.1, 0.036, 0.8, {0.7, 0.9}, 0.8, 0.8, kNaN}};
+  b.rungs = {{"motor_coulomb_friction",
+              "motor_coulomb_friction",
+              true,
+              0.1,
+              0.036,
+              0.8,
+              {0.7, 0.9},
+              0.8,
+              0.8,
+              kNaN}};
   r.diagnosis.effects = {"motor_coulomb_friction"};
   return r;
 }
@@ -53,7 +62,30 @@ TEST(DiagnosisWords, TheRankingSaysWhichRowTheCardTookAndWhy) {
   EXPECT_THAT(text, HasSubstr("the error budget did, by what is left of the torque"));
   EXPECT_THAT(text, HasSubstr("It begins with `motor_coulomb_friction`"));
   EXPECT_THAT(text, HasSubstr(" | **in the card**; at a bound |"));
-  EXPECT_THAT(internal::report::diagnosis_ranking(r).reading, HasSubstr("decides, for motor Coulomb friction"));
+  EXPECT_THAT(internal::report::diagnosis_ranking(r).reading,
+              HasSubstr("decides, for motor Coulomb friction"));
+}
+
+TEST(DiagnosisWords, WhatIsMissingAndWhatCorrectsTheObserverHaveNamesOfTheirOwn) {
+  DiagnosisResult r = with_friction();
+  r.diagnosis.measures = {{"residual torque", "N m", 0.2, 0.1, kNaN}};
+  const std::string text = internal::report::diagnosis_text(r);
+  EXPECT_THAT(text, HasSubstr("Missing torque: what the input brings and the model does not, rms on held-out "
+                              "data below 8 Hz. The input brings 1.00 N·m in all."));
+  EXPECT_THAT(text, HasSubstr("| correcting torque | 200 mN·m | 100 mN·m | – |"));
+  EXPECT_THAT(text, Not(HasSubstr("esidual torque")));
+  EXPECT_EQ(internal::report::diagnosis_budget(r).title, "Error budget: missing torque on held-out data");
+}
+
+/// The waterfall ends with all laws, the card with those that the model can have.
+TEST(DiagnosisWords, TheBudgetsFigureTellsTheTorqueOfTheModelBesideThatOfAllLaws) {
+  DiagnosisResult r = with_friction();
+  EXPECT_THAT(internal::report::diagnosis_budget(r).reading,
+              EndsWith("falls from 100 mN·m to 36.0 mN·m, 3.6 % of what the input brings."));
+  r.diagnosis.budget.remains = 0.02;
+  r.diagnosis.budget.rungs.push_back({"resonance", "", false, 0.036, 0.02, 0.7, {0.6, 0.8}, 0.1, 0.7, kNaN});
+  EXPECT_THAT(internal::report::diagnosis_budget(r).reading,
+              EndsWith(", with laws that this model cannot have; to 36.0 mN·m without them."));
 }
 
 }  // namespace

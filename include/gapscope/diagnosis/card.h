@@ -17,7 +17,7 @@ struct SimulatorComparison;
 
 /// `tolerance:` – what the user calls good enough. What is absent is not judged.
 struct Tolerance {
-  std::optional<double> torque_percent;  ///< rms of the residual torque [% of what the input brings]
+  std::optional<double> torque_percent;  ///< rms of the missing torque [% of what the input brings]
   std::optional<double> gap;             ///< backlash gap 2β [rad]
 
   bool stated() const { return torque_percent || gap; }
@@ -39,7 +39,7 @@ struct Card {
   std::string cause;                ///< what it comes from, and how sure that is
   std::string helps;                ///< what takes how much of it
   std::string next;                 ///< the next step
-  double torque = kNaN;             ///< rms of the residual torque of the model as it is, held-out [N m]
+  double torque = kNaN;             ///< rms of the missing torque of the model as it is, held-out [N m]
   double percent = kNaN;            ///< the same, of what the input brings [%]
   double torque_after = kNaN;       ///< with all that helps [N m]
   double percent_after = kNaN;      ///< the same [%]

@@ -53,7 +53,7 @@ struct MismatchSize {
   double before = kNaN, after = kNaN, floor = kNaN;  ///< [rad]
   FloorSource floor_from = FloorSource::kEncoder;
   std::string floor_of;                              ///< what it was read from, in words: recordings, periods
-  double before_torque = kNaN, after_torque = kNaN;  ///< rms of the residual torque [N m]
+  double before_torque = kNaN, after_torque = kNaN;  ///< missing torque, rms [N m]
   double floor_torque = kNaN, input_torque = kNaN;   ///< what no model gets below; what the input brings
   double shrink = kNaN;   ///< (before − after)/(before − floor); NaN while before < 1.3 floors
   Interval shrink_ci95;   ///< for the next recording of the same drive
@@ -84,7 +84,7 @@ struct AddedEffect {
   std::vector<NamedValue> parameters;
   double shrink = kNaN;  ///< (before − after)/(before − floor) of this step alone
   Interval shrink_ci95;
-  double after_torque = kNaN;  ///< rms of the residual torque with it [N m]
+  double after_torque = kNaN;  ///< rms of the missing torque with it [N m]
 };
 
 /// Where the gap of a fitted model comes from: it is one body and has none, its configuration gives it, or
@@ -113,7 +113,7 @@ struct MapShare {
   double expected = 0.0;
 };
 
-/// Where the mismatch of the nominal model is: the residual torque, spread over seven quantities.
+/// Where the mismatch of the nominal model is: the correcting torque, spread over seven quantities.
 struct MismatchPlace {
   std::string headline;                  ///< the following in words
   std::optional<ContactPhase> phase;     ///< of contact where it is densest; nothing: there is but one
@@ -166,7 +166,7 @@ struct MismatchTrace {
   std::size_t scored_from = 0;  ///< samples before it were fitted
   std::vector<double> u, x1;
   std::vector<double> error_before, error_after;    ///< restarted free runs [rad]
-  std::vector<double> torque_before, torque_after;  ///< residual torque [N m]
+  std::vector<double> torque_before, torque_after;  ///< correcting torque [N m]
   std::vector<Mode> mode;                           ///< of the nominal model
   std::vector<double> stamps = {};                  ///< time of each sample [s]; empty: evenly sampled
   EncoderSide encoder = EncoderSide::kMotor;        ///< of the load: x1 is that of the load

@@ -8,12 +8,12 @@
 namespace gapscope {
 
 /// One rung of an error budget: a law that was added, jointly refitted with all before it, and what it takes
-/// of the held-out residual torque.
+/// of the missing torque.
 struct BudgetRung {
   std::string law;                     ///< in the words of the budget
   std::string effect;                  ///< of the catalogue; empty: it has none that says this
   bool added = false;                  ///< to the model, as an effect
-  double before = kNaN, after = kNaN;  ///< rms of the residual torque [N m]
+  double before = kNaN, after = kNaN;  ///< rms of the missing torque [N m]
   double share = kNaN;                 ///< 1 − (mean square after)/(before)
   Interval share_ci95;                 ///< from blocks of held-out time
   double alone = kNaN;                 ///< the share that it takes of the nominal model's residual
@@ -21,7 +21,7 @@ struct BudgetRung {
   double period = kNaN;                ///< of a torque that repeats with the motor's position [rad]
 };
 
-/// The held-out residual torque from the nominal model down to what no law explains, all as rms in one band
+/// The missing torque from the nominal model down to what no law explains, all as rms in one band
 /// of frequencies [N m; N for a translation]. NaN: the drive has a contact that the torque balance depends
 /// on.
 struct ErrorBudget {

@@ -22,7 +22,7 @@ struct ResidualBin {
   double at = kNaN;   ///< middle of the bin
   int direction = 0;  ///< of the motion
   int samples = 0;
-  double before = kNaN, after = kNaN;  ///< residual torque without and with the law [N m]
+  double before = kNaN, after = kNaN;  ///< correcting torque without and with the law [N m]
 };
 
 /// A law of last resort: what remains is a function of speed, position or input. It stands for no cause.
@@ -35,7 +35,7 @@ struct LastResortLaw {
   double shrink = kNaN;  ///< (before − after)/(before − floor) of the held-out error
   Interval shrink_ci95;
   double before = kNaN, after = kNaN;                ///< the held-out error [rad]
-  double before_torque = kNaN, after_torque = kNaN;  ///< rms of the residual torque [N m]
+  double before_torque = kNaN, after_torque = kNaN;  ///< median of windows of the correcting torque [N m]
   std::vector<CurvePoint> curve;                     ///< in rising order of `at`
   std::vector<ResidualBin> residual;
   ReferenceModel fitted;  ///< the model with the law; not stored
