@@ -45,7 +45,9 @@ std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
     return fmt::format("depends on the {}, largest at {}", along, range_words(largest(p.angle).bin));
   if (!coordinates.rotational())
     return "periodic in the motor position, every " + coordinates.thousandths(2.0 * kPi / p.periods_per_turn);
-  return fmt::format("periodic in the motor angle with {:.3g} cycles per turn", p.periods_per_turn);
+  const std::string cycles = fmt::format("{:.3g}", p.periods_per_turn);
+  return "periodic in the motor angle" +
+         (cycles == "1" ? ", once per turn" : " with " + cycles + " cycles per turn");
 }
 
 std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coordinates coordinates) {

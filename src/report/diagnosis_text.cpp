@@ -35,7 +35,10 @@ std::string measures_table(const DiagnosisResult& r) {
                         std::isfinite(m.floor) ? quantity_beside(m.floor, m.before, unit) : "–");
   }
   const MismatchSize& g = r.diagnosis.mismatch;
-  text += fmt::format("\nThe answer rests on this one: {}. Its floor, {}, is the {}{}{}.", g.measure,
+  const bool balanced = std::any_of(r.diagnosis.budget.rungs.begin(), r.diagnosis.budget.rungs.end(),
+                                    [](const BudgetRung& rung) { return rung.added; });
+  text += fmt::format("\nThe answer rests on {}: {}. Its floor, {}, is the {}{}{}.",
+                      balanced ? "the error budget and, of the motion, on this one" : "this one", g.measure,
                       quantity(g.floor, r.coordinates.position_unit()), floor_name(g.floor_from),
                       g.floor_of.empty() ? "" : ": ", g.floor_of);
   if (std::isfinite(g.shrink)) {
@@ -43,7 +46,7 @@ std::string measures_table(const DiagnosisResult& r) {
     if (std::isfinite(g.shrink_ci95.low))
       text += fmt::format(" (95 %: {:.0f} to {:.0f} %, for this kind of excitation)",
                           100.0 * g.shrink_ci95.low, 100.0 * g.shrink_ci95.high);
-    text += fmt::format("; what remains is {} times the {}, {}.", rounded(g.remains),
+    text += fmt::format("; what remains is {} times the {}; place: {}.", rounded(g.remains),
                         floor_name(g.floor_from), r.diagnosis.remaining.headline);
   }
   return text + "\n";

@@ -144,8 +144,9 @@ class MapRow {
 
 /// A cycle over the motor angle in words.
 std::string every(const DiagnosisResult& r, double periods_per_turn) {
-  return r.coordinates.rotational() ? rounded(periods_per_turn) + " cycles per turn"
-                                    : "every " + quantity(2.0 * kPi / periods_per_turn, "m");
+  if (!r.coordinates.rotational()) return "every " + quantity(2.0 * kPi / periods_per_turn, "m");
+  const std::string cycles = rounded(periods_per_turn);
+  return cycles == "1" || cycles == rounded(1.0) ? "once per turn" : cycles + " cycles per turn";
 }
 
 /// What repeats with the motor angle: in what the nominal model leaves, and in what is left in the end.

@@ -31,5 +31,15 @@ TEST(Headline, SaysInWhichDirectionTheErrorIsOrThatItIsInBoth) {
   EXPECT_EQ(headline_of(place, {}), "changes with the direction of motion (90 % of it backward)");
 }
 
+TEST(Headline, CallsOneCycleOncePerTurn) {
+  MismatchPlace place;
+  place.mode = {{"gap", 0.0, 0.0}, {"engagement", 1.0, 1.0}, {"impact", 0.0, 0.0}};
+  place.follows = {ResidualPattern::kAngle};
+  place.periods_per_turn = 1.0;
+  EXPECT_EQ(headline_of(place, {}), "periodic in the motor angle, once per turn");
+  place.periods_per_turn = 24.0;
+  EXPECT_EQ(headline_of(place, {}), "periodic in the motor angle with 24 cycles per turn");
+}
+
 }  // namespace
 }  // namespace gapscope::internal::diagnosis

@@ -88,5 +88,13 @@ TEST(DiagnosisWords, TheBudgetsFigureTellsTheTorqueOfTheModelBesideThatOfAllLaws
               EndsWith(", with laws that this model cannot have; to 36.0 mN·m without them."));
 }
 
+TEST(DiagnosisWords, WhatTheBudgetNamedRestsOnIt) {
+  DiagnosisResult r = with_friction();
+  EXPECT_THAT(internal::report::diagnosis_text(r),
+              HasSubstr("The answer rests on the error budget and, of the motion, on this one: "));
+  r.diagnosis.budget.rungs.clear();
+  EXPECT_THAT(internal::report::diagnosis_text(r), HasSubstr("The answer rests on this one: "));
+}
+
 }  // namespace
 }  // namespace gapscope
