@@ -88,17 +88,30 @@ std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// " Not in this table, which is of the first step: `load_dependent_friction`."
+std::string not_ranked(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const std::string& effect : d.effects)
+    if (std::none_of(d.ranking.begin(), d.ranking.end(),
+                     [&](const RankedEffect& e) { return e.effect == effect; }))
+      names.push_back(effect);
+  if (names.empty()) return "";
+  return fmt::format(" Not in this table, which is of the first step: `{}`.", fmt::join(names, "`, `"));
+}
+
 /// What the probabilities are worth here.
 std::string probability_words(const DiagnosisResult& r) {
   const Diagnosis& d = r.diagnosis;
-  if (!std::isfinite(d.outside_probability)) return "";
   if (budget_decides(d))
     return fmt::format(
-        " What each does alone, to the free run, did not decide here: the error budget did, by what is left "
-        "of "
-        "the {} once each is refitted with all before it. It begins with `{}`; no probabilities were learned "
-        "for it.",
-        r.coordinates.torque_word(), d.effects.front());
+               " What each does alone, to the free run, did not decide here: the error budget did, by what "
+               "is "
+               "left of the {} once each is refitted with all before it. It begins with `{}`; no "
+               "probabilities "
+               "were learned for it.",
+               r.coordinates.torque_word(), d.effects.front()) +
+           not_ranked(d);
+  if (!std::isfinite(d.outside_probability)) return "";
   if (d.mismatch.floor_from == FloorSource::kRepeatability)
     return " It is judged by its repeatability floor, for which no probabilities were learned: the verdict "
            "rests on the held-out errors alone.";

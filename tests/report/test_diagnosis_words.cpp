@@ -62,6 +62,10 @@ TEST(DiagnosisWords, TheRankingSaysWhichRowTheCardTookAndWhy) {
   EXPECT_THAT(text, HasSubstr("the error budget did, by what is left of the torque"));
   EXPECT_THAT(text, HasSubstr("It begins with `motor_coulomb_friction`"));
   EXPECT_THAT(text, HasSubstr(" | **in the card**; at a bound |"));
+  EXPECT_THAT(text, Not(HasSubstr("Not in this table")));
+  r.diagnosis.effects.emplace_back("load_dependent_friction");
+  EXPECT_THAT(internal::report::diagnosis_text(r),
+              HasSubstr(" Not in this table, which is of the first step: `load_dependent_friction`."));
   EXPECT_THAT(internal::report::diagnosis_ranking(r).reading,
               HasSubstr("decides, for motor Coulomb friction"));
 }
