@@ -57,7 +57,26 @@ std::vector<double> without_drift(const MotorTrace& trace, double period) {
   return level;
 }
 
+/// x1 less its mean over one period of the input, which follows a drift of any course: a free motor may first
+/// settle far from where it began, so that it never passes the centre of the whole recording again.
+std::vector<double> about_its_mean(Samples y, std::size_t lag) {
+  std::vector<double> sums{0.0}, level(y.begin(), y.end());
+  for (const double x : y) sums.push_back(sums.back() + x);
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const std::size_t from = std::min(i - std::min(i, lag / 2), y.size() - lag);
+    level[i] -= (sums[from + lag] - sums[from]) / static_cast<double>(lag);
+  }
+  return level;
+}
+
+/// Travel, centre and half periods of what is left of x1 without its drift.
 void read_period(const MotorTrace& trace, Samples level, SignalFacts& facts) {
+  const std::vector<double> values(level.begin(), level.end());
+  const double low = quantile(values, 0.02), high = quantile(values, 0.98);
+  const auto [least, most] = std::minmax_element(level.begin(), level.end());
+  facts.travel = *most - *least;
+  facts.centre = 0.5 * (low + high);
+  facts.amplitude = 0.5 * (high - low);
   facts.crossings = crossings(level, facts.centre, facts.amplitude);
   const auto& found = facts.crossings;
   std::vector<double> lengths;
@@ -87,18 +106,15 @@ SignalFacts read_facts(const MotorTrace& trace, double noise) {
   if (noise <= 0.0) facts.quantum = encoder_quantum(trace);
   facts.noise = std::max({noise_from_differences(y), rounding_noise(facts.quantum), noise});
   facts.input_period = exact_period(trace, kFewestRepetitions);
-  const std::vector<double> level = without_drift(trace, facts.input_period);
-  const double low = quantile(level, 0.02), high = quantile(level, 0.98);
-  const auto [least, most] = std::minmax_element(level.begin(), level.end());
-  facts.travel = *most - *least;
-  facts.centre = 0.5 * (low + high);
-  facts.amplitude = 0.5 * (high - low);
+  read_period(trace, without_drift(trace, facts.input_period), facts);
+  const auto period = static_cast<std::size_t>(std::lround(facts.input_period / trace.dt));
+  if (facts.half_periods < kFewestHalfPeriods && period > 0 && facts.moves())
+    read_period(trace, about_its_mean(y, period), facts);
   if (!facts.moves()) {
     facts.defect = {"no_motion", "no motion above the encoder's noise: raise the excitation"};
     return facts;
   }
   facts.speed_rms = rms_speed(y, trace.dt, facts.noise, facts.amplitude);
-  read_period(trace, level, facts);
   if (facts.half_periods < kFewestHalfPeriods)
     facts.defect = {
         "no_period",

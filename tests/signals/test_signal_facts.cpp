@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "signals/periodic.h"
 #include "signals/signal_facts.h"
 
@@ -15,6 +17,19 @@ TEST(SignalFacts, ADriftFromPeriodToPeriodIsNoPartOfTheMotion) {
   EXPECT_EQ(facts.half_periods, expected.half_periods);
   EXPECT_NEAR(facts.half_period, expected.half_period, 0.01 * expected.half_period);
   EXPECT_NEAR(facts.travel, expected.travel, 0.02 * expected.travel);
+}
+
+TEST(SignalFacts, AMotionThatSettlesFarFromWhereItBeganIsPeriodicAllTheSame) {
+  Periodic still, settling;
+  const SignalFacts expected = read_facts(still.trace(6.0));
+  const MotorTrace trace = settling.trace(6.0);
+  for (std::size_t i = 0; i < trace.size(); ++i)
+    settling.x1[i] -= 0.4 * std::exp(-trace.dt * static_cast<double>(i) / 0.5);
+  const SignalFacts facts =
+      read_facts({trace.file, trace.start, trace.dt, settling.u, settling.x1, trace.quantum});
+  EXPECT_EQ(facts.defect, Remark());
+  EXPECT_NEAR(static_cast<double>(facts.half_periods), static_cast<double>(expected.half_periods), 1.0);
+  EXPECT_NEAR(facts.half_period, expected.half_period, 0.01 * expected.half_period);
 }
 
 }  // namespace
