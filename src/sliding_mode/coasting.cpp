@@ -13,7 +13,9 @@ namespace {
 
 /// Of the time in contact: what bounces after the impact may take.
 constexpr double kSkipped[] = {0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
-constexpr double kHolds = 1.15;             ///< what a law leaves over, over the noise
+constexpr double kHolds = 1.15;  ///< what a law leaves over, over the noise
+/// Of the gap: what bounces that are left may move it by (0.03 does not read 4100296 gap sine).
+constexpr double kFaded = 0.05;
 constexpr double kBeforeImpact = 0.05;      ///< of the flight, left out at its end
 constexpr std::size_t kFewestTogether = 4;  ///< passages
 constexpr std::size_t kGroups = 4;          ///< of passages, left out in turn
@@ -22,8 +24,11 @@ constexpr std::size_t kGroups = 4;          ///< of passages, left out in turn
 /// travel).
 constexpr double kUnknownTravel = 0.35;
 constexpr double kToldTravel = 0.1;  ///< of the gap: travel that is told though no law of the load is seen
-constexpr double kTravelDoubt =
-    0.02;  ///< standard deviation, over the travel of the load: contacts are springs
+/// Half width, over what friction takes of the load's way, or over that where it is less.
+constexpr double kTravelDoubt = 0.02;
+/// Half width, over what the unwinding of the contact adds: it goes with 1/ω², and the impacts tell ω to
+/// within 0.8 to 1.2, once 1.7 (4100002 gap sine: 2.7 % too small, which 1 does not cover).
+constexpr double kSpringDoubt = 2.0;
 
 /// A passage, and the stretches before and in it that the laws are fitted to.
 struct Coasting {
@@ -107,12 +112,23 @@ struct Laws {
     return c.passage->event.direction * rate * (1.0 + 1.0 / ratio()) / (contact * contact);
   }
 
+  /// How far a load that still bounces, as `left` [rad] over the law tells, may get from where it would be by
+  /// its law [rad].
+  double rebound(const Coasting& c, double left) const {
+    if (!(contact > 0.0) || !(ratio() > 0.0)) return kInfinity;
+    const double bounces = std::sqrt(2.0 * std::max(left * left - alone.rms() * alone.rms(), 0.0));
+    return bounces * contact * (1.0 + 1.0 / ratio()) * (c.passage->event.t2 - c.passage->event.t1);
+  }
+
  private:
   double of_load(double both, double motor) const { return ((1.0 + ratio()) * both - motor) / ratio(); }
 };
 
 struct LoadWay {
   double gap = kNaN, travel = kNaN;  ///< [rad]
+  double speed = kNaN;               ///< of the load at t2, against the passage [rad/s]
+  double lost = kNaN;                ///< of the way at its first speed, to its friction [rad]
+  double open = 0.0;  ///< between dry and viscous friction alone, where the laws tell neither [rad]
 };
 
 /// The k-th passage, if its contact was lost at t1 [s].
@@ -124,7 +140,14 @@ LoadWay way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std::s
   const double slowing = dry + viscous * w;
   LoadWay result;
   if (!(laws.ratio() > 0.0) || !(slowing > 0.0) || !(w > 0.0)) return result;
-  result.travel = load_travel(w, slowing, e.t2 - t1, viscous * w / slowing);
+  const double D = e.t2 - t1;
+  const auto travel = [&](double viscous_share) { return load_travel(w, slowing, D, viscous_share); };
+  // Neither friction drives: what the laws tell about the share of each beyond that is their error.
+  const double share = viscous * w / slowing, passive = std::clamp(share, 0.0, 1.0);
+  result.travel = travel(passive);
+  result.lost = w * D - result.travel;
+  result.speed = (result.travel - load_travel(w, slowing, D - trace.dt, passive)) / trace.dt;
+  if (share != passive) result.open = travel(1.0) - travel(0.0);
   result.gap = e.direction * (e.x1_t2 - at.position) + result.travel;
   return result;
 }
@@ -167,7 +190,12 @@ void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std
       std::max(differs(way(trace, laws, c, k, t.t1_first)), differs(way(trace, laws, c, k, t.t1_last)));
   t.event.gap = best.gap;
   t.load_travel = best.travel;
-  t.half_width = std::hypot(t.impact_half_width + t1, doubt, std::hypot(spring, kTravelDoubt * best.travel));
+  const double left = laws.rebound(c, laws.together.own_rms(k)), bounces = std::isfinite(left) ? left : 0.0;
+  t.speed = std::abs(t.speed + best.speed);
+  t.hidden = t.speed * t.hidden_time;
+  t.half_width =
+      std::hypot(t.speed * t.t2_half_width + t1, std::hypot(doubt, bounces, 0.5 * best.open),
+                 std::hypot(kSpringDoubt * spring, kTravelDoubt * std::min(best.travel, best.lost)));
   t.dwell = false;
   t.by_law = true;
   t.event.remark = "corrected for the travel of the load";
@@ -193,16 +221,22 @@ Laws laws_of(const MotorTrace& trace, const std::vector<Coasting>& all) {
 }
 
 /// Laws of the passages before which the bounces have faded.
+/// @param faded  of the gap: what bounces that are left may move it by; 0: they are within the noise
 std::optional<LawReading> fit_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
-                                   const std::vector<Coasting>& all) {
+                                   const std::vector<Coasting>& all, double faded) {
   const Laws every = laws_of(trace, all);
   const double most = kHolds * std::max(every.alone.rms(), facts.quantum / std::sqrt(12.0));
+  const auto has_faded = [&](const Laws& laws, const Coasting& c, std::size_t k, double left) {
+    return left <= most ||
+           (faded > 0.0 && laws.rebound(c, left) <= faded * way(trace, laws, c, k, c.passage->event.t1).gap);
+  };
   std::vector<Coasting> quiet;
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (every.together.own_rms(k) <= most) quiet.push_back(all[k]);
+    if (has_faded(every, all[k], k, every.together.own_rms(k))) quiet.push_back(all[k]);
   if (quiet.size() < kFewestTogether) return {};
   Laws laws = laws_of(trace, quiet);
-  if (laws.alone.rms() > kHolds * facts.noise || laws.together.rms() > most) return {};
+  if (laws.alone.rms() > kHolds * facts.noise) return {};
+  if (!has_faded(laws, quiet.front(), 0, laws.together.rms())) return {};
   LawReading reading{std::move(quiet), std::move(laws)};
   if (std::isnan(reading.gap(trace))) return {};
   return reading;
@@ -238,12 +272,12 @@ std::vector<Coasting> moving(std::vector<Coasting> all) {
 }
 
 bool read_by_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
-                  std::vector<Transition>& passages) {
+                  std::vector<Transition>& passages, double faded) {
   std::optional<LawReading> before;
   for (const double skipped : kSkipped) {
     const std::vector<Coasting> all = moving(stretches(trace, passages, skipped));
     if (all.size() < kFewestTogether) return false;
-    std::optional<LawReading> now = fit_laws(trace, facts, all);
+    std::optional<LawReading> now = fit_laws(trace, facts, all, faded);
     if (before && now) {
       write_all(trace, *now, now->gap(trace) - before->gap(trace));
       return true;
@@ -257,7 +291,8 @@ bool read_by_laws(const MotorTrace& trace, const signals::SignalFacts& facts,
 
 void read_coasting(const MotorTrace& trace, const signals::SignalFacts& facts, bool repeats,
                    std::vector<Transition>& passages) {
-  if (!repeats && read_by_laws(trace, facts, passages)) std::ranges::for_each(passages, leave_out);
+  const auto read = [&](double faded) { return read_by_laws(trace, facts, passages, faded); };
+  if (!repeats && (read(0.0) || read(kFaded))) std::ranges::for_each(passages, leave_out);
   std::ranges::for_each(passages, doubt_travel);
 }
 

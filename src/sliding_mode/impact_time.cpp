@@ -144,7 +144,9 @@ ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impa
                          const FlightLaw& law) {
   ImpactTime result;
   const std::size_t flight = impact.start - std::min(reversal.last, impact.start);
-  result.core = impact.start - std::max<std::size_t>(2, flight / 10);
+  const bool turned = reversal.rise >= context.facts.least_way();
+  const std::size_t sure = std::max<std::size_t>(2, turned ? flight / 10 : impact.latency);
+  result.core = impact.start - std::min(impact.start, sure);
   FlightLaw::Fit before_impact;
   if (!law.fit_before(result.core, before_impact)) return result;
   const Kink kink = find_kinks(context, impact, law, begin_of_law(law, result.core, before_impact.first));

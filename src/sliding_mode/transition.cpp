@@ -75,6 +75,7 @@ namespace {
 
 constexpr double kWidestTravel = 0.15;   ///< of the gap: uncertainty of the load's travel
 constexpr double kContradiction = 0.06;  ///< of the gap: between the states just before and just after t1
+constexpr double kSurelyOn = 4.0;        ///< of the way that is no noise: a motor that goes on
 constexpr double kReach = 0.8;           ///< of a half period: nothing before it belongs to the flight
 
 /// Where x1 turned round before the impact, against the direction of the passage.
@@ -91,6 +92,15 @@ Reversal find_reversal(const TransitionContext& context, int direction, std::siz
   r.position = direction * low;
   r.rise = direction * y[to] - low;
   return r;
+}
+
+/// The motor goes the other way all the time, far enough to be sure of it: a load that overtakes it has
+/// crossed the gap.
+bool goes_on(const TransitionContext& context, int direction, std::size_t from, std::size_t to) {
+  const auto& y = context.trace.x1;
+  const double most = *std::max_element(y.begin() + from, y.begin() + to + 1,
+                                        [&](double a, double b) { return direction * a < direction * b; });
+  return direction * (most - y[to]) > kSurelyOn * context.facts.least_way();
 }
 
 FlightWindow flight_window(const TransitionContext& context, const BankEvent& impact, const Reversal& r) {
@@ -113,8 +123,9 @@ void fill_event(Transition& t, const TransitionContext& context, const ImpactTim
   t.hidden = std::abs(impact.speed) * impact.hidden;
   t.t1_first = trace.start + trace.dt * release.first;
   t.t1_last = trace.start + trace.dt * release.last;
-  t.impact_half_width = std::abs(impact.speed) * impact.half_width;
-  t.half_width = release.half_width + t.impact_half_width;
+  t.t2_half_width = impact.half_width;
+  t.hidden_time = impact.hidden;
+  t.half_width = release.half_width + std::abs(impact.speed) * impact.half_width;
   t.dwell = release.dwell;
   if (release.load_travel > 0.0) t.event.remark = "corrected for the travel of the load";
 }
@@ -152,7 +163,8 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
   const Reversal reversal = find_reversal(context, t.event.direction, from, impact.start);
   t.event.t1 = trace.time(reversal.last);
   t.event.x1_t1 = reversal.position;
-  if (reversal.rise < context.facts.least_way()) {
+  const bool small = reversal.rise < context.facts.least_way();
+  if (small && !goes_on(context, t.event.direction, from, impact.start)) {
     t.refusal = Refusal::kSmallRise;
     return t;
   }
@@ -173,6 +185,7 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
     return t;
   }
   read_release(t, context, law, time);
+  if (t.refusal == Refusal::kNone && small) t.refusal = Refusal::kLoadMoving;  // unless its law is known
   if (t.refusal != Refusal::kNone) return t;
   const auto begin = static_cast<std::size_t>(std::max((t.t1_last - trace.start) / trace.dt, 0.0)) + 1;
   const RestBeforeFlight passage{reversal, begin, time.core};

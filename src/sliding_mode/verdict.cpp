@@ -44,9 +44,9 @@ constexpr double kMost = 0.6;             ///< of the half periods, and of what 
 /// encoders: of 101 told (of 4100001 600 gap sine and 4310001 120 gap sine wide) half and double change 12
 /// intervals, by up to a fifth; all 101 hold either way, and none becomes too wide to be told.
 constexpr double kMostHidden = 0.12, kSoft = 0.07;
-constexpr double kMostOfTravel = 0.8;   ///< largest gap, as a share of the travel
-constexpr double kFarthest = 2.0;       ///< that a load may travel, in gaps, if the rest is to be a gap
-constexpr double kFarthestByLaw = 4.0;  ///< … where the law of its friction is known
+constexpr double kMostOfTravel = 0.8;    ///< largest gap, as a share of the travel
+constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
+constexpr double kFarthestByLaw = 12.0;  ///< … where its law is known: 10.3 are read 0.5 % off (4100039)
 constexpr double kLeastMoving =
     0.1;  ///< travel of the load, in gaps, from which on one direction alone is not believed
 constexpr double kFewTravel = 0.3;       ///< … within fewer quanta than kFewestMoving

@@ -146,6 +146,27 @@ TEST(Coasting, AMotorThatRestsAtItsLoadIsStillReadWhereTheTorqueRestsToo) {
   EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
 }
 
+void expect_within_interval(const CoastingSubject& s, double error) {
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, error * s.c.drive.gap);
+  EXPECT_LE(estimate.ci95.low, s.c.drive.gap);
+  EXPECT_GE(estimate.ci95.high, s.c.drive.gap);
+}
+
+TEST(Coasting, ALoadThatOvertakesAMotorWhichNeverTurnsRoundHasCrossedTheGap) {
+  expect_within_interval(CoastingSubject(4100031), 0.02);  // the load travels 2.5 gaps, the motor 1.5 with it
+  expect_within_interval(CoastingSubject(4100039), 0.02);  // 10.3 and 9.3
+}
+
+TEST(Coasting, ALoadThatMayBeSlowedByEitherFrictionIsReadBetweenBoth) {
+  expect_within_interval(CoastingSubject(4100231), 0.05);  // its laws alone tell 24.0 to 27.7 mrad of 25.9
+}
+
+TEST(Coasting, AMotionThatSettlesInItsFirstPeriodIsPeriodic) {
+  expect_within_interval(CoastingSubject(4100296), 0.03);  // no half period found about the centre of all
+}
+
 TEST(Coasting, AnImpactBeyondTheHighestBoundIsNoEchoOfTheMotorThatSpeedsUpBeforeIt) {
   const CoastingSubject s(4300016, independent_plant::Waveform::kSine, independent_plant::DriveLaws::kWide);
   const GapEstimate estimate = s.read();  // denied, with "above 2.5 mrad", where tops end with the bank
