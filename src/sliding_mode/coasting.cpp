@@ -20,14 +20,12 @@ constexpr double kBeforeImpact = 0.05;      ///< of the flight, left out at its 
 constexpr std::size_t kFewestTogether = 4;  ///< passages
 constexpr std::size_t kGroups = 4;          ///< of passages, left out in turn
 /// Of the travel of a load whose law is not seen: a half width. A contact that rings until t1 is lost in a
-/// rebound, with less speed of the load than the motor shows (810371 of the random drives: 0.35 of the
-/// travel).
+/// rebound, with less speed of the load than the motor shows (810371 gap sine: 0.35 of the travel).
 constexpr double kUnknownTravel = 0.35;
 constexpr double kToldTravel = 0.1;  ///< of the gap: travel that is told though no law of the load is seen
 /// Half width, over what friction takes of the load's way, or over that where it is less.
 constexpr double kTravelDoubt = 0.02;
-/// Half width, over what the unwinding of the contact adds: it goes with 1/ω², and the impacts tell ω to
-/// within 0.8 to 1.2, once 1.7 (4100002 gap sine: 2.7 % too small, which 1 does not cover).
+/// Half width, over what the unwinding adds: ω is known to a third (1 misses 4100002 gap sine, 2.7 % off).
 constexpr double kSpringDoubt = 2.0;
 
 /// A passage, and the stretches before and in it that the laws are fitted to.
@@ -190,11 +188,10 @@ void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std
       std::max(differs(way(trace, laws, c, k, t.t1_first)), differs(way(trace, laws, c, k, t.t1_last)));
   t.event.gap = best.gap;
   t.load_travel = best.travel;
-  const double left = laws.rebound(c, laws.together.own_rms(k)), bounces = std::isfinite(left) ? left : 0.0;
   t.speed = std::abs(t.speed + best.speed);
   t.hidden = t.speed * t.hidden_time;
   t.half_width =
-      std::hypot(t.speed * t.t2_half_width + t1, std::hypot(doubt, bounces, 0.5 * best.open),
+      std::hypot(t.speed * t.t2_half_width + t1, std::hypot(doubt, 0.5 * best.open),
                  std::hypot(kSpringDoubt * spring, kTravelDoubt * std::min(best.travel, best.lost)));
   t.dwell = false;
   t.by_law = true;
@@ -206,6 +203,7 @@ void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std
 struct LawReading {
   std::vector<Coasting> passages;
   Laws laws;
+  bool rings = false;  ///< beyond the noise
 
   double gap(const MotorTrace& trace) const { return median(gaps(trace, laws, passages)); }
 };
@@ -237,7 +235,7 @@ std::optional<LawReading> fit_laws(const MotorTrace& trace, const signals::Signa
   Laws laws = laws_of(trace, quiet);
   if (laws.alone.rms() > kHolds * facts.noise) return {};
   if (!has_faded(laws, quiet.front(), 0, laws.together.rms())) return {};
-  LawReading reading{std::move(quiet), std::move(laws)};
+  LawReading reading{std::move(quiet), std::move(laws), faded > 0.0};
   if (std::isnan(reading.gap(trace))) return {};
   return reading;
 }
@@ -259,8 +257,11 @@ void leave_out(Transition& t) {
 /// @param apart  by what the gap differs from that after a shorter wait for the bounces [rad]
 void write_all(const MotorTrace& trace, const LawReading& reading, double apart) {
   const double doubt = std::hypot(doubt_of_laws(trace, reading.laws, reading.passages), apart);
-  for (std::size_t k = 0; k < reading.passages.size(); ++k)
-    write_way(trace, reading.laws, reading.passages[k], k, doubt);
+  for (std::size_t k = 0; k < reading.passages.size(); ++k) {
+    const Coasting& c = reading.passages[k];
+    const double bounces = reading.rings ? reading.laws.rebound(c, reading.laws.together.own_rms(k)) : 0.0;
+    write_way(trace, reading.laws, c, k, std::hypot(doubt, std::isfinite(bounces) ? bounces : 0.0));
+  }
 }
 
 /// Those of which the load moves; all where most are of that kind, since a slow load is hard to tell from one
