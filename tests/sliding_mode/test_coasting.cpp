@@ -163,6 +163,14 @@ TEST(Coasting, ALoadThatMayBeSlowedByEitherFrictionIsReadBetweenBoth) {
   expect_within_interval(CoastingSubject(4100231), 0.05);  // its laws alone tell 24.0 to 27.7 mrad of 25.9
 }
 
+TEST(Coasting, WhatIsLeftWithinTheNoiseTellsNoBounces) {
+  const CoastingSubject s(4400237);  // a load at rest
+  const GapEstimate estimate = s.read();
+  ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
+  EXPECT_LT(estimate.std, 0.01 * s.c.drive.gap);  // 3 % where its roundings are taken for bounces
+}
+
 TEST(Coasting, AMotionThatSettlesInItsFirstPeriodIsPeriodic) {
   expect_within_interval(CoastingSubject(4100296), 0.03);  // no half period found about the centre of all
 }
