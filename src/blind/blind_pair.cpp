@@ -101,15 +101,17 @@ BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& eff
   const auto first = static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size()));
   const auto other = static_cast<std::size_t>(uniform(g, 1.0, kWaveforms.size()));
   const std::string name = effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, "+"));
-  BlindPair pair{rig, name, severity, 1.0, "", {}, {}, {}, sheet_model(c.drive, seed)};
+  BlindPair pair{rig, name, severity, 1.0, "", {}, {}, {}, sheet_model(c.drive, seed), {}};
   const auto excited = [&](std::size_t kind, std::uint64_t noise) {
     excite(c, kWaveforms[kind % kWaveforms.size()], g);
     c.options.seed = noise;
     pair.excitations += "smwtzj"[kind % kWaveforms.size()];
   };
   excited(first, 2 * seed);
-  for (std::size_t i = 0; i < effects.size(); ++i)
+  for (std::size_t i = 0; i < effects.size(); ++i) {
     independent_plant::give_effect(c, effects[i], severity, seed + i * kNextDraw);
+    pair.drawn.push_back(drawn_law(c.drive.effects, effects[i]));
+  }
   pair.train = recorded(c, plant);
   excited(first + other, 2 * seed + 1);
   pair.held_out = recorded(c, plant);

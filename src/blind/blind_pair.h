@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "blind/drawn_law.h"
 #include "gapscope/config/blind_config.h"
 #include "gapscope/reference/fit.h"
 #include "independent_plant/severity.h"
@@ -22,6 +23,7 @@ struct BlindPair {
   Recording train, held_out;
   std::function<Recording()> next;  ///< recorded when it is asked for
   ReferenceModel sheet;             ///< what the data sheet says, off by up to 20 %
+  std::vector<DrawnLaw> drawn;      ///< of each effect, in order
 };
 
 inline constexpr double kPairDuration = 6.0;  ///< of each recording [s]

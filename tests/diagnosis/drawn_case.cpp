@@ -6,9 +6,11 @@ namespace gapscope::test {
 
 std::vector<std::string> effects_of_kind(const std::string& kind) {
   if (kind == "none" || kind == "lawless") return {"none"};
+  const bool known = kind == "known" || kind == "one" || kind == "whole" || kind == "amount";
   std::vector<std::string> names;
   for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
-    if (e.in_catalogue == (kind == "known" || kind == "one" || kind == "whole") && e.name != "backlash")
+    if (e.in_catalogue == known && e.name != "backlash" &&
+        (kind != "amount" || blind::form_of(e.name) != blind::LawForm::kAnother))
       names.emplace_back(e.name);
   return names;
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "diagnosis/added_in_words.h"
+#include "diagnosis/amount_study.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/mismatch_size.h"
 #include "gapscope/diagnosis/diagnosis.h"
@@ -58,9 +59,10 @@ bool leaves_table(const Study& study, const Diagnosis& d) {
 
 }  // namespace
 
-StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
+StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed, std::vector<std::string> excluded) {
   DiagnosisOptions options;
   options.threads = 1;
+  options.excluded = std::move(excluded);
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
   const double begin = thread_seconds();
   const Diagnosis d = diagnose(train, held, pair.sheet, options);
@@ -73,7 +75,7 @@ StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
   row.group = static_cast<int>(d.effects.size());
   row.details =
       fmt::format("[{}] leaves {:.3g}", fmt::join(d.effects, " "), d.mismatch.after / d.mismatch.floor);
-  if (!d.added.empty()) row.details += "; " + added_in_words(d) + ";";
+  if (!d.added.empty()) row.details += "; " + added_in_words(d) + ";" + told_numbers_in_words(pair.drawn, d);
   if (d.laws.empty()) return row;
   const LastResortLaw& law = d.laws.front();
   row.first = law.law;

@@ -1,13 +1,15 @@
 // The diagnosis on drives of the independent plant with an effect that it is not told.
-//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask|law|lawless|whole FILE [THREADS
-//   [RIG]]
+//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask|law|lawless|whole|amount FILE
+//   [THREADS [RIG]]
 // Appends one line a case to FILE and prints the counts of all of it with Wilson limits; seeds that FILE
 // holds already are not run again. Effect and rig follow from the seed. "Removed" takes the true effect and
 // its look-alikes out of the candidates that were fitted and decides again. "pair" are two effects, "one" and
 // "beyond" a known one and one outside the catalogue where the search may take as many steps as it likes;
 // "ask" the next experiment for look-alikes; "law", "lawless" and "whole" are the whole diagnosis, laws of
 // last resort included, of drives that lack something outside the catalogue, nothing, and one effect of the
-// catalogue.
+// catalogue. "amount" is the same of an effect whose law the drive has in the catalogue's form, where the
+// diagnosis looks for that one alone. These two count how often the 95 % interval of an amount holds what was
+// drawn.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -16,6 +18,7 @@
 #include <set>
 
 #include "blind/expected_place.h"
+#include "diagnosis/amount_study.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/drawn_case.h"
 #include "diagnosis/law_study.h"
@@ -162,9 +165,19 @@ StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   return row;
 }
 
-bool is_whole(const std::string& kind) { return kind == "law" || kind == "lawless" || kind == "whole"; }
+bool has_amounts(const std::string& kind) { return kind == "whole" || kind == "amount"; }
+
+bool is_whole(const std::string& kind) { return kind == "law" || kind == "lawless" || has_amounts(kind); }
+
+std::vector<std::string> all_but(const std::string& effect) {
+  std::vector<std::string> names;
+  for (const EffectEntry* entry : effect_table())
+    if (entry->name != effect) names.emplace_back(entry->name);
+  return names;
+}
 
 StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
+  if (kind == "amount") return test::examine_laws(c.pair(), c.seed, all_but(c.effect));
   if (is_whole(kind)) return test::examine_laws(c.pair(), c.seed);
   if (kind == "ask") return test::examine_question(c.effect, c.seed);
   if (kind == "pair" || kind == "one" || kind == "beyond")
@@ -175,6 +188,7 @@ StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
 
 void print_counts(const std::string& kind, const std::vector<StudyRow>& rows) {
   if (is_whole(kind)) test::print_laws(rows);
+  if (has_amounts(kind)) test::print_amounts(rows);
   if (kind == "known") print_known(rows);
   if (kind == "none") print_none(rows);
   if (kind == "outside" || kind == "beyond" || kind == "law") print_outside(rows);
