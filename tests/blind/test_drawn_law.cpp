@@ -6,6 +6,7 @@
 
 #include "blind/drawn_law.h"
 #include "gapscope/plant/effect_hooks.h"
+#include "gapscope/simulation/simulate.h"
 #include "gapscope/simulation/stepper.h"
 #include "independent_plant/severity.h"
 

@@ -7,11 +7,17 @@
 #include <map>
 #include <sstream>
 
+#include "diagnosis/candidates.h"
+#include "diagnosis/study.h"
+#include "diagnosis/tell_budget.h"
+#include "diagnosis/tell_intervals.h"
 #include "gapscope/base/normal.h"
+#include "support/thread_time.h"
 
 namespace gapscope::test {
 namespace {
 
+using namespace internal::diagnosis;
 using blind::LawForm;
 
 /// Of the value that was drawn, the turn nearest to what is told.
@@ -30,6 +36,18 @@ bool is_named(const StudyRow& r) {
   const std::string added = r.details.substr(0, r.details.find(']')) + " ";
   return r.verdict == "effect" && (added.find("[" + r.effect + " ") != std::string::npos ||
                                    added.find(" " + r.effect + " ") != std::string::npos);
+}
+
+/// Led by a faster observer where the plain fit has ended beside the best.
+FittedModel fitted_with(const Study& study, const blind::DrawnLaw& law) {
+  ReferenceModel model = study.sheet;
+  model.effects.push_back(searched_effect(*find_effect(law.effect), study.turns));
+  for (std::size_t i = 0; i < law.numbers.size(); ++i)
+    model.effects.back().parameters[i].value = law.numbers[i].value;
+  FittedModel fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
+  if (fitted.mean_cost < kExplained || !std::isfinite(fitted.mean_cost)) return fitted;
+  FittedModel led = led_by_faster_observer(study, fitted);
+  return led.mean_cost < fitted.mean_cost ? led : fitted;
 }
 
 void print_number(const StudyRow& r, const ToldNumber& n) {
@@ -92,6 +110,36 @@ void AmountCount::add(const ToldNumber& n) {
   squares += n.deviation() * n.deviation();
 }
 
+StudyRow examine_amount(const blind::BlindPair& pair, std::uint64_t seed) {
+  DiagnosisOptions options;
+  options.threads = 1;
+  options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
+  const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
+  const double begin = thread_seconds();
+  const Study study = make_study(train, held, pair.sheet, options);
+  const blind::DrawnLaw& law = pair.drawn.front();
+  const FittedModel fitted = fitted_with(study, law);
+  StudyRow row;
+  row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;
+  row.severity = pair.severity;
+  row.before = std::sqrt(fitted.mean_cost);
+  row.verdict = fitted.mean_cost < kExplained ? "effect" : "unknown";
+  if (row.verdict == "effect") {
+    Diagnosis d;
+    d.verdict = DiagnosisVerdict::kEffect;
+    AddedEffect added;
+    added.effect = law.effect;
+    added.established = true;
+    added.parameters = values_in(fitted.model, *find_effect(law.effect));
+    d.added = {added};
+    tell_intervals(study, fitted, d);
+    row.group = 1;
+    row.details = fmt::format("[{}]{}", law.effect, told_numbers_in_words(pair.drawn, d));
+  }
+  row.seconds = thread_seconds() - begin;
+  return row;
+}
+
 void print_amounts(const std::vector<StudyRow>& rows) {
   std::map<std::string, AmountCount> by_effect;
   std::map<std::string, int> another;
@@ -119,7 +167,9 @@ void print_amounts(const std::vector<StudyRow>& rows) {
   print_count("first harmonic of a law of many", series);
   print_count("the only effect that was added", alone);
   print_count("further numbers of these laws", others);
-  fmt::print("named without an interval: {}\n", without);
+  fmt::print("named without an interval: {}; not named: {} of {}\n", without,
+             std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return !is_named(r); }),
+             rows.size());
   for (const auto& [effect, count] : another)
     fmt::print("left out, of another law by construction: {} {}\n", effect, count);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "blind/drawn_law.h"
+#include "blind/blind_pair.h"
 #include "diagnosis/study_row.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
@@ -33,6 +33,12 @@ struct AmountCount {
   double squares = 0.0;  ///< of the deviations
   void add(const ToldNumber& n);
 };
+
+/// The model with the effect that the drive has, fitted to what a diagnosis fits from the numbers that were
+/// drawn, and the intervals that a diagnosis tells of it: what comes once the right effect is named, without
+/// the search.
+///   verdict  "effect" where that explains the recording, else "unknown"    before  rms that is left [floor]
+StudyRow examine_amount(const blind::BlindPair& pair, std::uint64_t seed);
 
 /// Drive by drive what was drawn and what is told; then how many intervals hold, by effect and for all, with
 /// Wilson limits. Effects whose law has another form by construction are named and left out: their amount is

@@ -4,13 +4,21 @@
 
 namespace gapscope::test {
 
+namespace {
+
+/// Of the catalogue's law, and by the motion: counts of an encoder are read without a fit.
+bool has_fitted_amount(std::string_view effect) {
+  return blind::form_of(effect) != blind::LawForm::kAnother && effect != "encoder_quantization";
+}
+
+}  // namespace
+
 std::vector<std::string> effects_of_kind(const std::string& kind) {
   if (kind == "none" || kind == "lawless") return {"none"};
   const bool known = kind == "known" || kind == "one" || kind == "whole" || kind == "amount";
   std::vector<std::string> names;
   for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
-    if (e.in_catalogue == known && e.name != "backlash" &&
-        (kind != "amount" || blind::form_of(e.name) != blind::LawForm::kAnother))
+    if (e.in_catalogue == known && e.name != "backlash" && (kind != "amount" || has_fitted_amount(e.name)))
       names.emplace_back(e.name);
   return names;
 }

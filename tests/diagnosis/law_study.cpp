@@ -59,10 +59,9 @@ bool leaves_table(const Study& study, const Diagnosis& d) {
 
 }  // namespace
 
-StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed, std::vector<std::string> excluded) {
+StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
   DiagnosisOptions options;
   options.threads = 1;
-  options.excluded = std::move(excluded);
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
   const double begin = thread_seconds();
   const Diagnosis d = diagnose(train, held, pair.sheet, options);

@@ -11,9 +11,7 @@ namespace gapscope::test {
 ///   group     number of effects that were added      before    of the nominal model [floor]
 ///   shrink    that the law takes                      covered   whether it takes as much of the next
 ///   recording; "-beyond" where more than a tenth of that lies beyond the law's table
-/// @param excluded  effects that the diagnosis does not look for
-StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed,
-                      std::vector<std::string> excluded = {});
+StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed);
 
 /// Of what is a function of speed, position or input: how often its law was told, and how much it takes.
 void print_laws(const std::vector<StudyRow>& rows);

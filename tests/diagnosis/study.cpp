@@ -7,9 +7,9 @@
 // "beyond" a known one and one outside the catalogue where the search may take as many steps as it likes;
 // "ask" the next experiment for look-alikes; "law", "lawless" and "whole" are the whole diagnosis, laws of
 // last resort included, of drives that lack something outside the catalogue, nothing, and one effect of the
-// catalogue. "amount" is the same of an effect whose law the drive has in the catalogue's form, where the
-// diagnosis looks for that one alone. These two count how often the 95 % interval of an amount holds what was
-// drawn.
+// catalogue. "amount" is no diagnosis but what its amounts rest on: the fit with the effect that the drive
+// has, of those whose law is the catalogue's. These two count how often the 95 % interval of an amount holds
+// what was drawn.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -165,19 +165,10 @@ StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   return row;
 }
 
-bool has_amounts(const std::string& kind) { return kind == "whole" || kind == "amount"; }
-
-bool is_whole(const std::string& kind) { return kind == "law" || kind == "lawless" || has_amounts(kind); }
-
-std::vector<std::string> all_but(const std::string& effect) {
-  std::vector<std::string> names;
-  for (const EffectEntry* entry : effect_table())
-    if (entry->name != effect) names.emplace_back(entry->name);
-  return names;
-}
+bool is_whole(const std::string& kind) { return kind == "law" || kind == "lawless" || kind == "whole"; }
 
 StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
-  if (kind == "amount") return test::examine_laws(c.pair(), c.seed, all_but(c.effect));
+  if (kind == "amount") return test::examine_amount(c.pair(), c.seed);
   if (is_whole(kind)) return test::examine_laws(c.pair(), c.seed);
   if (kind == "ask") return test::examine_question(c.effect, c.seed);
   if (kind == "pair" || kind == "one" || kind == "beyond")
@@ -188,7 +179,7 @@ StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
 
 void print_counts(const std::string& kind, const std::vector<StudyRow>& rows) {
   if (is_whole(kind)) test::print_laws(rows);
-  if (has_amounts(kind)) test::print_amounts(rows);
+  if (kind == "whole" || kind == "amount") test::print_amounts(rows);
   if (kind == "known") print_known(rows);
   if (kind == "none") print_none(rows);
   if (kind == "outside" || kind == "beyond" || kind == "law") print_outside(rows);
