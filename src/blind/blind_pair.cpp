@@ -66,8 +66,8 @@ void set(ReferenceModel& model, int index, double value, bool estimate) {
 }
 
 /// Contact stiffness and damping are known, the rest is a start.
-ReferenceModel sheet_model(const independent_plant::BlindDrive& true_drive, std::uint64_t seed) {
-  const independent_plant::BlindDrive sheet = independent_plant::data_sheet(true_drive, seed);
+ReferenceModel sheet_model(const independent_plant::BlindDrive& true_drive,
+                           const independent_plant::BlindDrive& sheet) {
   ReferenceModel model;
   set(model, place::kMotorInertia, sheet.motor_inertia, false);
   set(model, place::kTorqueConstant, sheet.torque_constant, false);
@@ -101,7 +101,17 @@ BlindPair blind_pair(const std::string& rig, const std::vector<std::string>& eff
   const auto first = static_cast<std::size_t>(uniform(g, 0.0, kWaveforms.size()));
   const auto other = static_cast<std::size_t>(uniform(g, 1.0, kWaveforms.size()));
   const std::string name = effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, "+"));
-  BlindPair pair{rig, name, severity, 1.0, "", {}, {}, {}, sheet_model(c.drive, seed), {}};
+  BlindPair pair{rig,
+                 name,
+                 severity,
+                 1.0,
+                 "",
+                 {},
+                 {},
+                 {},
+                 sheet_model(c.drive, independent_plant::data_sheet(c.drive, seed)),
+                 sheet_model(c.drive, c.drive),
+                 {}};
   const auto excited = [&](std::size_t kind, std::uint64_t noise) {
     excite(c, kWaveforms[kind % kWaveforms.size()], g);
     c.options.seed = noise;

@@ -23,6 +23,7 @@ struct BlindPair {
   Recording train, held_out;
   std::function<Recording()> next;  ///< recorded when it is asked for
   ReferenceModel sheet;             ///< what the data sheet says, off by up to 20 %
+  ReferenceModel truth;             ///< the same with the numbers of the drive, without effects
   std::vector<DrawnLaw> drawn;      ///< of each effect, in order
 };
 

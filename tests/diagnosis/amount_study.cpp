@@ -20,6 +20,8 @@ namespace {
 using namespace internal::diagnosis;
 using blind::LawForm;
 
+constexpr const char *kBest = "best", *kBeside = "beside";
+
 /// Of the value that was drawn, the turn nearest to what is told.
 double nearest_turn(const std::string& key, double drawn, double told) {
   if (key != "phase_rad") return drawn;
@@ -38,16 +40,21 @@ bool is_named(const StudyRow& r) {
                                    added.find(" " + r.effect + " ") != std::string::npos);
 }
 
-/// Led by a faster observer where the plain fit has ended beside the best.
-FittedModel fitted_with(const Study& study, const blind::DrawnLaw& law) {
-  ReferenceModel model = study.sheet;
-  model.effects.push_back(searched_effect(*find_effect(law.effect), study.turns));
+/// From the numbers that were drawn and those of a drive; led by a faster observer where the plain fit has
+/// ended beside the best.
+FittedModel fitted_with(const Study& study, const blind::DrawnLaw& law, ReferenceModel drive) {
+  drive.effects.push_back(searched_effect(*find_effect(law.effect), study.turns));
   for (std::size_t i = 0; i < law.numbers.size(); ++i)
-    model.effects.back().parameters[i].value = law.numbers[i].value;
-  FittedModel fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
+    drive.effects.back().parameters[i].value = law.numbers[i].value;
+  FittedModel fitted = fit_near(study.train, drive, study.options.fit, study.observer_hz);
   if (fitted.mean_cost < kExplained || !std::isfinite(fitted.mean_cost)) return fitted;
   FittedModel led = led_by_faster_observer(study, fitted);
   return led.mean_cost < fitted.mean_cost ? led : fitted;
+}
+
+/// Whether another fit leaves less, by as much as one number that is off by two standard errors costs.
+bool is_beside(const FittedModel& fitted, const FittedModel& other, std::size_t samples) {
+  return static_cast<double>(samples) * (fitted.mean_cost / other.mean_cost - 1.0) > 4.0;
 }
 
 void print_number(const StudyRow& r, const ToldNumber& n) {
@@ -118,7 +125,7 @@ StudyRow examine_amount(const blind::BlindPair& pair, std::uint64_t seed) {
   const double begin = thread_seconds();
   const Study study = make_study(train, held, pair.sheet, options);
   const blind::DrawnLaw& law = pair.drawn.front();
-  const FittedModel fitted = fitted_with(study, law);
+  const FittedModel fitted = fitted_with(study, law, pair.sheet);
   StudyRow row;
   row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;
   row.severity = pair.severity;
@@ -134,6 +141,7 @@ StudyRow examine_amount(const blind::BlindPair& pair, std::uint64_t seed) {
     d.added = {added};
     tell_intervals(study, fitted, d);
     row.group = 1;
+    row.covered = is_beside(fitted, fitted_with(study, law, pair.truth), train[0].size()) ? kBeside : kBest;
     row.details = fmt::format("[{}]{}", law.effect, told_numbers_in_words(pair.drawn, d));
   }
   row.seconds = thread_seconds() - begin;
@@ -143,7 +151,7 @@ StudyRow examine_amount(const blind::BlindPair& pair, std::uint64_t seed) {
 void print_amounts(const std::vector<StudyRow>& rows) {
   std::map<std::string, AmountCount> by_effect;
   std::map<std::string, int> another;
-  AmountCount same, series, alone, others;
+  AmountCount same, series, alone, others, best, beside;
   int without = 0;
   for (const StudyRow& r : rows) {
     const LawForm form = blind::form_of(r.effect);
@@ -159,6 +167,8 @@ void print_amounts(const std::vector<StudyRow>& rows) {
       by_effect[r.effect].add(n);
       (form == LawForm::kSame ? same : series).add(n);
       if (r.group == 1) alone.add(n);
+      if (r.covered == kBest) best.add(n);
+      if (r.covered == kBeside) beside.add(n);
     }
   }
   fmt::print("95 % intervals of the amount of a named effect that hold what was drawn:\n");
@@ -166,6 +176,8 @@ void print_amounts(const std::vector<StudyRow>& rows) {
   print_count("the same law", same);
   print_count("first harmonic of a law of many", series);
   print_count("the only effect that was added", alone);
+  print_count("fits in the minimum that the truth leads to", best);
+  print_count("fits in one beside it", beside);
   print_count("further numbers of these laws", others);
   fmt::print("named without an interval: {}; not named: {} of {}\n", without,
              std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return !is_named(r); }),

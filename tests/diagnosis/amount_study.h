@@ -38,6 +38,7 @@ struct AmountCount {
 /// drawn, and the intervals that a diagnosis tells of it: what comes once the right effect is named, without
 /// the search.
 ///   verdict  "effect" where that explains the recording, else "unknown"    before  rms that is left [floor]
+///   covered  "beside" where a fit from the numbers of the drive leaves less, else "best"
 StudyRow examine_amount(const blind::BlindPair& pair, std::uint64_t seed);
 
 /// Drive by drive what was drawn and what is told; then how many intervals hold, by effect and for all, with
