@@ -151,7 +151,7 @@ StudyRow examine_amount(const blind::BlindPair& pair, std::uint64_t seed) {
 void print_amounts(const std::vector<StudyRow>& rows) {
   std::map<std::string, AmountCount> by_effect;
   std::map<std::string, int> another;
-  AmountCount same, series, alone, others, best, beside;
+  AmountCount same, series, alone, further, further_of_series, best, beside;
   int without = 0;
   for (const StudyRow& r : rows) {
     const LawForm form = blind::form_of(r.effect);
@@ -162,7 +162,7 @@ void print_amounts(const std::vector<StudyRow>& rows) {
       print_number(r, n);
       if (!n.has_interval()) without += i == 0 ? 1 : 0;
       if (!n.has_interval()) continue;
-      if (i > 0) others.add(n);
+      if (i > 0) (form == LawForm::kSame ? further : further_of_series).add(n);
       if (i > 0) continue;
       by_effect[r.effect].add(n);
       (form == LawForm::kSame ? same : series).add(n);
@@ -178,7 +178,8 @@ void print_amounts(const std::vector<StudyRow>& rows) {
   print_count("the only effect that was added", alone);
   print_count("fits in the minimum that the truth leads to", best);
   print_count("fits in one beside it", beside);
-  print_count("further numbers of these laws", others);
+  print_count("further numbers of the same law", further);
+  print_count("of the first harmonics of a law of many", further_of_series);
   fmt::print("named without an interval: {}; not named: {} of {}\n", without,
              std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return !is_named(r); }),
              rows.size());
