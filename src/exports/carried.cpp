@@ -11,19 +11,19 @@ const Carriage* found(std::span<const Carriage> table, std::string_view part) {
   return at == table.end() ? nullptr : &*at;
 }
 
-double value_in(const ModelEffect& effect, std::string_view parameter) {
-  const auto specs = effect.entry->parameters;
-  for (std::size_t i = 0; i < specs.size(); ++i)
-    if (specs[i].key == parameter) return effect.parameters[i].value;
-  return 0.0;
-}
-
 CarriedPart carried_part(std::string_view name, const Carriage* by, const char* otherwise) {
   if (by == nullptr) return {std::string(name), Fidelity::kLeftOut, otherwise};
   return {std::string(name), by->fidelity, by->how};
 }
 
 }  // namespace
+
+double value_in(const ModelEffect& effect, std::string_view parameter) {
+  const auto specs = effect.entry->parameters;
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (specs[i].key == parameter) return effect.parameters[i].value;
+  return 0.0;
+}
 
 double effect_value(const ExportSource& source, std::string_view effect, std::string_view parameter) {
   for (const EffectConfig& e : source.drive.effects)

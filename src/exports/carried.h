@@ -22,7 +22,10 @@ struct Carriage {
 std::vector<CarriedPart> carried_parts(const ExportSource& source, std::span<const Carriage> table,
                                        const char* otherwise);
 
-/// The value of an effect's parameter; 0 where the drive does not have the effect; of several
+/// The value of an effect's parameter; 0 where it has none of that name.
+double value_in(const ModelEffect& effect, std::string_view parameter);
+
+/// The same of an effect by its name; 0 where the drive does not have the effect; of several
 /// the first one.
 double effect_value(const ExportSource& source, std::string_view effect, std::string_view parameter);
 

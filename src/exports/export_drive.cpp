@@ -1,7 +1,9 @@
+#include <cmath>
 #include <iterator>
 
 #include "exports/c_header.h"
 #include "exports/flat.h"
+#include "exports/left_out.h"
 #include "exports/mjcf.h"
 #include "gapscope/base/version.h"
 #include "gapscope/exports/export.h"
@@ -41,9 +43,10 @@ DriveExport export_drive(const Configuration& configuration, ExportFormat format
   c.version = version();
   c.coordinates = source.coordinates;
   c.input = source.input;
-  c.duration = source.duration();
+  if (std::isnan(c.duration)) c.duration = source.duration();
   c.encoder_floor = source.encoder_floor;
   c.configuration = source.configuration;
+  internal::exports::warn_of_left_out(source, c);
   for (const ExportedFile& file : out.files) c.files.push_back(file.name);
   return out;
 }

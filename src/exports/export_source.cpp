@@ -45,10 +45,12 @@ std::string name_given(const std::string& name) {
 ExportSource source_of(const Configuration& c, std::vector<double> u, const std::string& input) {
   const SimulationConfig& s = *c.simulation;
   const std::string name = name_given(c.name);
-  ExportSource source{name,         stem_of(name), c.coordinates, s.plant, s.plant.plant_model(), {},
-                      1.0 / s.rate, std::move(u),  floor_of(c),   input,   resolved_yaml(c)};
+  ExportSource source{name,  stem_of(name),   c.coordinates, s.plant, s.plant.plant_model(),
+                      {},    1.0 / s.rate,    std::move(u),  {},      floor_of(c),
+                      input, resolved_yaml(c)};
   source.plant.structure.encoder = EncoderSide::kMotor;  // a simulator's motion is that of the motor
   source.initial = {s.initial.x1, s.initial.w1, s.initial.x2, s.initial.w2};
+  source.all_u = source.u;
   const auto most = static_cast<std::size_t>(std::llround(kLongestJudged * s.rate));
   source.u.resize(std::min(source.u.size(), std::max<std::size_t>(most, 1)));
   return source;

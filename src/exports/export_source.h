@@ -17,7 +17,8 @@ struct ExportSource {
   PlantModel<double> plant;
   DriveState<double> initial;
   double dt = 0.0;             ///< sampling interval of the input [s]
-  std::vector<double> u;       ///< held over it
+  std::vector<double> u;       ///< held over it; of a long recording the first seconds
+  std::vector<double> all_u;   ///< the whole of it
   double encoder_floor = 0.0;  ///< [rad]; NaN: the encoder is not known
   std::string input;           ///< in words
   std::string configuration;   ///< as resolved

@@ -34,6 +34,13 @@ class MujocoEngineRun {
   /// What its encoder reads at every step, from its key on, the input held over each; shorter where the
   /// engine finds that it diverges.
   std::vector<double> motion(double step, mjtIntegrator integrator, const std::vector<double>& u) {
+    return motion(step, integrator, u, [](double input, mjData&) { return input; });
+  }
+
+  /// The same where a loop sees the data before each step and makes ctrl of the input.
+  template <class Loop>
+  std::vector<double> motion(double step, mjtIntegrator integrator, const std::vector<double>& u,
+                             const Loop& loop) {
     model_->opt.timestep = step;
     model_->opt.integrator = integrator;
     if (model_->nkey > 0)
@@ -42,7 +49,7 @@ class MujocoEngineRun {
       mj_resetData(model_, data_);
     std::vector<double> x1 = {data_->qpos[0]};
     for (const double input : u) {
-      data_->ctrl[driven()] = input;
+      data_->ctrl[driven()] = loop(input, *data_);
       mj_step(model_, data_);
       mj_checkPos(model_, data_);
       mj_checkVel(model_, data_);

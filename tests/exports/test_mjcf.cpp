@@ -210,11 +210,11 @@ TEST(Mjcf, NamesWhatItLeavesOutAndWhy) {
   EXPECT_THAT(certificate_text(c), HasSubstr("| `cogging_torque` | **left out** |"));
 }
 
-/// What it lacks takes it far from the model at any step; how large a step may be is told all the same.
-TEST(Mjcf, OfADriveThatItLacksMuchOfTellsTheStepsByItsOwnMotion) {
+/// What it only approximates takes it far from the model at any step; how large a step may be is told all the
+/// same.
+TEST(Mjcf, OfADriveThatItOnlyApproximatesTellsTheStepsByItsOwnMotion) {
   const DriveExport drive = export_drive(
-      rig_configuration(kTwoBodies,
-                        "  effects: [{cogging_torque: {amplitude_nm: 0.2, periods_per_turn: 24}}]\n"),
+      rig_configuration(kTwoBodies, "  effects: [{load_dependent_friction: {level_nm: 0.01, ratio: 0.6}}]\n"),
       ExportFormat::kMjcf);
   const Certificate& c = drive.certificate;
   ASSERT_EQ(c.limits.size(), 2u);

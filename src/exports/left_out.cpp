@@ -1,0 +1,126 @@
+#include "exports/left_out.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal::exports {
+namespace {
+
+/// Of the travel: a target that is farther off is no model of the drive.
+constexpr double kFarOff = 0.01;
+
+/// Of the encoder: what is left out and does more than that says the same at any step worth taking.
+constexpr double kManyFloors = 10.0;
+
+/// Of a wave's first harmonic: a further one below it is not worth its place in a line.
+constexpr double kAudible = 1e-3;
+
+constexpr const char* kInTheLoop = "in your loop, before each step: `";
+
+/// What every format leaves to the loop is no part that it lacks.
+bool lacks(const CarriedPart& part) {
+  return part.fidelity == Fidelity::kLeftOut && part.part != "torque_constant";
+}
+
+/// "+ 0.5", "- 0.5"
+std::string signed_term(double value) {
+  return fmt::format("{} {:.6g}", value < 0.0 ? '-' : '+', std::abs(value));
+}
+
+/// An effect's numbers by their keys.
+struct Numbers {
+  const ModelEffect& effect;
+  double operator()(const char* key) const { return value_in(effect, key); }
+};
+
+/// "sin(6*qpos + 0.5)"; with harmonics "(sin(y) + 0.1*sin(2*y))", y being told behind the line.
+std::string wave(const Numbers& of, const char* position, std::string& where) {
+  const double phase = of("phase_rad");
+  std::string angle = fmt::format("{:.6g}*{}", of("periods_per_turn"), position);
+  if (phase != 0.0) angle += " " + signed_term(phase);
+  std::string further;
+  const auto add = [&](const char* key, const char* term) {
+    if (const double size = of(key); std::abs(size) > kAudible)
+      further += " " + signed_term(size) + "*" + term;
+  };
+  add("second_harmonic", "sin(2*y)"), add("second_harmonic_cos", "cos(2*y)");
+  add("third_harmonic", "sin(3*y)"), add("third_harmonic_cos", "cos(3*y)");
+  if (further.empty()) return "sin(" + angle + ")";
+  where = " with y = " + angle;
+  return "(sin(y)" + further + ")";
+}
+
+/// The line of a loop that is the effect; empty: it has none that is short.
+std::string loop_line(const ModelEffect& effect, const LoopWords& w) {
+  const Numbers of{effect};
+  const std::string_view name = effect.entry->name;
+  std::string where;
+  if (name == "torque_ripple") {
+    const std::string factor = fmt::format("(1 + {:.6g}*{})", of("ratio"), wave(of, w.position, where));
+    const std::string input = w.gain == 1.0 ? "u" : fmt::format("{:.6g}*u", w.gain);
+    return fmt::format("{} = {}*{}{}", w.command, input, factor, where);
+  }
+  if (name == "cogging_torque" || name == "load_unbalance") {
+    const std::string term = wave(of, w.position, where);
+    return fmt::format("{} -= {:.6g}*{}{}", w.torque, of("amplitude_nm"), term, where);
+  }
+  if (name == "quadratic_drag")
+    return fmt::format("{0} -= {1:.6g}*{2}*pow(fabs({2}), {3:.6g})", w.torque, of("coefficient_nms2"),
+                       w.speed, of("exponent") - 1.0);
+  if (name == "input_dead_zone")
+    return fmt::format("u = u > {0:.6g} ? u - {0:.6g} : u < -{0:.6g} ? u + {0:.6g} : 0", of("width"));
+  if (name == "input_delay") return fmt::format("u = the input of {:.6g} s before", of("delay_s"));
+  return "";
+}
+
+/// "3.04 rad", "12 mrad"
+std::string length_words(double length, Coordinates coordinates) {
+  return length < 1.0 ? coordinates.thousandths(length)
+                      : fmt::format("{:.3g} {}", length, coordinates.position_unit());
+}
+
+const TargetError* least(const std::vector<TargetError>& errors) {
+  const auto at = std::min_element(errors.begin(), errors.end(), [](const auto& a, const auto& b) {
+    return !std::isnan(a.rms) && (std::isnan(b.rms) || a.rms < b.rms);
+  });
+  return at == errors.end() || std::isnan(at->rms) ? nullptr : &*at;
+}
+
+}  // namespace
+
+void add_loop_lines(const ExportSource& source, const LoopWords& words, Certificate& c) {
+  const std::size_t first = c.parts.size() - source.drive.effects.size();  // numbers of the drive before them
+  for (std::size_t i = first; i < c.parts.size(); ++i) {
+    if (!lacks(c.parts[i])) continue;
+    const std::string line = loop_line(source.drive.effects[i - first].effect, words);
+    if (!line.empty()) c.parts[i].how += "; " + (kInTheLoop + line) + "`";
+  }
+}
+
+bool hides_the_steps(const ExportSource& source, const std::vector<CarriedPart>& parts, double rms,
+                     double travel) {
+  const bool shows =
+      std::isnan(source.encoder_floor) ? rms > kFarOff * travel : rms > kManyFloors * source.encoder_floor;
+  return shows && std::any_of(parts.begin(), parts.end(), lacks);
+}
+
+void warn_of_left_out(const ExportSource& source, Certificate& c) {
+  const TargetError* error = least(c.errors);
+  if (error == nullptr || error->rms <= source.encoder_floor) return;
+  std::string names, lines;
+  for (const CarriedPart& part : c.parts) {
+    if (!lacks(part)) continue;
+    names += (names.empty() ? "" : ", ") + part.part;
+    if (const auto at = part.how.find(kInTheLoop); at != part.how.npos)
+      lines += " What mends " + part.part + ", " + part.how.substr(at) + ".";
+  }
+  if (names.empty()) return;
+  c.warnings.push_back(
+      fmt::format("without what is left out ({}) this file is {} rms off, on a travel of {}{}{}", names,
+                  length_words(error->rms, source.coordinates), length_words(c.travel, source.coordinates),
+                  error->rms > kFarOff * c.travel ? ": do not use it as it is." : ".", lines));
+}
+
+}  // namespace gapscope::internal::exports
