@@ -56,8 +56,18 @@ void no_such_joint(const XMLElement& top, const std::string& file, const std::st
   for (const XMLElement* e : elements_below(top, "joint"))
     if (const char* name = e->Attribute("name"); name != nullptr && names.size() < 200)
       names += (names.empty() ? "" : ", ") + printable(name, 40);
+  const std::string included = included_files(top);
   throw ConfigError(
-      file, "has no joint " + shown(joint) + ", expected one of: " + (names.empty() ? "none" : names));
+      file, "has no joint " + shown(joint) + ", expected one of: " + (names.empty() ? "none" : names) +
+                (included.empty() ? "" : ". Files that it includes were not read: " + included));
+}
+
+std::string included_files(const XMLElement& top) {
+  std::string files;
+  for (const XMLElement* e : elements_below(top, "include"))
+    if (const char* file = e->Attribute("file"); file != nullptr && files.size() < 200)
+      files += (files.empty() ? "" : ", ") + shown(file);
+  return files;
 }
 
 }  // namespace internal::config

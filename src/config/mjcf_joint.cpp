@@ -1,9 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 
-#include "config/joint_reader.h"
+#include "config/mjcf.h"
+#include "config/mjcf_gravity.h"
 #include "gapscope/base/errors.h"
 
 namespace gapscope::internal::config {
@@ -13,80 +15,6 @@ using tinyxml2::XMLElement;
 
 /// A joint whose range is below this stands for a gap where it has a neighbour on its body [rad].
 constexpr double kWidestGap = 0.35;
-
-bool has_attribute(const XMLElement* e, const char* name, const std::string& value) {
-  return e != nullptr && e->Attribute(name) != nullptr && e->Attribute(name) == value;
-}
-
-/// An MJCF with its defaults: what an element does not say its class does, and the class around that.
-class Mjcf {
- public:
-  Mjcf(const XMLElement& top, const std::string& file) : top_(top), file_(file) {
-    for (const XMLElement* e = top.FirstChildElement("default"); e != nullptr;
-         e = e->NextSiblingElement("default"))
-      add_class(*e, "main", "");
-    const XMLElement* compiler = top.FirstChildElement("compiler");
-    degrees_ = !has_attribute(compiler, "angle", "radian");
-    includes_ = !elements_below(top, "include").empty();
-  }
-
-  const XMLElement& top() const { return top_; }
-  const std::string& file() const { return file_; }
-  bool includes() const { return includes_; }
-
-  std::vector<double> values(const XMLElement& e, const char* attribute) const {
-    if (const char* own = e.Attribute(attribute)) return numbers_in(own, file_);
-    for (std::string of = class_of(e);;) {
-      const auto found = classes_.find(of);
-      if (found == classes_.end()) return {};
-      const XMLElement* defaults = found->second.element->FirstChildElement(e.Name());
-      if (defaults != nullptr && defaults->Attribute(attribute) != nullptr)
-        return numbers_in(defaults->Attribute(attribute), file_);
-      if (found->second.parent.empty()) return {};
-      of = found->second.parent;
-    }
-  }
-
-  double value(const XMLElement& e, const char* attribute, double otherwise) const {
-    const auto found = values(e, attribute);
-    return found.empty() ? otherwise : found[0];
-  }
-
-  /// Of a joint, in rad or m.
-  double range_width(const XMLElement& joint) const {
-    const auto range = values(joint, "range");
-    if (range.size() < 2) return kNaN;
-    const bool turned = degrees_ && !has_attribute(&joint, "type", "slide");
-    return (range[1] - range[0]) * (turned ? kPi / 180.0 : 1.0);
-  }
-
- private:
-  struct DefaultClass {
-    const XMLElement* element;
-    std::string parent;
-  };
-
-  void add_class(const XMLElement& e, const std::string& otherwise, const std::string& parent) {
-    const std::string name = e.Attribute("class") != nullptr ? e.Attribute("class") : otherwise;
-    classes_.insert({name, {&e, parent}});
-    for (const XMLElement* in = e.FirstChildElement("default"); in != nullptr;
-         in = in->NextSiblingElement("default"))
-      add_class(*in, "main", name);
-  }
-
-  std::string class_of(const XMLElement& e) const {
-    if (e.Attribute("class") != nullptr) return e.Attribute("class");
-    for (const tinyxml2::XMLNode* up = e.Parent(); up != nullptr; up = up->Parent())
-      if (up->ToElement() != nullptr && up->ToElement()->Attribute("childclass") != nullptr)
-        return up->ToElement()->Attribute("childclass");
-    return "main";
-  }
-
-  const XMLElement& top_;
-  std::string file_;
-  std::map<std::string, DefaultClass> classes_;
-  bool degrees_ = true, includes_ = false;
-};
 
 const XMLElement* joint_named(const Mjcf& m, const std::string& name) {
   for (const XMLElement* e : elements_below(m.top(), "joint"))
@@ -135,8 +63,8 @@ double gear_of(const Mjcf& m, const std::string& joint, std::vector<std::string>
   return kNaN;
 }
 
-/// A fixed tendon joint − other with a range: the gap of two bodies.
-bool read_tendon(const Mjcf& m, const std::string& joint, JointNumbers& n) {
+/// A fixed tendon joint − other with a range: the gap of two bodies.  @returns the other joint
+const XMLElement* read_tendon(const Mjcf& m, const std::string& joint, JointNumbers& n) {
   for (const XMLElement* fixed : elements_below(m.top(), "fixed")) {
     std::string other;
     bool mine = false;
@@ -161,9 +89,17 @@ bool read_tendon(const Mjcf& m, const std::string& joint, JointNumbers& n) {
     const auto contact = m.values(*fixed, "solreflimit");
     if (contact.size() == 2 && contact[0] < 0.0)
       n.stiffness = -contact[0] / mobility, n.contact_damping = -contact[1] / mobility;
-    return true;
+    return load;
   }
-  return false;
+  return nullptr;
+}
+
+void note_spring(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
+  const double stiffness = m.value(joint, "stiffness", 0.0);
+  if (stiffness == 0.0) return;
+  n.notes.push_back(fmt::format(
+      "not taken: the joint's stiffness {:.4g} about springref {:.4g}: no effect is a spring to the ground",
+      stiffness, m.turned(joint, "springref")));
 }
 
 /// A second, narrow joint of the same body.
@@ -192,8 +128,12 @@ JointNumbers mjcf_joint(const XMLElement& mujoco, const std::string& file, const
   n.damping = m.value(*joint, "damping", 0.0);
   n.friction = m.value(*joint, "frictionloss", 0.0);
   n.torque_constant = gear_of(m, name, n.notes);
-  if (!read_tendon(m, name, n)) read_neighbour(m, *joint, n);
-  if (m.includes()) n.notes.push_back("included files were not read");
+  const XMLElement* heavy = read_tendon(m, name, n);
+  if (heavy == nullptr) read_neighbour(m, *joint, n), heavy = joint;
+  read_gravity(m, *heavy, n);
+  note_spring(m, *joint, n);
+  if (const std::string files = included_files(mujoco); !files.empty())
+    n.notes.push_back("included files were not read: " + files);
   return n;
 }
 

@@ -26,8 +26,8 @@ using internal::config::Begin;
 using internal::config::chosen_structure;
 using internal::config::StarterChoice;
 using internal::config::suggest_anchor;
+using internal::config::write_effects;
 using internal::config::write_estimated;
-using internal::config::write_friction;
 using internal::config::write_motor;
 using internal::config::yaml_text;
 using internal::config::YamlWriter;
@@ -189,7 +189,7 @@ void write_model(YamlWriter& out, const StarterChoice& choice, const Begin& begi
               "one body; for a drive with a gap: {estimate: true}, and gap, contact_stiffness alike");
   if (load) write_load(out, choice, begin, coordinates);
   out.close();
-  write_friction(out, begin, coordinates);
+  write_effects(out, begin, coordinates);
   out.close();
 }
 
@@ -243,6 +243,9 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   begin.knows_inertia = begin.anchored && (std::isfinite(known.anchor->inertia) ||
                                            (one_body && std::isfinite(known.anchor->mass)));
   if (begin.anchored && std::isfinite(known.anchor->friction)) begin.numbers.friction = kNaN;
+  if (choice.structure == StarterModel::kLocked && begin.numbers.unbalance > 0.0)
+    begin.numbers.unbalance = kNaN,
+    begin.numbers.notes.push_back("not taken: gravity, as the output does not move");
   write_model(out, choice, begin, coordinates);
   out.entry("detector", "{bound: auto}");
   if (known.anchor)

@@ -78,13 +78,20 @@ void suggest_anchor(YamlWriter& out, bool gain_sought, Coordinates coordinates) 
               (coordinates.rotational() ? "; or {mass: 0.49, arm: 0.1}  # kg, m" : ""));
 }
 
-void write_friction(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
+void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   const char* const others = "`gapscope effects` lists what else a drive may have";
-  const double friction = begin.numbers.friction;
-  if (!(friction > 0.0)) return out.entry("effects", "[]", others);
+  const double friction = begin.numbers.friction, unbalance = begin.numbers.unbalance;
+  if (!(friction > 0.0) && !(unbalance > 0.0)) return out.entry("effects", "[]", others);
   out.open("effects");
   out.comment(others);
   const std::string unit = coordinates.torque_unit();
+  if (unbalance > 0.0)
+    out.entry("- load_unbalance",
+              fmt::format("{{amplitude_nm: {{value: {:.3g}, estimate: true}}, phase_rad: {{value: {:.3g}, "
+                          "estimate: true}}}}",
+                          unbalance, begin.numbers.unbalance_phase),
+              unit + ", rad; gravity " + begin.from);
+  if (!(friction > 0.0)) return out.close();
   if (begin.anchored)
     out.entry("- motor_coulomb_friction", "{level_nm: {estimate: true}}", unit + "; the fit finds its start");
   else

@@ -30,8 +30,9 @@ void write_estimated(YamlWriter& out, const char* key, double value, const std::
 /// Torque constant, inertia and damping.
 void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates);
 
-/// Coulomb friction, where it was read: a diagnosis then begins with what is missing beside it.
-void write_friction(YamlWriter& out, const Begin& begin, Coordinates coordinates);
+/// Coulomb friction and gravity, where they were read: a diagnosis then begins with what is missing beside
+/// them.
+void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates);
 
 /// "{mass: 0.49, arm: 0.1}"
 std::string anchor_text(const AnchorConfig& anchor);

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstring>
 
 #include "config/joint_reader.h"
@@ -25,6 +28,8 @@ std::vector<double> three(const XMLElement* e, const char* name, const std::stri
   return found;
 }
 
+constexpr double kWeightOfOne = 9.81;  // N/kg
+
 void read_link(const XMLElement& link, const XMLElement* axis, const std::string& file, JointNumbers& n) {
   const XMLElement* inertial = link.FirstChildElement("inertial");
   if (inertial == nullptr) return;
@@ -34,20 +39,26 @@ void read_link(const XMLElement& link, const XMLElement* axis, const std::string
     n.inertia = mass;
     return;
   }
+  const XMLElement* origin = inertial->FirstChildElement("origin");
+  const std::vector<double> along =
+      axis == nullptr ? std::vector<double>{1.0, 0.0, 0.0} : three(axis, "xyz", file);
+  const double off = std::sqrt(inertia_about(along, 1.0, three(origin, "xyz", file), std::vector<double>(6)));
+  if (off * mass > 0.0)
+    n.notes.push_back(fmt::format(
+        "not taken: gravity on the link, at most {:.3g} N m: a URDF does not say how its base stands; effect "
+        "load_unbalance",
+        kWeightOfOne * mass * off));
   const XMLElement* tensor = inertial->FirstChildElement("inertia");
   std::vector<double> t;
   for (const char* key : {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}) {
     const double value = attribute(tensor, key, file);
     t.push_back(std::isnan(value) ? 0.0 : value);
   }
-  const XMLElement* origin = inertial->FirstChildElement("origin");
   for (const double angle : three(origin, "rpy", file))
     if (angle != 0.0) {
       n.notes.push_back("the link's inertia is given in turned axes and was not taken");
       return;
     }
-  const std::vector<double> along =
-      axis == nullptr ? std::vector<double>{1.0, 0.0, 0.0} : three(axis, "xyz", file);
   n.inertia = inertia_about(along, std::isnan(mass) ? 0.0 : mass, three(origin, "xyz", file), t);
 }
 

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "gapscope/base/errors.h"
 #include "gapscope/config/joint_numbers.h"
 #include "support/temporary_file.h"
@@ -59,6 +61,48 @@ TEST(JointNumbers, OfAnMjcfKnowTheGapOfANarrowSecondJoint) {
       << "two radians are no gap";
 }
 
+std::string hanging(const std::string& in_body, const std::string& above = "",
+                    const std::string& joint = "") {
+  return "<mujoco><compiler angle=\"radian\"/><worldbody>" + above +
+         "<body name=\"arm\"><joint name=\"a\" axis=\"0 1 0\" " + joint +
+         "/><inertial pos=\"0 0 -0.05\" mass=\"0.12\" diaginertia=\"1e-4 1e-4 1e-4\"/>" + in_body +
+         "</body>" + (above.empty() ? "" : "</body>") + "</worldbody></mujoco>";
+}
+
+TEST(JointNumbers, OfAnMjcfKnowGravityOnWhatHangsOnAHinge) {
+  const JointNumbers n = read(hanging(""), "a");
+  EXPECT_NEAR(n.unbalance, 0.12 * 0.05 * 9.81, 1e-12);
+  EXPECT_NEAR(n.unbalance_phase, 0.0, 1e-12);
+  EXPECT_THAT(n.notes, IsEmpty());
+  const std::string fixed =
+      R"(<body pos="-0.1 0 0"><inertial pos="0 0 0" mass="0.2" diaginertia="0 0 0"/></body>)";
+  const JointNumbers both = read(hanging(fixed), "a");
+  // The second mass lies along −x: at q = 0 it turns the arm about +y by −(−0.1)·(−m g), which is −G
+  // sin(phase).
+  EXPECT_NEAR(both.unbalance * std::cos(both.unbalance_phase), 0.12 * 0.05 * 9.81, 1e-12);
+  EXPECT_NEAR(-both.unbalance * std::sin(both.unbalance_phase), -0.1 * 0.2 * 9.81, 1e-12);
+  EXPECT_NEAR(read(hanging("", "", "ref=\"0.3\""), "a").unbalance_phase, -0.3, 1e-12);
+  std::string upright = hanging("");
+  upright.replace(upright.find("0 1 0"), 5, "0 0 1");
+  EXPECT_TRUE(std::isnan(read(upright, "a").unbalance));
+  EXPECT_THAT(read(upright, "a").notes, IsEmpty());
+}
+
+TEST(JointNumbers, OfAnMjcfSayWhatOfGravityAndSpringsWasNotTaken) {
+  const auto noted = [](const std::string& xml) {
+    const JointNumbers n = read(xml, "a");
+    return n.notes.empty() ? "" : n.notes.back();
+  };
+  EXPECT_THAT(noted(hanging("", "<body name=\"hip\"><joint name=\"h\"/>")),
+              HasSubstr("not taken: gravity, body hip above it turns"));
+  EXPECT_THAT(noted(hanging("", "<body name=\"hip\" euler=\"1 0 0\">")),
+              HasSubstr("not taken: gravity, body hip is turned against the world"));
+  EXPECT_THAT(noted(hanging("<body name=\"hand\"><joint name=\"w\"/></body>")),
+              HasSubstr("not taken: gravity on a part of what hangs on the joint, as body hand moves"));
+  EXPECT_THAT(noted(hanging("", "", "stiffness=\"0.05\" springref=\"0.2\"")),
+              HasSubstr("not taken: the joint's stiffness 0.05 about springref 0.2"));
+}
+
 TEST(JointNumbers, OfAUrdfAreItsDynamicsAndTheLinkAboutTheAxis) {
   const std::string xml =
       R"(<robot name="r"><link name="base"/><link name="arm"><inertial><origin xyz="0.1 0 0"/>
@@ -71,11 +115,14 @@ TEST(JointNumbers, OfAUrdfAreItsDynamicsAndTheLinkAboutTheAxis) {
   EXPECT_DOUBLE_EQ(n.friction, 0.3);
   EXPECT_DOUBLE_EQ(n.torque_constant, 1.0);
   EXPECT_FALSE(n.slides);
+  EXPECT_THAT(n.notes.back(), HasSubstr("not taken: gravity on the link, at most 1.96 N m"));
 }
 
 TEST(JointNumbers, AreRefusedWithWhatWasExpected) {
   EXPECT_THAT(refused("<mujoco><worldbody><body><joint name=\"hip\"/></body></worldbody></mujoco>", "knee"),
               HasSubstr("has no joint 'knee', expected one of: hip"));
+  EXPECT_THAT(refused("<mujoco><include file=\"arm.xml\"/></mujoco>", "knee"),
+              HasSubstr("expected one of: none. Files that it includes were not read: 'arm.xml'"));
   EXPECT_THAT(refused("<sdf/>", "knee"), HasSubstr("begins with <sdf>, expected <mujoco> or <robot>"));
   EXPECT_THAT(refused("no XML", "knee"), HasSubstr("cannot be read as XML"));
   EXPECT_THAT(

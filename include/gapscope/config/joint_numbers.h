@@ -9,12 +9,14 @@ namespace gapscope {
 
 /// What a simulator's model says of one joint's drive; NaN: nothing.
 struct JointNumbers {
-  std::string model, joint;        ///< the file and the name in it
-  bool slides = false;             ///< rad reads m, N m reads N
-  double inertia = kNaN;           ///< of the motor's side, or of all that turns [kg m²]
-  double damping = kNaN;           ///< [N m s/rad]
-  double friction = kNaN;          ///< dry, on the motor's side [N m]
-  double torque_constant = kNaN;   ///< [N m per unit of the control]
+  std::string model, joint;       ///< the file and the name in it
+  bool slides = false;            ///< rad reads m, N m reads N
+  double inertia = kNaN;          ///< of the motor's side, or of all that turns [kg m²]
+  double damping = kNaN;          ///< [N m s/rad]
+  double friction = kNaN;         ///< dry, on the motor's side [N m]
+  double torque_constant = kNaN;  ///< [N m per unit of the control]
+  double unbalance = kNaN;  ///< gravity's torque −G sin(x + phase), on the load where there is one [N m]
+  double unbalance_phase = 0.0;    ///< [rad]
   double gap = kNaN;               ///< [rad]; the numbers below belong to it
   double load_inertia = kNaN;      ///< [kg m²]
   double load_damping = kNaN;      ///< [N m s/rad]
@@ -25,7 +27,8 @@ struct JointNumbers {
 };
 
 /// Reads a joint of an MJCF (`mujoco`) or URDF (`robot`). Of MJCF: armature, damping, frictionloss with their
-/// defaults and classes, the actuator's gear, the body's own inertial; a gap where a fixed tendon limits the
+/// defaults and classes, the actuator's gear, the body's own inertial, gravity on it and on what is fixed to
+/// it; a gap where a fixed tendon limits the
 /// difference of two joints, or a second joint of the body has a narrow range. Of URDF: dynamics and the
 /// child's inertia. Inertia beyond the body itself and included files are not followed, which `notes` says.
 /// @throws ConfigError where the file cannot be read, is of another kind, or has no such joint: its joints
