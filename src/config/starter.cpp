@@ -156,6 +156,19 @@ bool is_drive_torque(const RecordingConfig& r, Coordinates coordinates) {
   return unit == (turns ? "N m" : "N") && r.gear.position == 1.0;
 }
 
+/// A gear of 1 is what a simulator's file has that says nothing of its motor: beside an input that is no
+/// torque it is a guess.
+void doubt_the_gear(const RecordingConfig& recording, Coordinates coordinates, JointNumbers& n) {
+  constexpr double kRounding = 1e-12;
+  const std::string& unit = recording.units.input;
+  const bool is_torque = unit.empty() || is_drive_torque(recording, coordinates);
+  if (is_torque || !(std::abs(n.torque_constant - 1.0) < kRounding)) return;
+  n.torque_constant = kNaN;
+  n.notes.push_back(fmt::format(
+      "torque_constant is a GUESS: {} has a gear of 1 for joint {}, but the input is in {}, not in {}",
+      printable(n.model, 80), printable(n.joint, 40), printable(unit, 20), coordinates.torque_unit()));
+}
+
 void write_load(YamlWriter& out, const StarterChoice& choice, const Begin& begin, Coordinates coordinates) {
   const bool free = choice.structure == StarterModel::kGap;
   const JointNumbers& n = begin.numbers;
@@ -237,6 +250,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   if (config.reading.controller) write_commanding(out, config, known.gain_sought, coordinates);
   out.entry("coordinates", coordinates.name());
   Begin begin = begin_of(seen.facts, one_body, nominal);
+  if (nominal) doubt_the_gear(config, coordinates, begin.numbers);
   begin.input_is_torque = !(begin.numbers.torque_constant > 0.0) && is_drive_torque(config, coordinates);
   begin.gain_sought = known.gain_sought && !std::isfinite(config.reading.controller->saturation);
   begin.anchored = known.anchor.has_value();
