@@ -83,13 +83,16 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
   const Configuration read =
       parse_configuration(starter.yaml, output);  // throws where an anchor does not suit
   write_text(output, several ? named_after(r.axis, starter.yaml) : starter.yaml, "");
+  print_warnings(starter.remarks);
   print_warnings(starter.spoiling);
   fmt::print("{:<12}{}\n{:<12}{}\n", "written", output, "model", starter.model);
   if (known.anchor) fmt::print("{:<12}{}\n", "anchor", known.anchor->told(r.coordinates()));
   if (!starter.order.empty())
     fmt::print("{:<12}{}\n", "order", with_input_unit(starter.order, read.input_facts()));
-  fmt::print("{:<12}{}gapscope run {} (or detect, fit, diagnose)\n", "next",
-             starter.guesses ? "fill in what is marked GUESS, then " : "", output);
+  fmt::print("{:<12}{}gapscope {} {} (or {})\n", "next",
+             starter.guesses ? "fill in what is marked GUESS, then " : "",
+             a.held_out.empty() ? "run" : "diagnose", output,
+             a.held_out.empty() ? "detect, fit, diagnose" : "run, detect, fit");
 }
 
 }  // namespace

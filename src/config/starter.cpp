@@ -261,6 +261,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
     begin.numbers.unbalance = kNaN,
     begin.numbers.notes.push_back("not taken: gravity, as the output does not move");
   write_model(out, choice, begin, coordinates);
+  starter.remarks = begin.numbers.notes;
   out.entry("detector", "{bound: auto}");
   if (known.anchor)
     out.entry("anchor", anchor_text(*known.anchor), "known of the drive: sets the scale of all torques");

@@ -18,7 +18,8 @@ using testing::Workplace;
 std::string tried(Workplace& place, const std::string& arguments) {
   const auto init = place.run("init " + arguments + " -o drive.yaml");
   EXPECT_EQ(init.status, 0) << init.err;
-  EXPECT_THAT(init.out, HasSubstr("gapscope run drive.yaml"));
+  const bool held_out = arguments.find("--held-out") != arguments.npos;
+  EXPECT_THAT(init.out, HasSubstr(held_out ? "gapscope diagnose drive.yaml" : "gapscope run drive.yaml"));
   const std::string few = testing::excluding_all_but({"motor_coulomb_friction", "quadratic_drag"});
   for (const std::string& command : {std::string("run drive.yaml"), "diagnose drive.yaml" + few}) {
     const auto outcome = place.run(command + " -o report");
@@ -132,6 +133,35 @@ TEST(Init, BeginsWithTheNumbersOfAMuJoCoModel) {
   EXPECT_THAT(place.run("init r.csv --from robot.xml --joint knee -o d.yaml").err,
               HasSubstr("has no joint 'knee'"));
   EXPECT_EQ(place.run("init r.csv --from robot.xml -o d.yaml").status, 2);
+}
+
+TEST(Init, TakesGravityOfAMuJoCoModelAndSaysWhatItLeavesAside) {
+  Workplace place;
+  TestEncoder encoder;
+  encoder.rate = 500.0, encoder.duration = 4.0, encoder.bits = 18, encoder.step = 1e-4;
+  const std::string rows = testing::rows_of(record({}, sine(0.5814, 1.0), encoder)).csv();
+  place.file("r.csv", rows), place.file("h.csv", rows);
+  place.file(
+      "robot.xml",
+      "<mujoco><worldbody><body><inertial pos='0 0 -0.05' mass='0.12' diaginertia='1e-3 1e-3 1e-3'/><joint "
+      "name='elbow' axis='0 1 0' armature='2e-3' stiffness='0.05'/></body></worldbody><actuator><position "
+      "joint='elbow' kp='20'/></actuator></mujoco>");
+  const std::string from = "init r.csv --held-out h.csv --from robot.xml --joint elbow ";
+  const auto init = place.run(from + "--input-unit A -o drive.yaml");
+  EXPECT_EQ(init.status, 0) << init.err;
+  const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
+  EXPECT_THAT(yaml, HasSubstr("- load_unbalance: {amplitude_nm: {value: 0.0589, estimate: true}, phase_rad: "
+                              "{value: 0, estimate: true}}"));
+  EXPECT_THAT(yaml, HasSubstr("torque_constant: {value: 1, guess: true}"));
+  for (const std::string& said : {yaml, init.err}) {
+    EXPECT_THAT(said, HasSubstr("not taken: the joint's stiffness 0.05"));
+    EXPECT_THAT(said, HasSubstr("the actuator is of kind position"));
+    EXPECT_THAT(said, HasSubstr("torque_constant is a GUESS: robot.xml has a gear of 1 for joint elbow, but "
+                                "the input is in A, not in N m"));
+  }
+  EXPECT_THAT(init.out, HasSubstr("gapscope diagnose drive.yaml"));
+  EXPECT_EQ(place.run(from + "-o torque.yaml").status, 0);
+  EXPECT_THAT(testing::text_of(place.folder() / "torque.yaml"), HasSubstr("torque_constant: 1  #"));
 }
 
 TEST(Init, AGapIsSeenAndLeftToTheFit) {

@@ -18,6 +18,7 @@ struct Starter {
   std::string yaml;                   ///< run, fit, detect and diagnose accept it as it is
   bool guesses = false;               ///< a number in it is marked GUESS
   std::string model;                  ///< which structure was chosen, and why
+  std::vector<std::string> remarks;   ///< what of a simulator's model was left aside, or is doubtful
   std::vector<std::string> spoiling;  ///< what `check` says will spoil the estimates
   std::string order;  ///< which of two recordings is better fitted, and why; empty where there is one
 };
