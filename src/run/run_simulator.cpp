@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
@@ -15,6 +16,7 @@ namespace gapscope::internal::run {
 namespace {
 
 constexpr double kFiner = 1.5;      // times: a simulator that reads finer than the encoder is rounded
+constexpr double kSameShape = 0.5;  // of the drive's own rms: less is the same motion in another unit
 constexpr double kFarStart = 0.05;  // of the travel: another start than the drive's
 
 /// One instrument looks at both: nothing is told of the simulator that the drive's encoder could not show.
@@ -34,6 +36,45 @@ void note_start(const Recording& simulated, const Recording& drive, Coordinates 
       coordinates.thousandths(drive.x1.front()), drive.file));
 }
 
+/// A position in another unit than the recording's is this many times off.
+struct UnitSlip {
+  double times;
+  const char* looks_like;
+};
+constexpr UnitSlip kSlips[] = {{kPi / 180.0, "rad where the recording has deg"},
+                               {180.0 / kPi, "deg where the recording has rad"},
+                               {1e-3, "a unit a thousand times as large as the recording's"},
+                               {1e3, "a unit a thousandth of the recording's"}};
+
+/// Rms of a simulated motion, a times as large, about the drive's, both without their means, in parts of the
+/// drive's own rms.
+double shape_error(const Recording& simulated, const Recording& drive, double times) {
+  const std::size_t n = std::min(simulated.size(), drive.size());
+  const auto mean = [n](const std::vector<double>& x) {
+    return std::accumulate(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n), 0.0) /
+           static_cast<double>(n);
+  };
+  const double middle = mean(simulated.x1), place = mean(drive.x1);
+  double error = 0.0, moved = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double own = drive.x1[i] - place, e = times * (simulated.x1[i] - middle) - own;
+    error += e * e, moved += own * own;
+  }
+  return std::sqrt(error / moved);
+}
+
+/// The same motion but for a factor that is one between units is in another unit.
+/// @throws ConfigError
+void require_same_unit(const Recording& simulated, const Recording& drive) {
+  for (const UnitSlip& slip : kSlips)
+    if (shape_error(simulated, drive, 1.0 / slip.times) < kSameShape)
+      throw ConfigError(
+          simulated.file,
+          fmt::format("moves {:.3g} times as far as {} and else alike: its position looks like {}, expected "
+                      "the unit of the recording",
+                      slip.times, drive.file, slip.looks_like));
+}
+
 void require_there(const Configuration& c, const RecordedFile& file) {
   if (std::error_code unreachable; std::filesystem::exists(file.path, unreachable)) return;
   const std::string what = fmt::format(
@@ -46,6 +87,7 @@ Recording read_answer(const Configuration& c, const RecordedFile& file, const Re
                       SimulatedRecordings& all) {
   require_there(c, file);
   Recording r = read_simulated(file.path, c.recording->reading.columns, drive);
+  require_same_unit(r, drive);
   note_start(r, drive, c.coordinates, all.warnings);
   read_by_encoder(r, drive.quantum);
   all.files.push_back({r.file, sha256_of_file(file.path)});

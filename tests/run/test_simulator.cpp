@@ -39,6 +39,12 @@ class DriveAndSimulator {
         << "recording: {file: drive.csv, simulated: sim.csv}\nencoder: {bits: 18}\nmodel: "
         << testing::kPaperModel;
   }
+  /// What the simulator wrote, in another unit.
+  void rescale_simulator(double times) const {
+    Recording r = read_recording(at("sim.csv"), ReadOptions());
+    for (double& x : r.x1) x *= times;
+    write_csv(at("sim.csv"), r);
+  }
   /// Of the parameters alone: no effect is a candidate.
   SimulatorComparison compared() const {
     const Configuration c = load_configuration(at("drive.yaml"));
@@ -96,6 +102,16 @@ TEST(Simulator, ThatItsModelMissesByMoreThanItDiffersIsToldNoRow) {
 TEST(Simulator, OfAnotherInputIsRefusedByFileAndLine) {
   EXPECT_THAT(testing::refusal([] { DriveAndSimulator("0.019", "0.7").compared(); }),
               HasSubstr("sim.csv:3: the input is"));
+}
+
+TEST(Simulator, ThatWritesAnotherUnitIsRefusedWithTheReason) {
+  const DriveAndSimulator pair("0.016");
+  pair.rescale_simulator(180.0 / 3.14159265358979);
+  EXPECT_THAT(testing::refusal([&] { pair.compared(); }),
+              HasSubstr("sim.csv: moves 57.3 times as far as drive.csv and else alike: its position looks like "
+                        "deg where the recording has rad"));
+  pair.rescale_simulator(1e-3 * 3.14159265358979 / 180.0);
+  EXPECT_THAT(testing::refusal([&] { pair.compared(); }), HasSubstr("moves 0.001 times as far"));
 }
 
 }  // namespace
