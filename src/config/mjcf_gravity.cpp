@@ -126,6 +126,7 @@ void read_gravity(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
   if (amplitude <= kRounding * weight * std::sqrt(dot(r, r))) return;
   n.unbalance = amplitude;
   n.unbalance_phase = std::atan2(-cosine, sine) - m.turned(joint, "ref");
+  if (std::abs(n.unbalance_phase) < kRounding) n.unbalance_phase = 0.0;
 }
 
 }  // namespace gapscope::internal::config

@@ -244,7 +244,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
     starter.spoiling.push_back(f.rule + ": " + f.found + " -> " + f.advice);
     out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back());
   }
-  out.entry("name", plain_name(recording), "of the report: reports/<name>");
+  out.entry("name", plain_name(nominal ? nominal->joint : recording), "of the report: reports/<name>");
   write_recording(out, folder, config, irregular, starter.order);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
   if (config.reading.controller) write_commanding(out, config, known.gain_sought, coordinates);

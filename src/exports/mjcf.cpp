@@ -22,15 +22,18 @@ std::string inertial(const MujocoDrive& d, std::size_t body, bool turns) {
                      m.own, m.own, m.own);
 }
 
+/// Friction of a joint with what makes it hold.
+std::string dry_friction(const std::string& level) {
+  return fmt::format("frictionloss=\"{}\" solreffriction=\"{} 1\" solimpfriction=\"{} {} .001\"", level,
+                     kShortest, kHardest, kHardest);
+}
+
 std::string joint(const std::string& name, const MujocoDrive& d, std::size_t body, bool turns) {
   std::string text = turns ? fmt::format("<joint name=\"{}\" type=\"hinge\" axis=\"0 1 0\" damping=\"{}\"",
                                          name, d.damping[body])
                            : fmt::format("<joint name=\"{}\" type=\"slide\" axis=\"1 0 0\" damping=\"{}\"",
                                          name, d.damping[body]);
-  if (d.friction[body] > 0.0)
-    text += fmt::format(
-        "\n             frictionloss=\"{}\" solreffriction=\"{} 1\" solimpfriction=\"{} {} .001\"",
-        d.friction[body], kShortest, kHardest, kHardest);
+  if (d.friction[body] > 0.0) text += "\n             " + dry_friction(fmt::to_string(d.friction[body]));
   return text + "/>";
 }
 
@@ -104,21 +107,46 @@ std::string start(const ExportSource& s, const MujocoDrive& d) {
                      s.stem, pair(d.place), pair(d.speed), act);
 }
 
-std::string heading(const ExportSource& s, const std::string& what) {
-  const char* torque = s.coordinates.torque_unit();
-  return fmt::format(
-      "<!-- {} by gapscope: {}; certificate.md says what it carries and how exactly.\n"
-      "     ctrl of {}_drive is u (torque {} per unit of u on the motor), held from step to step; {}_encoder "
-      "is x1.\n"
-      "     The tendon is the gap; solreflimit belongs to these two inertias: more inertia on the load's "
-      "body asks\n"
-      "     for -k (1/m1 + 1/m2). solreffriction is raised to two steps by MuJoCo, whatever the step is. "
-      "-->\n",
-      s.stem, what, s.stem, torque, s.stem);
+std::string heading(const ExportSource& s, const MujocoDrive& d, const std::string& what) {
+  std::string text = fmt::format(
+      "<!-- {0} by gapscope: {1}; certificate.md says what it carries and how exactly.\n"
+      "     ctrl of {0}_drive is u (torque {2} per unit of u on the motor), held from step to step; "
+      "{0}_encoder is x1.\n",
+      s.stem, what, s.coordinates.torque_unit());
+  if (d.has_load && d.locked)
+    text +=
+        "     The tendon is the gap to an output that stands still; solreflimit belongs to this inertia: "
+        "more "
+        "asks\n     for -k/m1.\n";
+  else if (d.has_load)
+    text +=
+        "     The tendon is the gap; solreflimit belongs to these two inertias: more inertia on the load's "
+        "body asks\n     for -k (1/m1 + 1/m2).\n";
+  else
+    text += fmt::format(
+        "     One body: hang your link into {}_motor and take its inertia off what is given there.\n",
+        s.stem);
+  if (d.friction[0] > 0.0 || (d.friction[1] > 0.0 && !d.locked))
+    text += "     solreffriction is raised to two steps by MuJoCo, whatever the step is.\n";
+  return text.insert(text.size() - 1, " -->");
+}
+
+/// What to change in a model that has these joints already.
+std::string own_file(const MujocoDrive& d) {
+  const bool two = d.has_load && !d.locked;
+  const auto joint = [&](std::size_t body) {
+    const double friction = d.friction[body];
+    return fmt::format("armature=\"{:.6g}\" damping=\"{:.6g}\" {}", d.inertia[body], d.damping[body],
+                       friction > 0.0 ? dry_friction(fmt::format("{:.6g}", friction)) : "frictionloss=\"0\"");
+  };
+  std::string text = fmt::format("{}: {}; actuator: gear=\"{:.6g}\"", two ? "joint of the motor" : "joint",
+                                 joint(0), d.torque_constant);
+  if (two) text += "; joint of the load: " + joint(1);
+  return text + "; the armature is all the inertia: take off what your bodies have about the axis";
 }
 
 std::string alone(const ExportSource& s, const MujocoDrive& d, double step) {
-  return heading(s, "a model that stands alone") +
+  return heading(s, d, "a model that stands alone") +
          fmt::format(
              "<mujoco model=\"{}\">\n  <option timestep=\"{}\" integrator=\"RK4\" gravity=\"0 0 -{}\" "
              "tolerance=\"1e-15\" iterations=\"100\"/>\n",
@@ -127,7 +155,7 @@ std::string alone(const ExportSource& s, const MujocoDrive& d, double step) {
 }
 
 std::string fragment(const ExportSource& s, const MujocoDrive& d) {
-  return heading(s, "a fragment, <include file=\"...\"/> in a model of yours") + "<mujocoinclude>\n" +
+  return heading(s, d, "a fragment, <include file=\"...\"/> in a model of yours") + "<mujocoinclude>\n" +
          parts(s, d) + "</mujocoinclude>\n";
 }
 
@@ -222,6 +250,7 @@ DriveExport export_mjcf(const ExportSource& s) {
   DriveExport out;
   Certificate& c = out.certificate;
   c.format = "mjcf";
+  c.own_file = own_file(d);
   c.parts = mujoco_parts(s);
   add_loop_lines(s, {"qpos", "qvel", "ctrl", 1.0, "qfrc_applied"}, c);
   judge(s, d, c);

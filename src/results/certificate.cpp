@@ -55,6 +55,7 @@ void fields(Archive& archive, Certificate& c) {
   archive.list("errors", c.errors);
   archive.list("limits", c.limits);
   archive("default_friction_rms_rad", c.default_error);
+  archive("own_file", c.own_file);
   archive("warnings", c.warnings);
   archive.configuration(c.configuration);
 }

@@ -150,6 +150,7 @@ TEST(Init, TakesGravityOfAMuJoCoModelAndSaysWhatItLeavesAside) {
   const auto init = place.run(from + "--input-unit A -o drive.yaml");
   EXPECT_EQ(init.status, 0) << init.err;
   const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
+  EXPECT_THAT(yaml, HasSubstr("name: elbow  #"));
   EXPECT_THAT(yaml, HasSubstr("- load_unbalance: {amplitude_nm: {value: 0.0589, estimate: true}, phase_rad: "
                               "{value: 0, estimate: true}}"));
   EXPECT_THAT(yaml, HasSubstr("torque_constant: {value: 1, guess: true}"));

@@ -18,6 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::kTwoBodies;
 using testing::MujocoEngineRun;
+using ::testing::Not;
 using testing::random_drive_configuration;
 using testing::rig_configuration;
 
@@ -252,6 +253,20 @@ TEST(Mjcf, WarnsOfTheCreepOfMuJoCosDefaults) {
   const double rms = std::sqrt(sum / static_cast<double>(judged.x1.size()));
   EXPECT_NEAR(c.default_error, rms, 0.05 * rms);
   EXPECT_GT(rms, 20.0 * held);
+}
+
+TEST(Mjcf, OfOneBodySpeaksOfNeitherTendonNorLoadAndSaysWhatToChangeElsewhere) {
+  const DriveExport drive = export_drive(
+      rig_configuration(", mass_ratio: 0", "  effects: [{motor_coulomb_friction: {level_nm: 0.02}}]\n"),
+      ExportFormat::kMjcf);
+  for (const ExportedFile& file : drive.files) {
+    EXPECT_THAT(file.text, Not(HasSubstr("tendon"))) << file.name;
+    EXPECT_THAT(file.text, Not(HasSubstr("load"))) << file.name;
+  }
+  EXPECT_THAT(drive.certificate.own_file,
+              HasSubstr("joint: armature=\"0.000878\" damping=\"0.062\" frictionloss=\"0.02\""));
+  EXPECT_THAT(drive.certificate.own_file, HasSubstr("actuator: gear=\"0.172\""));
+  EXPECT_THAT(certificate_text(drive.certificate), HasSubstr("## In a file of your own"));
 }
 
 TEST(Mjcf, TheFragmentIsAModelWhenItIsIncluded) {

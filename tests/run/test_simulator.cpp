@@ -107,9 +107,10 @@ TEST(Simulator, OfAnotherInputIsRefusedByFileAndLine) {
 TEST(Simulator, ThatWritesAnotherUnitIsRefusedWithTheReason) {
   const DriveAndSimulator pair("0.016");
   pair.rescale_simulator(180.0 / 3.14159265358979);
-  EXPECT_THAT(testing::refusal([&] { pair.compared(); }),
-              HasSubstr("sim.csv: moves 57.3 times as far as drive.csv and else alike: its position looks like "
-                        "deg where the recording has rad"));
+  EXPECT_THAT(
+      testing::refusal([&] { pair.compared(); }),
+      HasSubstr("sim.csv: moves 57.3 times as far as drive.csv and else alike: its position looks like "
+                "deg where the recording has rad"));
   pair.rescale_simulator(1e-3 * 3.14159265358979 / 180.0);
   EXPECT_THAT(testing::refusal([&] { pair.compared(); }), HasSubstr("moves 0.001 times as far"));
 }

@@ -58,6 +58,7 @@ struct Certificate {
   std::vector<TargetError> errors;  ///< by integrator and step
   std::vector<StepLimits> limits;   ///< by integrator
   double default_error = kNaN;      ///< rms with what the format takes for granted of friction [rad]
+  std::string own_file;             ///< what to change in a model that has the joint already; empty: not told
   std::vector<std::string> warnings;
   std::string configuration;  ///< as resolved
 };
