@@ -26,11 +26,19 @@ std::string estimate(double value, const Interval& ci95, Coordinates coordinates
                      fmt::format("[{:.{}f}, {:.{}f}]", 1e3 * ci95.low, d, 1e3 * ci95.high, d));
 }
 
+/// "19 events", or "mean of 9 periods".
+std::string evidence(const GapEstimate& g) {
+  int periods = 0;
+  for (const GapEvent& e : g.events)
+    if (e.accepted) periods = std::max(periods, e.periods);
+  return periods > 1 ? fmt::format("mean of {} periods", periods) : fmt::format("{} events", g.events.size());
+}
+
 std::string model_free_line(const GapEstimate& g, Coordinates coordinates) {
   if (g.verdict == GapVerdict::kBacklash)
-    return fmt::format("{} {} ({}, {} events)", estimate(g.gap, g.ci95, coordinates),
+    return fmt::format("{} {} ({}, {})", estimate(g.gap, g.ci95, coordinates),
                        g.quantity == GapQuantity::kGap ? "backlash" : "play at zero torque",
-                       to_string(g.method), g.events.size());
+                       to_string(g.method), evidence(g));
   if (g.verdict == GapVerdict::kNone)
     return fmt::format("none: a gap above {} would have shown", coordinates.thousandths(g.none_above()));
   return fmt::format("{}: {}", to_string(g.verdict), g.reason.text());

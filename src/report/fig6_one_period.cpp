@@ -85,27 +85,7 @@ std::string reading(const ReportView& view, const OnePassage& p) {
   return "Passage nearest to the median: " + text + ".";
 }
 
-/// An error that is smaller than this share of the passage's largest lies on the axis as it is drawn. Half
-/// and double of it move t_c of configs/01 by +4 and −8 ms, of configs/02 by ±1 ms; 0.05 takes a wave of e_x
-/// before it.
-constexpr double kQuietShare = 0.01;
-
 }  // namespace
-
-double quiet_since(const ReportView& view, const GapEvent& e) {
-  if (!view.error) return kNaN;
-  const std::vector<double>& error = view.error->error;
-  const std::size_t i1 = view.index(e.t1), end = view.index(e.t2 + (e.t2 - e.t1));
-  const std::size_t reach =
-      view.index(e.t1 - (std::isfinite(view.half_period) ? view.half_period : 10 * (e.t2 - e.t1)));
-  const double quiet = kQuietShare * largest_magnitude(std::span(error).subspan(i1, end - i1 + 1));
-  std::size_t i = i1;
-  const std::size_t patience = view.index(e.t1 - 0.25 * (e.t2 - e.t1));
-  while (i > patience && !(std::abs(error[i]) <= quiet)) --i;
-  if (!(std::abs(error[i]) <= quiet)) return kNaN;
-  while (i > reach && std::abs(error[i - 1]) <= quiet) --i;
-  return i == reach ? kNaN : view.time[i];
-}
 
 std::optional<OnePassage> typical_passage(const ReportView& view) {
   const std::vector<GapEvent> events = view.accepted();
@@ -113,7 +93,7 @@ std::optional<OnePassage> typical_passage(const ReportView& view) {
   if (event == nullptr) return std::nullopt;
   OnePassage p;
   p.event = *event;
-  p.converged = quiet_since(view, p.event);
+  p.converged = p.event.t_c;
   const double flight = p.event.t2 - p.event.t1;
   const bool near = p.event.t1 - p.converged < 6.0 * flight;  // false for NaN
   const double start = near ? std::min(p.converged, p.event.t1 - flight) : p.event.t1 - 2.0 * flight;

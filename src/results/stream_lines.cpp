@@ -25,7 +25,7 @@ void fields(Archive& archive, LearntFacts& l) {
 namespace {
 
 constexpr const char* kStreamSchema = "gapscope.stream/1";
-constexpr const char* kNotInEvents = "file";
+constexpr const char* kNotInEvents[] = {"file", "t_c_s", "periods"};
 constexpr const char* kNotInSummaries[] = {"bound_t1_rad_s2", "paper_bound_rad_s2", "scale", "events",
                                            "bound_map"};
 
@@ -62,7 +62,7 @@ Json stream_schema() {
   SchemaWriter learnt = schema_of_line("learnt"), event = schema_of_line("event");
   fields(learnt, facts);
   fields(event, passage);
-  event.erase(kNotInEvents);
+  for (const char* of_a_report : kNotInEvents) event.erase(of_a_report);
   return {{"oneOf", {settings_schema(), learnt.schema(), event.schema(), summary_schema()}}};
 }
 
@@ -101,7 +101,7 @@ std::string event_line(const GapEvent& event) {
   GapEvent e = event;
   JsonWriter writer = line_of("event");
   fields(writer, e);
-  writer.json.erase(internal::results::kNotInEvents);
+  for (const char* of_a_report : internal::results::kNotInEvents) writer.json.erase(of_a_report);
   return writer.json.dump() + "\n";
 }
 

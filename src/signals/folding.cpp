@@ -117,15 +117,16 @@ FoldedMotion fold(const MotorTrace& trace) {
   f.periods = table.rows.size() - first;
   f.dt = period / static_cast<double>(table.phases());
   f.start = trace.start + (table.begin + static_cast<double>(first) * table.length) * trace.dt;
+  f.offsets.assign(table.offsets.begin() + static_cast<std::ptrdiff_t>(first), table.offsets.end());
   const double between = average(table, first, f.mean), rounding = f.quantum * f.quantum / 12.0;
   // Periods that read alike to the last count share their rounding: averaging does not help.
   f.noise = std::sqrt(between > 0.5 * rounding ? between / static_cast<double>(f.periods) : rounding);
   if (between < kDithered * rounding) f.rounding = std::sqrt(rounding);
-  const double drift = drift_of(table, first);
+  f.drift = drift_of(table, first);
   const double origin = table.begin + static_cast<double>(first) * table.length;
   for (std::size_t tile = 0; tile < FoldedMotion::kTiles; ++tile)
     for (std::size_t b = 0; b < f.mean.size(); ++b) {
-      f.tiled_x1.push_back(f.mean[b] + drift * static_cast<double>(tile));
+      f.tiled_x1.push_back(f.mean[b] + f.drift * static_cast<double>(tile));
       f.tiled_u.push_back(
           between_samples(trace.u, origin + (static_cast<double>(b) + 0.5) * f.dt / trace.dt));
     }

@@ -8,9 +8,11 @@
 #include "sliding_mode/bound_map.h"
 #include "sliding_mode/frozen_search.h"
 #include "sliding_mode/impact_method.h"
+#include "sliding_mode/kept_traces.h"
 #include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
 #include "sliding_mode/pooled_reading.h"
+#include "sliding_mode/told_events.h"
 #include "sliding_mode/verdict.h"
 #include "sliding_mode/words.h"
 
@@ -19,6 +21,7 @@ namespace {
 
 using internal::signals::SignalFacts;
 using internal::sliding_mode::ImpactAnalysis;
+using internal::sliding_mode::keep_traces;
 using internal::sliding_mode::LoopSearch;
 using internal::sliding_mode::PaperReading;
 namespace words = internal::sliding_mode::words;
@@ -76,58 +79,12 @@ double bound_that_shows(std::span<const MotorTrace> recordings, std::span<const 
   return best == found.end() ? otherwise : best->bound;
 }
 
-/// e_x and ŵ1 of one bound, for the figures.
-ErrorTrace trace_of(const MotorTrace& recording, double bound, Discretisation discretisation) {
-  ErrorTrace trace{recording.file, {}, {}};
-  if (recording.x1.empty()) return trace;
-  SuperTwistingDifferentiator differentiator(bound, discretisation);
-  trace.error.reserve(recording.size());
-  trace.velocity.reserve(recording.size());
-  for (const double y : recording.x1) {
-    const auto estimate = differentiator.step(y, recording.dt);
-    trace.error.push_back(estimate.error);
-    trace.velocity.push_back(estimate.velocity);
-  }
-  return trace;
-}
-
-/// The number of the form 1, 2 or 5 × 10ⁿ nearest to `value` on a logarithmic scale.
-double nice_number(double value) {
-  const double decade = std::pow(10.0, std::floor(std::log10(value)));
-  const double mantissa = value / decade;
-  return decade * (mantissa < std::sqrt(2.0)    ? 1.0
-                   : mantissa < std::sqrt(10.0) ? 2.0
-                   : mantissa < std::sqrt(50.0) ? 5.0
-                                                : 10.0);
-}
-
-/// N of step S2: e_x × N fills the travel of x1.
-double scale_of(std::span<const ImpactAnalysis> analyses, const std::vector<ErrorTrace>& traces) {
-  double ratio = 0.0;
-  for (std::size_t i = 0; i < traces.size(); ++i) {
-    const std::span<const double> settled = std::span(traces[i].error).subspan(traces[i].error.size() / 10);
-    std::vector<double> sizes(settled.begin(), settled.end());
-    for (double& size : sizes) size = std::abs(size);
-    const double peak = quantile(std::move(sizes), 0.998);
-    if (peak > 0.0) ratio = std::max(ratio, 0.5 * analyses[i].facts.travel / peak);
-  }
-  return ratio > 0.0 ? nice_number(ratio) : 1.0;
-}
-
 /// Median over the recordings of a bound that each analysis chose.
 double typical_bound(std::span<const ImpactAnalysis> analyses, std::size_t ImpactAnalysis::*index) {
   std::vector<double> bounds;
   for (const ImpactAnalysis& a : analyses)
     if (a.facts.defect.empty()) bounds.push_back(a.run.bounds[a.*index]);
   return median(std::move(bounds));
-}
-
-void keep_traces(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
-                 double bound, Discretisation discretisation, GapEstimate& estimate) {
-  if (!(bound > 0.0)) return;
-  for (const MotorTrace& recording : recordings)
-    estimate.traces.push_back(trace_of(recording, bound, discretisation));
-  estimate.scale = scale_of(analyses, estimate.traces);
 }
 
 /// The map of the recording with the most accepted passages.
@@ -152,11 +109,16 @@ void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const
   const GapEstimate paper = decide_paper(recordings, analyses, bound);
   if (paper.verdict == GapVerdict::kBacklash) return;
   estimate.warnings.push_back(words::paper_bound_misses(bound, paper.reason));
+  std::vector<GapEvent> events;
+  std::size_t periods = 0;
 }
 
 /// Where single periods show too little: the mean period of every recording that repeats itself.
 void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
                        GapEstimate& estimate) {
+    periods += folded.periods;
+    for (const GapEvent& event : internal::sliding_mode::events_of_mean(folded, means.back().passages))
+      events.push_back(event);
   std::vector<ImpactAnalysis> means;
   std::vector<double> intervals;
   for (const MotorTrace& recording : recordings) {
@@ -171,8 +133,13 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
       (reading.verdict != GapVerdict::kNone || estimate.verdict == GapVerdict::kNone))
     return;
   estimate = std::move(reading);
-  estimate.reason += words::mean_of_periods();
-  analyses = std::move(means);
+  estimate.events = std::move(events);
+  if (estimate.verdict == GapVerdict::kBacklash) {
+    const auto used = std::ranges::count_if(estimate.events, &GapEvent::accepted);
+    estimate.reason = words::passages_used(used, std::ssize(estimate.events), 0);
+  }
+  estimate.reason += words::mean_of_periods(static_cast<long>(periods));
+  if (means.size() == recordings.size()) analyses = std::move(means);  // else some repeat nothing
 }
 
 std::vector<SignalFacts> facts_of(std::span<const MotorTrace> recordings) {

@@ -2,6 +2,7 @@
 
 #include "gapscope/base/require.h"
 #include "sliding_mode/frozen_search.h"
+#include "sliding_mode/told_events.h"
 #include "sliding_mode/verdict.h"
 
 namespace gapscope {

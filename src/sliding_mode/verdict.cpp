@@ -10,6 +10,7 @@
 #include "signals/encoder.h"
 #include "signals/folding.h"
 #include "sliding_mode/informative.h"
+#include "sliding_mode/told_events.h"
 #include "sliding_mode/visible_gap.h"
 #include "sliding_mode/words.h"
 
@@ -247,14 +248,6 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
 }
 
 }  // namespace
-
-GapEvent event_of(const Transition& t) {
-  GapEvent event = t.event;
-  event.std = t.half_width;
-  event.accepted = t.refusal == Refusal::kNone;
-  if (!event.accepted) event.remark = refusal_text(t.refusal);
-  return event;
-}
 
 GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals) {
   GapEstimate estimate;

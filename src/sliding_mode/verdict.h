@@ -7,9 +7,6 @@
 
 namespace gapscope::internal::sliding_mode {
 
-/// A passage as it is told.
-GapEvent event_of(const Transition& passage);
-
 /// Verdict, estimate and events from all recordings together. Median per direction, mean of both.
 /// @param intervals  sampling interval of each [s]
 GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals);

@@ -38,7 +38,7 @@ Remark gap_uncertain(double gap, double percent);
 Remark no_impact(double mass_ratio, double half_periods);
 Remark only_large_gaps(double visible, double travel);
 Remark flights_together(long used, long turns);
-Remark mean_of_periods();  ///< added to another
+Remark mean_of_periods(long periods);  ///< added to another
 
 // Quasi-static loops.
 struct Play {

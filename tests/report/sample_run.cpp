@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sliding_mode/kept_traces.h"
+
 namespace gapscope {
 namespace {
 
@@ -104,6 +106,8 @@ GapEstimate estimate(const Recording& r, const std::vector<Mode>& mode, GapVerdi
   g.smallest_visible_gap = 4e-4;
   g.traces.push_back(differentiate(r, g.bound));
   g.events = passages(r, mode);
+  for (GapEvent& e : g.events)
+    e.t_c = internal::sliding_mode::at_rest_since(g.traces[0], r.start, r.dt, e, 0.5);
   g.map = sample_map(r);
   g.paper_bound = 20.0;
   if (verdict == GapVerdict::kBacklash) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "gapscope/recording/recording.h"
+#include "gapscope/sliding_mode/gap_estimate.h"
+#include "gapscope/sliding_mode/super_twisting.h"
+#include "sliding_mode/impact_method.h"
+
+namespace gapscope::internal::sliding_mode {
+
+/// t_c of S2: since when e_x had been quiet before t1, on the scale of the passage, which is what it reaches
+/// from t1 until as long after t2 [s]. NaN where it was not, or where that is longer than half a period.
+/// @param half_period  [s]; not positive: ten passages
+double at_rest_since(const ErrorTrace& error, double start, double dt, const GapEvent& event,
+                     double half_period);
+
+/// e_x of one bound for every recording, its scale N, and t_c of each event. Nothing without a bound.
+/// @param analyses  one per recording
+void keep_traces(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
+                 double bound, Discretisation discretisation, GapEstimate& estimate);
+
+}  // namespace gapscope::internal::sliding_mode
