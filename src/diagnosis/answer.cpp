@@ -192,18 +192,30 @@ const std::map<std::string, std::string>& remedies() {
 
 bool coasts_better(const FitSummary& fit) { return fit.innovation_rmse >= fit.coasting_rmse; }
 
+/// What a reason that says what to change has behind its colon; empty for others.
+std::string advice_in(const Remark& reason) {
+  const bool bank = reason.codes().find("nothing_reads") != std::string::npos;
+  if (reason.code() != "gap_uncertain" && reason.code() != "few_passages" && !bank) return "";
+  const std::string text = clause(reason);
+  const std::size_t colon = bank ? text.rfind(": ") : text.find(": ");
+  return colon == std::string::npos ? "" : "For a reading without a model: " + text.substr(colon + 2) + ".";
+}
+
 std::string step_without_model(const GapEstimate& g) {
   const bool open = g.verdict == GapVerdict::kInconclusive, loop = g.lost_motion.read();
   if (open && g.reason.code() == "locked_with_bound")
     return "Set detector: bound to auto: it reads the lost-motion loop, a given bound reads impacts alone.";
   if (g.reason.code() == "encoder_on_load")
     return "For a reading without a model, record the motor's position as well.";
-  if (open && g.reason.codes().find("bounds_to_try") != std::string::npos)
+  const auto says = [&](const char* code) { return g.reason.codes().find(code) != std::string::npos; };
+  if (open && (says("bounds_to_try") || says("bound_to_try")))
     return "Set detector: bound as the reason says, or to auto, which reads with a bank of bounds.";
+  if (open && says("auto_reads")) return "Set detector: bound to auto, which reads this recording.";
   for (const char* slow : {"too_slow", "only_large_gaps", "no_impact_stands_out"})
     if (open && !loop && g.reason.code() == slow)
       return "For a reading without a model, record a faster motion (higher frequency or amplitude), the "
              "output free.";
+  if (const std::string told = advice_in(g.reason); open && !loop && !told.empty()) return told;
   if (open && !loop)
     return "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell "
            "at the reversals, the output free.";

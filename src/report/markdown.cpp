@@ -103,14 +103,31 @@ std::string bounds_line(const RunResult& run) {
 
 constexpr std::size_t kTablePassages = 24;  ///< all of them are in result.json
 
+/// "used": of a mean, how many periods it is of.
+std::string use_of(const GapEvent& e) {
+  if (!e.accepted) return "no: " + e.remark;
+  return e.periods > 1 ? fmt::format("yes: mean of {} periods", e.periods) : "yes";
+}
+
+/// How many of the passages cannot be in the table, as only their impact was seen.
+std::string without_begin(std::size_t count) {
+  if (count == 0) return "";
+  return fmt::format("\n{} without a begin (t1) {} in `result.json`.\n", counted(count, "impact"),
+                     count == 1 ? "is" : "are");
+}
+
 /// The passages of the gap that the estimate rests on, and those that were set aside.
 std::string passage_table(const RunResult& run) {
   if (!run.model_free || run.model_free->events.empty()) return "";
-  const std::vector<GapEvent>& events = run.model_free->events;
+  std::vector<GapEvent> events;
+  for (const GapEvent& e : run.model_free->events)
+    if (std::isfinite(e.t1)) events.push_back(e);
+  const std::size_t begun = events.size();
+  if (events.empty()) return "\n## Passages of the gap\n" + without_begin(run.model_free->events.size());
   const bool several = run.recordings.size() > 1;
   double largest = 0.0;
   for (const GapEvent& e : events)
-    largest = std::max({largest, std::abs(e.gap), std::abs(e.x1_t2 - e.x1_t1)});
+    if (e.accepted) largest = std::max({largest, std::abs(e.gap), std::abs(e.x1_t2 - e.x1_t1)});
   const auto length = [&](double value) {
     return std::isfinite(value) ? quantity_beside(value, largest, position_unit(run)) : "–";
   };
@@ -120,17 +137,17 @@ std::string passage_table(const RunResult& run) {
       "the gap, with its standard error.{}\n\n| {}t1 [s] | t2 [s] | x1 | moves by | 2β | standard error | "
       "used "
       "|\n|{}---|---|---|---|---|---|---|\n",
-      events.size() > kTablePassages
-          ? fmt::format(" The first {} of {}; `result.json` has all.", kTablePassages, events.size())
+      begun > kTablePassages
+          ? fmt::format(" The first {} of {}; `result.json` has all.", kTablePassages, begun)
           : "",
       several ? "recording | " : "", several ? "---|" : "");
-  for (std::size_t i = 0; i < std::min(events.size(), kTablePassages); ++i) {
+  for (std::size_t i = 0; i < std::min(begun, kTablePassages); ++i) {
     const GapEvent& e = events[i];
     text += fmt::format("| {}{:.4f} | {:.4f} | {} | {} | {} | {} | {} |\n", several ? e.file + " | " : "",
                         e.t1, e.t2, e.direction > 0 ? "rises" : "falls", length(std::abs(e.x1_t2 - e.x1_t1)),
-                        length(e.gap), length(e.std), e.accepted ? "yes" : "no: " + e.remark);
+                        length(e.accepted ? e.gap : kNaN), length(e.accepted ? e.std : kNaN), use_of(e));
   }
-  return text;
+  return text + without_begin(run.model_free->events.size() - begun);
 }
 
 std::string parameter_table(const RunResult& run) {

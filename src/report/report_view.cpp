@@ -46,7 +46,7 @@ void find_traces(ReportView& view) {
     for (const GapEvent& e : view.run.model_free->events)
       if (e.file == file) view.events.push_back(e);
     std::stable_sort(view.events.begin(), view.events.end(),
-                     [](const GapEvent& a, const GapEvent& b) { return a.t1 < b.t1; });
+                     [](const GapEvent& a, const GapEvent& b) { return a.t2 < b.t2; });
   }
   if (view.run.reference) view.fit = trace_of(view.run.reference->traces, file);
   if (view.fit && view.fit->x1.size() != view.recording->size()) view.fit = nullptr;

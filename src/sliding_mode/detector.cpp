@@ -60,13 +60,6 @@ std::vector<Reading> readable_bounds(std::span<const MotorTrace> recordings,
   return found;
 }
 
-Remark bounds_to_try(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses) {
-  const auto found = readable_bounds(recordings, analyses);
-  if (found.empty()) return words::no_single_bound();
-  if (found.size() == 1) return words::bound_to_try(found.front().bound);
-  return words::bounds_to_try(found.front().bound, found.back().bound);
-}
-
 /// The bound whose e_x shows t1 and t2 best, for the figures: of those that read the recordings, the one
 /// closest to the estimate; without any, the smallest that slides.
 double bound_that_shows(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
@@ -109,23 +102,23 @@ void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const
   const GapEstimate paper = decide_paper(recordings, analyses, bound);
   if (paper.verdict == GapVerdict::kBacklash) return;
   estimate.warnings.push_back(words::paper_bound_misses(bound, paper.reason));
-  std::vector<GapEvent> events;
-  std::size_t periods = 0;
 }
 
 /// Where single periods show too little: the mean period of every recording that repeats itself.
 void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
                        GapEstimate& estimate) {
-    periods += folded.periods;
-    for (const GapEvent& event : internal::sliding_mode::events_of_mean(folded, means.back().passages))
-      events.push_back(event);
   std::vector<ImpactAnalysis> means;
   std::vector<double> intervals;
+  std::vector<GapEvent> events;
+  std::size_t periods = 0;
   for (const MotorTrace& recording : recordings) {
     const internal::signals::FoldedMotion folded = internal::signals::fold(recording);
     if (folded.periods == 0) continue;
     means.push_back(internal::sliding_mode::analyse_mean(folded, recording));
     intervals.push_back(folded.dt);
+    periods += folded.periods;
+    for (const GapEvent& event : internal::sliding_mode::events_of_mean(folded, means.back().passages))
+      events.push_back(event);
   }
   if (means.empty()) return;
   GapEstimate reading = internal::sliding_mode::decide_gap(means, intervals);
@@ -176,20 +169,6 @@ GapEstimate detect_frozen(std::span<const MotorTrace> recordings, const Detector
   return estimate;
 }
 
-/// One e_x with the bound that was given.
-GapEstimate detect_paper(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
-                         std::span<const SignalFacts> facts, const LoopSearch& loops,
-                         const DetectorOptions& options) {
-  GapEstimate estimate = decide_paper(recordings, analyses, options.bound);
-  if (options.locked)
-    internal::sliding_mode::speak_of_locked_output(loops, estimate);
-  else if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
-    estimate.reason += bounds_to_try(recordings, analyses);
-  keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
-  keep_map(recordings, facts, options, estimate);
-  return estimate;
-}
-
 /// Few passages say that the load moved into them: that the torque changes its sign then tells no release.
 bool load_rests(std::span<const ImpactAnalysis> analyses) {
   std::size_t moving = 0, all = 0;
@@ -212,6 +191,35 @@ GapEstimate detect_auto(std::span<const MotorTrace> recordings, std::vector<Impa
   const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.decides || options.locked);
   if (estimate.verdict != GapVerdict::kBacklash && loops.estimate && ask_loop) return *loops.estimate;
   if (options.locked) internal::sliding_mode::speak_of_locked_output(loops, estimate);
+  return estimate;
+}
+
+/// What else reads these recordings.
+Remark bounds_to_try(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
+                     std::span<const SignalFacts> facts, const LoopSearch& loops,
+                     const DetectorOptions& options) {
+  const auto found = readable_bounds(recordings, analyses);
+  if (found.size() == 1) return words::bound_to_try(found.front().bound);
+  if (found.size() > 1) return words::bounds_to_try(found.front().bound, found.back().bound);
+  std::vector<ImpactAnalysis> bank(analyses.begin(), analyses.end());
+  std::vector<double> intervals;
+  for (const MotorTrace& recording : recordings) intervals.push_back(recording.dt);
+  const GapEstimate reading = detect_auto(recordings, bank, intervals, facts, loops, options);
+  return reading.verdict == GapVerdict::kBacklash ? words::auto_reads()
+                                                  : words::nothing_reads(reading.reason);
+}
+
+/// One e_x with the bound that was given.
+GapEstimate detect_paper(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
+                         std::span<const SignalFacts> facts, const LoopSearch& loops,
+                         const DetectorOptions& options) {
+  GapEstimate estimate = decide_paper(recordings, analyses, options.bound);
+  if (options.locked)
+    internal::sliding_mode::speak_of_locked_output(loops, estimate);
+  else if (estimate.verdict != GapVerdict::kBacklash && !std::isnan(estimate.bound))
+    estimate.reason += bounds_to_try(recordings, analyses, facts, loops, options);
+  keep_traces(recordings, analyses, options.bound, Discretisation::kForwardEuler, estimate);
+  keep_map(recordings, facts, options, estimate);
   return estimate;
 }
 

@@ -5,6 +5,7 @@ namespace gapscope::internal::sliding_mode {
 GapEvent event_of(const Transition& t) {
   GapEvent event = t.event;
   event.std = t.half_width;
+  if (!t.released()) event.t1 = event.x1_t1 = event.std = kNaN;  // where x1 turned tells no loss of contact
   event.accepted = t.refusal == Refusal::kNone;
   if (!event.accepted) event.remark = refusal_text(t.refusal);
   return event;

@@ -19,7 +19,7 @@ const char* refusal_text(Refusal refusal) {
     case Refusal::kContrast:
       return "not more abrupt than the motion before it";
     case Refusal::kNoReversal:
-      return "x1 does not reverse before the impact";
+      return "the load met the far flank before x1 turned";
     case Refusal::kSmallRise:
       return "too few encoder quanta between reversal and impact";
     case Refusal::kLoadHits:
@@ -50,7 +50,7 @@ Remark advice(Refusal refusal) {
     case Refusal::kContrast:
       return words::no_impact_stands_out();
     case Refusal::kNoReversal:
-      return words::no_reversal_before_impacts();
+      return words::load_coasts_through();
     case Refusal::kSmallRise:
       return words::passages_few_quanta_wide();
     case Refusal::kLoadHits:
@@ -181,7 +181,7 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
   t.acceleration = t.event.direction * time.acceleration;
   t.contact = time.contact;
   if (!(time.drive > 0.0)) {
-    t.refusal = Refusal::kLoadHits;
+    t.refusal = small ? Refusal::kNoReversal : Refusal::kLoadHits;
     return t;
   }
   read_release(t, context, law, time);

@@ -16,7 +16,7 @@ namespace gapscope::internal::sliding_mode {
 enum class Refusal {
   kNone,
   kContrast,     ///< not more abrupt than the motion before it
-  kNoReversal,   ///< x1 does not reverse before the impact
+  kNoReversal,   ///< x1 does not reverse before the impact: the load has crossed the gap
   kSmallRise,    ///< the passage is a few quanta wide
   kLoadHits,     ///< the motor was not moving along the gap when it was hit
   kNoImpactFit,  ///< no kink where the impact should be

@@ -216,33 +216,56 @@ void deny(const Pool& pool, GapEstimate& estimate) {
 bool too_slow(const Pool& pool) {
   const Refusal refusal = commonest(pool);
   return pool.accepted.empty() && pool.visible >= kVisible * pool.travel &&
-         (refusal == Refusal::kContrast || refusal == Refusal::kNoReversal || refusal == Refusal::kNone);
+         (refusal == Refusal::kContrast || refusal == Refusal::kNone);
+}
+
+/// Of what the standard deviation of an estimate is made [rad].
+struct Deviations {
+  double random, disagreement, systematic, sampling, noise;
+  double together() const {
+    return std::sqrt(random * random + disagreement * disagreement + systematic * systematic +
+                     sampling * sampling + noise * noise);
+  }
+};
+
+Deviations deviations(const Pool& pool, double gap, double disagreement) {
+  const int only = only_direction(pool);
+  // The passages of a mean period come again in each of its copies: they are no more witnesses for that.
+  const double witnesses =
+      static_cast<double>(gaps_of(pool, only).size()) / (pool.repeats ? signals::FoldedMotion::kTiles : 1.0);
+  const bool coarse = gap < kFineGap * pool.quantum || median_of(pool, &Transition::hidden) > kSoft * gap;
+  return {scatter(pool) / std::sqrt(std::max((only == 0 ? 0.5 : 1.0) * witnesses, 1.0)), disagreement,
+          (coarse ? kSystematic : kSystematicFine) * median_of(pool, &Transition::half_width),
+          0.25 * median_of(pool, &Transition::speed) * pool.dt, pool.noise};
+}
+
+/// What an interval that is too wide to be told is mostly made of. Where contact is lost and regained is read
+/// to a count or so, of which also the directions differ: twice as many counts in the gap halve it.
+Remark mostly(const Deviations& d, const Pool& pool, double gap, double excess) {
+  const double most = std::max({d.random, d.disagreement, d.systematic, d.sampling, d.noise});
+  const double counts = gap / pool.quantum;
+  if (most == d.random) return words::passages_differ();
+  if (most == d.sampling) return words::samples_apart();
+  if (counts < kFineGap) return words::few_counts(counts, excess * counts);
+  return most == d.disagreement ? words::directions_differ() : words::ends_uncertain();
 }
 
 void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   const int only = only_direction(pool);
-  const auto used = gaps_of(pool, only).size();
   const auto [gap, disagreement] = middle(pool);
-  // The passages of a mean period come again in each of its copies: they are no more witnesses for that.
-  const double witnesses = static_cast<double>(used) / (pool.repeats ? signals::FoldedMotion::kTiles : 1.0);
-  const double random = scatter(pool) / std::sqrt(std::max((only == 0 ? 0.5 : 1.0) * witnesses, 1.0));
-  const bool coarse = gap < kFineGap * pool.quantum || median_of(pool, &Transition::hidden) > kSoft * gap;
-  const double systematic =
-      (coarse ? kSystematic : kSystematicFine) * median_of(pool, &Transition::half_width);
-  const double sampling = 0.25 * median_of(pool, &Transition::speed) * pool.dt;
+  const Deviations parts = deviations(pool, gap, disagreement);
   estimate.verdict = GapVerdict::kBacklash;
-  estimate.smallest_visible_gap = std::isfinite(pool.finest) ? pool.finest : kNaN;
+  estimate.smallest_visible_gap = pool.finest < gap ? pool.finest : kNaN;  // it foretells, this one shows
   estimate.gap = gap;
-  estimate.std = (pool.repeats ? kSummed : 1.0) *
-                 std::sqrt(random * random + disagreement * disagreement + systematic * systematic +
-                           sampling * sampling + pool.noise * pool.noise);
+  estimate.std = (pool.repeats ? kSummed : 1.0) * parts.together();
   estimate.ci95 = {std::max(estimate.gap - kNormal95 * estimate.std, 0.0),
                    estimate.gap + kNormal95 * estimate.std};
   estimate.reason =
-      words::passages_used(static_cast<long>(used), static_cast<long>(in(pool.passages, 0)), only);
-  if (kNormal95 * estimate.std <= kWidest * estimate.gap) return;
+      words::passages_used(std::ssize(gaps_of(pool, only)), static_cast<long>(in(pool.passages, 0)), only);
+  const double share = kNormal95 * estimate.std / gap;
+  if (share <= kWidest) return;
   estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = words::gap_uncertain(estimate.gap, 100.0 * kNormal95 * estimate.std / estimate.gap);
+  estimate.reason = words::gap_uncertain(gap, 100.0 * share, mostly(parts, pool, gap, share / kWidest));
   estimate.gap = estimate.std = kNaN;
   estimate.ci95 = {};
 }

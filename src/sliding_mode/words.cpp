@@ -38,10 +38,11 @@ Remark no_impact_stands_out() {
           "no impact stands out of the motion: quasi-static, or without a free passage; use a faster "
           "excitation (higher frequency or amplitude) with the output free to move"};
 }
-Remark no_reversal_before_impacts() {
-  return {"no_reversal_before_impacts",
-          "x1 does not reverse before the impacts (the load was moving, or no gap is passed); let the motion "
-          "rest at its reversals (triangle or trapezoid), or lower the frequency"};
+Remark load_coasts_through() {
+  return {
+      "load_coasts_through",
+      "the load coasts through the gap before the motor turns, and meets the far flank while x1 still goes "
+      "the other way; less torque or a triangle, or let the load rest at the reversals"};
 }
 Remark passages_few_quanta_wide() {
   return {"passages_few_quanta_wide",
@@ -131,12 +132,6 @@ Remark passages_used(long used, long seen, int only_direction) {
   if (only_direction > 0) said += Remark("rising", ", all with rising x1");
   if (only_direction < 0) said += Remark("falling", ", all with falling x1");
   return said;
-}
-Remark gap_uncertain(double gap, double percent) {
-  return {"gap_uncertain",
-          "a gap of {:.2g} [rad] is seen, but only to {:.0f} %: use a finer encoder, faster sampling or more "
-          "periods, or let the motion rest at its reversals",
-          {gap, percent}};
 }
 Remark no_impact(double mass_ratio, double half_periods) {
   return {"no_impact",

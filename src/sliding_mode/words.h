@@ -16,7 +16,7 @@ Remark within_first_samples(long samples);  ///< behind why nothing could be lea
 
 // Impacts, and passages between them.
 Remark no_impact_stands_out();
-Remark no_reversal_before_impacts();
+Remark load_coasts_through();
 Remark passages_few_quanta_wide();
 Remark load_hits_motor();
 Remark few_samples_around_impacts();
@@ -34,7 +34,13 @@ Remark gap_few_quanta(double gap, double quanta);
 Remark soft_contact(double percent);
 Remark too_slow(double visible);  ///< NaN: no gap would show
 Remark passages_used(long used, long seen, int only_direction);
-Remark gap_uncertain(double gap, double percent);
+/// @param why  what the interval is mostly made of, and what would narrow it
+Remark gap_uncertain(double gap, double percent, const Remark& why);
+Remark few_counts(double counts, double needed);
+Remark ends_uncertain();
+Remark passages_differ();
+Remark directions_differ();
+Remark samples_apart();
 Remark no_impact(double mass_ratio, double half_periods);
 Remark only_large_gaps(double visible, double travel);
 Remark flights_together(long used, long turns);
@@ -74,7 +80,8 @@ Remark flank_late(double percent);
 Remark passages_contradict();
 Remark reversals_read(double read, double half_periods, double bound);
 Remark paper_bound_misses(double bound, const Remark& reason);
-Remark no_single_bound();                               ///< added to another
+Remark auto_reads();                                    ///< added to another
+Remark nothing_reads(const Remark& why_not_auto);       ///< added to another
 Remark bound_to_try(double bound);                      ///< added to another
 Remark bounds_to_try(double smallest, double largest);  ///< added to another
 

@@ -32,7 +32,10 @@ Remark paper_bound_misses(double bound, const Remark& reason) {
       "passages: ";
   return Remark("paper_bound_misses", text, {bound}) + reason;
 }
-Remark no_single_bound() { return {"no_single_bound", "; no single bound reads this recording, use auto"}; }
+Remark auto_reads() { return {"auto_reads", "; no single bound reads this recording, but auto does"}; }
+Remark nothing_reads(const Remark& why_not_auto) {
+  return Remark("nothing_reads", "; no single bound reads this recording, nor does auto: ") + why_not_auto;
+}
 Remark bound_to_try(double bound) { return {"bound_to_try", "; try L = {:.2g}", {bound}}; }
 Remark bounds_to_try(double smallest, double largest) {
   return {"bounds_to_try", "; try L between {:.2g} and {:.2g}", {smallest, largest}};

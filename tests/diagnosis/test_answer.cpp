@@ -121,6 +121,16 @@ TEST(Answer, OfASlowMotionAsksForAFasterOne) {
   EXPECT_THAT(of(&g, nullptr).next.front(), HasSubstr("a triangle or a sine with a dwell"));
 }
 
+TEST(Answer, RepeatsWhatTheReasonSaysToChange) {
+  GapEstimate g = undecided();
+  g.reason = Remark("gap_uncertain", "a gap of 8.3 mrad is seen, but only to 11 %: ") +
+             Remark("few_counts", "it is 22 counts wide, and about 26 are needed; 1 bit more, or a triangle");
+  EXPECT_THAT(
+      of(&g, nullptr).next,
+      ElementsAre("For a reading without a model: it is 22 counts wide, and about 26 are needed; 1 bit "
+                  "more, or a triangle."));
+}
+
 TEST(Answer, OfABoundThatReadsNothingIsTheBoundToTry) {
   GapEstimate g = undecided();
   g.reason = Remark("bound_above_gap_mode", "no t1") +

@@ -11,6 +11,7 @@ namespace gapscope {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 GapEstimate detect(const TestRecording& recording, const DetectorOptions& options = {}) {
   const MotorTrace trace = recording.trace();
@@ -84,6 +85,8 @@ TEST(Detector, AContactThatACoarseEncoderHardlyShowsIsSeenButNotTold) {
   const GapEstimate estimate = detect(record(drive, sine(0.5814, 1.0), encoder));
   EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
   EXPECT_THAT(estimate.reason.text(), HasSubstr("is seen, but only to"));
+  EXPECT_THAT(estimate.reason.text(), HasSubstr(" counts wide, and about "));
+  EXPECT_THAT(estimate.reason.text(), Not(HasSubstr("sampl"))) << "which would not help";
 }
 
 TEST(Detector, ALoadThatOvertakesTheMotorIsNotReadAsAGap) {

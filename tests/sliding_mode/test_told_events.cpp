@@ -11,6 +11,7 @@ namespace gapscope {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// 16 bit and a heavy load, whose passages show in the mean of the periods alone; x1 swings about 0.25 rad.
 const TestRecording& of_a_coarse_encoder() {
@@ -69,6 +70,27 @@ TEST(ToldEvents, SayFromWhenTheErrorIsAtRest) {
     EXPECT_GT(e.t_c, e.t1 - 0.5) << "half a period";
   }
   EXPECT_GT(told, 10);
+}
+
+/// The application example of the source paper with its load friction read as an acceleration.
+TEST(ToldEvents, ALoadThatCoastsThroughTheGapIsSaidToDoSo) {
+  TestDrive drive;
+  drive.d2 = 3.073e-5, drive.Fc2 = 4.39e-5;
+  TestEncoder encoder;
+  encoder.duration = 40.0, encoder.step = 4e-6;
+  const TestRecording recording = record(drive, sine(0.5, 0.1), encoder);
+  const GapEstimate bank = estimate_of(recording), one = estimate_of(recording, {.bound = 100.0});
+  for (const GapEstimate& estimate : {bank, one}) {
+    ASSERT_EQ(estimate.verdict, GapVerdict::kInconclusive) << estimate.brief_report();
+    EXPECT_THAT(estimate.reason.text(), HasSubstr("coasts through the gap before the motor turns"));
+    EXPECT_THAT(estimate.reason.text(), Not(HasSubstr("quanta")));
+    EXPECT_THAT(estimate.reason.text(), Not(HasSubstr("use auto")));
+  }
+  EXPECT_THAT(one.reason.text(), HasSubstr("nor does auto"));
+  for (const GapEvent& e : bank.events) {
+    EXPECT_TRUE(std::isnan(e.t1) && std::isnan(e.x1_t1)) << "contact was lost before x1 turned";
+    EXPECT_TRUE(std::isfinite(e.t2));
+  }
 }
 
 }  // namespace
