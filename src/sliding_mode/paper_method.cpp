@@ -82,18 +82,41 @@ Marks read_ramp(const MotorTrace& trace, const signals::SignalFacts& facts, cons
   return marks;
 }
 
+/// Which way x1 goes just before a sample; the other one where it stands still.
+int way_before(const MotorTrace& trace, const signals::SignalFacts& facts, double sample, int otherwise) {
+  const auto to = static_cast<std::size_t>(sample);
+  const auto reach =
+      static_cast<std::size_t>(std::max(3.0, 0.5 * kQuietShare * facts.half_period / trace.dt));
+  const double way = trace.x1[to] - trace.x1[to - std::min(to, reach)];
+  return std::abs(way) <= facts.quantum ? otherwise : way > 0.0 ? 1 : -1;
+}
+
+/// Of a faulty reading t2 alone is told.
+/// @param direction  in the gap the motor runs ahead of its estimate; where that is not so, as it goes
 GapEvent event_of(const MotorTrace& trace, const Marks& marks, int direction) {
   GapEvent event;
   event.file = trace.file;
-  event.t1 = trace.start + trace.dt * marks.t1;
   event.t2 = trace.start + trace.dt * marks.t2;
-  event.x1_t1 = at(trace.x1, marks.t1);
   event.x1_t2 = at(trace.x1, marks.t2);
-  event.direction = direction;  // in the gap the motor runs ahead of its estimate
-  event.gap = event.gap_uncorrected = std::abs(event.x1_t2 - event.x1_t1);
+  event.direction = direction;
   event.remark = marks.fault;
   event.accepted = event.remark.empty();
+  if (!event.accepted) return event;
+  event.t1 = trace.start + trace.dt * marks.t1;
+  event.x1_t1 = at(trace.x1, marks.t1);
+  event.gap = event.gap_uncorrected = std::abs(event.x1_t2 - event.x1_t1);
   return event;
+}
+
+constexpr const char* kNoBegin = "no t1: e_x was at rest until then";
+
+/// An impact that stops the motor throws e_x back from rest, against the motion: what preceded it did not
+/// show.
+bool only_impact(const MotorTrace& trace, const signals::SignalFacts& facts, const Excursion& x,
+                 std::size_t quiet_from) {
+  const double rest = static_cast<double>(x.start) - static_cast<double>(quiet_from);
+  return rest * trace.dt >= kQuietShare * facts.half_period &&
+         x.sign == -way_before(trace, facts, static_cast<double>(x.start), x.sign);
 }
 
 /// The excursions that count on the scale of e_x (S2): lower ones than a share of what each half period
@@ -122,10 +145,13 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
   for (std::size_t i = 1; i + 1 < excursions.size(); ++i) {
     const Excursion &ramp = excursions[i], &next = excursions[i + 1];
     const bool flips = next.sign != ramp.sign && follows(ramp, next);
-    const Marks marks = read_ramp(trace, facts, run, ramp, excursions[i - 1].end, flips);
+    Marks marks = read_ramp(trace, facts, run, ramp, excursions[i - 1].end, flips);
     reading.restless += marks.restless;
-    if (!flips && !marks.fault.empty()) continue;  // a spike
-    GapEvent event = event_of(trace, marks, ramp.sign);
+    const bool impact = !marks.fault.empty() && only_impact(trace, facts, ramp, excursions[i - 1].end);
+    if (impact) marks.t2 = static_cast<double>(ramp.start), marks.fault = kNoBegin;
+    if (!flips && !impact && !marks.fault.empty()) continue;  // a spike
+    const int way = marks.fault.empty() ? ramp.sign : way_before(trace, facts, marks.t2, ramp.sign);
+    GapEvent event = event_of(trace, marks, way);
     if (event.accepted) {
       const std::size_t turn = reversal_before(trace, facts, event.direction, ramp.peak);
       const auto i2 = static_cast<std::size_t>(marks.t2);
@@ -135,6 +161,9 @@ PaperReading read_with_bound(const MotorTrace& trace, const ImpactAnalysis& anal
     }
     reading.events.push_back(std::move(event));
   }
+  // Below the accelerations of the gap a motor that brakes throws e_x back, too.
+  if (2 * reading.lateness.size() >= facts.half_periods)
+    std::erase_if(reading.events, [](const GapEvent& e) { return e.remark == kNoBegin; });
   return reading;
 }
 

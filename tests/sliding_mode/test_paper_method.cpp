@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/simulate.h"
 
@@ -79,6 +82,23 @@ TEST(PaperMethod, ABoundAboveTheGapAccelerationShowsNoBeginningAndSaysSo) {
     EXPECT_THAT(estimate.reason.text(), HasSubstr("at most the impact shows")) << bound;
     EXPECT_THAT(estimate.reason.text(), HasSubstr("try L between")) << bound;
   }
+}
+
+TEST(PaperMethod, WhereTheImpactAloneShowsItIsListedWithoutABegin) {
+  const GapEstimate estimate = read({}, {}, 40.0);  // eight periods
+  std::map<int, int> seen;
+  for (const GapEvent& e : estimate.events) {
+    EXPECT_FALSE(e.accepted);
+    EXPECT_TRUE(std::isnan(e.t1) && std::isnan(e.x1_t1) && std::isnan(e.gap)) << e.t2;
+    EXPECT_TRUE(std::isfinite(e.t2) && std::isfinite(e.x1_t2));
+    // u leads x1 by a little more than a quarter of a period: x1 rises into an impact while u is positive.
+    EXPECT_EQ(e.direction, std::sin(2.0 * kPi * e.t2) > 0.0 ? 1 : -1) << e.t2;
+    ++seen[e.direction];
+  }
+  EXPECT_GE(seen[1], 6);
+  EXPECT_GE(seen[-1], 6);
+  for (const GapEvent& e : read({}, {}, 3.0).events)  // where the passages are read
+    EXPECT_FALSE(e.remark.starts_with("no t1")) << e.t2;
 }
 
 TEST(PaperMethod, ABoundBelowTheEngagedAccelerationThroughoutIsToldAsSuch) {

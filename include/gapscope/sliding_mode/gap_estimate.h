@@ -29,7 +29,7 @@ const char* to_string(LostMotionCause cause);  ///< "not_read", "gap", "friction
 /// One passage of the gap: contact lost at t1 (S3), regained at t2 (S4).
 struct GapEvent {
   std::string file;               ///< recording it was found in
-  double t1 = kNaN;               ///< [s]
+  double t1 = kNaN;               ///< [s]; NaN: only the impact is seen
   double t2 = kNaN;               ///< [s]
   double x1_t1 = kNaN;            ///< [rad]
   double x1_t2 = kNaN;            ///< [rad]
