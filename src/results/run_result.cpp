@@ -192,7 +192,23 @@ RunResult read_run_result(const std::string& folder) {
 
 namespace internal::results {
 
-Json result_schema() { return document_schema(kSchema, Document()); }
+Json result_schema() {
+  Json schema = document_schema(kSchema, Document());
+  Json& estimate = schema["properties"]["model_free"]["anyOf"][0]["properties"];
+  const auto describe = [](Json& properties, const char* key, const char* text) {
+    properties[key]["description"] = text;
+  };
+  describe(
+      estimate, "smallest_visible_gap_rad",
+      "smallest gap that would have shown, told of loads of 0.3 of the motor's inertia and more; null where "
+      "it is not known, and where it is no smaller than a gap that shows");
+  Json& event = estimate["events"]["items"]["properties"];
+  describe(event, "t_c_s", "e_x is at rest from here to t1; null where it was not");
+  describe(event, "t1_s", "contact is lost; null where only the impact is seen");
+  describe(event, "t2_s", "contact is regained");
+  describe(event, "periods", "that the passage is the mean of, told in the middle one; 1: of itself");
+  return schema;
+}
 
 Json timing_schema() {
   Timing timing;

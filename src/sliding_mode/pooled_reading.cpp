@@ -265,7 +265,7 @@ std::optional<GapEstimate> read_one(const MotorTrace& trace, const signals::Sign
   if (kNormal95 * e.std > kWidestPooled * e.gap) return {};
   e.verdict = GapVerdict::kBacklash;
   e.method = GapMethod::kImpact;
-  e.smallest_visible_gap = kFewestPooledQuanta * facts.quantum;
+  e.smallest_visible_gap = few ? kNaN : kFewestPooledQuanta * facts.quantum;
   keep_events(s, *c, e);
   e.reason = words::flights_together(std::ssize(e.events), std::ssize(s.turns));
   return e;

@@ -72,6 +72,14 @@ TEST(ToldEvents, SayFromWhenTheErrorIsAtRest) {
   EXPECT_GT(told, 10);
 }
 
+TEST(ToldEvents, AGapThatShowsIsNeverBelowTheSmallestThatWould) {
+  for (const TestRecording& recording : {of_a_coarse_encoder(), paper_experiment()}) {
+    const GapEstimate estimate = estimate_of(recording);
+    ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash);
+    EXPECT_FALSE(estimate.smallest_visible_gap > estimate.gap) << estimate.smallest_visible_gap;
+  }
+}
+
 /// The application example of the source paper with its load friction read as an acceleration.
 TEST(ToldEvents, ALoadThatCoastsThroughTheGapIsSaidToDoSo) {
   TestDrive drive;
