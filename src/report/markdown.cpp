@@ -36,7 +36,7 @@ std::string parameter_row(const FittedParameter& p, const FitSummary& fit, const
 
 /// The gap, or what the verdict says instead.
 std::string read_gap(const GapEstimate& g, const std::string& unit) {
-  if (g.verdict == GapVerdict::kBacklash) return quantity(g.gap, unit);
+  if (g.verdict == GapVerdict::kBacklash) return beside_interval(g.gap, g.ci95, unit);
   if (g.verdict == GapVerdict::kNone) return "none above " + quantity(g.none_above(), unit);
   return "inconclusive";
 }
@@ -51,7 +51,7 @@ std::string estimate_rows(const RunResult& run) {
     text += fmt::format("| {} | {} | {} | {} |\n", name, value, interval_text(ci, unit), needed);
   };
   const auto row = [&](const std::string& name, double value, const Interval& ci, const std::string& needed) {
-    told(name, quantity(value, unit), ci, needed);
+    told(name, beside_interval(value, ci, unit), ci, needed);
   };
   if (run.model_free) {
     const GapEstimate& g = *run.model_free;
@@ -162,7 +162,7 @@ std::string parameter_table(const RunResult& run) {
   for (const FittedParameter& p : fit.parameters) text += parameter_row(p, fit, run);
   text +=
       "\n" + sentence(fit.message.text()) + "Free run: " + quantity(fit.rmse, position_unit(run)) + " rms";
-  if (std::isfinite(fit.fit_percent)) text += ", a fit of " + rounded(fit.fit_percent, 4) + " %";
+  if (std::isfinite(fit.fit_percent)) text += ", a fit of " + fit_text(fit.fit_percent);
   if (std::isfinite(fit.floor)) text += ", the encoder floor is " + quantity(fit.floor, position_unit(run));
   return text + ".\n";
 }
@@ -182,7 +182,7 @@ std::string second_encoder_table(const RunResult& run) {
   if (std::isfinite(s.rmse)) {
     row("free run − recorded x2, rms", quantity(s.rmse, unit));
     row("the same of x1, which was fitted", quantity(s.motor_rmse, unit));
-    row("fit of x2, worst recording", rounded(s.fit_percent, 4) + " %");
+    row("fit of x2, worst recording", fit_text(s.fit_percent));
   }
   if (std::isfinite(s.floor)) row("what this encoder alone leaves", quantity(s.floor, unit));
   if (std::isfinite(s.gap))

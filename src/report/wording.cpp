@@ -157,6 +157,17 @@ std::string with_interval(double value, const Interval& ci95, const std::string&
   return text(value) + unit_after(scale.unit) + " (95 %: " + text(ci95.low) + " to " + text(ci95.high) + ")";
 }
 
+std::string beside_interval(double value, const Interval& ci95, const std::string& unit) {
+  if (!std::isfinite(value) || !known(ci95)) return quantity(value, unit);
+  const AxisScale scale = axis_scale(unit, std::max(std::abs(value), std::abs(ci95.high)));
+  return tick_label(value / scale.factor, decimals_for((ci95.high - ci95.low) / 2 / scale.factor, 2)) +
+         unit_after(scale.unit);
+}
+
+std::string fit_text(double percent) {
+  return percent >= 99.995 && percent < 100.0 ? "> 99.99 %" : rounded(percent, 4) + " %";
+}
+
 std::string interval_text(const Interval& ci95, const std::string& unit) {
   if (!known(ci95)) return "";
   const AxisScale scale = axis_scale(unit, std::max(std::abs(ci95.low), std::abs(ci95.high)));
@@ -221,7 +232,7 @@ std::string fit_quality(const RunResult& run) {
   if (!run.reference || !std::isfinite(run.reference->rmse)) return "";
   const FitSummary& fit = *run.reference;
   std::string text = "Free run of the fitted model: " + quantity(fit.rmse, position_unit(run)) + " rms";
-  if (std::isfinite(fit.fit_percent)) text += ", a fit of " + rounded(fit.fit_percent, 4) + " %";
+  if (std::isfinite(fit.fit_percent)) text += ", a fit of " + fit_text(fit.fit_percent);
   if (std::isfinite(fit.floor)) text += "; the encoder floor is " + quantity(fit.floor, position_unit(run));
   return text + ".";
 }

@@ -29,6 +29,10 @@ std::string interval_text(const Interval& ci95, const std::string& unit);
 
 /// "18.70 ± 0.20 mrad"; an interval that is not around its value, as where it was cut at 0, as
 /// with_interval() has it
+/// The value of an estimate with as many digits as its interval has, or three.
+std::string beside_interval(double value, const Interval& ci95, const std::string& unit);
+/// A fit in per cent; what is no whole one is never rounded to "100 %".
+std::string fit_text(double percent);
 std::string plus_minus(double value, const Interval& ci95, const std::string& unit);
 
 /// A ratio or count for people: "7.0", "132".

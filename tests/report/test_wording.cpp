@@ -10,6 +10,12 @@ TEST(Wording, ShowsTheDigitsThatTheIntervalWarrants) {
   EXPECT_EQ(with_interval(0.01872, {0.0185, 0.0189}, "rad"), "18.72 mrad (95 %: 18.50 to 18.90)");
   EXPECT_EQ(plus_minus(0.0188, {0.018771, 0.018829}, "rad"), "18.800 ± 0.029 mrad");
   EXPECT_EQ(plus_minus(0.0188, {}, "rad"), "18.8 mrad");
+  EXPECT_EQ(beside_interval(0.01899997, {0.01899987, 0.01900007}, "rad"), "18.99997 mrad");
+  EXPECT_EQ(beside_interval(0.01897, {0.01882, 0.01912}, "rad"), "18.97 mrad");
+  EXPECT_EQ(beside_interval(0.01897, {}, "rad"), "19.0 mrad");
+  EXPECT_EQ(fit_text(99.9987), "> 99.99 %");
+  EXPECT_EQ(fit_text(100.0), "100 %");
+  EXPECT_EQ(fit_text(96.154), "96.15 %");
   EXPECT_EQ(plus_minus(2e-5, {0.0, 4.2e-4}, "m"), with_interval(2e-5, {0.0, 4.2e-4}, "m"));
   EXPECT_EQ(interval_text({0.018771, 0.018829}, "rad"), "18.771 to 18.829 mrad");
   EXPECT_EQ(interval_text({}, "rad"), "");
