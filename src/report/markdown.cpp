@@ -92,12 +92,12 @@ std::string bounds_line(const RunResult& run) {
   if (!run.model_free || !std::isfinite(run.model_free->bound)) return "";
   const GapEstimate& g = *run.model_free;
   const std::string unit = run.coordinates.shown_unit("rad/s^2");
-  std::string text = fmt::format("\nBounds: L = {} {} {}", rounded(g.bound), unit,
-                                 g.method == GapMethod::kPaper ? "was given" : "decides t2");
+  const bool by_model = std::isfinite(g.paper_bound);
+  std::string text = fmt::format("\nBounds: L = {} {} {}", rounded(g.bound, 4), unit,
+                                 g.method != GapMethod::kPaper ? "decides t2"
+                                 : by_model                    ? "is by the paper's eq. (13), see the notes"
+                                                               : "was given");
   if (std::isfinite(g.bound_t1)) text += fmt::format(", L = {} {} shows t1", rounded(g.bound_t1), unit);
-  if (std::isfinite(g.paper_bound))
-    text += fmt::format("; by the paper's eq. (13) it is {} {} with this model's numbers",
-                        rounded(g.paper_bound), unit);
   return text + ".\n";
 }
 

@@ -36,18 +36,37 @@ auto timed(double& seconds, const Function& f) {
   return result;
 }
 
-/// The lower end of (13) from what the model and the input tell; 0 where they do not. The detector estimates
-/// nothing from it: it only says what the published choice of L would have shown.
-double published_bound(const Configuration& c, const std::vector<MotorTrace>& traces) {
+/// The interval of (13), and what it is from.
+struct PublishedBound {
+  Interval bound;  ///< [rad/s²]; NaN where model and input do not tell it
+  BoundKnowledge known;
+};
+
+/// As the detector is told to take it, or else from what the model and the input tell: then it estimates
+/// nothing from it, and only says what the published choice of L would have shown.
+PublishedBound published_bound(const Configuration& c, const std::vector<MotorTrace>& traces) {
+  if (c.detector.from_model) return {bound_from_model(c), *c.detector.from_model};
   DriveParameters<double> drive;
   for (int i = 0; i < kDriveParameterCount; ++i) drive_parameter(drive, i) = c.model.parameters[i].value;
-  BoundKnowledge known;
-  known.load_force_bound = drive.load_coulomb_friction;
+  PublishedBound published;
+  published.known.load_force_bound = drive.load_coulomb_friction;
   for (const MotorTrace& trace : traces)
-    for (const double u : trace.u) known.input_limit = std::max(known.input_limit, std::abs(u));
-  const Interval bound = acceleration_bound(drive, known);
-  return c.model.structure.has_load && std::isfinite(bound.low) && std::isfinite(bound.high) ? bound.low
-                                                                                             : 0.0;
+    for (const double u : trace.u)
+      published.known.input_limit = std::max(published.known.input_limit, std::abs(u));
+  const Interval bound = acceleration_bound(drive, published.known);
+  if (c.model.structure.has_load && std::isfinite(bound.low) && std::isfinite(bound.high))
+    published.bound = bound;
+  return published;
+}
+
+/// "... eq. (13) with this model's numbers (|u| <= 0.5, G = 5e-05 N m): 98.01 < L < 147 rad/s^2; ..."
+std::string told_bound(const PublishedBound& p, Coordinates coordinates, double taken) {
+  return fmt::format(
+      "bound of the paper's eq. (13) with this model's numbers (|u| <= {:.4g}, G = {:.3g} {}): {:.4g} < L < "
+      "{:.4g} {}; {}",
+      p.known.input_limit, p.known.load_force_bound, coordinates.unit("N m"), p.bound.low, p.bound.high,
+      coordinates.unit("rad/s^2"),
+      taken > 0.0 ? fmt::format("L = {:.4g} is taken", taken) : "the bank of bounds does not use it");
 }
 
 DetectorOptions detector_options(const Configuration& c, const std::vector<MotorTrace>& traces,
@@ -57,16 +76,26 @@ DetectorOptions detector_options(const Configuration& c, const std::vector<Motor
   options.encoder = c.model.given && !c.model.structure.has_load ? EncoderSide::kMotor : c.encoder.side();
   options.locked = c.model.given && c.model.structure.has_load && c.model.structure.load == LoadKind::kLocked;
   options.frozen = c.detector.frozen;
-  if (c.detector.bound) options.bound = *c.detector.bound;
-  if (!c.detector.bound && !c.detector.from_model) options.paper_bound = published_bound(c, traces);
-  if (!c.detector.from_model) return options;
-  const Interval bound = bound_from_model(c);
-  options.bound = chosen_bound(bound);
-  options.paper_bound = bound.low;
-  notes.push_back(
-      fmt::format("bound of the detector from the model, eq. (13): {:.4g} < L < {:.4g}, L = {:.4g} {} taken",
-                  bound.low, bound.high, options.bound, c.coordinates.unit("rad/s^2")));
+  if (c.detector.bound) {
+    options.bound = *c.detector.bound;
+    return options;
+  }
+  const PublishedBound published = published_bound(c, traces);
+  if (!std::isfinite(published.bound.low)) return options;
+  options.paper_bound = published.bound.low;
+  if (c.detector.from_model) options.bound = chosen_bound(published.bound);
+  notes.push_back(told_bound(published, c.coordinates, options.bound));
   return options;
+}
+
+/// What another choice of L would have shown is no doubt about this reading.
+void note_published_bound(RunResult& r) {
+  if (!r.model_free) return;
+  std::erase_if(r.model_free->warnings, [&](const Remark& warning) {
+    const bool other = warning.code() == "paper_bound_misses";
+    if (other) r.notes.push_back(warning.text(r.coordinates));
+    return other;
+  });
 }
 
 /// Parameters that the configuration does not mention and that count as a number all the same.
@@ -190,6 +219,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   estimate(c, wanted, grids, progress, threads, out);
   if (c.encoder.sides == EncoderSides::kBoth)
     r.second_encoder = validate_by_load(r.recordings, r.reference ? &*r.reference : nullptr);
+  note_published_bound(r);
   put_into_words(r);
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
   if (r.reference) append(out.warnings, texts_of(r.reference->warnings));

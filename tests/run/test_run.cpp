@@ -59,6 +59,23 @@ TEST(RunPipeline, AsksOnlyTheEstimatorsThatAreWanted) {
   EXPECT_EQ(result.simulated_gap, c.simulation->plant.drive.gap);
 }
 
+TEST(RunPipeline, NotesOnceWhatThePublishedBoundIsAndWhatItIsFrom) {
+  const auto run = [](const std::string& detector) {
+    return run_pipeline(parse_configuration(kSimulated + detector, "simulated.yaml"), {true, false}, kSilent)
+        .result;
+  };
+  const auto of_13 = HasSubstr("eq. (13)");
+  const RunResult bank = run(""), given = run("\ndetector: {bound: 40}\n");
+  const RunResult taken =
+      run("\ndetector: {bound: {from_model: {input_limit: 0.58, load_force_bound: 0.05}}}\n");
+  EXPECT_THAT(bank.notes, ::testing::Contains(::testing::AllOf(of_13, HasSubstr("does not use it"))));
+  EXPECT_TRUE(bank.model_free->warnings.empty()) << "another choice of L is no doubt about this one";
+  EXPECT_THAT(given.notes, ::testing::Each(::testing::Not(of_13)));
+  ASSERT_THAT(taken.notes, ::testing::Contains(of_13).Times(1));
+  EXPECT_THAT(taken.notes, ::testing::Contains(::testing::AllOf(HasSubstr("|u| <= 0.58, G = 0.05 N m"),
+                                                                HasSubstr("is taken"))));
+}
+
 TEST(RunPipeline, KnowsDataThatNoDriveMade) {
   const Configuration simulated = parse_configuration(kSimulated, "simulated.yaml");
   EXPECT_THAT(run_pipeline(simulated, {true, false}, kSilent).result.simulated_data,
