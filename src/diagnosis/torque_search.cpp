@@ -150,8 +150,11 @@ std::vector<const EffectEntry*> group_of(const view::Budget& budget, const view:
   for (const view::Candidate& c : rung.ranking) {
     const EffectEntry* entry = find_effect(c.law->effect);
     const bool alike = is_named(rung.group, c.law->name) || (!rung.named && c.evidence.share >= near);
+    const bool same_line =
+        is_named(rung.group, c.law->name) && view::contains_line(*c.law, *rung.choice().law);
     const bool nested =
-        entry != nullptr && (contained_effect(*entry) == &chosen || contained_effect(chosen) == entry);
+        same_line ||
+        (entry != nullptr && (contained_effect(*entry) == &chosen || contained_effect(chosen) == entry));
     if (entry != nullptr && alike && !nested && std::find(group.begin(), group.end(), entry) == group.end())
       group.push_back(entry);
   }

@@ -143,12 +143,19 @@ std::vector<std::size_t> group_of(Bench& bench, const Rung& rung, const Model& m
   return group;
 }
 
+/// Whether a law of the ranking goes before the leader, which contains it.
+bool goes_first(const Bench& bench, const Candidate& leader, const Candidate& simpler, bool in_group) {
+  if (adds_to(*leader.law, *simpler.law)) return true;
+  return in_group && simpler.law == bench.simpler_line && contains_line(*leader.law, *simpler.law);
+}
+
 /// The simplest of a group that the leader does not clearly lead; a law that the leader contains comes first.
 std::size_t simplest(const Bench& bench, const Rung& rung, const std::vector<std::size_t>& group,
                      std::size_t below, const TorqueViewOptions& options) {
   const Candidate& leader = rung.choice();
   for (std::size_t j = 0; j < rung.ranking.size(); ++j)
-    if (adds_to(*leader.law, *rung.ranking[j].law) && is_worth_having(rung.ranking[j].evidence, options))
+    if (goes_first(bench, leader, rung.ranking[j], std::find(group.begin(), group.end(), j) != group.end()) &&
+        is_worth_having(rung.ranking[j].evidence, options))
       return j;
   std::size_t best = rung.chosen;
   for (const std::size_t j : group)
@@ -199,6 +206,10 @@ bool lacks_simpler(const Model& model, const Law& law) {
 
 bool adds_to(const Law& law, const Law& other) {
   return law.simpler != nullptr && law.simpler == std::string_view(other.name);
+}
+
+bool contains_line(const Law& searched, const Law& given) {
+  return given.fill == searched.fill && given.parameters() < searched.parameters();
 }
 
 bool is_worth_having(const Evidence& evidence, const TorqueViewOptions& options) {

@@ -16,6 +16,8 @@ struct Bench {
   bool new_phase = false;
   std::vector<std::string> closed;  ///< effects that are no candidates
   int threads = 1;                  ///< on which laws are tried side by side
+  /// Goes before the line that contains it, though that one's period fits better while others are missing.
+  const Law* simpler_line = nullptr;
 
   Eigen::VectorXd left(const Model& model) { return residual(judge, model, new_phase); }
   Eigen::VectorXd squares(const Model& model) { return blocks.squares(left(model)); }
@@ -60,6 +62,8 @@ std::vector<const Law*> open_laws(Bench& bench, const Model& model, const Torque
 bool lacks_simpler(const Model& model, const Law& law);
 /// Whether a law adds to the other one.
 bool adds_to(const Law& law, const Law& other);
+/// Whether a line whose period is searched comes, at one of them, to the other law, of a given period.
+bool contains_line(const Law& searched, const Law& given);
 bool is_worth_having(const Evidence& evidence, const TorqueViewOptions& options);
 /// Whether the evidence alone suffices to be named, whatever its rivals show.
 bool is_clear(const Evidence& evidence, const TorqueViewOptions& options);

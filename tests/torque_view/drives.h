@@ -43,4 +43,44 @@ inline StampedTrace recorded(const std::function<double(const Motion&)>& extra, 
   return trace;
 }
 
+/// A pendulum with Coulomb friction 0.02 and a motor whose torque ripples by 8 % six times a turn, from rest:
+///   J a = u (1 + 0.08 sin(6 x + 0.5)) − d w − 0.02 sign(w) − 0.08 sin(x),  J = 0.001, d = 0.004,
+/// at 500 Hz for 12 s, seen by an encoder of 14 bit.
+inline StampedTrace rippling_pendulum(const std::function<double(double)>& input) {
+  constexpr double kStep = 0.002;
+  constexpr int kSubsteps = 20, kSamples = 6000;
+  StampedTrace trace;
+  trace.quantum = 2.0 * kPi / 16384.0;
+  trace.held_command = true;
+  double x = 0.0, w = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = kStep * i, u = input(t), h = kStep / kSubsteps;
+    trace.t.push_back(t), trace.u.push_back(u);
+    trace.x.push_back(trace.quantum * std::round(x / trace.quantum));
+    for (int k = 0; k < kSubsteps; ++k) {
+      const double driving = u * (1.0 + 0.08 * std::sin(6.0 * x + 0.5)) - 0.004 * w - 0.08 * std::sin(x);
+      const double next = w + h / 0.001 * driving, friction = h / 0.001 * 0.02;
+      w = std::copysign(std::max(0.0, std::abs(next) - friction), next);
+      x += h * w;
+    }
+  }
+  return trace;
+}
+
+/// ± 0.3 at a frequency [Hz].
+inline double triangle(double t, double hz) { return 0.6 / kPi * std::asin(std::sin(2.0 * kPi * hz * t)); }
+
+/// Sixteen sines from 0.25 Hz to 4 Hz at phases of a seed, 0.8 at most.
+inline std::function<double(double)> multisine(std::uint64_t seed) {
+  std::mt19937_64 generator = random_stream(seed, "multisine");
+  std::vector<double> phases;
+  for (int i = 1; i <= 16; ++i) phases.push_back(uniform(generator, 0.0, 2.0 * kPi));
+  return [phases](double t) {
+    double u = 0.0;
+    for (std::size_t i = 0; i < phases.size(); ++i)
+      u += std::sin(0.5 * kPi * static_cast<double>(i + 1) * t + phases[i]);
+    return 0.05 * u;
+  };
+}
+
 }  // namespace gapscope::internal::torque_view::test

@@ -48,6 +48,17 @@ TEST(Ladder, AnUnbalanceIsNamedAndMeasured) {
   EXPECT_GT(b.shares.front().last.share, 0.9);
 }
 
+// With friction and ripple still missing, another period than one turn fits this multisine better.
+TEST(Ladder, GravityIsNoCoggingTorqueWhosePeriodOtherEffectsHaveBent) {
+  SplitRecordings data{{test::rippling_pendulum(test::multisine(6))},
+                       {test::rippling_pendulum([](double t) { return test::triangle(t, 0.7); })}};
+  data.new_phase = true;
+  const Budget b = error_budget(data);
+  EXPECT_EQ(names(b),
+            (std::vector<std::string>{"load_unbalance", "motor_coulomb_friction", "torque_ripple"}));
+  EXPECT_TRUE(b.rungs.front().named);
+}
+
 TEST(Ladder, NothingIsAddedToADriveThatLacksNothing) {
   for (const double noise : {0.01, 0.1})
     EXPECT_EQ(names(diagnosed([](const Motion&) { return 0.0; }, noise)), std::vector<std::string>{})
