@@ -21,21 +21,11 @@ std::string called(const AddedEffect& a, const CardFacts& f) {
   return name_of(a, *f.diagnosis, f.coordinates);
 }
 
-std::vector<std::string> names(const CardFacts& f, bool established) {
+/// What the recordings cannot tell from an effect, but for what was added as well.
+std::vector<std::string> others_of(const AddedEffect& a, const Diagnosis& d) {
   std::vector<std::string> all;
-  for (const AddedEffect& a : f.diagnosis->added)
-    if (a.established == established) all.push_back(called(a, f));
-  return all;
-}
-
-/// Rivals of what was added with an open cause.
-std::vector<std::string> rivals(const Diagnosis& d) {
-  std::vector<std::string> all;
-  for (const AddedEffect& a : d.added)
-    for (const std::string& rival : a.group)
-      if (!a.established && rival != a.effect && !contains(d.effects, rival) &&
-          !contains(all, readable(rival)))
-        all.push_back(readable(rival));
+  for (const std::string& other : a.group)
+    if (other != a.effect && !contains(d.effects, other)) all.push_back(readable(other));
   return all;
 }
 
@@ -55,23 +45,60 @@ std::vector<std::string> shortened(std::vector<std::string> all) {
   return all;
 }
 
-std::string open_causes(const CardFacts& f) {
-  const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
-  if (open.empty()) return "";
-  const bool beside = !names(f, true).empty() && !rests_on_open_cause(*f.diagnosis);
-  const std::string several = beside ? " help too, their cause" : " help, their cause";
-  return enumerated(shortened(open)) + (open.size() > 1 ? several : " helps, its cause") + " is open" +
-         (others.empty() ? "" : ": it may as well be " + enumerated(shortened(others), "or"));
+std::vector<std::string> names(const CardFacts& f, bool established) {
+  std::vector<std::string> all;
+  for (const AddedEffect& a : f.diagnosis->added)
+    if (a.established == established && (!established || others_of(a, *f.diagnosis).empty()))
+      all.push_back(called(a, f));
+  return all;
+}
+
+/// "cogging torque or load unbalance: these recordings cannot tell them apart", of every group that holds a
+/// cause.
+std::vector<std::string> groups(const CardFacts& f) {
+  std::vector<std::string> all;
+  for (const AddedEffect& a : f.diagnosis->added) {
+    std::vector<std::string> others = others_of(a, *f.diagnosis);
+    if (!a.established || others.empty()) continue;
+    others.insert(others.begin(), called(a, f));
+    all.push_back(enumerated(shortened(others), "or") + ": these recordings cannot tell them apart");
+  }
+  return all;
+}
+
+/// Rivals of what was added with an open cause.
+std::vector<std::string> rivals(const Diagnosis& d) {
+  std::vector<std::string> all;
+  for (const AddedEffect& a : d.added)
+    for (const std::string& rival : a.group)
+      if (!a.established && rival != a.effect && !contains(d.effects, rival) &&
+          !contains(all, readable(rival)))
+        all.push_back(readable(rival));
+  return all;
 }
 
 /// "friction (established)"; on top of what is open, with what else that holds.
 std::string established_causes(const CardFacts& f) {
   const std::vector<std::string> causes = names(f, true);
-  if (causes.empty()) return "";
-  const std::string all = enumerated(shortened(causes));
-  if (!rests_on_open_cause(*f.diagnosis)) return all + " (established)";
-  return fmt::format("with {} in the model, {} {} established", names(f, false).size() > 1 ? "them" : "it",
-                     all, causes.size() > 1 ? "are" : "is");
+  std::string text;
+  if (!causes.empty()) {
+    text = enumerated(shortened(causes));
+    text = !rests_on_open_cause(*f.diagnosis) ? text + " (established)"
+                                              : fmt::format("with {} in the model, {} {} established",
+                                                            names(f, false).size() > 1 ? "them" : "it", text,
+                                                            causes.size() > 1 ? "are" : "is");
+  }
+  for (const std::string& group : groups(f)) text += (text.empty() ? "" : "; ") + group;
+  return text;
+}
+
+std::string open_causes(const CardFacts& f) {
+  const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
+  if (open.empty()) return "";
+  const bool beside = !established_causes(f).empty() && !rests_on_open_cause(*f.diagnosis);
+  const std::string several = beside ? " help too, their cause" : " help, their cause";
+  return enumerated(shortened(open)) + (open.size() > 1 ? several : " helps, its cause") + " is open" +
+         (others.empty() ? "" : ": it may as well be " + enumerated(shortened(others), "or"));
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -80,7 +107,7 @@ std::string outside_words(const CardFacts& f) {
   const Diagnosis& d = *f.diagnosis;
   const bool learned = d.mismatch.floor_from != FloorSource::kRepeatability && !d.ranking.empty() &&
                        !d.effects.empty() && d.ranking.front().effect == d.effects.front();
-  if (!names(f, true).empty() || !learned || !(d.outside_probability > 0.5)) return "";
+  if (!established_causes(f).empty() || !learned || !(d.outside_probability > 0.5)) return "";
   return fmt::format("; most likely ({:.0f} %) the cause is none of the catalogue's",
                      100.0 * d.outside_probability);
 }

@@ -101,7 +101,7 @@ std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
   std::vector<std::string> causes, open;
   for (const AddedEffect& a : d.added) {
     const std::string name = name_of(a, d, coordinates);
-    a.established ? causes.push_back(name) : open.push_back(name + likeness(a.group));
+    (a.established ? causes : open).push_back(name + likeness(a.group));
   }
   const bool counted = d.budget.exists() && d.budget.uncounted.empty();
   const std::string fall = counted ? torque_fall(d, coordinates) : error_fall(d);

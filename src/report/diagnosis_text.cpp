@@ -170,14 +170,24 @@ const AddedEffect* with_these_numbers(const AddedEffect& a, const std::vector<Ad
   return nullptr;
 }
 
+/// " or `load_unbalance`" of what the recordings cannot tell from an effect, but for what was added as well.
+std::string alternatives(const AddedEffect& a, const std::vector<std::string>& effects) {
+  std::string text;
+  for (const std::string& other : a.group)
+    if (other != a.effect && !contains(effects, other)) text += " or `" + other + "`";
+  return text;
+}
+
 /// The numbers of what was added, each with its interval.
 std::string added_table(const DiagnosisResult& r) {
   std::string text;
   const std::vector<AddedEffect>& added = r.diagnosis.added;
   for (const AddedEffect& a : added) {
     const bool on_top = a.established && !added.front().established;
-    std::string effect = fmt::format("`{}` ({})", a.effect,
-                                     on_top          ? "established with `" + added.front().effect + "`"
+    const std::string others = a.established ? alternatives(a, r.diagnosis.effects) : "";
+    std::string effect = fmt::format("`{}`{} ({})", a.effect, others,
+                                     !others.empty() ? "not told apart"
+                                     : on_top        ? "established with `" + added.front().effect + "`"
                                      : a.established ? "established"
                                                      : "cause open");
     if (const AddedEffect* other = with_these_numbers(a, added)) {

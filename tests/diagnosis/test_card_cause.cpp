@@ -41,10 +41,18 @@ TEST(CardCause, ALaterOneIsEstablishedWithAnOpenFirstOneInTheModel) {
       card_of(of_friction_and_delay(false, true)).cause,
       "Motor Coulomb friction helps, its cause is open: it may as well be quadratic drag; with it in the "
       "model, input delay is established.");
-  EXPECT_EQ(card_of(of_friction_and_delay(true, true)).cause,
-            "Motor Coulomb friction and input delay (established).");
-  EXPECT_EQ(card_of(of_friction_and_delay(true, false)).cause,
-            "Motor Coulomb friction (established); input delay helps, its cause is open.");
+}
+
+TEST(CardCause, OneOfAGroupIsNotCalledEstablished) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  EXPECT_EQ(
+      card_of(d).cause,
+      "Input delay (established); motor Coulomb friction or quadratic drag: these recordings cannot tell "
+      "them apart.");
+  d.added[0].group.pop_back();
+  EXPECT_EQ(card_of(d).cause, "Motor Coulomb friction and input delay (established).");
+  d.added[1].established = false;
+  EXPECT_EQ(card_of(d).cause, "Motor Coulomb friction (established); input delay helps, its cause is open.");
 }
 
 TEST(CardTrust, IsInAGapWhereLostMotionIsMeasured) {
