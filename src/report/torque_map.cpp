@@ -129,6 +129,9 @@ class MapRow {
     }
     Series curve{direction > 0 ? "taken by what was added" : "", {kInk, 4.0, {}}, {}, {}};
     for (std::size_t i = 0; i < taken.size(); ++i) {
+      if (taken[i].empty() && !curve.y.empty() &&
+          std::isfinite(curve.y.back()))  // nothing was recorded there
+        curve.x.push_back(curve.x.back()), curve.y.push_back(kNaN);
       if (taken[i].size() < kFewest) continue;
       curve.x.push_back(median(places[i]));  // not the bin's middle: that of zero speed has both directions
       curve.y.push_back(median(taken[i]));
