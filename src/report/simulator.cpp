@@ -39,24 +39,44 @@ std::string side_text(const DiagnosisResult& r, const SimulatorRow& row, bool dr
   return fmt::format("{}{}", absent ? "none: " : "", fmt::join(parts, ", "));
 }
 
+/// Whether the interval of what says how much there is of it leaves zero out.
+bool is_more_than_none(const SimulatorRow& row, bool drive) {
+  if (!row.is_effect || row.numbers.empty()) return false;
+  const Interval& ci95 = drive ? row.numbers.front().drive_ci95 : row.numbers.front().simulator_ci95;
+  return ci95.low > 0.0 || ci95.high < 0.0;
+}
+
 const char* found_words(const SimulatorRow& row) {
   if (row.differs && row.found_in == FoundIn::kDrive) return "only in the drive";
   if (row.differs && row.found_in == FoundIn::kSimulator) return "only in the simulator";
   if (row.differs) return "in both, with other amounts";
-  return row.found_in == FoundIn::kNeither ? "in neither" : "not told apart";
+  if (row.found_in == FoundIn::kNeither) return "in neither";
+  // Where the other recording hardly moves with it, its amount alone tells a side that has it.
+  if (row.found_in == FoundIn::kDrive && is_more_than_none(row, true))
+    return "probably only in the drive: its amount is clear of zero, the motion that it makes is not clear "
+           "of "
+           "what the model leaves";
+  if (row.found_in == FoundIn::kSimulator && is_more_than_none(row, false))
+    return "probably only in the simulator: its amount is clear of zero, the motion that it makes is not "
+           "clear "
+           "of what the model leaves";
+  return "not told apart";
 }
 
 std::string row_size(const DiagnosisResult& r, const SimulatorRow& row) {
   if (!(row.floors > 0.01)) return "–";
-  return fmt::format("{} ({} floors)", quantity(row.size, r.coordinates.position_unit()),
-                     rounded(row.floors, 2));
+  return quantity(row.size, r.coordinates.position_unit());
 }
 
 std::string rows_table(const DiagnosisResult& r, const SimulatorComparison& c) {
   std::string text =
       "\n| | in the drive | in the simulator | | size | error shrinks by, if mended alone |\n"
       "|---|---|---|---|---|---|\n";
-  for (const SimulatorRow& row : c.rows)
+  std::vector<SimulatorRow> rows = c.rows;
+  std::stable_sort(rows.begin(), rows.end(), [](const SimulatorRow& a, const SimulatorRow& b) {
+    return a.differs != b.differs ? a.differs : a.differs && a.size > b.size;
+  });
+  for (const SimulatorRow& row : rows)
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, side_text(r, row, true),
                         side_text(r, row, false), found_words(row), row_size(r, row),
                         row.differs ? fmt::format("{:.0f} %", 100.0 * row.shrink) : "–");
@@ -74,8 +94,9 @@ std::string errors_text(const DiagnosisResult& r, const SimulatorComparison& c) 
       quantity(c.errors.simulator, unit), quantity(c.errors.stand_in, unit),
       quantity(c.errors.stand_in_miss, unit));
   if (std::isfinite(c.errors.mended))
-    text += fmt::format(" With the first row mended it is {} off, with all that differ {}.",
-                        quantity(c.errors.mended, unit), quantity(c.errors.all_mended, unit));
+    text += fmt::format(" With all that differ mended it is {} off, with `{}` alone {}.",
+                        quantity(c.errors.all_mended, unit), c.rows.front().name,
+                        quantity(c.errors.mended, unit));
   return text + "\n";
 }
 
@@ -138,11 +159,18 @@ std::string simulator_table(const DiagnosisResult& r) {
   const SimulatorComparison& c = *r.simulated;
   std::string text = "\n## Your simulator beside the drive\n\n**" + c.sentence + "**\n";
   if (c.rows.empty()) return text;
+  const auto differing =
+      std::count_if(c.rows.begin(), c.rows.end(), [](const SimulatorRow& row) { return row.differs; });
+  if (differing > 1 && std::isfinite(c.errors.all_mended))
+    text += fmt::format("\nAll {} that differ mended: {} to {}.\n", differing,
+                        quantity(c.errors.stand_in, r.coordinates.position_unit()),
+                        quantity(c.errors.all_mended, r.coordinates.position_unit()));
   text += rows_table(r, c) + errors_text(r, c);
   text += fmt::format(
       "\nOne model with the effects of both was fitted to both, ± is 95 %. *Size* is the motion that neither "
-      "recording takes over from the other's numbers, everything else refitted; a row counts from two floors "
-      "on, one of which is {}.\n",
+      "recording takes over from the other's numbers, everything else refitted; a row counts where it is "
+      "more "
+      "than twice what the model leaves on that recording anyway, and than twice the floor of {}.\n",
       quantity(c.floor, r.coordinates.position_unit()));
   for (const std::string& warning : c.warnings) text += "\n- " + warning;
   return c.warnings.empty() ? text : text + "\n";

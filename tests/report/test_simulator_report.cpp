@@ -37,7 +37,7 @@ TEST(SimulatorReport, TellsInWhichOfBothAnEffectIs) {
   const std::string both = internal::report::simulator_table(beside(friction(FoundIn::kBoth, 0.05, 0.02)));
   EXPECT_THAT(both,
               HasSubstr("| `motor_coulomb_friction` | 50.0 ± 1.0 mN·m | 20.0 mN·m | in both, with other "
-                        "amounts | 400 µrad (20 floors) | 75 % |"));
+                        "amounts | 400 µrad | 75 % |"));
   EXPECT_THAT(both, HasSubstr("| not told apart | – | – |"));
   const std::string drive = internal::report::simulator_table(beside(friction(FoundIn::kDrive, 0.05, 0.0)));
   EXPECT_THAT(drive, HasSubstr("| 50.0 ± 1.0 mN·m | none: 0 N·m | only in the drive |"));
