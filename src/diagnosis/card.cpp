@@ -8,6 +8,7 @@
 
 #include "diagnosis/card_cause.h"
 #include "diagnosis/card_words.h"
+#include "diagnosis/rule.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/answer.h"
@@ -20,6 +21,7 @@ using internal::diagnosis::as_sentence;
 using internal::diagnosis::cause_line;
 using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
+using internal::diagnosis::kRule;
 using internal::diagnosis::kToldByDiagnose;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
@@ -120,16 +122,19 @@ std::string error_size(const CardFacts& f) {
 
 /// "; no model gets below 0.61 N, which is the encoder's noise": in the unit of the size, so that a diagnosis
 /// that goes on from another is measured by the same. Empty where no floor in torque is known. Recordings may
-/// disagree by more than a model leaves of those held out: that is no bound.
+/// disagree by more than a model leaves of those held out: that is no bound. What does not come back holds
+/// the encoder's noise: it is the drive's where it is clearly more.
 std::string torque_floor(const CardFacts& f, const Card& card) {
   const ErrorBudget& b = f.diagnosis->budget;
   const double floor = b.exists() ? b.floor() : kNaN;
   if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
+  if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
   if (b.records >= floor) return "; the recordings, or parts of one, disagree by " + size;
   return "; no model gets below " + size +
-         (b.repeatability >= floor ? ", by which the drive does not repeat itself"
-                                   : ", which is the encoder's noise");
+         (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
+              ? ", by which the drive does not repeat itself"
+              : ", which is the encoder's noise");
 }
 
 std::string floor_words(const CardFacts& f, const Card& card) {

@@ -145,7 +145,7 @@ std::size_t HeldOut::restart(std::size_t r) const {
   const double scored = traces[r].dt * static_cast<double>(traces[r].size() - scored_from[r]);
   double length = std::min(kMeasure.restart, scored / kMeasure.fewest_restarts);
   // A whole number of restarts in a period: periods can then be compared.
-  if (const double period = traces[r].dt * static_cast<double>(periods[r]); period > length)
+  if (const double period = traces[r].dt * periods[r]; period > length)
     length = period / std::round(period / length);
   return 2 * std::max<std::size_t>(5, static_cast<std::size_t>(0.5 * length / traces[r].dt + 0.5));
 }

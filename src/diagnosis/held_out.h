@@ -12,8 +12,8 @@ namespace gapscope::internal::diagnosis {
 struct HeldOut {
   std::vector<MotorTrace> traces;
   std::vector<std::size_t> scored_from;
-  std::vector<double> floors;        ///< of the encoder, per recording [rad]
-  std::vector<std::size_t> periods;  ///< of the input in samples, 0: it does not repeat
+  std::vector<double> floors;   ///< of the encoder, per recording [rad]
+  std::vector<double> periods;  ///< of the input in samples, 0: it does not repeat
   /// Where the drive repeats its motion worse than its encoder reads: how far, for each measure [rad].
   double innovation_repeats = 0.0, free_repeats = 0.0;
   std::string repeats_in;  ///< what that was read from, in words

@@ -23,16 +23,22 @@ Repeatability repeatability_of(const std::vector<Playback>& playbacks, const Hel
   PooledSize innovation, free, twice, once;
   std::string read_from;
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
-    const std::size_t period = held_out.periods[r], size = held_out.traces[r].size();
-    const std::size_t from = std::max(held_out.scored_from[r], held_out.restart(r));
-    if (period == 0 || from + period + period / 2 > size) continue;
-    const double samples = static_cast<double>(size - from - period), length = static_cast<double>(period);
+    const double period = held_out.periods[r];
+    const std::size_t size = held_out.traces[r].size();
+    std::size_t from = std::max(held_out.scored_from[r], held_out.restart(r));
+    const auto has = [&](double periods) {
+      return static_cast<double>(from) + periods * period <= static_cast<double>(size);
+    };
+    if (!(period > 0.0) || !has(1.5)) continue;
+    if (held_out.scored_from[r] == 0 && has(3.0))
+      from += static_cast<std::size_t>(period);  // it starts there
+    const double samples = static_cast<double>(size - from) - period;
     read_from += fmt::format("{}{:.1f} periods of {:.3g} s in {}", read_from.empty() ? "" : ", ",
-                             static_cast<double>(size - from) / length, length * held_out.traces[r].dt,
+                             static_cast<double>(size - from) / period, period * held_out.traces[r].dt,
                              held_out.traces[r].file);
     innovation.add(signals::repetition_error(playbacks[r].innovation, from, period), samples);
     free.add(signals::repetition_error(playbacks[r].free, from, period), samples);
-    if (from + 2 * period + period / 2 > size) continue;
+    if (!has(2.5)) continue;
     once.add(signals::repetition_error(playbacks[r].innovation, from, period), samples);
     twice.add(signals::repetition_error(playbacks[r].innovation, from, 2 * period), samples);
   }

@@ -241,7 +241,7 @@ std::vector<Playback> play_on_train(const Study& study, const ReferenceModel& mo
   HeldOut own;
   own.traces = study.train;
   own.scored_from.assign(own.traces.size(), 0);
-  own.periods = own.scored_from;
+  own.periods.assign(own.traces.size(), 0.0);
   return play(model, own, study.observer_hz, true);
 }
 

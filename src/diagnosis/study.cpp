@@ -87,7 +87,7 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
   for (const MotorTrace& t : study.held_out.traces)
     study.held_out.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
   for (const MotorTrace& t : study.held_out.traces)
-    study.held_out.periods.push_back(signals::rough_period(t));
+    study.held_out.periods.push_back(signals::input_period(t));
   for (const std::string& name : options.excluded) GAPSCOPE_REQUIRE(find_effect(name) != nullptr);
   for (const EffectEntry* entry : effect_table())
     if (study.can_turn(*entry) && !study.is_excluded(*entry)) study.catalogue.push_back(entry);
@@ -137,7 +137,7 @@ HeldOut fitted_as_held_out(const Study& study) {
   all.scored_from.assign(all.traces.size(), 0);
   for (const MotorTrace& t : all.traces) {
     all.floors.push_back(floor_of(t, study.seen_quantum > 0.0));
-    all.periods.push_back(signals::rough_period(t));
+    all.periods.push_back(signals::input_period(t));
   }
   return all;
 }

@@ -152,8 +152,11 @@ std::string floors_text(const DiagnosisResult& r) {
     else
       floors.push_back(fmt::format("{} ({})", size, f.name));
   }
-  const std::string text =
-      floors.empty() ? "" : fmt::format(" Floors, which no model gets below: {}.", fmt::join(floors, ", "));
+  const bool undercut = b.with_effects < std::max(b.encoder, b.repeatability);
+  const std::string text = floors.empty()
+                               ? ""
+                               : fmt::format(" Floors{}: {}.", undercut ? "" : ", which no model gets below",
+                                             fmt::join(floors, ", "));
   return (text + disagree).empty() ? "" : "\n" + (text + disagree).substr(1) + "\n";
 }
 

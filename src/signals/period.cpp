@@ -98,7 +98,7 @@ std::size_t rough_period(const MotorTrace& trace) {
   std::vector<double> differences(last, kInfinity);
   bool left = false;  // the neighbourhood of lag zero
   for (std::size_t lag = 2; lag < last; ++lag) {
-    const double d = repetition_error(u, 0, lag) / size;
+    const double d = repetition_error(u, 0, static_cast<double>(lag)) / size;
     left = left || d > 2.0 * kAlike;
     if (left) differences[lag] = d;
   }
@@ -109,14 +109,22 @@ std::size_t rough_period(const MotorTrace& trace) {
   std::size_t period = coarse * step;
   double least = kInfinity;
   for (std::size_t lag = (coarse - 1) * step; lag <= (coarse + 1) * step; ++lag)
-    if (const double d = repetition_error(trace.u, 0, lag); d < least) least = d, period = lag;
+    if (const double d = repetition_error(trace.u, 0, static_cast<double>(lag)); d < least)
+      least = d, period = lag;
   return period;
 }
 
-double repetition_error(std::span<const double> v, std::size_t from, std::size_t lag) {
+double input_period(const MotorTrace& trace) {
+  const double exact = trace.even() ? exact_period(trace, 2.0) / trace.dt : 0.0;
+  return exact > 0.0 ? exact : static_cast<double>(rough_period(trace));
+}
+
+double repetition_error(std::span<const double> v, std::size_t from, double lag) {
+  const auto whole = static_cast<std::size_t>(std::ceil(lag));
   double sum = 0.0;
-  for (std::size_t i = from; i + lag < v.size(); ++i) sum += std::pow(v[i + lag] - v[i], 2);
-  return std::sqrt(0.5 * sum / static_cast<double>(v.size() - lag - from));
+  for (std::size_t i = from; i + whole < v.size(); ++i)
+    sum += std::pow(between_samples(v, static_cast<double>(i) + lag) - v[i], 2);
+  return std::sqrt(0.5 * sum / static_cast<double>(v.size() - whole - from));
 }
 
 }  // namespace gapscope::internal::signals

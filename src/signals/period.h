@@ -25,7 +25,11 @@ double exact_period(const MotorTrace& trace, double fewest);
 /// where samples are no measure of time: they are uneven.
 std::size_t rough_period(const MotorTrace& trace);
 
-/// What of v does not come back after a lag: rms of v(t + lag) − v(t) from a sample on, over √2.
-double repetition_error(std::span<const double> v, std::size_t from, std::size_t lag);
+/// The exact period where there is one that comes back twice, else the rough one [samples]; 0: none.
+double input_period(const MotorTrace& trace);
+
+/// What of v does not come back after a lag [samples], linear between them: rms of v(t + lag) − v(t) from a
+/// sample on, over √2.
+double repetition_error(std::span<const double> v, std::size_t from, double lag);
 
 }  // namespace gapscope::internal::signals

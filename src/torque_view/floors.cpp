@@ -18,15 +18,18 @@ double input_period(const StampedTrace& trace) {
         kEven * dt * static_cast<double>(i + 1))
       return 0.0;
   const MotorTrace even{trace.file, trace.t.front(), dt, trace.u, trace.x, trace.quantum};
-  const double exact = signals::exact_period(even, 2.0);
-  return exact > 0.0 ? exact : dt * static_cast<double>(signals::rough_period(even));
+  return dt * signals::input_period(even);
 }
 
-/// Σ and count of (r(t + period) − r(t))²/2 over the rows of which both are there.
+/// Σ and count of (r(t + period) − r(t))²/2 over the rows of which both are there; where three periods are,
+/// without the first, in which the drive starts.
 std::pair<double, double> not_repeated(const BandRecord& record, const double* left, double period) {
   double sum = 0.0, count = 0.0;
   std::size_t later = 0;
+  const double first = record.row_time.empty() ? 0.0 : record.row_time.front();
+  const bool starts = !record.row_time.empty() && record.row_time.back() - first >= 3.0 * period;
   for (std::size_t i = 0; i < record.row_time.size(); ++i) {
+    if (starts && record.row_time[i] < first + period) continue;
     const double at = record.row_time[i] + period;
     while (later + 1 < record.row_time.size() && record.row_time[later + 1] <= at) ++later;
     if (later + 1 >= record.row_time.size()) break;

@@ -124,6 +124,15 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   d.budget.encoder = 0.7;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
               EndsWith("input brings; no model gets below 0.7 N, which is the encoder's noise."));
+  d.budget.repeatability = 0.72;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
+              EndsWith("input brings; no model gets below 0.72 N, which is the encoder's noise."));
+  d.budget.repeatability = 1.2;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
+              EndsWith("no model gets below 1.2 N, by which the drive does not repeat itself."));
+  d.budget.repeatability = 3.0;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, Not(HasSubstr("no model gets below")))
+      << "the model with what was added is below";
   d.budget.records = 20.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, EndsWith("30 times the encoder floor."))
       << "the floor is above what is missed";
@@ -208,7 +217,8 @@ TEST(Card, OfManyEffectsTellsTheFirstAndCountsTheRest) {
 TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
   Diagnosis d = slide_diagnosis();
   d.effects = {"cogging_torque", "cogging_torque"};
-  for (AddedEffect& a : d.added) a.effect = "cogging_torque", a.established = true;
+  for (AddedEffect& a : d.added)
+    a.effect = "cogging_torque", a.established = true, a.group = {"cogging_torque"};
   d.added[0].parameters = {{"amplitude_nm", "N m", 5.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 2.5e-3}};
   d.added[1].parameters = {{"amplitude_nm", "N m", 1.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 0.01}};
   CardFacts f = facts_of(nullptr, &d);

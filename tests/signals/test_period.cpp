@@ -40,6 +40,14 @@ TEST(Period, OneThatEndsWithTheRecordingIsNotComparedWithWhatIsNotThere) {
   EXPECT_EQ(exact_period(trace, 1.9), 0.0);  // reads within the samples: for the sanitizer
 }
 
+TEST(Period, OfATriangleIsTheSameFromTheInputAsItIs) {
+  std::vector<double> u;
+  for (int i = 0; i < 6000; ++i) u.push_back(std::asin(std::sin(2.0 * kPi * 0.7 * 0.002 * i)));
+  const MotorTrace trace{"triangle.csv", 0.0, 0.002, u, u, 0.0};
+  EXPECT_NEAR(input_period(trace), 1.0 / (0.7 * 0.002), 0.01);  // 714.29 samples, not twice 714
+  EXPECT_LT(repetition_error(u, 0, input_period(trace)), 1e-3);
+}
+
 TEST(Period, TwoRepetitionsAreEnoughForARoughOneOnly) {
   Periodic p;
   const MotorTrace trace = p.trace(2.1 * p.period);
