@@ -181,6 +181,19 @@ std::string step_of_the_answer(const CardFacts& f) {
   return "";
 }
 
+/// What remains far above the floor once all that was added is in the model; empty: nothing does.
+std::string unexplained(const CardFacts& f, const Card& card) {
+  const ErrorBudget& b = f.diagnosis->budget;
+  const double floor = b.exists() ? b.floor() : 0.0;
+  if (!(floor > 0.0 && card.torque_after > kRule.far * floor)) return "";
+  return fmt::format(
+      "{} of the {} is still unexplained ({:.0f} times the floor): diagnose the other way round, with what "
+      "is "
+      "fitted held out and what is held out fitted, or record another motion; `fitted.yaml` has what was "
+      "found.",
+      percent_text(card.percent_after), f.coordinates.torque_word(), card.torque_after / floor);
+}
+
 std::string next_line(const CardFacts& f, const Card& card) {
   if (card.good_enough && *card.good_enough) return "None: this is within your tolerance.";
   const std::string step = step_of_the_answer(f);
@@ -194,6 +207,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
     return "Try `fitted.yaml` on another motion; what the cause is takes a recording of that, too (other "
            "speeds, other "
            "loads).";
+  if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
   if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
   if (d.verdict == DiagnosisVerdict::kNone) return "None.";
   return "Record the drive in another motion (other speeds, other loads) and diagnose that.";

@@ -114,6 +114,16 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
   EXPECT_DOUBLE_EQ(card.percent_after, 4.0);
 }
 
+TEST(Card, TellsWhatIsStillUnexplained) {
+  Diagnosis d = slide_diagnosis();
+  d.budget.nominal = 10.0, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).next,
+      HasSubstr(" of the force is still unexplained (20 times the floor): diagnose the other way round"));
+  d.budget.encoder = 0.3;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `fitted.yaml`"));
+}
+
 TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   Diagnosis d = slide_diagnosis();
   d.budget.nominal = 10.0, d.budget.records = 0.613, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
