@@ -36,6 +36,17 @@ std::vector<KinkShape> contact_shapes(std::size_t after) {
   return shapes;
 }
 
+/// What the bank saw of an impact.
+struct Mark {
+  std::size_t start = 0;    ///< sample from which on it shows
+  std::size_t latency = 0;  ///< from there to the peak of e [samples]
+  double sharing = 1.0;     ///< samples that make one reading, because they share a rounding
+
+  std::size_t samples(double readings) const {
+    return static_cast<std::size_t>(std::lround(readings * sharing));
+  }
+};
+
 /// What fits around an impact: the law of the flight and a kink, and how far the kink may be moved.
 struct Kink {
   bool found = false, holds = false;  ///< holds: within the noise
@@ -69,35 +80,43 @@ double left_over(const MotorTrace& trace, const FlightLaw& law, const Kink& kink
   return sum / static_cast<double>(last - from + 1);
 }
 
-Kink find_kink(const TransitionContext& context, const BankEvent& impact, const FlightLaw& law,
-               std::size_t first, std::size_t after) {
+/// The kink of least squared error with a begin in [from, to], each shape's into `fits`.
+KinkFit best_of(const KinkScan& scan, std::span<const KinkShape> shapes, double from, double to, double step,
+                std::vector<KinkFit>& fits) {
+  fits.clear();
+  for (const KinkShape& shape : shapes) fits.push_back(scan.best(shape, from, to, step));
+  return *std::ranges::min_element(fits, {}, &KinkFit::sse);
+}
+
+Kink find_kink(const TransitionContext& context, const Mark& mark, const FlightLaw& law, std::size_t first,
+               std::size_t after) {
   Kink kink;
-  const std::size_t last = std::min({impact.start + after, law.last(), context.trace.size() - 1});
-  const std::size_t back = std::min(3 * impact.latency + 5, (impact.start - first) / 2);
-  const std::size_t from = impact.start - back, to = std::min(impact.start + impact.latency, last) - 2;
-  if (last < first + 20 || to <= from) return kink;
+  const std::size_t last = std::min({mark.start + after, law.last(), context.trace.size() - 1});
+  const std::size_t most = (mark.start - first) / 2, to = std::min(mark.start + mark.latency, last) - 2;
+  std::size_t back = std::min(3 * mark.latency + mark.samples(5.0), most);
+  if (last < first + 20 || to <= mark.start - back) return kink;
   const std::span<const double> y(&context.trace.x1[first], last - first + 1);
   const KinkScan scan(y, first, law.columns(first, last));
   const auto shapes = contact_shapes(after);
-  const double begin = static_cast<double>(from), end = static_cast<double>(to),
-               step = std::max(0.5, static_cast<double>(back) / 20.0);
-  kink.best.sse = kInfinity;
+  const double end = static_cast<double>(to);
+  double begin = 0.0, step = 0.0;
   std::vector<KinkFit> fits;
-  for (const KinkShape& shape : shapes) {
-    fits.push_back(scan.best(shape, begin, end, step));
-    if (fits.back().sse < kink.best.sse) kink.best = fits.back();
+  for (;; back = std::min(2 * back, most)) {
+    begin = static_cast<double>(mark.start - back), step = std::max(0.5, static_cast<double>(back) / 20.0);
+    kink.best = best_of(scan, shapes, begin, end, step, fits);
+    if (kink.best.time > begin + step || back == most) break;  // a least error at the rim is none
   }
   Eigen::VectorXd known(static_cast<Eigen::Index>(y.size()));
   for (Eigen::Index i = 0; i < known.size(); ++i)
     known(i) = kink.best(static_cast<double>(first) + static_cast<double>(i));
   kink.law = law.fit_without(first, known);
   kink.found = true;
+  const std::size_t from = mark.start - back;
   const double sigma2 = context.facts.noise * context.facts.noise,
                left = left_over(context.trace, law, kink, from, last);
-  kink.holds = left <= sigma2 * (1.0 + kKinkHolds * std::sqrt(2.0 / static_cast<double>(last - from + 1)));
-  const double step_of_x1 = std::abs(law.state(kink.law, kink.best.time).speed) * context.trace.dt;
-  const double limit =
-      kink.best.sse + kKinkAlmostAsGood * std::max(sigma2, left) * context.facts.sharing(step_of_x1);
+  const double readings = static_cast<double>(last - from + 1) / mark.sharing;
+  kink.holds = left <= sigma2 * (1.0 + kKinkHolds * std::sqrt(2.0 / readings));
+  const double limit = kink.best.sse + kKinkAlmostAsGood * std::max(sigma2, left) * mark.sharing;
   kink.time = kink.low = kink.high = kink.best.time;
   const double sigma = std::hypot(context.facts.noise, context.facts.rounding);
   for (const KinkFit& fit : fits) {
@@ -110,11 +129,10 @@ Kink find_kink(const TransitionContext& context, const BankEvent& impact, const 
 
 /// Over the longest stretch after the impact that one contact explains, and over the least: they err in other
 /// ways (where a load sticks, rings or meets the motor again; by noise), so the middle of both is taken.
-Kink find_kinks(const TransitionContext& context, const BankEvent& impact, const FlightLaw& law,
-                std::size_t first) {
+Kink find_kinks(const TransitionContext& context, const Mark& mark, const FlightLaw& law, std::size_t first) {
   const auto within = [&](double reach) {
-    const auto after = static_cast<std::size_t>(std::lround(reach * static_cast<double>(impact.latency)));
-    return find_kink(context, impact, law, first, std::max<std::size_t>(3, after));
+    const auto after = static_cast<std::size_t>(std::lround(reach * static_cast<double>(mark.latency)));
+    return find_kink(context, mark, law, first, std::max(mark.samples(3.0), after));
   };
   Kink kink = within(kLeastReach);
   if (!kink.found) return kink;
@@ -149,9 +167,13 @@ ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impa
   result.core = impact.start - std::min(impact.start, sure);
   FlightLaw::Fit before_impact;
   if (!law.fit_before(result.core, before_impact)) return result;
-  const Kink kink = find_kinks(context, impact, law, begin_of_law(law, result.core, before_impact.first));
-  if (!kink.found) return result;
   const double dt = context.trace.dt;
+  const double speed = std::abs(law.state(before_impact, static_cast<double>(result.core)).speed);
+  const double mean_step = reversal.rise / static_cast<double>(std::max<std::size_t>(flight, 1));
+  Mark mark{impact.start, impact.latency, context.facts.sharing(std::max(speed * dt, mean_step))};
+  mark.latency = std::max(mark.latency, mark.samples(1.0));
+  const Kink kink = find_kinks(context, mark, law, begin_of_law(law, result.core, before_impact.first));
+  if (!kink.found) return result;
   const MotorState before = law.state(kink.law, kink.time);
   result.found = true;
   result.time = kink.time;
