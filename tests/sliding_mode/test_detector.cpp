@@ -51,6 +51,20 @@ TEST(Detector, ThePapersRigIsReadAtOtherRatesAndFrequencies) {
     }
 }
 
+TEST(Detector, SeveralSamplesThatShareACountDoNotMakeTheImpactLate) {
+  TestDrive drive;  // 42 counts of gap; where an impact shows late, 7 % more were read
+  drive.m1 = 4e-4, drive.m2 = 8.8e-4, drive.Km = 0.15, drive.d1 = 0.03, drive.d2 = 0.02, drive.Fc2 = 0.03;
+  drive.k = 600.0, drive.gap = 0.008;
+  for (const std::uint64_t seed : {1, 2}) {
+    TestEncoder encoder;
+    encoder.rate = 8000.0, encoder.bits = 15, encoder.noise = 0.05, encoder.seed = seed;
+    const GapEstimate estimate = detect(record(drive, sine(0.8, 0.8), encoder));
+    ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+    EXPECT_LE(estimate.ci95.low, drive.gap) << estimate.brief_report();
+    EXPECT_GE(estimate.ci95.high, drive.gap) << estimate.brief_report();
+  }
+}
+
 TEST(Detector, AContactTooSoftForTheEncoderIsNeverReadTooSmall) {
   TestDrive
       drive;  // a light load behind a soft contact: what of it the counts hide was read as gap, 7 % less
