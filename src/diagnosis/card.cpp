@@ -181,15 +181,15 @@ std::string step_of_the_answer(const CardFacts& f) {
   return "";
 }
 
-/// What remains far above the floor once all that was added is in the model; empty: nothing does.
+/// What remains far above the floor once all that was added is in the model; empty: nothing does, or the
+/// budget has no size of what was added.
 std::string unexplained(const CardFacts& f, const Card& card) {
   const ErrorBudget& b = f.diagnosis->budget;
   const double floor = b.exists() ? b.floor() : 0.0;
-  if (!(floor > 0.0 && card.torque_after > kRule.far * floor)) return "";
+  if (!(floor > 0.0 && card.torque_after > kRule.far * floor && card.torque_after < card.torque)) return "";
   return fmt::format(
       "{} of the {} is still unexplained ({:.0f} times the floor): diagnose the other way round, with what "
-      "is "
-      "fitted held out and what is held out fitted, or record another motion; `fitted.yaml` has what was "
+      "is fitted held out and what is held out fitted, or record another motion; `fitted.yaml` has what was "
       "found.",
       percent_text(card.percent_after), f.coordinates.torque_word(), card.torque_after / floor);
 }
@@ -205,8 +205,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
   if (is_added(d) && d.verdict == DiagnosisVerdict::kHelps)
     return "Try `fitted.yaml` on another motion; what the cause is takes a recording of that, too (other "
-           "speeds, other "
-           "loads).";
+           "speeds, other loads).";
   if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
   if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
   if (d.verdict == DiagnosisVerdict::kNone) return "None.";

@@ -20,8 +20,8 @@ bool has_play(const ReferenceModel& model) {
 /// recording would have its own place in it.
 bool has_one_balance(const Study& study, const ReferenceModel& model) {
   if (!model.structure.has_load) return true;
-  const bool rest_of_the_same = study.held_out.scored_from.front() > 0;
-  return model.structure.load == LoadKind::kLocked && (!has_play(model) || rest_of_the_same);
+  const bool of_the_same = study.held_out.scored_from.front() > 0;
+  return model.structure.load == LoadKind::kLocked && (!has_play(model) || of_the_same);
 }
 
 /// u in torque and the time since the recording began, as the simulator counts it, from a sample on.
@@ -238,9 +238,8 @@ view::SplitRecordings in_torque(const Study& study, const ReferenceModel& nomina
 
 std::optional<view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal) {
   if (!has_one_balance(study, nominal)) return {};
-  view::Budget budget = view::error_budget(in_torque(study, nominal));
-  if (std::isnan(budget.band.hz)) return {};
-  return budget;
+  const view::Budget budget = view::error_budget(in_torque(study, nominal));
+  return std::isnan(budget.band.hz) ? std::optional<view::Budget>() : budget;
 }
 
 bool rests_on_balance(const view::Budget& budget, const ReferenceModel& nominal) {

@@ -7,6 +7,7 @@
 
 #include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
+#include "report/added_table.h"
 #include "report/detectable.h"
 #include "report/diagnosis_figures.h"
 #include "report/error_budget.h"
@@ -69,12 +70,6 @@ std::string closed_loop_table(const DiagnosisResult& r) {
   return text;
 }
 
-/// A harmonic that is not there, or a period that is the once per turn.
-bool is_left_out(const NamedValue& p) {
-  return (p.key.find("_harmonic") != std::string::npos && p.value == 0.0) ||
-         (p.key == "periods_per_turn" && p.value == 1.0);
-}
-
 std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
   std::vector<std::string> parts;
   for (const NamedValue& p : e.parameters) {
@@ -105,10 +100,8 @@ std::string probability_words(const DiagnosisResult& r) {
   if (budget_decides(d))
     return fmt::format(
                " What each does alone, to the free run, did not decide here: the error budget did, by what "
-               "is "
-               "left of the {} once each is refitted with all before it. It begins with `{}`; no "
-               "probabilities "
-               "were learned for it.",
+               "is left of the {} once each is refitted with all before it. It begins with `{}`; no "
+               "probabilities were learned for it.",
                r.coordinates.torque_word(), d.effects.front()) +
            not_ranked(d);
   if (!std::isfinite(d.outside_probability)) return "";
@@ -147,66 +140,6 @@ std::string ranking_table(const DiagnosisResult& r) {
                         rounded(e.rel), rounded(e.shrink), rounded(e.windows_better),
                         parameters_of(e, r.coordinates), remark_of(e, r.diagnosis));
   return text;
-}
-
-/// "amplitude | 988 mN (95 %: 950 to 1026)"
-std::string number_cells(const NamedValue& p, Coordinates coordinates) {
-  if (!coordinates.rotational() && p.key == "periods_per_turn") {
-    const auto period = [](double cycles) { return 2.0 * kPi / cycles; };
-    return "period | " + with_interval(period(p.value), {period(p.ci95.high), period(p.ci95.low)}, "m");
-  }
-  const Coordinates own =
-      p.key == "phase_rad" ? Coordinates() : coordinates;  // an angle on a linear axis, too
-  return name_of_key(p.key) + " | " + with_interval(p.value, p.ci95, own.shown_unit(p.unit));
-}
-
-/// The later effect that contains this one, and has its numbers.
-const AddedEffect* with_these_numbers(const AddedEffect& a, const std::vector<AddedEffect>& added) {
-  for (const AddedEffect& other : added) {
-    const EffectEntry* entry = find_effect(other.effect);
-    const EffectEntry* simpler = entry == nullptr ? nullptr : find_effect(a.effect);
-    if (&other != &a && simpler != nullptr && contained_effect(*entry) == simpler) return &other;
-  }
-  return nullptr;
-}
-
-/// " or `load_unbalance`" of what the recordings cannot tell from an effect, but for what was added as well.
-std::string alternatives(const AddedEffect& a, const std::vector<std::string>& effects) {
-  std::string text;
-  for (const std::string& other : a.group)
-    if (other != a.effect && !contains(effects, other)) text += " or `" + other + "`";
-  return text;
-}
-
-/// The numbers of what was added, each with its interval.
-std::string added_table(const DiagnosisResult& r) {
-  std::string text;
-  const std::vector<AddedEffect>& added = r.diagnosis.added;
-  for (const AddedEffect& a : added) {
-    const bool on_top = a.established && !added.front().established;
-    const std::string others = a.established ? alternatives(a, r.diagnosis.effects) : "";
-    std::string effect = fmt::format("`{}`{} ({})", a.effect, others,
-                                     !others.empty() ? "not told apart"
-                                     : on_top        ? "established with `" + added.front().effect + "`"
-                                     : a.established ? "established"
-                                                     : "cause open");
-    if (const AddedEffect* other = with_these_numbers(a, added)) {
-      text += fmt::format("| {} | | within `{}` |\n", effect, other->effect);
-      continue;
-    }
-    for (const NamedValue& p : a.parameters) {
-      if (is_left_out(p)) continue;
-      text += fmt::format("| {} | {} |\n", effect, number_cells(p, r.coordinates));
-      effect = "";
-    }
-  }
-  if (text.empty()) return "";
-  return "\n## What was added\n\nThe intervals hold for the model with all of it, as it follows the "
-         "recordings "
-         "that were fitted; a number without one these do not determine by themselves.\n\n| effect | number "
-         "| "
-         "value |\n|---|---|---|\n" +
-         text;
 }
 
 std::string names_list(const std::vector<std::string>& names) {

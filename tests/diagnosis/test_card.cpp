@@ -1,43 +1,18 @@
 #include <gmock/gmock.h>
 
-#include "gapscope/diagnosis/answer.h"
-#include "gapscope/diagnosis/card.h"
-#include "gapscope/diagnosis/diagnosis.h"
+#include "diagnosis/slide_card.h"
 #include "gapscope/diagnosis/simulator.h"
 
 namespace gapscope {
 namespace {
 
 using ::testing::EndsWith;
+using testing::facts_of;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::sharp_answer;
+using testing::slide_diagnosis;
 using ::testing::StartsWith;
-
-Answer sharp_answer() {
-  Answer a{0.019, {0.018, 0.020}, AnswerSource::kModelFree, AnswerTrust::kGood, "", {}};
-  a.sentence = "The backlash gap is 19.0 mrad (95 %: 18.0 to 20.0), measured without a model.";
-  return a;
-}
-
-/// 10 N of 50 N, of which friction takes 6 and a rivalled cogging 2 more.
-Diagnosis slide_diagnosis() {
-  Diagnosis d;
-  d.verdict = DiagnosisVerdict::kEffect;
-  d.effects = {"motor_coulomb_friction", "cogging_torque"};
-  d.added = {{"motor_coulomb_friction", true, {"motor_coulomb_friction"}, kNaN, {}, 0.6, {}, 4.0},
-             {"cogging_torque", false, {"cogging_torque", "torque_ripple"}, kNaN, {}, 0.5, {}, 2.0}};
-  d.mismatch.before = 3e-3, d.mismatch.after = 1e-3, d.mismatch.floor = 1e-4;
-  d.mismatch.before_torque = 10.0, d.mismatch.after_torque = 2.0, d.mismatch.input_torque = 50.0;
-  d.where.headline = "changes with the direction of motion (55 % of it backward)";
-  return d;
-}
-
-CardFacts facts_of(const Answer* answer, const Diagnosis* diagnosis) {
-  CardFacts f;
-  f.answer = answer, f.diagnosis = diagnosis;
-  f.coordinates = Coordinates::kTranslation;
-  return f;
-}
 
 TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
   const Answer answer = sharp_answer();
@@ -146,101 +121,6 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   d.budget.records = 20.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, EndsWith("30 times the encoder floor."))
       << "the floor is above what is missed";
-}
-
-TEST(Card, TellsTheAmountOfWhatHelps) {
-  Diagnosis d = slide_diagnosis();
-  d.added[0].parameters = {{"level_nm", "N m", 20.54}};
-  d.added[1].parameters = {{"share", "-", 0.2}};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("From 10 N to 4 N with motor Coulomb friction (20.5 N), then 2 N with cogging torque ("));
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps, Not(HasSubstr("simulated motion")));
-  d.mismatch.before = 1.28e-3, d.mismatch.after = 1.42e-3,
-  d.mismatch.measure = "free run restarted every 2 s";
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      HasSubstr("; but the simulated motion comes no nearer, 1.28 mm off before and 1.42 mm after (free "
-                "run restarted every 2 s)"));
-  d.added[1].effect = "friction_asymmetry", d.added[1].parameters = {{"level_nm", "N m", 20.54}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps, Not(HasSubstr("20.5"))) << "both share one amount";
-}
-
-TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
-  Diagnosis d = slide_diagnosis();
-  d.added.erase(d.added.begin());
-  d.added.front().parameters = {{"amplitude_nm", "N m", 2.054}, {"periods_per_turn", "1/rev", 2513.3}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Cogging torque (2.05 N) brings it down from 10 to 2 N (20.0 % to 4.0 %)"));
-  d.added.front().parameters.clear();
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Cogging torque brings it down from 10 to 2 N"));
-  d = slide_diagnosis();
-  d.added[0].after_torque = kNaN, d.added[0].parameters = {{"level_nm", "N m", 20.54}};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("Motor Coulomb friction (20.5 N; takes 60 %) and cogging torque (takes 50 %) bring it down "
-                 "from 10"));
-}
-
-/// Between the lines of a budget there may be laws that the model cannot have, and effects beside them.
-TEST(Card, TellsTheTorqueOfTheModelThatFittedYamlHas) {
-  Diagnosis d = slide_diagnosis();
-  d.budget.band_hz = 8.0;
-  d.mismatch.after_torque = 3.0;  // the last line, 2.0, has a law beside both that nobody can add
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("Motor Coulomb friction (takes 60 %) and cogging torque (takes 50 %) bring it down from 10 "
-                 "to 3 N (20.0 % to 6.0 %)"));
-  d.budget.uncounted = {"cogging_torque"};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith(
-          "Motor Coulomb friction (takes 60 %) brings it down from 10 to 3 N (20.0 % to 6.0 %); cogging "
-          "torque (takes 50 %) helps the simulated motion, and no size of it in force is known; "
-          "`fitted.yaml` has them"));
-}
-
-TEST(Card, TellsAnAmountWithItsInterval) {
-  Diagnosis d = slide_diagnosis();
-  d.added[0].parameters = {{"level_nm", "N m", 20.54, {20.1, 20.98}}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("4 N with motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98), then"));
-  d.added.pop_back();
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98) brings it down"));
-}
-
-TEST(Card, OfManyEffectsTellsTheFirstAndCountsTheRest) {
-  Diagnosis d = slide_diagnosis();
-  d.added.resize(1);
-  for (const char* more : {"cogging_torque", "viscous_friction", "torque_ripple", "load_friction"})
-    d.added.push_back({more, true, {more}, kNaN, {}, 0.1, {}, 4.0 - 0.5 * double(d.added.size())});
-  Card card = card_of(facts_of(nullptr, &d));
-  EXPECT_THAT(card.helps, StartsWith("From 10 N to 4 N with motor Coulomb friction, then 3.5 N with cogging "
-                                     "torque, then 3 N with viscous friction, then 2 N with 2 more ("));
-  EXPECT_EQ(card.cause, "Motor Coulomb friction, cogging torque, viscous friction and 2 more (established).");
-  d.added.pop_back();
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, HasSubstr("viscous friction and torque ripple (est"));
-}
-
-TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
-  Diagnosis d = slide_diagnosis();
-  d.effects = {"cogging_torque", "cogging_torque"};
-  for (AddedEffect& a : d.added)
-    a.effect = "cogging_torque", a.established = true, a.group = {"cogging_torque"};
-  d.added[0].parameters = {{"amplitude_nm", "N m", 5.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 2.5e-3}};
-  d.added[1].parameters = {{"amplitude_nm", "N m", 1.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 0.01}};
-  CardFacts f = facts_of(nullptr, &d);
-  EXPECT_EQ(card_of(f).cause, "Cogging torque every 2.5 mm and cogging torque every 10 mm (established).");
-  EXPECT_THAT(card_of(f).helps,
-              StartsWith("From 10 N to 4 N with cogging torque every 2.5 mm (5 N), then 2 N with cogging "
-                         "torque every 10 mm (1 N) ("));
-  f.coordinates = Coordinates::kRotation;
-  d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
-  EXPECT_EQ(card_of(f).cause,
-            "Cogging torque at 24 cycles per turn and cogging torque at 7.25 cycles per turn "
-            "(established).");
 }
 
 TEST(Card, SaysWhereMostLikelyNothingOfTheCatalogueIsTheCause) {

@@ -1,0 +1,36 @@
+// The facts of a card of a slide, for its tests.
+#pragma once
+
+#include "gapscope/diagnosis/answer.h"
+#include "gapscope/diagnosis/card.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope::testing {
+
+inline Answer sharp_answer() {
+  Answer a{0.019, {0.018, 0.020}, AnswerSource::kModelFree, AnswerTrust::kGood, "", {}};
+  a.sentence = "The backlash gap is 19.0 mrad (95 %: 18.0 to 20.0), measured without a model.";
+  return a;
+}
+
+/// 10 N of 50 N, of which friction takes 6 and a rivalled cogging 2 more.
+inline Diagnosis slide_diagnosis() {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kEffect;
+  d.effects = {"motor_coulomb_friction", "cogging_torque"};
+  d.added = {{"motor_coulomb_friction", true, {"motor_coulomb_friction"}, kNaN, {}, 0.6, {}, 4.0},
+             {"cogging_torque", false, {"cogging_torque", "torque_ripple"}, kNaN, {}, 0.5, {}, 2.0}};
+  d.mismatch.before = 3e-3, d.mismatch.after = 1e-3, d.mismatch.floor = 1e-4;
+  d.mismatch.before_torque = 10.0, d.mismatch.after_torque = 2.0, d.mismatch.input_torque = 50.0;
+  d.where.headline = "changes with the direction of motion (55 % of it backward)";
+  return d;
+}
+
+inline CardFacts facts_of(const Answer* answer, const Diagnosis* diagnosis) {
+  CardFacts f;
+  f.answer = answer, f.diagnosis = diagnosis;
+  f.coordinates = Coordinates::kTranslation;
+  return f;
+}
+
+}  // namespace gapscope::testing
