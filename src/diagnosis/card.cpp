@@ -182,11 +182,14 @@ std::string step_of_the_answer(const CardFacts& f) {
 }
 
 /// What remains far above the floor once all that was added is in the model; empty: nothing does, or the
-/// budget has no size of what was added.
+/// budget has no size of something that was added.
 std::string unexplained(const CardFacts& f, const Card& card) {
   const ErrorBudget& b = f.diagnosis->budget;
   const double floor = b.exists() ? b.floor() : 0.0;
-  if (!(floor > 0.0 && card.torque_after > kRule.far * floor && card.torque_after < card.torque)) return "";
+  const std::vector<AddedEffect>& added = f.diagnosis->added;
+  const bool sized = std::all_of(added.begin(), added.end(),
+                                 [&](const AddedEffect& a) { return a.after_torque < card.torque; });
+  if (!(sized && floor > 0.0 && card.torque_after > kRule.far * floor)) return "";
   return fmt::format(
       "{} of the {} is still unexplained ({:.0f} times the floor): diagnose the other way round, with what "
       "is fitted held out and what is held out fitted, or record another motion; `fitted.yaml` has what was "
