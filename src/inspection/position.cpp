@@ -93,6 +93,13 @@ Finding check_position_unit(const Material& m, RecordingFacts&) {
   if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q) && is_power_of_two(1.0 / q))
     return wrong_unit(fmt::format("x1 steps by 1/{:.0f}: turns?", 1.0 / q),
                       "declare it, recording: units: {position: rev}");
+  const double of_radians = turn / (q * 180.0 / std::numbers::pi);  // counts per turn, were these no degrees
+  if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q) && is_power_of_two(of_radians))
+    return wrong_unit(
+        fmt::format("x1 steps by 1/{:.0f} of a turn, and by 1/{:.0f} were it 57.3 times as much: "
+                    "radians, declared as degrees?",
+                    turn / q, of_radians),
+        "declare it, recording: units: {position: rad}");
   const std::string speeds = "up to " + m.length(speed) + "/s";
   if (speed > limit)
     return wrong_unit(speeds + fmt::format(", more than {:.0f}", limit),

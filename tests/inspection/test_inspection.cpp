@@ -126,6 +126,10 @@ const std::vector<Fault> kFaults = {
      {"unit of x1"},
      "position: counts"},
     {"degrees", [] { return changed([](Rows& r) { scale(r.x1, 180.0 / kPi); }); }, {"unit of x1"}, "degrees"},
+    {"radians_as_degrees",
+     [] { return changed([](Rows& r) { scale(r.x1, kPi / 180.0); }); },
+     {"unit of x1"},
+     "57.3 times"},
     {"turns", [] { return changed([](Rows& r) { scale(r.x1, 0.5 / kPi); }); }, {"unit of x1"}, "turns"},
     {"register_without_its_sign",
      [] {
