@@ -13,11 +13,18 @@ namespace {
 
 using StandardErrors = std::vector<std::pair<reference::ParameterId, double>>;
 
-StandardErrors errors_of(const Study& study, const FittedModel& fitted) {
+/// What the fit says of its numbers.
+struct FitErrors {
+  StandardErrors errors;
+  std::vector<reference::ParameterId> at_bound;
+};
+
+FitErrors errors_of(const Study& study, const FittedModel& fitted) {
   const reference::ModelFit fit(study.train, fitted.model, study.options.fit, study.observer_hz);
   // A model of the torque balance brings no initial states.
   const auto starts = settled_starts(study.train, fitted.model, study.observer_hz);
-  return fit.standard_errors(fit.point_of(fitted.model, starts));
+  const reference::FitPoint at = fit.point_of(fitted.model, starts);
+  return {fit.standard_errors(at), fit.at_bound(at)};
 }
 
 /// 95 % intervals of the numbers of a model's effects, by effect and place in its specification.
@@ -39,12 +46,22 @@ bool are_same(const std::vector<NamedValue>& one, const std::vector<NamedValue>&
   });
 }
 
-void tell_added_intervals(const ReferenceModel& model, const StandardErrors& errors,
+/// Keys of an effect's parameters that have ended at a bound.
+std::vector<std::string> at_bound_of(const EffectEntry& entry, std::size_t effect, const FitErrors& fit) {
+  std::vector<std::string> keys;
+  for (const reference::ParameterId& id : fit.at_bound)
+    if (id.effect == static_cast<int>(effect))
+      keys.emplace_back(entry.parameters[static_cast<std::size_t>(id.index)].key);
+  return keys;
+}
+
+void tell_added_intervals(const ReferenceModel& model, const FitErrors& fit,
                           std::vector<AddedEffect>& added) {
-  const auto intervals = intervals_of_effects(model, errors);
+  const auto intervals = intervals_of_effects(model, fit.errors);
   for (AddedEffect& a : added)
     for (std::size_t e = 0; e < intervals.size(); ++e) {
       if (!are_same(a.parameters, effect_values(model.effects[e]))) continue;
+      a.at_bound = at_bound_of(*model.effects[e].entry, e, fit);
       for (std::size_t i = 0; i < a.parameters.size(); ++i) {
         const Interval& ci95 = intervals[e][i];
         const double turned = a.parameters[i].value - model.effects[e].parameters[i].value;
@@ -70,10 +87,10 @@ void tell_intervals(const Study& study, const FittedModel& fitted, Diagnosis& d)
   d.model_gap = gap_of(fitted.model, d.added);
   const bool asked = !d.added.empty() || d.model_gap->origin == GapOrigin::kEstimated;
   if (!asked || !std::isfinite(fitted.mean_cost)) return;
-  const StandardErrors errors = errors_of(study, fitted);
-  tell_added_intervals(fitted.model, errors, d.added);
+  const FitErrors fit = errors_of(study, fitted);
+  tell_added_intervals(fitted.model, fit, d.added);
   d.model_gap = gap_of(fitted.model, d.added);
-  for (const auto& [id, error] : errors)
+  for (const auto& [id, error] : fit.errors)
     if (id == reference::drive_number(place::kGap) && !std::isnan(error))
       d.model_gap->ci95 = normal_interval(d.model_gap->value, error);
 }

@@ -7,6 +7,7 @@
 #include "diagnosis/motion.h"
 #include "diagnosis/report_back.h"
 #include "diagnosis/words.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -79,17 +80,31 @@ std::vector<std::size_t> amounts_of(const EffectEntry& entry, bool shared) {
   return own;
 }
 
-/// Whether the 95 % interval of all that says how much there is of an effect holds zero. (Of a knee or a
-/// stiffness that is without a bound where the effect is absent, the interval of the inverse then does.)
-bool may_be_absent(const AddedEffect& a, const std::vector<AddedEffect>& added) {
-  bool absent = false;
-  for (const std::size_t i : amounts_of(*find_effect(a.effect), shares_level(a, added))) {
-    if (i >= a.parameters.size() || std::isnan(a.parameters[i].ci95.low)) continue;
-    if (a.parameters[i].ci95.low > 0.0 || a.parameters[i].ci95.high < 0.0) return false;
-    absent = true;
-  }
-  return absent;
+/// Whether the torque balance takes more than none by it, by blocks of held-out time.
+bool shown_by_balance(const AddedEffect& a, const ErrorBudget& budget) {
+  return std::any_of(budget.rungs.begin(), budget.rungs.end(), [&](const BudgetRung& r) {
+    return r.added && r.effect == a.effect && r.share_ci95.low > 0.0;
+  });
 }
+
+}  // namespace
+
+bool may_be_absent(const AddedEffect& a, const Diagnosis& d) {
+  const EffectEntry* entry = find_effect(a.effect);
+  if (entry == nullptr || a.parameters.empty() || reads_counts(*entry)) return false;
+  bool none = false, told = false, ended = false;
+  for (const std::size_t i : amounts_of(*entry, shares_level(a, d.added))) {
+    if (i >= a.parameters.size()) continue;
+    const NamedValue& amount = a.parameters[i];
+    if (amount.ci95.low > 0.0 || amount.ci95.high < 0.0) return false;
+    none = true;
+    told = told || std::isfinite(amount.ci95.low);
+    ended = ended || contains(a.at_bound, amount.key);
+  }
+  return none && (told || ended || !shown_by_balance(a, d.budget));
+}
+
+namespace {
 
 /// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
 /// them, or comes to the floor like three of several variables, they are no causes. Their cause stays open
@@ -125,7 +140,7 @@ bool continues_one(const LawSearch& law, const Additions& added) {
 
 void open_undetermined(Coordinates coordinates, Diagnosis& d) {
   const bool comes_no_nearer = d.mismatch.after > d.mismatch.before;
-  const auto is_open = [&](const AddedEffect& a) { return comes_no_nearer || may_be_absent(a, d.added); };
+  const auto is_open = [&](const AddedEffect& a) { return comes_no_nearer || may_be_absent(a, d); };
   if (std::none_of(d.added.begin(), d.added.end(), is_open)) return;
   for (AddedEffect& a : d.added) a.established = a.established && !is_open(a);
   tell_open_causes(d, coordinates);

@@ -96,9 +96,32 @@ TEST(OpenCauses, ALevelThatTwoLawsShareSaysNothingOfEither) {
       << "a share of the load";
 }
 
-TEST(OpenCauses, WhatIsNotToldIsNotHeldAgainstThem) {
-  EXPECT_EQ(judged(of_two(effect("load_unbalance", {{"amplitude_nm", "N m", 1.0}}), kFriction)).verdict,
-            DiagnosisVerdict::kEffect);
+TEST(OpenCauses, ANumberWithoutAnIntervalEstablishesNothing) {
+  const Diagnosis first =
+      judged(of_two(effect("load_unbalance", {{"amplitude_nm", "N m", 274.0}}), kFriction));
+  EXPECT_EQ(first.verdict, DiagnosisVerdict::kHelps);
+  EXPECT_FALSE(first.added[0].established);
+  EXPECT_TRUE(first.added[1].established);
+  const NamedValue level = {"level_nm", "N m", 0.0}, share = {"ratio", "-", 0.3};
+  EXPECT_TRUE(is_cause_beside({level, number("ratio", 0.1, 0.5)}, "load_dependent_friction", kDelay));
+  EXPECT_FALSE(is_cause_beside({number("level_nm", 0.9, 1.1), share}, "load_dependent_friction", kDelay));
+}
+
+TEST(OpenCauses, WhatTheFitDoesNotDetermineTheBalanceMayShowButNotAtABound) {
+  Diagnosis d = of_two(effect("load_unbalance", {{"amplitude_nm", "N m", 274.0}}), kFriction);
+  d.budget.rungs = {{"load_unbalance", "load_unbalance", true, 2.65, 1.04, 0.85, {0.82, 0.87}}};
+  EXPECT_EQ(judged(d).verdict, DiagnosisVerdict::kEffect);
+  d.added[0].at_bound = {"amplitude_nm"};
+  EXPECT_EQ(judged(d).verdict, DiagnosisVerdict::kHelps);
+  EXPECT_FALSE(judged(d).added[0].established);
+  d.added[0].at_bound = {"phase_rad"};
+  EXPECT_EQ(judged(d).verdict, DiagnosisVerdict::kEffect) << "which is no amount";
+  d.budget.rungs[0].share_ci95.low = -0.1;
+  EXPECT_EQ(judged(d).verdict, DiagnosisVerdict::kHelps);
+}
+
+TEST(OpenCauses, ACoarserCountIsReadAndNeedsNoInterval) {
+  EXPECT_TRUE(is_cause_beside({{"quantum_rad", "rad", 1e-3}}, "encoder_quantization", kDelay));
 }
 
 TEST(OpenCauses, EffectsThatBringTheMotionNoNearerAreNone) {

@@ -76,8 +76,8 @@ struct RankedEffect {
 /// An effect that was added to the model: what it takes of the held-out error, and whether it is its cause.
 struct AddedEffect {
   std::string effect;
-  /// No other effect and no free law of another variable does nearly as well, its amount is more than none,
-  /// and the held-out motion comes nearer
+  /// No other effect and no free law of another variable does nearly as well, the interval of its amount has
+  /// more than none of it, and the held-out motion comes nearer
   bool established = false;
   std::vector<std::string> group;  ///< itself, and the rivals that this recording cannot tell from it
   double probability = kNaN;
@@ -85,6 +85,7 @@ struct AddedEffect {
   double shrink = kNaN;  ///< (before − after)/(before − floor) of this step alone
   Interval shrink_ci95;
   double after_torque = kNaN;  ///< rms of the missing torque with it [N m]
+  std::vector<std::string> at_bound = {};  ///< keys of its parameters that ended at a bound of their search
 };
 
 /// Where the gap of a fitted model comes from: it is one body and has none, its configuration gives it, or
