@@ -133,8 +133,8 @@ double travel_of(const MotorTrace& t) {
   return *high - *low;
 }
 
-std::string proposal_of(const TriedInput& best, double duration) {
-  std::string text = fmt::format("Record {} for {:.3g} s", describe(best.excitation), duration);
+/// "6.06 σ if torque ripple is the cause, 8.74 σ if constant load torque is the cause"
+std::string separations_of(const TriedInput& best) {
   std::string separate, apart;
   for (const Separation& s : best.separations) {
     if (s.contained)
@@ -143,9 +143,23 @@ std::string proposal_of(const TriedInput& best, double duration) {
       separate +=
           fmt::format("{}{:.3g} σ if {} is the cause", separate.empty() ? "" : ", ", s.excess, s.truth);
   }
-  text += ": it would separate the two causes by " + separate + apart + ".";
-  if (!(best.worst >= kTelling.separated)) text += " No input within the limits separates them by one σ.";
-  return readable(text);
+  return separate + apart;
+}
+
+std::string proposal_of(const TriedInput& best, double duration) {
+  return readable(fmt::format("Record {} for {:.3g} s: it would separate the two causes by {}.",
+                              describe(best.excitation), duration, separations_of(best)));
+}
+
+/// What is to be done where none of the inputs is worth the recording.
+std::string refusal_of(const std::vector<TriedInput>& tried, const std::vector<Rival>& rivals) {
+  std::string names;
+  for (const Rival& r : rivals) names += (names.empty() ? "" : " from ") + r.effect;
+  return readable(
+      fmt::format("None of the {} inputs that were tried within the limits would separate {} by one σ of the "
+                  "encoder; the best, {}, {}. Wider limits (`next_experiment:`), another load or a finer "
+                  "encoder may.",
+                  tried.size(), names, describe(tried.front().excitation), separations_of(tried.front())));
 }
 
 }  // namespace
@@ -189,7 +203,8 @@ NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& 
     return next;
   }
   next.u = sample(next.tried.front().excitation, next.rate, samples, kSeed);
-  next.sentence = proposal_of(next.tried.front(), next.duration);
+  next.sentence = next.separates() ? proposal_of(next.tried.front(), next.duration)
+                                   : refusal_of(next.tried, {rivals.begin(), rivals.end()});
   return next;
 }
 

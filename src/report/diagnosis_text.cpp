@@ -212,7 +212,8 @@ std::string experiment_table(const DiagnosisResult& r) {
   std::string text = "\n## What to record next\n\n" + next.sentence + "\n";
   if (!next.proposes()) return text;
   text +=
-      "\n`next_experiment.yaml` and `next_experiment.csv` hold it. Each model was refitted to what the other "
+      "\n`next_experiment.yaml` and `next_experiment.csv` hold the first one. Each model was refitted to "
+      "what the other "
       "one would record; what it then leaves counts, in units of the encoder's noise (σ).\n\n| input | "
       "travel |";
   for (const Separation& s : next.tried.front().separations)

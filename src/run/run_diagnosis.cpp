@@ -91,7 +91,7 @@ void ask_further(const Configuration& c, const MotorTrace& like, const Diagnosis
   d.next_experiment = next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads);
   const InputFacts input = c.input_facts();
   d.next_experiment.sentence = with_input_unit(d.next_experiment.sentence, input);
-  if (d.next_experiment.proposes())
+  if (d.next_experiment.separates())
     d.next_experiment.sentence += fmt::format(
         " The models travel {} in it: see first that stops, speed and temperature of the drive allow that.",
         c.coordinates.thousandths(d.next_experiment.tried.front().travel));

@@ -64,6 +64,18 @@ TEST(NextExperiment, SaysThatNothingTellsALawFromOneThatContainsIt) {
   EXPECT_NE(next.sentence.find("Stribeck friction contains it"), std::string::npos) << next.sentence;
 }
 
+TEST(NextExperiment, ProposesNothingThatWouldNotSeparate) {
+  const test::LookAlikes& pair = of_a_delay().pair;
+  ExperimentLimits weak = short_limits();
+  weak.input = 1e-3;
+  const NextExperiment next = next_experiment(pair.rivals, pair.recording.motor_trace(), weak, 3.0);
+  ASSERT_FALSE(next.separates());
+  EXPECT_EQ(next.sentence.find("Record"), std::string::npos) << next.sentence;
+  EXPECT_EQ(next.sentence.find("None of the "), 0u) << next.sentence;
+  EXPECT_NE(next.sentence.find("would separate input delay from actuator lag by one σ"), std::string::npos)
+      << next.sentence;
+}
+
 TEST(NextExperiment, NeedsTwoRivals) {
   const Asked& a = of_a_delay();
   EXPECT_THROW(next_experiment({a.pair.rivals.data(), 1}, a.pair.recording.motor_trace(), {}, 3.0),
