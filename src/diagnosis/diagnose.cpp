@@ -274,11 +274,11 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "the search was stopped before its end: this is what it had found by then. Further steps, free-form "
         "laws and the experiment that would decide were not looked for, and causes that hang on them stay "
         "open.");
-  if (study.has_done_its_work())
-    diagnosis.warnings.push_back(
-        fmt::format("the search has taken the work of {:.0f} fits of the nominal model, after which it "
-                    "begins no further step.",
-                    study.effort.most_nominal_fits));
+  if (diagnosis.exhausted = study.has_done_its_work(); diagnosis.exhausted)
+    diagnosis.warnings.push_back(fmt::format(
+        "the search ended at its limit of work, that of {:.0f} fits of the nominal model: it began "
+        "no further step.",
+        study.effort.most_nominal_fits));
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "

@@ -16,13 +16,28 @@ std::vector<std::string> at_bounds(const reference::ModelFit& fit, const referen
   return keys;
 }
 
+/// Which of its bounds each parameter of the drive has ended at.
+std::array<BoundReached, kDriveParameterCount> drive_bounds(const reference::ModelFit& fit,
+                                                            const reference::FitPoint& at) {
+  std::array<BoundReached, kDriveParameterCount> reached = {};
+  const ReferenceModel model = fit.model_at(at);
+  for (const reference::ParameterId& id : fit.at_bound(at)) {
+    if (id.effect != reference::ParameterId::kDrive) continue;
+    const auto i = static_cast<std::size_t>(id.index);
+    const Interval bounds = fit.bounds(id);
+    const double value = model.parameters[i].value;
+    reached[i] = value - bounds.low <= bounds.high - value ? BoundReached::kLower : BoundReached::kUpper;
+  }
+  return reached;
+}
+
 }  // namespace
 
 FittedModel fitted_at(const reference::ModelFit& fit, const reference::RefinedFit& best) {
   const auto is_number = [](double q) { return std::isfinite(q); };
   if (!best.usable() || !std::all_of(best.q.begin(), best.q.end(), is_number))
     return {fit.model(), {}, kInfinity, {}};
-  return {fit.model_at(best), best.starts, best.mean_cost, at_bounds(fit, best)};
+  return {fit.model_at(best), best.starts, best.mean_cost, at_bounds(fit, best), drive_bounds(fit, best)};
 }
 
 FittedModel fit_nominal(std::span<const MotorTrace> train, const ReferenceModel& model,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct FittedModel {
   std::vector<reference::RecordingStart> starts;
   double mean_cost = kInfinity;       ///< what it leaves, see reference::RefinedFit [floor²]
   std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
+  std::array<BoundReached, kDriveParameterCount> drive_at_bound = {};  ///< of the drive's parameters
 };
 
 /// The model where a refinement has led; infinite if that failed.

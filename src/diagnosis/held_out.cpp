@@ -198,6 +198,23 @@ std::vector<Playback> play_from(const std::vector<reference::RecordingStart>& fr
   return playbacks;
 }
 
+std::vector<double> whole_run_errors(const ReferenceModel& model, const HeldOut& held_out,
+                                     double observer_hz) {
+  const reference::ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
+  const reference::ModelRun run = fit.run_at({{}, settled_starts(held_out.traces, model, observer_hz)});
+  std::vector<double> errors(held_out.traces.size());
+  for (std::size_t r = 0; r < errors.size(); ++r) {
+    MotorTrace trace = run.under_own_input(held_out.traces[r], r);
+    const Scaled scaled(trace, held_out, r);
+    const auto visit = [&](std::size_t i, const DriveStepper<double>& runner) {
+      if (i >= held_out.scored_from[r])
+        errors[r] = std::max(errors[r], std::abs(trace.x1[i] - runner.measured()));
+    };
+    if (!reference::roll_out(run.plant, run.starts[r], trace, reference::ObserverGains(), visit)) return {};
+  }
+  return errors;
+}
+
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out) {
   Windows w;
   for (std::size_t r = 0; r < playbacks.size(); ++r) {

@@ -68,6 +68,11 @@ std::vector<Playback> play_from(const std::vector<reference::RecordingStart>& fr
                                 const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
                                 bool all);
 
+/// Largest error of each recording's scored part when the model runs freely from its first sample on, never
+/// restarted [rad]. Empty if a motion diverges.
+std::vector<double> whole_run_errors(const ReferenceModel& model, const HeldOut& held_out,
+                                     double observer_hz);
+
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
 
 /// The windows of the free runs for a drive that stands still: x1 about its mean [free_floor²].

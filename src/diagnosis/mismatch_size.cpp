@@ -157,6 +157,19 @@ double undetermined_by(const Study& study, const ReferenceModel& model) {
                             other.point_of(model, settled_starts(held, model, hz)));
 }
 
+WholeRun whole_run(const Study& study, const ReferenceModel& before, const ReferenceModel& after) {
+  const HeldOut& held = study.held_out;
+  const std::vector<double> b = whole_run_errors(before, held, study.observer_hz),
+                            a = whole_run_errors(after, held, study.observer_hz);
+  const auto largest = [](const std::vector<double>& errors) {
+    return errors.empty() ? kNaN : *std::max_element(errors.begin(), errors.end());
+  };
+  const std::size_t worst =
+      b.empty() ? 0 : static_cast<std::size_t>(std::max_element(b.begin(), b.end()) - b.begin());
+  const auto [low, high] = std::minmax_element(held.traces[worst].x1.begin(), held.traces[worst].x1.end());
+  return {largest(b), largest(a), *high - *low};
+}
+
 double weight_of(const ScoredModel& candidate, const ScoredModel& best) {
   return std::isfinite(candidate.score)
              ? std::exp(-std::max(0.0, candidate.score - best.score) / kRule.tells_apart)

@@ -30,6 +30,9 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
 /// [rad]; NaN where a motion diverges.
 double undetermined_by(const Study& study, const ReferenceModel& model);
 
+/// The model without and with what was added, simulated freely through what is held out.
+WholeRun whole_run(const Study& study, const ReferenceModel& before, const ReferenceModel& after);
+
 /// Weight of a candidate against the best one: exp(−ΔS/T).
 double weight_of(const ScoredModel& candidate, const ScoredModel& best);
 

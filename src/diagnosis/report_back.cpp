@@ -16,6 +16,7 @@
 #include "diagnosis/under_controller.h"
 #include "diagnosis/where.h"
 #include "diagnosis/words.h"
+#include "gapscope/base/text.h"
 #include "gapscope/recording/supply.h"
 
 namespace gapscope::internal::diagnosis {
@@ -53,7 +54,8 @@ std::vector<BlameShift> blame_of(const ScoredModel& before, const ScoredModel& a
     const ParameterSetting& p = before.fitted.model.parameters[i];
     if (p.estimate)
       blame.push_back({kDriveParameters[i].key, kDriveParameters[i].unit, p.value,
-                       after.fitted.model.parameters[i].value});
+                       after.fitted.model.parameters[i].value, before.fitted.drive_at_bound[i],
+                       after.fitted.drive_at_bound[i]});
   }
   return blame;
 }
@@ -178,6 +180,24 @@ void tell_torque(const Study& study, double torque_constant, Diagnosis& d) {
   d.mismatch.input_torque = torque_constant * std::sqrt(square / samples);
 }
 
+/// They were learned on drives whose candidates' own refits decide, above the encoder's floor.
+void forget_probabilities(Diagnosis& d) {
+  d.outside_probability = kNaN;
+  for (RankedEffect& r : d.ranking) r.probability = kNaN;
+  for (DiagnosisStep& s : d.steps)
+    for (RankedEffect& r : s.ranking) r.probability = kNaN;
+}
+
+/// What goes before the first addition in a ranking by free runs, where the error budget has decided.
+void mark_undecided(Diagnosis& d) {
+  for (RankedEffect& r : d.ranking) {
+    if (r.effect == d.effects.front()) return;
+    if (contains(d.effects, r.effect)) continue;
+    r.remark += r.remark.empty() ? "" : "; ";
+    r.remark += "ranks here by its free run alone, on which the verdict does not rest";
+  }
+}
+
 /// What does not depend on how the additions were found.
 /// @param first the effect that was added first, as it was fitted alone; nullptr: none
 void tell_models(const Study& study, const Findings& found, const ScoredModel& nominal,
@@ -203,6 +223,8 @@ void tell_models(const Study& study, const Findings& found, const ScoredModel& n
   d.traces = traces_of(study, before_played, after_played);
   tell_torque(study, km, d);
   if (found.budget) tell_budget(study, *found.budget, d);
+  d.whole_run = whole_run(study, nominal.fitted.model, d.fitted);
+  if (found.budget || study.repeats_badly()) forget_probabilities(d);
 }
 
 }  // namespace
@@ -246,6 +268,7 @@ Diagnosis report_added(const Study& study, const Findings& found, const ScoredMo
 
 Diagnosis report_ladder(const Study& study, const Findings& found, const TorqueSearch& ladder) {
   Diagnosis d = report_added(study, found, ladder.after, added_effects(*found.budget, ladder));
+  mark_undecided(d);
   d.sentence = sentence_of(d, study.options.coordinates);
   return d;
 }

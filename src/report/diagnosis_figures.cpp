@@ -170,7 +170,7 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
   const std::pair<const char*, const std::vector<MapShare>&> maps[] = {
       {"Mode", w.mode},
       {"Direction of motion", w.direction},
-      {"Speed", w.speed},
+      {"Speed (the observer's estimate)", w.speed},
       {r.coordinates.rotational() ? "Motor angle" : "Displacement", w.angle},
       {r.coordinates.rotational() ? "Torque of the input" : "Force of the input", w.input},
       {"Frequency", w.frequency},

@@ -35,6 +35,13 @@ std::string measures_table(const DiagnosisResult& r) {
                         quantity_beside(m.after, m.before, unit),
                         std::isfinite(m.floor) ? quantity_beside(m.floor, m.before, unit) : "–");
   }
+  if (const auto& whole = r.diagnosis.whole_run) {
+    const std::string unit = r.coordinates.position_unit();
+    text += fmt::format(
+        "| largest error of one free run through the whole recording ({} of travel) | {} | {} | – |\n",
+        quantity(whole->travel, unit), quantity(whole->before, unit),
+        quantity_beside(whole->after, whole->before, unit));
+  }
   const MismatchSize& g = r.diagnosis.mismatch;
   const bool balanced = std::any_of(r.diagnosis.budget.rungs.begin(), r.diagnosis.budget.rungs.end(),
                                     [](const BudgetRung& rung) { return rung.added; });
@@ -104,10 +111,13 @@ std::string probability_words(const DiagnosisResult& r) {
                "probabilities were learned for it.",
                r.coordinates.torque_word(), d.effects.front()) +
            not_ranked(d);
-  if (!std::isfinite(d.outside_probability)) return "";
   if (d.mismatch.floor_from == FloorSource::kRepeatability)
     return " It is judged by its repeatability floor, for which no probabilities were learned: the verdict "
            "rests on the held-out errors alone.";
+  if (!std::isfinite(d.outside_probability))
+    return d.budget.exists()
+               ? " None has a probability: these were learned on drives without an error budget."
+               : "";
   return fmt::format(
       " Probabilities are those of simulated drives with one missing effect; probability {:.2f} that the "
       "cause is not in the catalogue.",
@@ -122,8 +132,11 @@ std::string remark_of(const RankedEffect& e, const Diagnosis& d) {
 
 std::string ranking_table(const DiagnosisResult& r) {
   if (r.diagnosis.ranking.empty()) return "";
-  const bool learned =
-      r.diagnosis.mismatch.floor_from != FloorSource::kRepeatability && !budget_decides(r.diagnosis);
+  const std::vector<RankedEffect>& ranking = r.diagnosis.ranking;
+  const bool learned = r.diagnosis.mismatch.floor_from != FloorSource::kRepeatability &&
+                       !budget_decides(r.diagnosis) &&
+                       std::any_of(ranking.begin(), ranking.end(),
+                                   [](const RankedEffect& e) { return std::isfinite(e.probability); });
   std::string text =
       "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive; "
       "`gapscope effects --laws` has the law of each and what its parameters mean." +
@@ -186,22 +199,36 @@ std::string periodic_table(const DiagnosisResult& r) {
   return text;
 }
 
+/// "at its lower bound, 0 N·m s/rad" of a number that has ended there; else the number.
+std::string blamed(double value, BoundReached at, const std::string& unit) {
+  const std::string number = quantity(value, unit);
+  if (at == BoundReached::kNone) return number;
+  return fmt::format("at its {} bound, {}", at == BoundReached::kLower ? "lower" : "upper", number);
+}
+
+/// What stands at a bound is no reading, and has no bias.
+double bias_of(const BlameShift& b) {
+  const bool read = b.without_at == BoundReached::kNone && b.with_at == BoundReached::kNone;
+  return read ? 100.0 * (b.without - b.with) / std::abs(b.with) : kNaN;
+}
+
 std::string blame_table(const DiagnosisResult& r) {
   if (r.diagnosis.blame.empty()) return "";
   std::string text =
       "\n## Parameters biased by what was missing\n\n| parameter | nominal model | with all that was added | "
       "bias of the nominal model |\n|---|---|---|---|\n";
-  const auto bias = [](const BlameShift& b) { return 100.0 * (b.without - b.with) / std::abs(b.with); };
   std::vector<double> all;
-  for (const BlameShift& b : r.diagnosis.blame) all.push_back(bias(b));
+  for (const BlameShift& b : r.diagnosis.blame)
+    if (std::isfinite(bias_of(b))) all.push_back(bias_of(b));
   const Percents shown(all);
   for (const BlameShift& b : r.diagnosis.blame) {
-    const double percent = bias(b);
-    text += fmt::format(
-        "| `{}` | {} | {} | {} |\n", b.key, quantity(b.without, r.coordinates.shown_unit(b.unit)),
-        quantity(b.with, r.coordinates.shown_unit(b.unit)),
-        std::isfinite(percent) ? fmt::format("{} {}", shown(std::abs(percent)), percent > 0 ? "high" : "low")
-                               : "–");
+    const double percent = bias_of(b);
+    const std::string unit = r.coordinates.shown_unit(b.unit);
+    text += fmt::format("| `{}` | {} | {} | {} |\n", b.key, blamed(b.without, b.without_at, unit),
+                        blamed(b.with, b.with_at, unit),
+                        std::isfinite(percent)
+                            ? fmt::format("{} {}", shown(std::abs(percent)), percent > 0 ? "high" : "low")
+                            : "–");
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include "gapscope/results/diagnosis_result.h"
 #include "results/answer_fields.h"
 #include "results/encoder_side_field.h"
+#include "results/error_budget_fields.h"
 #include "results/file_hash_fields.h"
 #include "results/input_facts_fields.h"
 #include "results/json_archive.h"
@@ -80,6 +81,7 @@ void fields(Archive& archive, AddedEffect& a) {
   archive("shrink", a.shrink);
   archive("shrink_ci95", a.shrink_ci95);
   archive("after_torque_nm", a.after_torque);
+  archive.seldom("at_bound", a.at_bound);
 }
 
 template <class Archive>
@@ -93,34 +95,6 @@ void fields(Archive& archive, DetectableEffect& d) {
   archive("torque_rms_nm", d.torque);
   archive("hidden_by", d.hidden_by);
   archive("why", d.why);
-}
-
-template <class Archive>
-void fields(Archive& archive, BudgetRung& r) {
-  archive("law", r.law);
-  archive("effect", r.effect);
-  archive("added", r.added);
-  archive("before_nm", r.before);
-  archive("after_nm", r.after);
-  archive("share", r.share);
-  archive("share_ci95", r.share_ci95);
-  archive("share_alone", r.alone);
-  archive("share_last", r.last);
-  archive("period_rad", r.period);
-}
-
-template <class Archive>
-void fields(Archive& archive, ErrorBudget& b) {
-  archive("band_hz", b.band_hz);
-  archive("input_nm", b.input);
-  archive("nominal_nm", b.nominal);
-  archive("with_effects_nm", b.with_effects);
-  archive("remains_nm", b.remains);
-  archive("encoder_floor_nm", b.encoder);
-  archive("repeatability_floor_nm", b.repeatability);
-  archive("records_floor_nm", b.records);
-  archive.list("rungs", b.rungs);
-  archive.seldom("uncounted", b.uncounted);
 }
 
 template <class Archive>
@@ -207,9 +181,19 @@ void fields(Archive& archive, ModelGap& g) {
 
 template <class Archive>
 void fields(Archive& archive, BlameShift& b) {
+  const Words<BoundReached> bounds = {{BoundReached::kLower, "lower"}, {BoundReached::kUpper, "upper"}};
   archive("unit", b.unit);
   archive("without", b.without);
   archive("with", b.with);
+  archive.seldom_choice("without_at_bound", b.without_at, bounds, BoundReached::kNone);
+  archive.seldom_choice("with_at_bound", b.with_at, bounds, BoundReached::kNone);
+}
+
+template <class Archive>
+void fields(Archive& archive, WholeRun& w) {
+  archive("before_rad", w.before);
+  archive("after_rad", w.after);
+  archive("travel_rad", w.travel);
 }
 
 /// The seven maps of a place: shares, or what an error without a place would have.
@@ -260,6 +244,9 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("schema", d.schema);
   verdict_field(archive, g.verdict);
   archive.seldom_choice("search", g.stopped, Words<bool>{{true, "stopped"}, {false, "ended"}}, false);
+  archive.seldom_choice("search_work", g.exhausted, Words<bool>{{true, "all_taken"}, {false, "within"}},
+                        false);
+  archive.seldom_choice("better_swapped", g.better_swapped, Words<bool>{{true, "yes"}, {false, "no"}}, false);
   archive.seldom("answer", d.result.answer);
   archive("effects", g.effects);
   archive("group", g.group);
@@ -267,6 +254,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.single("gap", g.mismatch);
   archive.seldom("model_gap", g.model_gap);
   archive("undetermined_rad", g.undetermined);
+  archive.seldom("whole_run", g.whole_run);
   archive.single("error_budget", g.budget);
   archive.list("ranking", g.ranking);
   archive("outside_catalogue_probability", g.outside_probability);

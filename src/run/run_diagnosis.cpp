@@ -136,9 +136,11 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
       internal::run::load_simulated(c, recordings, options.progress);
   require_unchanged(c, sources);
   std::vector<std::string> warnings = std::move(recordings.train.warnings);
+  bool swapped = false;
   if (std::string order = other_way_round(c, recordings); !order.empty()) {
     told_before(order);
     warnings.push_back(std::move(order));
+    swapped = true;
   }
   for (const auto& more : {recordings.held_out.warnings, checked(c, options.progress)})
     warnings.insert(warnings.end(), more.begin(), more.end());
@@ -149,6 +151,7 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   result.simulated_data = internal::run::simulated_words(c);
   result.answer.emplace().tolerance = c.tolerance;
   Diagnosis& d = result.diagnosis;
+  d.better_swapped = swapped;
   const std::vector<std::string> guesses = internal::run::guess_warnings(c);
   warnings.insert(warnings.end(), guesses.begin(), guesses.end());
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());

@@ -45,6 +45,11 @@ TEST(OneBody, IsToldWhatLeavesItsEncoderNothingRatherThanWhatTheBalanceSees) {
                             "actuator_lag", "quadratic_drag", "constant_load_torque", "input_dead_zone"}));
   EXPECT_EQ(found.effects, (std::vector<std::string>{"cogging_torque", "actuator_lag"})) << found.sentence;
   EXPECT_LT(found.mismatch.after, 1.3 * found.mismatch.floor);
+  ASSERT_TRUE(found.whole_run.has_value());
+  EXPECT_LT(found.whole_run->after, 0.1 * found.whole_run->before);
+  EXPECT_TRUE(std::isnan(found.outside_probability)) << "learned on drives without an error budget";
+  ASSERT_FALSE(found.ranking.empty());
+  for (const RankedEffect& e : found.ranking) EXPECT_TRUE(std::isnan(e.probability)) << e.effect;
 }
 
 }  // namespace

@@ -100,5 +100,48 @@ TEST(DiagnosisWords, WhatTheBudgetNamedRestsOnIt) {
   EXPECT_THAT(internal::report::diagnosis_text(r), HasSubstr("The answer rests on this one: "));
 }
 
+TEST(DiagnosisWords, WhatEndedAtABoundIsNoBias) {
+  DiagnosisResult r = with_friction();
+  r.diagnosis.blame = {{"motor_damping", "N m s/rad", 0.0, 0.023, BoundReached::kLower},
+                       {"motor_inertia", "kg m^2", 0.02, 0.04}};
+  const std::string text = internal::report::diagnosis_text(r);
+  EXPECT_THAT(text,
+              HasSubstr("| `motor_damping` | at its lower bound, 0 N·m s/rad | 0.0230 N·m s/rad | – |"));
+  EXPECT_THAT(text, HasSubstr("| 50 % low |"));
+  r.diagnosis.blame.front() = {"motor_damping",     "N m s/rad",         0.1, 5.0,
+                               BoundReached::kNone, BoundReached::kUpper};
+  EXPECT_THAT(internal::report::diagnosis_text(r), HasSubstr("| at its upper bound, 5.00 N·m s/rad | – |"));
+}
+
+TEST(DiagnosisWords, ARankingWithoutProbabilitiesHasNoColumnOfThem) {
+  DiagnosisResult r = with_friction();
+  r.diagnosis.ranking.resize(1);
+  r.diagnosis.ranking[0].effect = "motor_coulomb_friction";
+  std::string text = internal::report::diagnosis_text(r);
+  EXPECT_THAT(text, Not(HasSubstr("| effect | probability |")));
+  EXPECT_THAT(text,
+              HasSubstr(" None has a probability: these were learned on drives without an error budget."));
+  r.diagnosis.ranking[0].probability = 0.9, r.diagnosis.outside_probability = 0.1;
+  EXPECT_THAT(internal::report::diagnosis_text(r), HasSubstr("| effect | probability |"));
+}
+
+TEST(DiagnosisWords, TheTableOfSizesHasTheWholeFreeRun) {
+  DiagnosisResult r = with_friction();
+  r.diagnosis.whole_run = WholeRun{0.407, 0.0412, 0.876};
+  EXPECT_THAT(
+      internal::report::diagnosis_text(r),
+      HasSubstr("| largest error of one free run through the whole recording (876 mrad of travel) | 407 "
+                "mrad | 41.2 mrad | – |"));
+}
+
+TEST(DiagnosisWords, TheSpeedOfAPlaceIsToldToBeTheObservers) {
+  DiagnosisResult r = with_friction();
+  r.diagnosis.where.mode = {{"gap", 0.9, 0.5}, {"engagement", 0.1, 0.5}};
+  r.diagnosis.where.speed = {{"0..1 rad/s", 0.9, 0.5}, {"1..2 rad/s", 0.1, 0.5}};
+  std::string titles;
+  for (const auto& panel : internal::report::diagnosis_where(r).panels) titles += panel.title + "; ";
+  EXPECT_THAT(titles, HasSubstr("Speed (the observer's estimate)"));
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -43,7 +43,10 @@ DiagnosisResult sample() {
               {{"amplitude_nm", "N m", kThird, {0.3, 0.4}}},
               0.9,
               {0.8, 1.1},
-              kThird}};
+              kThird,
+              {"amplitude_nm"}}};
+  d.whole_run = WholeRun{0.4, kNaN, kThird};
+  d.exhausted = d.better_swapped = true;
   d.budget.band_hz = 30.0, d.budget.nominal = kThird;
   d.budget.rungs = {{"cogging_torque", "cogging_torque", true, 1.0, kThird, 0.8, {0.7, 0.9}, 0.8, kThird}};
   d.detectable = {
@@ -91,7 +94,7 @@ DiagnosisResult sample() {
   d.where.direction = halves("backward", "forward");
   d.where.periods_per_turn = 24.0;
   d.remaining.headline = "nowhere";
-  d.blame = {{"motor_damping", "N m s/rad", 0.08, 0.06}};
+  d.blame = {{"motor_damping", "N m s/rad", 0.08, 0.06, BoundReached::kNone, BoundReached::kUpper}};
   d.model_gap = ModelGap{GapOrigin::kEstimated, kThird, {0.3, 0.4}};
   d.warnings = {"a warning"};
   d.observer_hz = 3.0;
@@ -206,6 +209,13 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.where.mode[1].expected, 0.5);
   EXPECT_EQ(b.where.periods_per_turn, 24.0);
   EXPECT_EQ(b.blame[0].key, "motor_damping");
+  EXPECT_EQ(b.blame[0].without_at, BoundReached::kNone);
+  EXPECT_EQ(b.blame[0].with_at, BoundReached::kUpper);
+  EXPECT_EQ(b.added[0].at_bound, a.added[0].at_bound);
+  ASSERT_TRUE(b.whole_run.has_value());
+  EXPECT_EQ(b.whole_run->travel, kThird);
+  EXPECT_TRUE(std::isnan(b.whole_run->after));
+  EXPECT_TRUE(b.exhausted && b.better_swapped);
   ASSERT_TRUE(b.model_gap.has_value());
   EXPECT_EQ(b.model_gap->origin, GapOrigin::kEstimated);
   EXPECT_EQ(b.model_gap->value, kThird);

@@ -63,7 +63,9 @@ struct MismatchSize {
 /// A candidate of one step, really refitted.
 struct RankedEffect {
   std::string effect;
-  double probability = kNaN;     ///< of being the missing effect; see Diagnosis::outside_probability
+  /// Of being the missing effect, see Diagnosis::outside_probability; NaN where none was learned, as of
+  /// drives with an error budget or with a repeatability floor
+  double probability = kNaN;
   double held_out = kNaN;        ///< the measure of the mismatch with this effect [rad]
   double shrink = kNaN;          ///< of that measure
   double score = kNaN;           ///< S, see diagnose(); lower is better
@@ -84,7 +86,7 @@ struct AddedEffect {
   std::vector<NamedValue> parameters;
   double shrink = kNaN;  ///< (before − after)/(before − floor) of this step alone
   Interval shrink_ci95;
-  double after_torque = kNaN;  ///< rms of the missing torque with it [N m]
+  double after_torque = kNaN;              ///< rms of the missing torque with it [N m]
   std::vector<std::string> at_bound = {};  ///< keys of its parameters that ended at a bound of their search
 };
 
@@ -100,11 +102,16 @@ struct ModelGap {
   Interval ci95;        ///< NaN where the fitted recordings do not determine it
 };
 
-/// What a nominal parameter reads with and without the effect: what it had to take the blame for.
+/// Where a fitted number stands in its bounds.
+enum class BoundReached { kNone, kLower, kUpper };
+
+/// What a nominal parameter reads with and without the effect: what it had to take the blame for. What ended
+/// at a bound is no reading.
 struct BlameShift {
   std::string key;
   std::string unit;
   double without = kNaN, with = kNaN;
+  BoundReached without_at = BoundReached::kNone, with_at = BoundReached::kNone;
 };
 
 /// One bin of a map: its share of the squared error and the share that an error without a place would have.
@@ -160,6 +167,13 @@ struct ClosedLoop {
   std::vector<ClosedLoopRun> recordings;
 };
 
+/// The model simulated freely through whole held-out recordings, from their first state on: how far it ends
+/// up from them at most. NaN: the motion diverges.
+struct WholeRun {
+  double before = kNaN, after = kNaN;  ///< largest error, without and with what was added [rad]
+  double travel = kNaN;                ///< of the recording in which the former is [rad]
+};
+
 /// Errors beside one held-out recording, for figures. Columns of equal length.
 struct MismatchTrace {
   std::string file;
@@ -184,6 +198,9 @@ struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNotRun;
   std::string sentence = "diagnose() was not called.";
   bool stopped = false;  ///< the search was asked to finish before its end; what it says is what it had found
+  bool exhausted = false;  ///< it has taken all the work it may, after which it begins no further step
+  /// What is held out asks more of the drive than what is fitted: the other way round may tell more
+  bool better_swapped = false;
   std::vector<std::string> effects;  ///< what was added, in order
   std::vector<std::string> group;    ///< all that the first one cannot be told from, itself included
   std::vector<AddedEffect> added;    ///< the same effects, each with what it takes
@@ -191,6 +208,7 @@ struct Diagnosis {
   std::optional<ModelGap> model_gap;  ///< nothing: not told
   /// What the fitted recordings leave open of the held-out motion: standard deviation of the prediction [rad]
   double undetermined = kNaN;
+  std::optional<WholeRun> whole_run;  ///< nothing: not told
   ErrorBudget budget;
   std::vector<MismatchMeasure> measures;
   std::vector<RankedEffect> ranking;     ///< first step, best first
