@@ -14,7 +14,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 std::string readable(const std::string& identifier) {
-  return replaced(replaced(replaced(identifier, "_", " "), "coulomb", "Coulomb"), "stribeck", "Stribeck");
+  const std::string words = replaced(replaced(identifier, "_", " "), "load dependent", "load-dependent");
+  return replaced(replaced(words, "coulomb", "Coulomb"), "stribeck", "Stribeck");
 }
 
 std::string name_of_key(const std::string& key) {

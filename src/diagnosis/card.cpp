@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/card_cause.h"
+#include "diagnosis/card_open.h"
 #include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
 #include "diagnosis/words.h"
@@ -22,9 +23,11 @@ using internal::diagnosis::cause_line;
 using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
 using internal::diagnosis::kRule;
+using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
+using internal::diagnosis::unestablished_rung;
 using internal::diagnosis::without_asides;
 
 bool is_added(const Diagnosis& d) { return !d.added.empty(); }
@@ -108,7 +111,9 @@ std::string torque_size(const CardFacts& f, const Card& card) {
   std::string text = fmt::format("The model misses {} of {} on held-out data", torque(card.torque),
                                  f.coordinates.torque_word());
   if (std::isfinite(card.percent))
-    text += fmt::format(", {} of the {} that the input brings", percent_text(card.percent),
+    text += fmt::format(", {} the {} that the input brings",
+                        card.torque < 2.0 * m.input_torque ? percent_text(card.percent) + " of"
+                                                           : fmt::format("{:.2g} times", 0.01 * card.percent),
                         SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque));
   return text;
 }
@@ -130,7 +135,7 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
-  if (b.records >= floor) return "; the recordings, or parts of one, disagree by " + size;
+  if (b.records >= floor) return "; the recordings (or parts of one) disagree with each other by " + size;
   return "; no model gets below " + size +
          (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
               ? ", by which the drive does not repeat itself"
@@ -158,12 +163,34 @@ std::string closed_loop_words(const CardFacts& f) {
                      is_added(*f.diagnosis) ? "; with what was added it " + is(c.after) : "");
 }
 
+/// " Simulated freely from the first sample on, the model departs from the held-out motion by up to 407 mrad,
+/// of 876 mrad of travel; with what was added, by up to 41 mrad." Under its controller a drive is judged by
+/// that.
+std::string whole_run_words(const CardFacts& f) {
+  const Diagnosis& d = *f.diagnosis;
+  if (!d.whole_run || d.closed_loop) return "";
+  const WholeRun& w = *d.whole_run;
+  const SharedUnit position(w.travel, f.coordinates.position_unit());
+  const bool stays = std::isfinite(w.before), stays_after = std::isfinite(w.after);
+  const std::string of = ", of " + position(w.travel) + " of travel";
+  std::string text =
+      " Simulated freely from the first sample on, the model " +
+      (stays ? "departs from the held-out motion by up to " + position(w.before) + of : "runs away");
+  if (!is_added(d)) return text + ".";
+  text += "; with what was added, ";
+  if (!stays_after) return text + "it runs away.";
+  return text +
+         (stays ? "by up to " + position(w.after)
+                : "it departs from the held-out motion by up to " + position(w.after) + of) +
+         ".";
+}
+
 std::string mismatch_line(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr) return fitted_line(f) + torque_verdict(f, card);
   const bool torque = std::isfinite(card.torque);
   return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f, card) + "." +
          (torque && f.constant_guessed ? " Its unit rests on torque_constant, a guess." : "") +
-         closed_loop_words(f) + torque_verdict(f, card);
+         whole_run_words(f) + closed_loop_words(f) + torque_verdict(f, card);
 }
 
 std::string place_line(const CardFacts& f) {
@@ -205,13 +232,17 @@ std::string next_line(const CardFacts& f, const Card& card) {
     return "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why.";
   const Diagnosis& d = *f.diagnosis;
   if (d.stopped) return "Run `gapscope diagnose CONFIG` to its end.";
+  const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
+  if (unknown && d.better_swapped) return kSwapStep;  // which takes no new recording
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
   if (is_added(d) && d.verdict == DiagnosisVerdict::kHelps)
-    return "Try `fitted.yaml` on another motion; what the cause is takes a recording of that, too (other "
-           "speeds, other loads).";
+    return "Try `fitted.yaml` on another motion (other speeds, other loads); held out, a recording of that "
+           "may "
+           "also tell the cause.";
   if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
   if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
   if (d.verdict == DiagnosisVerdict::kNone) return "None.";
+  if (unestablished_rung(d) != nullptr) return kSwapStep;
   return "Record the drive in another motion (other speeds, other loads) and diagnose that.";
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "diagnosis/card_open.h"
 #include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/words.h"
@@ -96,9 +97,12 @@ std::string open_causes(const CardFacts& f) {
   const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
   if (open.empty()) return "";
   const bool beside = !established_causes(f).empty() && !rests_on_open_cause(*f.diagnosis);
-  const std::string several = beside ? " help too, their cause" : " help, their cause";
-  return enumerated(shortened(open)) + (open.size() > 1 ? several : " helps, its cause") + " is open" +
-         (others.empty() ? "" : ": it may as well be " + enumerated(shortened(others), "or"));
+  const std::string several = beside ? " help too, but their causes are" : " help, but their causes are";
+  std::vector<std::string> why;
+  if (!others.empty()) why.push_back("it may as well be " + enumerated(shortened(others), "or"));
+  if (std::string words = undetermined_words(*f.diagnosis); !words.empty()) why.push_back(std::move(words));
+  return enumerated(shortened(open)) + (open.size() > 1 ? several : " helps, but its cause is") + " open" +
+         (why.empty() ? "" : fmt::format(": {}", fmt::join(why, ", and ")));
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -129,7 +133,11 @@ std::string amount_of(const AddedEffect& a, const CardFacts& f) {
   const NamedValue& amount = a.parameters.front();
   const std::string unit = f.coordinates.shown_unit(amount.unit);
   if (unit.empty() || !std::isfinite(amount.value)) return "";
-  return SharedUnit(amount.value, unit).with_interval(amount.value, amount.ci95);
+  const char* const none = contains(a.at_bound, amount.key) ? ", at the bound of its search"
+                           : a.established                  ? ""
+                                                            : ", which the recordings do not determine";
+  return SharedUnit(amount.value, unit).with_interval(amount.value, amount.ci95) +
+         (std::isfinite(amount.ci95.low) ? "" : none);
 }
 
 /// "cogging torque (2 N; takes 64 %)": what is known of it alone; an aside in its name stands under the
@@ -247,7 +255,7 @@ std::string cause_line(const CardFacts& f) {
     return "Not told: the search was stopped before its end." + simulator;
   if (rests_on_open_cause(d)) std::swap(text, then);
   text += (text.empty() || then.empty() ? "" : "; ") + then + outside_words(f);
-  return as_sentence(text.empty() ? "unknown: no effect of the catalogue explains it" : text) + simulator;
+  return as_sentence(text.empty() ? unknown_words(f) : text) + exhausted_words(d) + simulator;
 }
 
 std::string helps_line(const CardFacts& f, const Card& card) {
@@ -261,6 +269,7 @@ std::string helps_line(const CardFacts& f, const Card& card) {
   if (!d.added.empty()) parts.back() += motion_words(d.mismatch, f.coordinates);
   for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law));
   if (parts.empty() && d.stopped) return "Not told: the search was stopped before its end.";
+  if (parts.empty() && unestablished_rung(d) != nullptr) return "Nothing that these recordings establish.";
   if (parts.empty()) return "Nothing of the catalogue does.";
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : " ") + as_sentence(part);

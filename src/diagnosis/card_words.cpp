@@ -73,7 +73,7 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   if (diagnosis == nullptr || !diagnosis->model_gap) return kElsewhere;
   switch (diagnosis->model_gap->origin) {
     case GapOrigin::kNone:
-      return "The model is one body and has none; whether the recording shows one: " +
+      return "The model is a single body, without a gap; whether the recording shows one: " +
              told_without_model(*diagnosis);
     case GapOrigin::kGiven:
       return "The model takes it as known, " + coordinates.thousandths(diagnosis->model_gap->value) +

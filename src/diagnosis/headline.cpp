@@ -42,7 +42,7 @@ std::string direction_words(const std::vector<MapShare>& direction) {
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
   const char* const along = coordinates.rotational() ? "motor angle" : "motor position";
   if (!std::isfinite(p.periods_per_turn))
-    return fmt::format("depends on the {}, largest at {}", along, range_words(largest(p.angle).bin));
+    return fmt::format("depends on the {} (largest at {})", along, range_words(largest(p.angle).bin));
   if (!coordinates.rotational())
     return "periodic in the motor position, every " + coordinates.thousandths(2.0 * kPi / p.periods_per_turn);
   const std::string cycles = fmt::format("{:.3g}", p.periods_per_turn);
@@ -57,13 +57,13 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coord
     case ResidualPattern::kDirection:
       return direction_words(p.direction);
     case ResidualPattern::kSpeed:
-      return fmt::format("depends on the speed, largest at {}", range_words(largest(p.speed).bin));
+      return fmt::format("depends on the speed (largest at {})", range_words(largest(p.speed).bin));
     case ResidualPattern::kInput:
-      return fmt::format("depends on the input level, largest at {}", range_words(largest(p.input).bin));
+      return fmt::format("depends on the input level (largest at {})", range_words(largest(p.input).bin));
     case ResidualPattern::kTime:
-      return fmt::format("changes over time, largest at {}", range_words(largest(p.time).bin));
+      return fmt::format("changes over time (largest at {})", range_words(largest(p.time).bin));
     case ResidualPattern::kInputSteps:
-      return fmt::format("arises where the {} changes, largest at {}", coordinates.torque_word(),
+      return fmt::format("arises where the {} changes (largest at {})", coordinates.torque_word(),
                          range_words(largest(p.frequency).bin));
     case ResidualPattern::kCounts:
       return "within the count of a coarser encoder";
@@ -105,13 +105,15 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
 }
 
 std::string headline_of(const MismatchPlace& place, Coordinates coordinates) {
-  std::string text = phase_words(place, coordinates);
-  const auto add = [&text](const std::string& words) {
-    text += text.empty() || words.empty() ? words : ", " + words;
-  };
-  for (const ResidualPattern pattern : place.follows) add(pattern_words(pattern, place, coordinates));
-  if (place.follows.empty()) add("no clear order in angle, speed, input or time");
-  return text;
+  std::string patterns;
+  for (const ResidualPattern pattern : place.follows) {
+    const std::string words = pattern_words(pattern, place, coordinates);
+    const char* const joint = patterns.find(',') == patterns.npos ? " and " : ", and ";
+    patterns += patterns.empty() || words.empty() ? words : joint + words;
+  }
+  if (place.follows.empty()) patterns = "no clear order in angle, speed, input or time";
+  const std::string phase = phase_words(place, coordinates);
+  return phase + (phase.empty() || patterns.empty() ? "" : ", ") + patterns;
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -26,7 +26,7 @@ TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
   EXPECT_TRUE(card_of(facts_of(nullptr, &d)).diagnosed);
   EXPECT_EQ(card_of(facts_of(nullptr, &d)).gap, "Not estimated here; told by `gapscope run CONFIG`.");
   d.model_gap = ModelGap();
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, HasSubstr("one body"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, HasSubstr("single body"));
   d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The model takes it as known, 20 mm"));
   d.model_gap = ModelGap{GapOrigin::kEstimated, 0.02, {0.018, 0.022}};
@@ -80,7 +80,7 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
   EXPECT_EQ(card.place, "Changes with the direction of motion (55 % of it backward).");
   EXPECT_EQ(
       card.cause,
-      "Motor Coulomb friction (established); cogging torque helps, its cause is open: it may as well be "
+      "Motor Coulomb friction (established); cogging torque helps, but its cause is open: it may as well be "
       "torque ripple.");
   EXPECT_EQ(card.helps,
             "From 10 N to 4 N with motor Coulomb friction, then 2 N with cogging torque (20.0 % to 4.0 %); "
@@ -106,8 +106,9 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   d.budget.nominal = 10.0, d.budget.records = 0.613, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
   d.budget.input = 50.0, d.budget.remains = 2.0;
   ASSERT_TRUE(d.budget.exists());
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("input brings; the recordings, or parts of one, disagree by 0.613 N."));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).mismatch,
+      EndsWith("input brings; the recordings (or parts of one) disagree with each other by 0.613 N."));
   d.budget.encoder = 0.7;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
               EndsWith("input brings; no model gets below 0.7 N, which is the encoder's noise."));
@@ -133,9 +134,9 @@ TEST(Card, SaysWhereMostLikelyNothingOfTheCatalogueIsTheCause) {
   d.ranking.resize(1);
   d.ranking.front().effect = d.effects.front();
   const Card card = card_of(facts_of(nullptr, &d));
-  EXPECT_THAT(card.cause, HasSubstr(" help, their cause is open"));
+  EXPECT_THAT(card.cause, HasSubstr(" help, but their causes are open"));
   EXPECT_THAT(card.cause, EndsWith("; most likely (88 %) the cause is none of the catalogue's."));
-  EXPECT_THAT(card.next, StartsWith("Try `fitted.yaml` on another motion;"));
+  EXPECT_THAT(card.next, StartsWith("Try `fitted.yaml` on another motion ("));
   d.added.back().established = true;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, Not(HasSubstr("most likely")));
   d.added.back().established = false;

@@ -33,6 +33,7 @@ TEST(Card, TellsTheAmountOfWhatHelps) {
 TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
   Diagnosis d = slide_diagnosis();
   d.added.erase(d.added.begin());
+  d.added.front().established = true;
   d.added.front().parameters = {{"amplitude_nm", "N m", 2.054}, {"periods_per_turn", "1/rev", 2513.3}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
               StartsWith("Cogging torque (2.05 N) brings it down from 10 to 2 N (20.0 % to 4.0 %)"));

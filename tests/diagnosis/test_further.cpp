@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "diagnosis/further.h"
+#include "diagnosis/open_question.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -52,6 +53,20 @@ TEST(FurtherSteps, BeginWhereTheHeldOutErrorShrinksOrWhereMuchOfTheFitIsExplaine
   EXPECT_EQ(chosen[0], &found.candidates[0]);
   EXPECT_EQ(chosen[1], &found.candidates[4]);
   EXPECT_EQ(chosen[2], &found.candidates[3]);
+}
+
+TEST(FurtherSteps, LeaveNoQuestionOnTopOfEffectsThatWereNotAdded) {
+  Additions a = two(true, model(1.0, 2.0, 4.0), 0.1);
+  FurtherStep& step = a.steps.front();
+  step.before = model(4.0, 100.0, 1e4);
+  step.candidates = {model(3.0, 50.0, 3e3), model(3.05, 51.0, 3e3)};
+  step.candidates[0].entry = find_effect("torque_ripple");
+  step.candidates[1].entry = find_effect("constant_load_torque");
+  step.decision.gain = 1.0;
+  a.accepted = true;
+  EXPECT_EQ(open_question({}, a).size(), 2u);
+  a.accepted = false;
+  EXPECT_TRUE(open_question({}, a).empty());
 }
 
 TEST(FurtherSteps, DoNotBearOutAFirstOneThatStandsAlone) {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/diagnosis/card.h"
+
+/// What a card says of causes that are not told.
+namespace gapscope::internal::diagnosis {
+
+/// "these recordings do not determine how much load unbalance there is", of what was added with an open
+/// cause; empty: they do.
+std::string undetermined_words(const Diagnosis& diagnosis);
+
+/// Of the verdict "unknown": "unknown: no effect of the catalogue explains it", or that one takes much of it
+/// in the error budget and is not established.
+std::string unknown_words(const CardFacts& facts);
+
+/// The first law of the error budget, where that alone takes most of a mismatch of which nothing is
+/// established; nullptr: there is none.
+const BudgetRung* unestablished_rung(const Diagnosis& diagnosis);
+
+/// " The search ended at its limit of work: ..." where that may have left something unfound; else empty.
+std::string exhausted_words(const Diagnosis& diagnosis);
+
+/// The step to the same recordings the other way round.
+inline constexpr const char* kSwapStep =
+    "Swap the recordings: fit the one that is held out now, and hold out the one that is fitted now. That "
+    "may "
+    "tell more.";
+
+}  // namespace gapscope::internal::diagnosis
