@@ -170,8 +170,9 @@ std::string whole_run_words(const CardFacts& f) {
   const Diagnosis& d = *f.diagnosis;
   if (!d.whole_run || d.closed_loop) return "";
   const WholeRun& w = *d.whole_run;
-  const SharedUnit position(w.travel, f.coordinates.position_unit());
   const bool stays = std::isfinite(w.before), stays_after = std::isfinite(w.after);
+  const double largest = std::max({w.travel, stays ? w.before : 0.0, stays_after ? w.after : 0.0});
+  const SharedUnit position(largest, f.coordinates.position_unit());
   const std::string of = ", of " + position(w.travel) + " of travel";
   std::string text =
       " Simulated freely from the first sample on, the model " +

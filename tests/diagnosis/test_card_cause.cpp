@@ -123,6 +123,10 @@ TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
       card_of(d).mismatch,
       HasSubstr(" Simulated freely from the first sample on, the model departs from the held-out motion "
                 "by up to 407 mrad, of 876 mrad of travel; with what was added, by up to 41.2 mrad."));
+  d.whole_run->before = 54.2;
+  EXPECT_THAT(card_of(d).mismatch,
+              HasSubstr("by up to 54.2 rad, of 0.876 rad of travel; with what was added, by "
+                        "up to 0.0412 rad."));
   d.whole_run->before = kNaN;
   EXPECT_THAT(
       card_of(d).mismatch,
