@@ -56,8 +56,7 @@ class Search {
  public:
   Search(Bench& bench, const Budget& budget, double encoder, const FollowsAnother& follows_another,
          const TorqueViewOptions& options)
-      : bench_(bench),
-        budget_(budget),
+      : budget_(budget),
         options_(options),
         below_(bench, budget.model),
         signatures_(below_.all_signatures(options)),
@@ -103,7 +102,6 @@ class Search {
     return least;
   }
 
-  Bench& bench_;
   const Budget& budget_;
   const TorqueViewOptions& options_;
   Below below_;
