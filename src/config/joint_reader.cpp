@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "config/mjcf_include.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
 
@@ -56,18 +57,8 @@ void no_such_joint(const XMLElement& top, const std::string& file, const std::st
   for (const XMLElement* e : elements_below(top, "joint"))
     if (const char* name = e->Attribute("name"); name != nullptr && names.size() < 200)
       names += (names.empty() ? "" : ", ") + printable(name, 40);
-  const std::string included = included_files(top);
   throw ConfigError(
-      file, "has no joint " + shown(joint) + ", expected one of: " + (names.empty() ? "none" : names) +
-                (included.empty() ? "" : ". Files that it includes were not read: " + included));
-}
-
-std::string included_files(const XMLElement& top) {
-  std::string files;
-  for (const XMLElement* e : elements_below(top, "include"))
-    if (const char* file = e->Attribute("file"); file != nullptr && files.size() < 200)
-      files += (files.empty() ? "" : ", ") + shown(file);
-  return files;
+      file, "has no joint " + shown(joint) + ", expected one of: " + (names.empty() ? "none" : names));
 }
 
 }  // namespace internal::config
@@ -81,6 +72,7 @@ JointNumbers joint_numbers(const std::string& path, const std::string& joint) {
   const std::string kind = top.Name();
   if (kind != "mujoco" && kind != "robot")
     throw ConfigError(path, "begins with <" + printable(kind, 40) + ">, expected <mujoco> or <robot>");
+  if (kind == "mujoco") follow_includes(document, path);
   JointNumbers numbers = kind == "mujoco" ? mjcf_joint(top, path, joint) : urdf_joint(top, path, joint);
   numbers.model = path, numbers.joint = joint;
   return numbers;

@@ -21,9 +21,6 @@ std::vector<const tinyxml2::XMLElement*> elements_below(const tinyxml2::XMLEleme
 double inertia_about(const std::vector<double>& axis, double mass, const std::vector<double>& centre,
                      const std::vector<double>& tensor);
 
-/// The names of the files that a model includes; empty: none
-std::string included_files(const tinyxml2::XMLElement& top);
-
 [[noreturn]] void no_such_joint(const tinyxml2::XMLElement& top, const std::string& file,
                                 const std::string& joint);
 

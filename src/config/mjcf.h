@@ -22,24 +22,42 @@ class Mjcf {
     for (const tinyxml2::XMLElement* e = top.FirstChildElement("default"); e != nullptr;
          e = e->NextSiblingElement("default"))
       add_class(*e, "main", "");
-    const tinyxml2::XMLElement* compiler = top.FirstChildElement("compiler");
-    degrees_ = !has_attribute(compiler, "angle", "radian");
+    for (const tinyxml2::XMLElement* e = top.FirstChildElement("compiler"); e != nullptr;
+         e = e->NextSiblingElement("compiler")) {
+      if (e->Attribute("angle") != nullptr) degrees_ = !has_attribute(e, "angle", "radian");
+      if (e->Attribute("eulerseq") != nullptr) euler_sequence_ = e->Attribute("eulerseq");
+    }
   }
 
   const tinyxml2::XMLElement& top() const { return top_; }
   const std::string& file() const { return file_; }
+  double angle_unit() const { return degrees_ ? kPi / 180.0 : 1.0; }  ///< of the compiler [rad]
+  /// Axes of euler="a b c": small letters turn with the body, capital ones stand still.
+  const std::string& euler_sequence() const { return euler_sequence_; }
 
-  std::vector<double> values(const tinyxml2::XMLElement& e, const char* attribute) const {
-    if (const char* own = e.Attribute(attribute)) return numbers_in(own, file_);
+  /// What an element says or, where it does not, its class or one around that; null: nobody does.
+  const char* text(const tinyxml2::XMLElement& e, const char* attribute) const {
+    if (const char* own = e.Attribute(attribute)) return own;
     for (std::string of = class_of(e);;) {
       const auto found = classes_.find(of);
-      if (found == classes_.end()) return {};
-      const tinyxml2::XMLElement* defaults = found->second.element->FirstChildElement(e.Name());
-      if (defaults != nullptr && defaults->Attribute(attribute) != nullptr)
-        return numbers_in(defaults->Attribute(attribute), file_);
-      if (found->second.parent.empty()) return {};
+      if (found == classes_.end()) return nullptr;
+      for (auto part = found->second.parts.rbegin(); part != found->second.parts.rend(); ++part) {
+        const tinyxml2::XMLElement* defaults = (*part)->FirstChildElement(e.Name());
+        if (defaults != nullptr && defaults->Attribute(attribute) != nullptr)
+          return defaults->Attribute(attribute);
+      }
+      if (found->second.parent.empty()) return nullptr;
       of = found->second.parent;
     }
+  }
+
+  std::string word(const tinyxml2::XMLElement& e, const char* attribute, const char* otherwise) const {
+    const char* const found = text(e, attribute);
+    return found == nullptr ? otherwise : found;
+  }
+
+  std::vector<double> values(const tinyxml2::XMLElement& e, const char* attribute) const {
+    return numbers_in(text(e, attribute), file_);
   }
 
   double value(const tinyxml2::XMLElement& e, const char* attribute, double otherwise) const {
@@ -49,27 +67,25 @@ class Mjcf {
 
   /// An angle of a joint, or a length of a slide, in rad or m.
   double turned(const tinyxml2::XMLElement& joint, const char* attribute) const {
-    const bool angle = degrees_ && !has_attribute(&joint, "type", "slide");
-    return value(joint, attribute, 0.0) * (angle ? kPi / 180.0 : 1.0);
+    return value(joint, attribute, 0.0) * (has_attribute(&joint, "type", "slide") ? 1.0 : angle_unit());
   }
 
   /// Of a joint, in rad or m.
   double range_width(const tinyxml2::XMLElement& joint) const {
     const auto range = values(joint, "range");
     if (range.size() < 2) return kNaN;
-    const bool turned = degrees_ && !has_attribute(&joint, "type", "slide");
-    return (range[1] - range[0]) * (turned ? kPi / 180.0 : 1.0);
+    return (range[1] - range[0]) * (has_attribute(&joint, "type", "slide") ? 1.0 : angle_unit());
   }
 
  private:
   struct DefaultClass {
-    const tinyxml2::XMLElement* element;
+    std::vector<const tinyxml2::XMLElement*> parts;  ///< of several files; a later one comes first
     std::string parent;
   };
 
   void add_class(const tinyxml2::XMLElement& e, const std::string& otherwise, const std::string& parent) {
     const std::string name = e.Attribute("class") != nullptr ? e.Attribute("class") : otherwise;
-    classes_.insert({name, {&e, parent}});
+    classes_.insert({name, {{}, parent}}).first->second.parts.push_back(&e);
     for (const tinyxml2::XMLElement* in = e.FirstChildElement("default"); in != nullptr;
          in = in->NextSiblingElement("default"))
       add_class(*in, "main", name);
@@ -87,6 +103,7 @@ class Mjcf {
   std::string file_;
   std::map<std::string, DefaultClass> classes_;
   bool degrees_ = true;
+  std::string euler_sequence_ = "xyz";
 };
 
 }  // namespace gapscope::internal::config

@@ -6,6 +6,7 @@
 
 #include "config/mjcf.h"
 #include "config/mjcf_gravity.h"
+#include "config/mjcf_turn.h"
 #include "gapscope/base/errors.h"
 
 namespace gapscope::internal::config {
@@ -22,15 +23,21 @@ const XMLElement* joint_named(const Mjcf& m, const std::string& name) {
   return nullptr;
 }
 
+/// The tensor of axes that are turned so, in those outside.  // Ixx, Iyy, Izz, Ixy, Ixz, Iyz
+std::vector<double> turned(const std::vector<double>& t, const Eigen::Matrix3d& turn) {
+  Eigen::Matrix3d own;
+  own << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
+  const Eigen::Matrix3d out = turn * own * turn.transpose();
+  return {out(0, 0), out(1, 1), out(2, 2), out(0, 1), out(0, 2), out(1, 2)};
+}
+
 /// Of the joint's own body about its axis, and the armature.
 double inertia_of(const Mjcf& m, const XMLElement& joint, std::vector<std::string>& notes) {
   const double armature = m.value(joint, "armature", 0.0);
   const XMLElement* body = joint.Parent()->ToElement();
   const XMLElement* inertial = body == nullptr ? nullptr : body->FirstChildElement("inertial");
-  if (inertial == nullptr || inertial->Attribute("quat") != nullptr ||
-      inertial->Attribute("euler") != nullptr) {
-    notes.push_back(
-        "of the inertia only the armature was taken: the body's own is not given by an upright inertial");
+  if (inertial == nullptr) {
+    notes.push_back("of the inertia only the armature was taken: the body's own is not given by an inertial");
     return armature > 0.0 ? armature : kNaN;
   }
   if (body->FirstChildElement("body") != nullptr)
@@ -41,6 +48,7 @@ double inertia_of(const Mjcf& m, const XMLElement& joint, std::vector<std::strin
   auto tensor = m.values(*inertial, "fullinertia");
   if (tensor.empty()) tensor = m.values(*inertial, "diaginertia");
   tensor.resize(6, 0.0);
+  tensor = turned(tensor, turn_of(m, *inertial));
   auto axis = m.values(joint, "axis"), centre = m.values(*inertial, "pos"), at = m.values(joint, "pos");
   if (axis.size() != 3) axis = {0.0, 0.0, 1.0};
   centre.resize(3, 0.0), at.resize(3, 0.0);
@@ -49,9 +57,12 @@ double inertia_of(const Mjcf& m, const XMLElement& joint, std::vector<std::strin
 }
 
 double gear_of(const Mjcf& m, const std::string& joint, std::vector<std::string>& notes) {
-  const XMLElement* actuators = m.top().FirstChildElement("actuator");
-  if (actuators == nullptr) return kNaN;
-  for (const XMLElement* e = actuators->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+  std::vector<const XMLElement*> actuators;
+  for (const XMLElement* s = m.top().FirstChildElement("actuator"); s != nullptr;
+       s = s->NextSiblingElement("actuator"))
+    for (const XMLElement* e = s->FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
+      actuators.push_back(e);
+  for (const XMLElement* e : actuators) {
     const std::string kind = e->Name();
     const auto gain = m.values(*e, "gainprm");
     if (!has_attribute(e, "joint", joint) || (!gain.empty() && gain[0] == 0.0)) continue;
@@ -132,8 +143,6 @@ JointNumbers mjcf_joint(const XMLElement& mujoco, const std::string& file, const
   if (heavy == nullptr) read_neighbour(m, *joint, n), heavy = joint;
   read_gravity(m, *heavy, n);
   note_spring(m, *joint, n);
-  if (const std::string files = included_files(mujoco); !files.empty())
-    n.notes.push_back("included files were not read: " + files);
   return n;
 }
 

@@ -28,11 +28,11 @@ struct JointNumbers {
 
 /// Reads a joint of an MJCF (`mujoco`) or URDF (`robot`). Of MJCF: armature, damping, frictionloss with their
 /// defaults and classes, the actuator's gear, the body's own inertial, gravity on it and on what is fixed to
-/// it; a gap where a fixed tendon limits the
-/// difference of two joints, or a second joint of the body has a narrow range. Of URDF: dynamics and the
-/// child's inertia. Inertia beyond the body itself and included files are not followed, which `notes` says.
-/// @throws ConfigError where the file cannot be read, is of another kind, or has no such joint: its joints
-/// are named
+/// it, also where bodies are turned; files that it includes are followed; a gap where a fixed tendon limits
+/// the difference of two joints, or a second joint of the body has a narrow range. Of URDF: dynamics and the
+/// child's inertia. Inertia beyond the body itself is not followed, which `notes` says.
+/// @throws ConfigError where the file or one that it includes cannot be read, is of another kind, or has no
+/// such joint: its joints are named
 JointNumbers joint_numbers(const std::string& path, const std::string& joint);
 
 }  // namespace gapscope
