@@ -197,21 +197,27 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
 }
 
 Finding check_clipping(const Material& m, RecordingFacts& facts) {
-  const Samples u = m.recording.u;
+  // A limit of the duty holds no product with a voltage that sags constant.
+  const bool product = !m.duty.empty();
+  const Samples u = product ? m.duty : m.recording.u;
+  const char* const name = product ? "the duty" : "u";
   const std::vector<bool> plateau = plateaus(u);
   const auto flat = static_cast<double>(std::count(plateau.begin(), plateau.end(), true));
   const std::size_t runs = count_runs(plateau);
   facts.clipped_share = 0.0;
   const double share = flat / static_cast<double>(u.size());
   if (share < kClipped || runs < kFewestPlateaus || !(entry_slope(u, plateau) > kAbrupt))
-    return {"clipping", Severity::kFine, "u does not stay at its largest or smallest value", ""};
+    return {"clipping", Severity::kFine,
+            std::string(name) + " does not stay at its largest or smallest value", ""};
   if (held_elsewhere(u) > kHeldElsewhere || curvature_of_flanks(u, plateau) < kStraight)
-    return {"clipping", Severity::kFine, "u has flat parts and straight flanks, as it was commanded", ""};
+    return {"clipping", Severity::kFine,
+            std::string(name) + " has flat parts and straight flanks, as it was commanded", ""};
   facts.clipped_share = share;
   return {
       "clipping", Severity::kNote,
-      fmt::format("u is cut off at {} in {} plateaus, {:.0f} % of the time", figure(facts.input_peak, 4),
-                  runs, 100.0 * share),
+      fmt::format("{} is cut off at {} in {} plateaus, {:.0f} % of the time", name,
+                  figure(std::max(std::abs(extremes(u).low), std::abs(extremes(u).high)), 4), runs,
+                  100.0 * share),
       "no harm if that is what reached the motor; what a limit behind it took away, or what recorded u did, "
       "does not show in u and x1: read u (the current) behind every limit, within the range of what records "
       "it"};

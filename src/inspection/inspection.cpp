@@ -62,6 +62,13 @@ std::vector<double> as_it_stands(const RecordedRows& rows, const std::string& pa
   return internal::recording::read_window(path, options, internal::recording::EarlierRow::kSkipped).u;
 }
 
+/// What the supply's voltage multiplies; empty: u is no such product.
+std::vector<double> without_voltage(const std::string& path, ReadOptions options) {
+  if (options.columns.voltage.empty()) return {};
+  options.columns.voltage.clear();
+  return internal::recording::read_window(path, options, internal::recording::EarlierRow::kSkipped).u;
+}
+
 std::string wrapped(const std::string& text, std::size_t indent) {
   constexpr std::size_t kWidth = 110;
   std::string out, line;
@@ -121,6 +128,7 @@ Inspection inspect(const std::string& path, const ReadOptions& options, Coordina
   Material m;
   m.rows = internal::recording::read_window(path, options, internal::recording::EarlierRow::kSkipped);
   m.register_input = as_it_stands(m.rows, path, options);
+  m.duty = without_voltage(path, options);
   m.recording = on_grid(m.rows, options);
   m.resampled = options.resample_rate.has_value();
   m.coordinates = coordinates;

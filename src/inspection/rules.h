@@ -20,9 +20,10 @@ namespace gapscope::internal::inspection {
 struct Material {
   recording::RecordedRows rows;        ///< as they stand in the file
   std::vector<double> register_input;  ///< the input's column as it stands, without unit and supply
-  Recording recording;                 ///< the rows on a uniform grid
-  signals::SignalFacts signal;         ///< of its x1
-  bool resampled = false;              ///< on request: also for fit and diagnose, which need no grid
+  std::vector<double> duty;     ///< where u is a duty times the supply's voltage, this duty at each row
+  Recording recording;          ///< the rows on a uniform grid
+  signals::SignalFacts signal;  ///< of its x1
+  bool resampled = false;       ///< on request: also for fit and diagnose, which need no grid
   Coordinates coordinates;
   const char* unit() const { return coordinates.position_unit(); }
   /// "246.4 mm", "50 nm": with the prefix that keeps the number between 1 and 1000.

@@ -1,4 +1,5 @@
 // What is unusual in a recording and spoils nothing.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,6 +19,7 @@ namespace {
 
 using test::changed;
 using test::finding;
+using test::good;
 using test::inspected;
 using test::noise_of;
 using test::ramped;
@@ -29,6 +31,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::rig;
 using testing::Rows;
+using testing::TemporaryFile;
 
 struct Harmless {
   const char* name;
@@ -129,6 +132,26 @@ const std::vector<Harmless> kHarmless = {
 
 INSTANTIATE_TEST_SUITE_P(Inspection, HarmlessTest, ::testing::ValuesIn(kHarmless),
                          [](const auto& tested) { return std::string(tested.param.name); });
+
+/// Of a duty as it is limited, and a supply that sags under it.
+std::string servo_log(const Rows& rows) {
+  std::string text = "t,duty,x1,volts\n";
+  for (std::size_t i = 0; i < rows.t.size(); ++i)
+    text += fmt::format("{:.9g},{},{:.12g},{}\n", rows.t[i], rows.u[i], rows.x1[i],
+                        12.0 - std::abs(rows.u[i]) - 0.01 * static_cast<double>(i % 7));
+  return text;
+}
+
+TEST(Inspection, ADutyThatIsCutOffIsSeenThroughTheSupplyThatMultipliesIt) {
+  ReadOptions options;
+  options.columns.input = "duty", options.columns.voltage = "volts";
+  const TemporaryFile cut(servo_log(rig(trapezoid))), whole(servo_log(good()));
+  const Inspection i = inspect(cut.path(), options);
+  EXPECT_EQ(finding(i, "clipping").severity, Severity::kNote);
+  EXPECT_THAT(finding(i, "clipping").found, HasSubstr("the duty is cut off at 0.6 in 16 plateaus"));
+  EXPECT_GT(i.facts.clipped_share, 0.3);
+  EXPECT_EQ(finding(inspect(whole.path(), options), "clipping").severity, Severity::kFine);
+}
 
 }  // namespace
 }  // namespace gapscope
