@@ -47,7 +47,10 @@ void RunRecorder::note(const Rig& rig, double u, double x1) {
   run_.recording.x1.push_back(x1);
   run_.truth.x1.push_back(s[kX1]);
   run_.truth.w1.push_back(s[kW1]);
-  if (rig.dynamics().drive().load == BlindLoad::kNone) return;
+  if (rig.dynamics().drive().load == BlindLoad::kNone) {
+    run_.recording.mode.push_back(Mode::kOneBody);
+    return;
+  }
   run_.truth.x2.push_back(s[kX2]);
   run_.truth.w2.push_back(s[kW2]);
   run_.recording.mode.push_back(static_cast<Mode>(rig.motion().flank_in_contact()));

@@ -28,6 +28,8 @@ const char* to_string(Mode mode) {
       return "engagement-";
     case Mode::kImpact:
       return "impact";
+    case Mode::kOneBody:
+      return "one_body";
   }
   return "";
 }

@@ -26,7 +26,8 @@ namespace {
 
 constexpr std::uintmax_t kLargestTable = std::uintmax_t{16} << 30;  ///< of the longest recording that is read
 
-constexpr Mode kModes[] = {Mode::kGap, Mode::kEngagementPlus, Mode::kEngagementMinus, Mode::kImpact};
+constexpr Mode kModes[] = {Mode::kGap, Mode::kEngagementPlus, Mode::kEngagementMinus, Mode::kImpact,
+                           Mode::kOneBody};
 
 /// A column of a set, to read from and to fill.
 template <class Value>
@@ -163,7 +164,7 @@ double number_of(std::string_view field) {
 Mode mode_of(std::string_view field) {
   for (const Mode mode : kModes)
     if (field == to_string(mode)) return mode;
-  throw std::invalid_argument(shown(field) + " is no mode, expected gap, engagement+, engagement- or impact");
+  throw std::invalid_argument(shown(field) + " is no mode, expected gap, engagement+ or -, impact, one_body");
 }
 
 template <class Column>

@@ -19,7 +19,7 @@ bool is_made_by_simulate(const std::string& path) {
   std::string header, row;
   std::getline(text, header) && std::getline(text, row);
   const std::string mode = row.substr(row.rfind(',') + 1);
-  const bool told = mode == "gap" || mode == "impact" || mode.starts_with("engagement");
+  const bool told = mode == "gap" || mode == "impact" || mode == "one_body" || mode.starts_with("engagement");
   return header.starts_with("t,u,x1") && header.ends_with(",mode") && told;
 }
 

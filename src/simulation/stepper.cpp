@@ -55,6 +55,10 @@ const ContactMode& DriveStepper<T>::mode() const {
   return impl_->mode;
 }
 template <class T>
+bool DriveStepper<T>::has_load() const {
+  return impl_->has_load;
+}
+template <class T>
 bool DriveStepper<T>::closed_in_last_step() const {
   return impl_->closed;
 }
@@ -68,6 +72,7 @@ bool DriveStepper<T>::healthy() const {
 }
 
 Mode mode_of(const DriveStepper<double>& stepper) {
+  if (!stepper.has_load()) return Mode::kOneBody;
   if (stepper.closed_in_last_step()) return Mode::kImpact;
   const int contact = stepper.mode().contact;
   return contact > 0 ? Mode::kEngagementPlus : contact < 0 ? Mode::kEngagementMinus : Mode::kGap;

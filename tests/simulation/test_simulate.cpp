@@ -70,6 +70,13 @@ TEST(Simulate, ModesTellGapEngagementAndImpact) {
   for (const int n : count) EXPECT_GT(n, 1);
 }
 
+TEST(Simulate, OneBodyIsInNoGap) {
+  PlantModel<double> model = kRig;
+  model.structure.has_load = false;
+  const Recording r = simulate(model, kInput, options(0.0, 0.0));
+  for (const Mode mode : r.mode) ASSERT_STREQ(to_string(mode), "one_body");
+}
+
 TEST(Simulate, StopsBetweenTwoSamples) {
   request_stop();
   EXPECT_THROW(simulate(kRig, kInput, options(0.0, 0.0)), Interrupted);

@@ -12,9 +12,17 @@
 namespace gapscope {
 
 /// What the coupling did during a sample (the paper's words). Impact: a contact closed within the sample.
-enum class Mode : signed char { kEngagementMinus = -1, kGap = 0, kEngagementPlus = 1, kImpact = 2 };
+/// A drive of one body has no coupling.
+enum class Mode : signed char {
+  kEngagementMinus = -1,
+  kGap = 0,
+  kEngagementPlus = 1,
+  kImpact = 2,
+  kOneBody = 3
+};
 
-/// "gap", "engagement+", "engagement-" or "impact": the words of the mode column of a simulated recording.
+/// "gap", "engagement+", "engagement-", "impact" or "one_body": the words of the mode column of a simulated
+/// recording.
 const char* to_string(Mode mode);
 
 /// The view that estimators take: one encoder and the input, nothing of the other body.

@@ -61,6 +61,7 @@ class DriveStepper {
   /// The position that the encoder would read without noise and resolution: with the sensing effects [rad].
   T measured() const;
   const ContactMode& mode() const;
+  bool has_load() const;             ///< else it is one body, and mode() means nothing
   bool closed_in_last_step() const;  ///< a contact closed within the last sample
   long events() const;               ///< located since reset()
   /// False once the motion left the numbers that a double can hold, or events piled up at one instant.
@@ -70,7 +71,7 @@ class DriveStepper {
   std::unique_ptr<internal::simulation::StepperImpl<T>> impl_;
 };
 
-/// The mode in which the last step ended, an impact where a contact closed within it.
+/// The mode in which the last step ended, an impact where a contact closed within it; of one body kOneBody.
 Mode mode_of(const DriveStepper<double>& stepper);
 
 extern template class DriveStepper<double>;

@@ -38,7 +38,7 @@ __all__ = ["check", "detect", "fit", "run", "diagnose", "export", "Result", "Exp
 __version__ = _gapscope.version
 
 #: What the numbers in the columns ``mode`` and ``fit_mode`` of a trace mean.
-MODES = {-1: "engagement-", 0: "gap", 1: "engagement+", 2: "impact"}
+MODES = {-1: "engagement-", 0: "gap", 1: "engagement+", 2: "impact", 3: "one_body"}
 #: What `export` can write, each with a line of what it is.
 FORMATS = dict(_gapscope.formats)
 
