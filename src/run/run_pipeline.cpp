@@ -73,7 +73,7 @@ DetectorOptions detector_options(const Configuration& c, const std::vector<Motor
                                  std::vector<std::string>& notes) {
   DetectorOptions options;
   options.method = c.detector.method;
-  options.encoder = c.model.given && !c.model.structure.has_load ? EncoderSide::kMotor : c.encoder.side();
+  options.encoder = c.encoder.side();  // also of a model of one body: the drive may have a gap all the same
   options.locked = c.model.given && c.model.structure.has_load && c.model.structure.load == LoadKind::kLocked;
   options.frozen = c.detector.frozen;
   if (c.detector.bound) {

@@ -83,7 +83,8 @@ TEST(EncoderOnLoad, OfOneBodyIsThatOfTheBody) {
                                                "{motor_inertia: 1.756e-3, torque_constant: 0.172, "
                                                "mass_ratio: 0, motor_damping: {value: 0.1, estimate: true}}}";
   const RunResult run =
-      run_pipeline(load_configuration((folder.path / "drive.yaml").string()), {false, true}, kQuiet).result;
+      run_pipeline(load_configuration((folder.path / "drive.yaml").string()), {true, true}, kQuiet).result;
+  EXPECT_EQ(run.model_free->reason.code(), "encoder_on_load") << "a model of one body denies no gap";
   write_run_result(folder.path.string(), run);
   const RunResult again = read_run_result(folder.path.string());
   EXPECT_EQ(again.recordings.front().position(), r.x2);
