@@ -74,7 +74,7 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
     for (std::size_t i = first; i < end; ++i) {
       plan.panels.push_back(plan_panel(figure.panels[i], panel_title(figure, i),
                                        column_width - plan.margins[i].left - plan.margins[i].right,
-                                       typesetter));
+                                       column_width - plan.margins[i].left, typesetter));
       above = std::max(above, plan.panels[i].above);
       below = std::max(below, plan.panels[i].height + plan.panels[i].below);
     }

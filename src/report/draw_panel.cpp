@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include "report/draw_figure.h"
 
@@ -107,7 +108,7 @@ class PanelPainter {
       arrow({x, std::max(low, high)}, -inwards);
       arrow({x, std::min(low, high)}, inwards);
       if (inside)
-        beside({x + kSpace, (low + high) / 2}, dimension.label);
+        beside(x, {std::min(low, high), std::max(low, high)}, dimension.label);
       else
         at_the_right(x, (low + high) / 2, dimension.label);
     }
@@ -128,12 +129,36 @@ class PanelPainter {
                  {kTextSize, Align::kCentre, kInk, false, true});
   }
 
-  /// On white paper, over what is drawn there.
-  void beside(Point left, const std::string& label) {
+  /// At a side of an arrow where no curve passes, lying or upright; where there is none on white paper, over
+  /// what is drawn there.
+  void beside(double x, const Interval& arrow, const std::string& label) {
     const TextMetrics metrics = typesetter_.measure(label, kTextSize);
-    const double height = metrics.height() + kSpace;
-    canvas_.fill({left.x, left.y - height / 2, metrics.width + kSpace, height}, {255, 255, 255});
-    canvas_.text({left.x + kSpace / 2, left.y - metrics.height() / 2 + metrics.ascent}, label, {kTextSize});
+    const double length = metrics.width + kSpace, height = metrics.height() + kSpace;
+    std::optional<Box> place;
+    bool upright = false;
+    for (const bool standing : {false, true})
+      for (const double share : {0.5, 0.25, 0.75})
+        for (const double side : {1.0, -1.0}) {
+          const double wide = standing ? height : length, tall = standing ? length : height;
+          const double middle = arrow.low + share * (arrow.high - arrow.low);
+          const Box box{side > 0.0 ? x + kSpace : x - kSpace - wide, middle - tall / 2, wide, tall};
+          if (!place && frame_.holds(box) && is_free(box)) place = box, upright = standing;
+        }
+    const Box at = place.value_or(Box{x + kSpace, (arrow.low + arrow.high - height) / 2, length, height});
+    canvas_.fill(at, {255, 255, 255});
+    if (upright)
+      canvas_.text({at.x + kSpace / 2 + metrics.ascent, at.centre().y}, label,
+                   {kTextSize, Align::kCentre, kInk, false, true});
+    else
+      canvas_.text({at.x + kSpace / 2, at.y + kSpace / 2 + metrics.ascent}, label, {kTextSize});
+  }
+
+  bool is_free(const Box& box) const {
+    const Box here{box.x - frame_.x, box.y - frame_.y, box.width, box.height};
+    for (const Series& s : panel_.series)
+      for (const Polyline& line : polylines_of(s, plan_))
+        if (meets(line, here)) return false;
+    return true;
   }
 
   void vertical(double x, const LineStyle& style) {

@@ -20,6 +20,7 @@ inline constexpr Colour kBlack{0, 0, 0};
 inline constexpr Colour kInk{40, 40, 40};
 inline constexpr Colour kFrame{90, 90, 90};
 inline constexpr Colour kGrid{226, 226, 226};
+inline constexpr Colour kFaint{190, 190, 190};  ///< single samples behind what is made of them
 inline constexpr Colour kGrey{130, 130, 130};
 inline constexpr Colour kVermillion{213, 94, 0};
 inline constexpr Colour kBlue{0, 114, 178};

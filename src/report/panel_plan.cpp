@@ -87,7 +87,7 @@ std::vector<Polyline> polylines_of(const Series& s, const PanelPlan& plan) {
   return lines;
 }
 
-PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
+PanelPlan plan_panel(const Panel& panel, const std::string& title, double width, double room,
                      const Typesetter& typesetter) {
   PanelPlan plan;
   plan.width = width;
@@ -95,8 +95,8 @@ PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
   plan.x = plan_axis(panel.x, x_range(panel), width, false, typesetter);
   plan.y = plan_axis(panel.y, y_range(panel), panel.height, true, typesetter);
   plan.entries = legend_entries(panel);
-  if (!plan.entries.empty()) plan.legend = flowing_legend(plan.entries, width, typesetter);
-  plan.title = typesetter.wrapped(title, width, kTextSize, true);
+  if (!plan.entries.empty()) plan.legend = flowing_legend(plan.entries, room, typesetter);
+  plan.title = typesetter.wrapped(title, room, kTextSize, true);
   for (const std::string& line : plan.title)
     plan.above += typesetter.measure(line, kTextSize, true).height() + kTitleGap;
   plan.above += plan.legend.height;

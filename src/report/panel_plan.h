@@ -75,7 +75,7 @@ struct PanelPlan {
   AxisPlan x, y;
   double width = 0.0, height = 0.0;  ///< of the frame
   double above = 0.0, below = 0.0;   ///< room for what stands outside of it
-  std::vector<std::string> title;    ///< in lines that are no wider than the frame
+  std::vector<std::string> title;    ///< in lines that are no wider than its room
   std::vector<LegendEntry> entries;
   Legend legend;
 
@@ -83,7 +83,8 @@ struct PanelPlan {
     return {x.fraction(px) * width, (1.0 - y.fraction(py)) * height};
   }
 };
-PanelPlan plan_panel(const Panel& panel, const std::string& title, double width,
+/// @param width  of the frame [px]   @param room  for title and legend above it, from its left edge [px]
+PanelPlan plan_panel(const Panel& panel, const std::string& title, double width, double room,
                      const Typesetter& typesetter);
 
 /// The pieces of a series between its undefined points, decimated for a frame of this plan.

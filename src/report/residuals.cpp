@@ -11,6 +11,8 @@
 namespace gapscope::internal::report {
 namespace {
 
+constexpr double kShownOfPixel = 4.0;  ///< samples of a pixel column that decimate_columns() keeps
+
 /// Stretches of the gap mode of the fitted model within an interval.
 std::vector<Band> gap_bands(const ReportView& view, const Interval& interval) {
   std::vector<Band> bands;
@@ -27,6 +29,30 @@ std::vector<Band> gap_bands(const ReportView& view, const Interval& interval) {
   return bands;
 }
 
+/// Where a line through every sample would be a black block: mean and rms of short stretches, over the
+/// samples in grey.
+void add_stretches(const ReportView& view, const std::vector<double>& residual, const Interval& interval,
+                   Panel& panel) {
+  constexpr std::size_t kStretches = 200;
+  const std::size_t first = view.index(interval.low), end = view.index(interval.high) + 1;
+  const std::size_t each = (end - first + kStretches - 1) / kStretches;
+  Series middle, above, below;
+  for (std::size_t i = first; i + each <= end; i += each) {
+    const std::span<const double> part(residual.data() + i, each);
+    const double m = mean(part), spread = std::sqrt(std::max(0.0, rms(part) * rms(part) - m * m));
+    const double t = 0.5 * (view.time[i] + view.time[i + each - 1]);
+    for (Series* s : {&middle, &above, &below}) s->x.push_back(t);
+    middle.y.push_back(m), above.y.push_back(m + spread), below.y.push_back(m - spread);
+  }
+  middle.label = fmt::format("mean of {}", quantity(static_cast<double>(each) * view.recording->dt, "s"));
+  middle.style = {kBlack, 4.0, {}};
+  above.label = "± standard deviation";
+  above.style = below.style = {kVermillion, 3.0, {}};
+  panel.series.front().label = "sample by sample";
+  panel.series.front().style.colour = kFaint;
+  for (Series* s : {&middle, &above, &below}) panel.series.push_back(std::move(*s));
+}
+
 Panel over_time(const ReportView& view, const std::vector<double>& residual, const Interval& interval,
                 bool shaded) {
   Panel panel;
@@ -38,6 +64,8 @@ Panel over_time(const ReportView& view, const std::vector<double>& residual, con
   LineStyle style = measured_style();
   style.width = 2.5;
   panel.series.push_back(view.over_time("", style, residual, interval));
+  const auto samples = static_cast<double>(view.index(interval.high) - view.index(interval.low) + 1);
+  if (samples > kShownOfPixel * kColumnPixels) add_stretches(view, residual, interval, panel);
   if (shaded) panel.x_bands = gap_bands(view, interval);
   return panel;
 }
@@ -187,8 +215,8 @@ FigureData residuals(const ReportView& view) {
   const std::string name = predicts(view) ? "prediction error" : "residual";
   figure.panels.push_back(correlation_panel(view, "Autocorrelation of the " + name, r, lags.step, false, band,
                                             "95 % of white noise"));
-  figure.panels.push_back(correlation_panel(view, "Correlation of the " + name + " with the earlier input",
-                                            with_input, lags.step, true, band * widening(view, r, lags),
+  figure.panels.push_back(correlation_panel(view, "Its correlation with the earlier input", with_input,
+                                            lags.step, true, band * widening(view, r, lags),
                                             "95 % if the input is not in it"));
   figure.reading = reading(view, residual, r);
   const auto& second = view.run.second_encoder;

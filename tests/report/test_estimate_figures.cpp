@@ -66,6 +66,28 @@ TEST(Residuals, AreRecordedMinusFitted) {
   EXPECT_NE(figure.reading.find("is not white"), std::string::npos);
 }
 
+/// A line through four samples of each pixel and more is a block.
+TEST(Residuals, OfManySamplesHaveMeanAndDeviationOfStretches) {
+  const RunResult run = sample_run({.samples = 30000});
+  const ReportView view(run);
+  const FigureData figure = residuals(view);
+  const Panel& whole = figure.panels[1];
+  ASSERT_EQ(whole.title, "Residual of the whole recording");
+  ASSERT_EQ(whole.series.size(), 4u);
+  const Series &middle = whole.series[1], &above = whole.series[2], &below = whole.series[3];
+  EXPECT_EQ(middle.x.size(), 200u);
+  const auto r = difference_of(view.recording->x1, view.fit->x1);
+  EXPECT_NEAR(mean(middle.y), mean(r), 1e-12);
+  for (std::size_t i = 0; i < middle.x.size(); ++i) {
+    const std::span<const double> part(r.data() + 150 * i, 150);
+    EXPECT_NEAR(middle.y[i], mean(part), 1e-12);
+    EXPECT_NEAR(0.5 * (above.y[i] - below.y[i]),
+                std::sqrt(std::max(0.0, rms(part) * rms(part) - mean(part) * mean(part))), 1e-9);
+  }
+  const RunResult few = sample_run({.samples = 5000});
+  EXPECT_EQ(residuals(ReportView(few)).panels[1].series.size(), 1u);
+}
+
 TEST(Residuals, ShadeTheGapModeOfTheFit) {
   const ReportView view(full_run());
   const FigureData figure = residuals(view);
