@@ -8,14 +8,14 @@
 namespace gapscope::internal::exports {
 namespace {
 
-/// Of the travel: a target that is farther off is no model of the drive.
+/// Of the travel: a target that is farther off is no model of the drive, and is told not to be used as it is.
+/// Of `study_left_out 1890001 120` (six effects over five decades in two rigs) these are 24, by half of it
+/// 30, by double 17.
 constexpr double kFarOff = 0.01;
 
-/// Of the encoder: what is left out and does more than that says the same at any step worth taking.
+/// Of the encoder: what is left out and does more than that says the same at any step worth taking, and one
+/// row takes the place of the table of steps. Of the same drives in 70, by half of it in 73, by double in 65.
 constexpr double kManyFloors = 10.0;
-
-/// Of a wave's first harmonic: a further one below it is not worth its place in a line.
-constexpr double kAudible = 1e-3;
 
 constexpr const char* kInTheLoop = "in your loop, before each step: `";
 
@@ -42,8 +42,7 @@ std::string wave(const Numbers& of, const char* position, std::string& where) {
   if (phase != 0.0) angle += " " + signed_term(phase);
   std::string further;
   const auto add = [&](const char* key, const char* term) {
-    if (const double size = of(key); std::abs(size) > kAudible)
-      further += " " + signed_term(size) + "*" + term;
+    if (const double size = of(key); size != 0.0) further += " " + signed_term(size) + "*" + term;
   };
   add("second_harmonic", "sin(2*y)"), add("second_harmonic_cos", "cos(2*y)");
   add("third_harmonic", "sin(3*y)"), add("third_harmonic_cos", "cos(3*y)");
