@@ -134,6 +134,7 @@ CampaignProgress run_campaign(const CampaignConfig& c, CampaignStore& store, int
   progress.runs = store.header().shard.size(c.runs());
   progress.done = progress.runs - runs.size();
   std::mutex mutex;
+  if (!runs.empty()) tell(progress);
   parallel_for(runs.size(), threads, [&](std::size_t i) {
     stop_point();
     CampaignTiming timing;

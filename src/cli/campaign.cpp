@@ -71,8 +71,10 @@ class ProgressLine {
     if (!shown_ || (!last && begun_ && now - told_ < std::chrono::milliseconds(200))) return;
     told_ = now;
     begun_ = true;
-    fmt::print(stderr, "\r{} of {} runs, {:.2f} runs/s, {} left{}\033[K", p.done, p.runs, p.rate(),
-               duration(p.left_s()), p.failed > 0 ? fmt::format(", {} failed", p.failed) : "");
+    const std::string left =
+        p.fresh > 0 ? fmt::format(", {:.2f} runs/s, about {} left", p.rate(), duration(p.left_s())) : "";
+    fmt::print(stderr, "\r{:>5}  {} of {} runs{}{}\033[K", stopwatch(p.elapsed_s), p.done, p.runs, left,
+               p.failed > 0 ? fmt::format(", {} failed", p.failed) : "");
     std::fflush(stderr);
   }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -112,9 +113,19 @@ void print_card(const Card& card) {
 
 }  // namespace
 
+std::string stopwatch(double seconds) {
+  const auto s = static_cast<long>(seconds);
+  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60)
+                  : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+}
+
 Progress progress_on_terminal(bool quiet) {
+  using Clock = std::chrono::steady_clock;
   if (quiet || isatty(STDERR_FILENO) == 0) return [](const std::string&) {};
-  return [](const std::string& what) { fmt::print(stderr, "{} ...\n", what); };
+  return [begin = Clock::now()](const std::string& what) {
+    const std::chrono::duration<double> so_far = Clock::now() - begin;
+    fmt::print(stderr, "{:>5}  {} ...\n", stopwatch(so_far.count()), what);
+  };
 }
 
 void say(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }

@@ -8,7 +8,10 @@
 
 namespace gapscope::cli {
 
-/// Progress on standard error, and only on a terminal.
+/// "1:05", "2:01:05": minutes or hours, minutes and seconds.
+std::string stopwatch(double seconds);
+
+/// Progress on standard error, and only on a terminal: the time since this call, and what is done.
 Progress progress_on_terminal(bool quiet);
 
 /// One line of an answer on standard output.

@@ -1,5 +1,7 @@
 #include "diagnosis/further.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -126,7 +128,8 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
   while (a.steps.size() + 1 < study.effort.most_effects && !at_floor(a.after) && !study.is_exhausted()) {
     a.explained = explained_without(study, a.after);
     if (a.explained) break;
-    study.options.progress("looking for a further effect");
+    study.options.progress(fmt::format("looking for a further effect, {} of at most {}", a.steps.size() + 2,
+                                       study.effort.most_effects));
     if (asks_elsewhere(study, a.after)) {
       narrow = a.after, steps_before = a.steps.size();
       fit_half_of_the_held_out(study);

@@ -74,12 +74,29 @@ bool related(const EffectEntry& a, const EffectEntry& b) {
   return look_alike(a, b) || contains_law_of(a, b) || contains_law_of(b, a);
 }
 
+/// Tells of each of many pieces of work that it begins, and how many have begun of how many.
+class Counted {
+ public:
+  Counted(const Study& study, std::size_t all) : study_(study), all_(all) {}
+  void begin(const std::string& what) {
+    const std::lock_guard lock(saying_);
+    study_.options.progress(fmt::format("{}, {} of {}", what, ++begun_, all_));
+  }
+
+ private:
+  const Study& study_;
+  std::mutex saying_;
+  std::size_t begun_ = 0, all_;
+};
+
 /// Candidates that are not at the floor are fitted once more.
 template <class Fit>
-void once_more(const Study& study, const std::vector<std::size_t>& places, std::vector<ScoredModel>& ranked,
-               const Fit& fit) {
+void once_more(const Study& study, const char* why, const std::vector<std::size_t>& places,
+               std::vector<ScoredModel>& ranked, const Fit& fit) {
+  Counted counted(study, places.size());
   parallel_for(places.size(), study.options.threads, [&](std::size_t k) {
     ScoredModel& candidate = ranked[places[k]];
+    counted.begin(fmt::format("{}: {}", why, candidate.entry->name));
     if (!std::isfinite(candidate.score) || at_floor(candidate)) return;
     FittedModel fitted = fit(candidate.fitted);
     if (fitted.mean_cost < candidate.fitted.mean_cost)
@@ -104,16 +121,14 @@ void further_rounds(const Study& study, const ScoredModel& before, std::vector<S
       few.push_back(i);
       tried.insert(ranked[i].entry);
     }
-  study.options.progress("fitting the best once more");
   const bool explained = at_floor(ranked.front());
-  once_more(study, few, ranked, [&](const FittedModel& candidate) {
+  once_more(study, "fitting the best once more", few, ranked, [&](const FittedModel& candidate) {
     return explained ? on_drive_of(study, candidate, first) : retry(study, candidate, first);
   });
   if (!others || relative_gain(before, ranked.front()) > kRule.least_way || study.repeats_badly()) return;
   for (std::size_t i = 0; i < ranked.size(); ++i)
     if (!tried.contains(ranked[i].entry)) rest.push_back(i);
-  study.options.progress("none explains much: fitting the others once more");
-  once_more(study, rest, ranked,
+  once_more(study, "none explains much, fitting the others once more", rest, ranked,
             [&](const FittedModel& candidate) { return led_by_faster_observer(study, candidate); });
 }
 
@@ -130,7 +145,8 @@ class Field {
         bases_(bases),
         starts_(starts),
         raced_(entries.size()),
-        fitted_(entries.size()) {}
+        fitted_(entries.size()),
+        races_(study, entries.size()) {}
 
   std::vector<ScoredModel> judged() {
     race_all(false);
@@ -157,11 +173,7 @@ class Field {
   }
 
   void race(std::size_t i) {
-    {
-      const std::lock_guard lock(saying_);
-      study_.options.progress(
-          fmt::format("fitting {}, {} of {}", entries_[i]->name, ++begun_, entries_.size()));
-    }
+    races_.begin(fmt::format("fitting {}", entries_[i]->name));
     if (reads_counts(*entries_[i])) {
       fitted_[i] = with_quantum(before_.fitted, *entries_[i], study_.seen_quantum);
       return;
@@ -183,12 +195,14 @@ class Field {
 
   /// Once one explains all of what was fitted, the others need not come to their end: they begin once more on
   /// its drive, see further_rounds().
-  void refine(const std::vector<std::size_t>& places) {
+  void refine(std::vector<std::size_t> places) {
+    std::erase_if(places, [&](std::size_t i) { return fitted_[i].has_value(); });
     const bool explained = std::any_of(fitted_.begin(), fitted_.end(),
                                        [](const auto& f) { return f && f->mean_cost < kExplained; });
+    Counted counted(study_, places.size());
     parallel_for(places.size(), study_.options.threads, [&](std::size_t k) {
-      const std::size_t i = places[k];
-      if (!fitted_[i]) fitted_[i] = raced_[i]->refined(!explained);
+      counted.begin(fmt::format("refining {}", entries_[places[k]]->name));
+      fitted_[places[k]] = raced_[places[k]]->refined(!explained);
     });
   }
 
@@ -231,8 +245,7 @@ class Field {
   const std::vector<std::vector<EffectStart>>& starts_;
   std::vector<std::optional<RacedCandidate>> raced_;
   std::vector<std::optional<FittedModel>> fitted_;
-  std::mutex saying_;
-  std::size_t begun_ = 0;
+  Counted races_;
 };
 
 }  // namespace

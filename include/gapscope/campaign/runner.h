@@ -29,7 +29,7 @@ struct CampaignProgress {
 };
 
 /// Does every run of the store's shard that it does not have yet, on `threads` threads (0: all cores), each
-/// stored as it finishes. `tell` is called after every run, by one thread at a time.
+/// stored as it finishes. `tell` is called before the first run and after every one, by one thread at a time.
 /// @throws Interrupted; what was finished is stored
 CampaignProgress run_campaign(const CampaignConfig& campaign, CampaignStore& store, int threads,
                               const std::function<void(const CampaignProgress&)>& tell);
