@@ -29,21 +29,25 @@ std::vector<Band> gap_bands(const ReportView& view, const Interval& interval) {
   return bands;
 }
 
-/// Where a line through every sample would be a black block: mean and rms of short stretches, over the
-/// samples in grey.
+/// Where a line through every sample would be a black block, since they differ more within short stretches
+/// than these do: mean and standard deviation of the stretches, over the samples in grey.
 void add_stretches(const ReportView& view, const std::vector<double>& residual, const Interval& interval,
                    Panel& panel) {
   constexpr std::size_t kStretches = 200;
   const std::size_t first = view.index(interval.low), end = view.index(interval.high) + 1;
   const std::size_t each = (end - first + kStretches - 1) / kStretches;
   Series middle, above, below;
+  double within = 0.0;
   for (std::size_t i = first; i + each <= end; i += each) {
     const std::span<const double> part(residual.data() + i, each);
     const double m = mean(part), spread = std::sqrt(std::max(0.0, rms(part) * rms(part) - m * m));
     const double t = 0.5 * (view.time[i] + view.time[i + each - 1]);
     for (Series* s : {&middle, &above, &below}) s->x.push_back(t);
+    within += spread * spread;
     middle.y.push_back(m), above.y.push_back(m + spread), below.y.push_back(m - spread);
   }
+  const double between = rms(middle.y) * rms(middle.y) - mean(middle.y) * mean(middle.y);
+  if (!(within > between * static_cast<double>(middle.y.size()))) return;
   middle.label = fmt::format("mean of {}", quantity(static_cast<double>(each) * view.recording->dt, "s"));
   middle.style = {kBlack, 4.0, {}};
   above.label = "± standard deviation";
