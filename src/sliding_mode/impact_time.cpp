@@ -19,17 +19,21 @@ constexpr double kLeastReach = 0.5;
 constexpr double kKinkHolds = 3.0;  ///< standard deviations that the mean square error may exceed the noise
 constexpr double kKinkAlmostAsGood = 4.0;  ///< in χ²
 
+constexpr double kSlowest = 4.0;  ///< half period of a contact, in times of the window
+constexpr double kApart = 1.3;    ///< half periods that are tried, from one to the next, at least
 constexpr double kFirstKnocks[] = {0.35, 0.7};  ///< ρ: of the speed that a load takes in bounces
 
-/// Contacts to try: their half period from two samples to four times the window after the impact, light and
-/// heavy damping; the rigid impact is the limit of the fast ones. Bounces that fade in the same times: a
-/// light load with friction is hit again and again, and takes speed from the motor long after t2.
-std::vector<KinkShape> contact_shapes(std::size_t after) {
+/// Contacts to try: their half period from two samples to four times the window, light and heavy damping; the
+/// rigid impact is the limit of the fast ones. Bounces that fade in the same times: a light load with
+/// friction is hit again and again, and takes speed from the motor long after t2.
+/// @param after   of the window, behind where the impact shows
+/// @param before  … and before it: a soft contact begins there
+std::vector<KinkShape> contact_shapes(std::size_t after, std::size_t before) {
   constexpr int kRates = 9;
   std::vector<KinkShape> shapes{{1}};
-  const double longest = 4.0 * static_cast<double>(after);
-  for (int i = 0; i < kRates; ++i) {
-    const double half_period = 2.0 * std::pow(longest / 2.0, i / (kRates - 1.0));
+  const double closest = std::pow(0.5 * kSlowest * static_cast<double>(after), 1.0 / (kRates - 1.0));
+  const double longest = kSlowest * static_cast<double>(after + before);
+  for (double half_period = 2.0; half_period < 1.01 * longest; half_period *= std::max(closest, kApart)) {
     for (const double damping : {0.05, 0.3}) shapes.push_back({0, kPi / half_period, damping});
     for (const double first : kFirstKnocks) shapes.push_back({0, 0.0, 0.0, first, 1.0 / half_period});
   }
@@ -54,6 +58,7 @@ struct Kink {
   FlightLaw::Fit law;
   double time = 0.0;             ///< [samples]
   double low = 0.0, high = 0.0;  ///< first and last instant that fit almost as well [samples]
+  double contact = 0.0;          ///< ω of the best contact of those that the window can tell [rad/sample]
   double hidden = 0.0;           ///< how long it acts before x1 is one standard deviation off [samples]
 };
 
@@ -88,6 +93,18 @@ KinkFit best_of(const KinkScan& scan, std::span<const KinkShape> shapes, double 
   return *std::ranges::min_element(fits, {}, &KinkFit::sse);
 }
 
+/// ω of the best of those contacts that are not much slower than the time they are seen for; 0: rigid, or
+/// bounces [rad/sample].
+double contact_told(std::span<const KinkFit> fits, std::size_t after) {
+  const double slowest = kPi / (kSlowest * static_cast<double>(after));
+  const KinkFit* best = &fits.front();
+  for (const KinkFit& fit : fits) {
+    const bool slow = fit.shape.omega > 0.0 && fit.shape.omega < 0.99 * slowest;
+    if (!slow && fit.sse < best->sse) best = &fit;
+  }
+  return best->shape.omega;
+}
+
 Kink find_kink(const TransitionContext& context, const Mark& mark, const FlightLaw& law, std::size_t first,
                std::size_t after) {
   Kink kink;
@@ -97,13 +114,12 @@ Kink find_kink(const TransitionContext& context, const Mark& mark, const FlightL
   if (last < first + 20 || to <= mark.start - back) return kink;
   const std::span<const double> y(&context.trace.x1[first], last - first + 1);
   const KinkScan scan(y, first, law.columns(first, last));
-  const auto shapes = contact_shapes(after);
   const double end = static_cast<double>(to);
   double begin = 0.0, step = 0.0;
   std::vector<KinkFit> fits;
   for (;; back = std::min(2 * back, most)) {
     begin = static_cast<double>(mark.start - back), step = std::max(0.5, static_cast<double>(back) / 20.0);
-    kink.best = best_of(scan, shapes, begin, end, step, fits);
+    kink.best = best_of(scan, contact_shapes(after, back), begin, end, step, fits);
     if (kink.best.time > begin + step || back == most) break;  // a least error at the rim is none
   }
   Eigen::VectorXd known(static_cast<Eigen::Index>(y.size()));
@@ -118,6 +134,7 @@ Kink find_kink(const TransitionContext& context, const Mark& mark, const FlightL
   kink.holds = left <= sigma2 * (1.0 + kKinkHolds * std::sqrt(2.0 / readings));
   const double limit = kink.best.sse + kKinkAlmostAsGood * std::max(sigma2, left) * mark.sharing;
   kink.time = kink.low = kink.high = kink.best.time;
+  kink.contact = contact_told(fits, after);
   const double sigma = std::hypot(context.facts.noise, context.facts.rounding);
   for (const KinkFit& fit : fits) {
     if (fit.sse > limit) continue;
@@ -179,7 +196,7 @@ ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impa
   result.time = kink.time;
   const double away = std::abs(kink.time - static_cast<double>(impact.start));
   const double doubt = std::max({0.5 * (kink.high - kink.low), kTrust * away, kLeastDoubt});
-  result.contact = kink.best.shape.omega / dt;
+  result.contact = kink.contact / dt;
   result.hidden = kink.hidden * dt;
   result.half_width = std::hypot(doubt * dt, kHidden * result.hidden);
   result.position = before.position;
