@@ -12,6 +12,7 @@ constexpr std::size_t kFewestSamples = 12;  ///< of the window that the growth s
 constexpr double kConsistent = 3.0;  ///< standard deviations that the mean square error may exceed the noise
 constexpr int kPatience = 5;         ///< misses in a row that end the growth
 constexpr double kBeyond = 0.2;      ///< share of the flight that t1 is sought in before the law holds
+constexpr double kLeastBeyond = 0.05;  ///< … at least
 constexpr double kAlmostAsGood = 6.0;  ///< in χ²: 2.4 standard deviations
 constexpr double kWithin = 0.45;       ///< … and after that
 
@@ -157,20 +158,26 @@ FreeFlight FlightLaw::find_release(std::size_t core) const {
   if (!fit_before(core, law) || law.first == window_.first)
     return flight;  // one law for the whole stroke: no contact lost
   const auto good = static_cast<double>(law.first), length = static_cast<double>(core - law.first);
-  const double before = std::min(kBeyond * length, static_cast<double>(law.first - window_.first));
-  const std::size_t first = law.first - static_cast<std::size_t>(before);
   struct Trial {
     double onset;
     Fit fit;
   };
   std::vector<Trial> trials;
   std::size_t best = 0;
-  for (const int power : {3, 2})
-    for (double onset = good - 0.5 * before; onset < good + kWithin * length; onset += 0.02 * length) {
-      if (onset <= static_cast<double>(first)) continue;
-      trials.push_back({onset, fit(first, core, onset, power)});
-      if (trials.back().fit.error < trials[best].fit.error) best = trials.size() - 1;
-    }
+  // Before t1 x1 departs by a power of the time only near it: farther back none holds, and the best is any.
+  for (double beyond = kBeyond; beyond >= kLeastBeyond; beyond *= 0.5) {
+    const double before = std::min(beyond * length, static_cast<double>(law.first - window_.first));
+    const std::size_t first = law.first - static_cast<std::size_t>(before);
+    trials.clear();
+    best = 0;
+    for (const int power : {3, 2})
+      for (double onset = good - 0.5 * before; onset < good + kWithin * length; onset += 0.02 * length) {
+        if (onset <= static_cast<double>(first)) continue;
+        trials.push_back({onset, fit(first, core, onset, power)});
+        if (trials.back().fit.error < trials[best].fit.error) best = trials.size() - 1;
+      }
+    if (!trials.empty() && holds(trials[best].fit)) break;
+  }
   if (trials.empty()) return flight;
   const Trial& chosen = trials[best];
   const auto begin = [&](const Trial& t) { return FlightBegin{t.onset, state(t.fit, t.onset)}; };
