@@ -122,15 +122,11 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
   }
   if (means.empty()) return;
   GapEstimate reading = internal::sliding_mode::decide_gap(means, intervals);
-  if (reading.verdict != GapVerdict::kBacklash &&
-      (reading.verdict != GapVerdict::kNone || estimate.verdict == GapVerdict::kNone))
-    return;
+  if (reading.verdict != GapVerdict::kBacklash) return;
   estimate = std::move(reading);
   estimate.events = std::move(events);
-  if (estimate.verdict == GapVerdict::kBacklash) {
-    const auto used = std::ranges::count_if(estimate.events, &GapEvent::accepted);
-    estimate.reason = words::passages_used(used, std::ssize(estimate.events), 0);
-  }
+  const auto used = std::ranges::count_if(estimate.events, &GapEvent::accepted);
+  estimate.reason = words::passages_used(used, std::ssize(estimate.events), 0);
   estimate.reason += words::mean_of_periods(static_cast<long>(periods));
   if (means.size() == recordings.size()) analyses = std::move(means);  // else some repeat nothing
 }

@@ -95,6 +95,7 @@ void FrozenSearch::learn(const signals::SignalFacts& facts, const MotorTrace& tr
   for (std::size_t j = 0; j < run.bounds.size(); ++j)
     frozen_.visible.push_back(smallest_visible_gap(trace, facts, run, j));
   frozen_.visible.push_back(kInfinity);
+  frozen_.one_body = one_body_visible_gap(trace, facts);
   run_.bounds = run.bounds, run_.floor = run.floor, run_.quiet = run.quiet;
   bank_.push_back(started_bank(trace, facts, run.bounds, Discretisation::kMatched));
   turns_ = TurnCounter(kTurn * facts.amplitude);
@@ -167,6 +168,7 @@ ImpactAnalysis FrozenSearch::summary() const {
   a.marks = marks_ - marks_gone_;
   a.smallest_visible_gap = frozen_.visible[top_bound(tops_, kMostTops, a.sliding) + 1];
   a.finest_gap = frozen_.visible[a.sliding];
+  a.one_body_gap = frozen_.one_body;
   for (const KeptPassage& k : kept_) a.passages.push_back(k.passage);
   return a;
 }

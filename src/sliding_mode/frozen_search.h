@@ -28,6 +28,7 @@ struct FrozenFacts {
   signals::SignalFacts facts;
   std::vector<double> bounds, floor, quiet;
   std::vector<double> visible;  ///< smallest gap that would show above each bound, one beyond the last [rad]
+  double one_body = kInfinity;  ///< smallest gap that cannot hide in what one body leaves [rad]
   std::size_t sliding = 0;      ///< index of L_acc
   double least = 0.0;           ///< bound that a main event reaches [rad/s²]
   std::size_t samples = 0;      ///< that it was learnt from

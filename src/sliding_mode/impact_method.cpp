@@ -59,6 +59,7 @@ ImpactAnalysis analyse(const MotorTrace& trace, const signals::SignalFacts& fact
   a.facts = facts;
   a.quantum = a.facts.quantum;
   search(trace, a);
+  if (a.facts.defect.empty()) a.one_body_gap = one_body_visible_gap(trace, a.facts);
   return a;
 }
 

@@ -59,8 +59,8 @@ struct Pool {
   std::map<Refusal, int> refused;       // ordered: the same text for the same data
   std::map<int, std::size_t> passages;  // by direction
   std::map<int, std::size_t> mute;      // of them, that say nothing for or against a gap
-  double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, finest = 0.0,
-         encoder = 0.0, quantum = 0.0;
+  double travel = kInfinity, dt = 0.0, noise = 0.0, half_periods = 0.0, visible = 0.0, one_body = 0.0,
+         finest = 0.0, encoder = 0.0, quantum = 0.0;
   std::size_t events = 0;
   bool repeats = false;      // mean periods
   std::size_t striking = 0;  // passages
@@ -95,7 +95,8 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.noise = std::max(pool.noise, a.facts.noise);
     pool.quantum = std::max(pool.quantum, a.quantum);
     pool.dt = std::max(pool.dt, intervals[i]);
-    pool.visible = std::max(pool.visible, a.smallest_visible_gap);
+    pool.visible = std::max(pool.visible, std::min(a.smallest_visible_gap, a.one_body_gap));
+    pool.one_body = std::max(pool.one_body, a.one_body_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
     pool.encoder = std::max(pool.encoder, encoder_visible_gap(a.facts));
     pool.events += a.marks;
@@ -202,14 +203,11 @@ bool shows_nothing(const Pool& pool) {
          static_cast<double>(pool.events) >= 0.5 * pool.half_periods && pool.visible < kVisible * pool.travel;
 }
 
-/// No impact, and how far that says something.
+/// One body explains the motion, and all but small gaps would have left more than that.
 void deny(const Pool& pool, GapEstimate& estimate) {
-  if (!is_informative(pool.visible, pool.travel, pool.encoder)) {
-    estimate.reason = words::only_large_gaps(pool.visible, pool.travel);
-    return;
-  }
   estimate.verdict = GapVerdict::kNone;
-  estimate.reason = words::no_impact(kSmallestMassRatio, pool.half_periods);
+  estimate.smallest_visible_gap = pool.one_body;
+  estimate.reason = words::one_body(kSmallestMassRatio, pool.half_periods);
 }
 
 /// Nothing was seen because nothing could have been seen.
@@ -287,8 +285,10 @@ GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const
   const Remark against = objection(pool);
   if (against.empty()) {
     fill_estimate(pool, estimate);
-  } else if (shows_nothing(pool)) {
+  } else if (is_informative(pool.one_body, pool.travel, pool.encoder)) {
     deny(pool, estimate);
+  } else if (shows_nothing(pool)) {
+    estimate.reason = words::only_large_gaps(kSmallestMassRatio, pool.visible, pool.travel);
   } else {
     estimate.reason = too_slow(pool) ? words::too_slow(pool.visible) : against;
   }

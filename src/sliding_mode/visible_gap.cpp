@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/one_body.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -58,6 +59,14 @@ double encoder_visible_gap(const signals::SignalFacts& facts) {
   const double floor = std::max(1.5 * facts.noise, facts.quantum);
   const double k2_over_bound = SuperTwistingGains::from_bound(1.0).k2;
   return std::max(kShare * kShare * 2.0 * floor * k2_over_bound / 0.102, facts.least_way());
+}
+
+double one_body_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts) {
+  const OneBodyFit fit = fit_one_body(trace, facts);
+  const double fastest = std::sqrt(2.0) * facts.speed_rms * kPi / facts.half_period;  // [rad/s²]
+  const double turns_load = kSmallestMassRatio / (1.0 + kSmallestMassRatio) * fastest;
+  if (std::abs(fit.law.constant) > turns_load) return kInfinity;
+  return std::max(fit.left / kLeastLeft, facts.least_way());
 }
 
 }  // namespace gapscope::internal::sliding_mode

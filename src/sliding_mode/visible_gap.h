@@ -8,7 +8,10 @@ namespace gapscope::internal::sliding_mode {
 
 /// Smallest mass ratio of load and motor for which a gap is said to be visible: lighter loads leave a weaker
 /// impact.
-constexpr double kSmallestMassRatio = 0.3;
+constexpr double kSmallestMassRatio = 0.1;
+
+/// Of a gap, what the law of one body leaves at least (OneBodyFit::left).
+constexpr double kLeastLeft = 0.02;
 
 /// The smallest gap whose impacts would have shown in this motion [rad]; infinite if none would.
 /// An impact shows when its Δv leaves a peak 0.102 Δv²/k₂ of twice the floor at a bound above which the
@@ -22,5 +25,11 @@ double smallest_visible_gap(const MotorTrace& trace, const signals::SignalFacts&
 /// What encoder and noise alone would allow [rad]: the same where nothing of the motion hides an impact, with
 /// a floor of one count or 1.5 σ_n at the bound that the motion needs, so v² = L_acc g.
 double encoder_visible_gap(const signals::SignalFacts& facts);
+
+/// The smallest gap that could not hide in what one body with friction leaves of this recording [rad]. Across a
+/// gap 2β the motor is up to μ/(1 + μ) β off the centre of both masses, to one side and then to the other,
+/// without the load's inertia and friction, and no law of one body does so: it leaves kLeastLeft of the gap and
+/// more. Infinite where a constant torque is so large that it may keep the smallest load on one flank.
+double one_body_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts);
 
 }  // namespace gapscope::internal::sliding_mode

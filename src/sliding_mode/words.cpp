@@ -133,18 +133,19 @@ Remark passages_used(long used, long seen, int only_direction) {
   if (only_direction < 0) said += Remark("falling", ", all with falling x1");
   return said;
 }
-Remark no_impact(double mass_ratio, double half_periods) {
-  return {"no_impact",
-          "for a load of at least {:.1f} of the motor's inertia: no impact in {:.0f} half periods",
+Remark one_body(double mass_ratio, double half_periods) {
+  return {"one_body",
+          "for a load of at least {:.1f} of the motor's inertia: it goes along with the motor as one body in "
+          "{:.0f} half periods",
           {mass_ratio, half_periods}};
 }
-Remark only_large_gaps(double visible, double travel) {
+Remark only_large_gaps(double mass_ratio, double visible, double travel) {
   return {
       "only_large_gaps",
-      "this recording could only have shown a gap of {:.2g} [rad], on a travel of {:.2g} [rad]; use a "
-      "faster excitation (higher frequency or amplitude) with the output free to move, a finer encoder or "
-      "faster sampling",
-      {visible, travel}};
+      "with a load of {:.1f} of the motor's inertia this recording could only have shown a gap of {:.2g} "
+      "[rad], on a travel of {:.2g} [rad]; use a faster excitation (higher frequency or amplitude) with the "
+      "output free to move, a finer encoder or faster sampling",
+      {mass_ratio, visible, travel}};
 }
 Remark flights_together(long used, long turns) {
   return {"flights_together",

@@ -41,8 +41,8 @@ Remark ends_uncertain();
 Remark passages_differ();
 Remark directions_differ();
 Remark samples_apart();
-Remark no_impact(double mass_ratio, double half_periods);
-Remark only_large_gaps(double visible, double travel);
+Remark one_body(double mass_ratio, double half_periods);
+Remark only_large_gaps(double mass_ratio, double visible, double travel);
 Remark flights_together(long used, long turns);
 Remark mean_of_periods(long periods);  ///< added to another
 
