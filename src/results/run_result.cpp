@@ -198,10 +198,10 @@ Json result_schema() {
   const auto describe = [](Json& properties, const char* key, const char* text) {
     properties[key]["description"] = text;
   };
-  describe(
-      estimate, "smallest_visible_gap_rad",
-      "smallest gap that would have shown, told of loads of 0.3 of the motor's inertia and more; null where "
-      "it is not known, and where it is no smaller than a gap that shows");
+  describe(estimate, "smallest_visible_gap_rad",
+           "smallest gap that would have shown, told of loads of 0.3 of the motor's inertia and more, by "
+           "none of 0.1 "
+           "and more; null where it is not known, and where it is no smaller than a gap that shows");
   Json& event = estimate["events"]["items"]["properties"];
   describe(event, "t_c_s", "e_x is at rest from here to t1; null where it was not");
   describe(event, "t1_s", "contact is lost; null where only the impact is seen");

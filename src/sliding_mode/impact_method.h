@@ -21,8 +21,8 @@ struct ImpactAnalysis {
       0.0;                  ///< had there been no impact: hidden by the rest of the motion or not [rad]
   double finest_gap = 0.0;  ///< the same where the main events are impacts, and hide nothing [rad]
   double one_body_gap = kInfinity;  ///< smallest one that cannot hide in what one body leaves [rad]
-  double quantum = 0.0;     ///< of the encoder, also where periods were averaged [rad]
-  bool repeats = false;     ///< one mean period again and again: its passages are no independent witnesses
+  double quantum = 0.0;             ///< of the encoder, also where periods were averaged [rad]
+  bool repeats = false;  ///< one mean period again and again: its passages are no independent witnesses
 };
 
 /// @param facts  of this trace

@@ -17,7 +17,7 @@ constexpr std::size_t kMostPeriods = 12;  ///< followed
 constexpr int kRounds = 30;               ///< of linear steps, from each begin
 constexpr double kSettled = 1e-3;         ///< of the squared error
 constexpr double kStep = 1e-4;            ///< of a parameter's scale, for its derivative
-constexpr double kSlow = 0.1;   ///< of the largest speed: the sign of slower motion is not believed at first
+constexpr double kSlow = 0.1;  ///< of the largest speed: the sign of slower motion is not believed at first
 constexpr double kFadings[] = {0.02, 0.2};  ///< of the rms speed: begins of friction that fades
 constexpr double kLeastFading = 0.003;      ///< of the largest speed
 
@@ -42,8 +42,7 @@ struct Instants {
 
 Instants instants_of(const MotorTrace& trace, const signals::SignalFacts& facts) {
   Instants s;
-  const auto stride =
-      static_cast<std::size_t>(std::max(2.0 * facts.half_period / trace.dt / kInstants, 1.0));
+  const auto stride = static_cast<std::size_t>(std::max(2.0 * facts.half_period / trace.dt / kInstants, 1.0));
   s.dt = trace.dt * static_cast<double>(stride);
   const std::size_t half = (stride - 1) / 2;
   for (std::size_t i = 0; i + stride <= trace.size(); i += stride) {
@@ -239,7 +238,8 @@ double rms_of_means(const Instants& s, const OneBodyState& state) {
   Eigen::Index means = 0;
   for (std::size_t p = 0; p < s.periods.size(); ++p) {
     const Eigen::VectorXd left = left_of(s, s.periods[p], state.periods[p]);
-    const auto m = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(static_cast<double>(left.size()) / kMeans));
+    const auto m =
+        std::max<Eigen::Index>(1, static_cast<Eigen::Index>(static_cast<double>(left.size()) / kMeans));
     for (Eigen::Index i = 0; i + m <= left.size(); i += m, ++means)
       sum += std::pow(left.segment(i, m).mean(), 2);
   }
@@ -249,6 +249,7 @@ double rms_of_means(const Instants& s, const OneBodyState& state) {
 }  // namespace
 
 OneBodyFit fit_one_body(const MotorTrace& trace, const signals::SignalFacts& facts) {
+  if (trace.u.size() != trace.size() || !facts.defect.empty()) return {};
   const Instants s = instants_of(trace, facts);
   if (s.periods.empty() || !(s.fastest > 0.0) || !(s.strongest > 0.0)) return {};
   const OneBodyLaw start = first_law(s);

@@ -17,9 +17,7 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr double kVisible =
-    0.4;  ///< share of the travel from which on a gap that would show is none that could have been seen
-
+constexpr double kVisible = 0.4;      ///< of the travel, from which on a gap could not have been seen
 constexpr double kStriking = 2.5;     ///< contrast from which on a passage is not that of friction
 constexpr double kFewStriking = 0.3;  ///< of the half periods
 
@@ -48,8 +46,7 @@ constexpr double kMostHidden = 0.12, kSoft = 0.07;
 constexpr double kMostOfTravel = 0.8;    ///< largest gap, as a share of the travel
 constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
 constexpr double kFarthestByLaw = 12.0;  ///< … where its law is known: 10.3 are read 0.5 % off (4100039)
-constexpr double kLeastMoving =
-    0.1;  ///< travel of the load, in gaps, from which on one direction alone is not believed
+constexpr double kLeastMoving = 0.1;     ///< … from which on one direction alone is not believed
 constexpr double kFewTravel = 0.3;       ///< … within fewer quanta than kFewestMoving
 constexpr double kFewMoving = 0.2;       ///< passages refused for it, over those that are used
 constexpr double kFewestMoving = 100.0;  ///< quanta in a gap within which the load travels far
@@ -95,7 +92,7 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.noise = std::max(pool.noise, a.facts.noise);
     pool.quantum = std::max(pool.quantum, a.quantum);
     pool.dt = std::max(pool.dt, intervals[i]);
-    pool.visible = std::max(pool.visible, std::min(a.smallest_visible_gap, a.one_body_gap));
+    pool.visible = std::max(pool.visible, a.smallest_visible_gap);
     pool.one_body = std::max(pool.one_body, a.one_body_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
     pool.encoder = std::max(pool.encoder, encoder_visible_gap(a.facts));
@@ -203,11 +200,11 @@ bool shows_nothing(const Pool& pool) {
          static_cast<double>(pool.events) >= 0.5 * pool.half_periods && pool.visible < kVisible * pool.travel;
 }
 
-/// One body explains the motion, and all but small gaps would have left more than that.
-void deny(const Pool& pool, GapEstimate& estimate) {
-  estimate.verdict = GapVerdict::kNone;
-  estimate.smallest_visible_gap = pool.one_body;
-  estimate.reason = words::one_body(kSmallestMassRatio, pool.half_periods);
+/// What could have been shown, and with which load.
+Remark limit_of(const Pool& pool) {
+  const bool as_one_body = pool.one_body < pool.visible;
+  return words::only_large_gaps(as_one_body ? kLightestLoad : kSmallestMassRatio,
+                                std::min(pool.one_body, pool.visible), pool.travel);
 }
 
 /// Nothing was seen because nothing could have been seen.
@@ -286,9 +283,12 @@ GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const
   if (against.empty()) {
     fill_estimate(pool, estimate);
   } else if (is_informative(pool.one_body, pool.travel, pool.encoder)) {
-    deny(pool, estimate);
+    estimate.verdict = GapVerdict::kNone;  // one body explains the motion: larger gaps would have left more
+    estimate.smallest_visible_gap = pool.one_body;
+    estimate.reason = words::one_body(kLightestLoad, pool.half_periods);
   } else if (shows_nothing(pool)) {
-    estimate.reason = words::only_large_gaps(kSmallestMassRatio, pool.visible, pool.travel);
+    estimate.smallest_visible_gap = std::min(pool.one_body, pool.visible);
+    estimate.reason = limit_of(pool);
   } else {
     estimate.reason = too_slow(pool) ? words::too_slow(pool.visible) : against;
   }

@@ -64,9 +64,10 @@ double encoder_visible_gap(const signals::SignalFacts& facts) {
 double one_body_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts) {
   const OneBodyFit fit = fit_one_body(trace, facts);
   const double fastest = std::sqrt(2.0) * facts.speed_rms * kPi / facts.half_period;  // [rad/s²]
-  const double turns_load = kSmallestMassRatio / (1.0 + kSmallestMassRatio) * fastest;
+  const double turns_load = kLightestLoad / (1.0 + kLightestLoad) * fastest;
   if (std::abs(fit.law.constant) > turns_load) return kInfinity;
-  return std::max(fit.left / kLeastLeft, facts.least_way());
+  const double gap = std::max(fit.left / kLeastLeft, facts.least_way());
+  return gap < facts.travel ? gap : kInfinity;
 }
 
 }  // namespace gapscope::internal::sliding_mode

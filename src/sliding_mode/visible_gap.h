@@ -6,11 +6,18 @@
 
 namespace gapscope::internal::sliding_mode {
 
-/// Smallest mass ratio of load and motor for which a gap is said to be visible: lighter loads leave a weaker
-/// impact.
-constexpr double kSmallestMassRatio = 0.1;
+/// Smallest mass ratio of load and motor for which the impacts of a gap are said to be visible: lighter loads
+/// leave weaker ones.
+constexpr double kSmallestMassRatio = 0.3;
 
-/// Of a gap, what the law of one body leaves at least (OneBodyFit::left).
+/// … for which a gap is denied, by what the law of one body leaves.
+constexpr double kLightestLoad = 0.1;
+
+/// Of a gap, what the law of one body leaves at least (OneBodyFit::left). Set on 250 random drives with gaps
+/// (study_sliding_mode 4100001 300 gap sine, those with loads below 0.3 of the motor, and the first 57 others;
+/// 4100001 60 gap multisine and trapezoid): it leaves 0.025 to 0.6. Double would deny two gaps above the limit
+/// that is told (4100233 sine, 4100023 trapezoid), half none, as this does; of 70 drives without a gap
+/// (4100001 70 gap_free sine) 37, 43 and 47 get a `none`.
 constexpr double kLeastLeft = 0.02;
 
 /// The smallest gap whose impacts would have shown in this motion [rad]; infinite if none would.
@@ -26,10 +33,11 @@ double smallest_visible_gap(const MotorTrace& trace, const signals::SignalFacts&
 /// a floor of one count or 1.5 σ_n at the bound that the motion needs, so v² = L_acc g.
 double encoder_visible_gap(const signals::SignalFacts& facts);
 
-/// The smallest gap that could not hide in what one body with friction leaves of this recording [rad]. Across a
-/// gap 2β the motor is up to μ/(1 + μ) β off the centre of both masses, to one side and then to the other,
-/// without the load's inertia and friction, and no law of one body does so: it leaves kLeastLeft of the gap and
-/// more. Infinite where a constant torque is so large that it may keep the smallest load on one flank.
+/// The smallest gap that could not hide in what one body with friction leaves of this recording [rad]. Across
+/// a gap 2β the motor is up to μ/(1 + μ) β off the centre of both masses, to one side and then to the other,
+/// without the load's inertia and friction, and no law of one body does so: it leaves kLeastLeft of the gap
+/// and more. Infinite where that is no less than the travel, and where a constant torque may keep the
+/// lightest load on one flank.
 double one_body_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts);
 
 }  // namespace gapscope::internal::sliding_mode

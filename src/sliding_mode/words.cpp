@@ -140,12 +140,13 @@ Remark one_body(double mass_ratio, double half_periods) {
           {mass_ratio, half_periods}};
 }
 Remark only_large_gaps(double mass_ratio, double visible, double travel) {
-  return {
-      "only_large_gaps",
-      "with a load of {:.1f} of the motor's inertia this recording could only have shown a gap of {:.2g} "
-      "[rad], on a travel of {:.2g} [rad]; use a faster excitation (higher frequency or amplitude) with the "
-      "output free to move, a finer encoder or faster sampling",
-      {mass_ratio, visible, travel}};
+  return {"only_large_gaps",
+          "this recording could only have shown a gap of {:.2g} [rad], on a travel of {:.2g} [rad], and for "
+          "a load "
+          "of at least {:.1f} of the motor's inertia; use a faster excitation (higher frequency or "
+          "amplitude) with "
+          "the output free to move, a finer encoder or faster sampling",
+          {visible, travel, mass_ratio}};
 }
 Remark flights_together(long used, long turns) {
   return {"flights_together",
