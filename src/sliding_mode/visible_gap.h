@@ -14,10 +14,10 @@ constexpr double kSmallestMassRatio = 0.3;
 constexpr double kLightestLoad = 0.1;
 
 /// Of a gap, what the law of one body leaves at least (OneBodyFit::left). Set on 250 random drives with gaps
-/// (study_sliding_mode 4100001 300 gap sine, those with loads below 0.3 of the motor, and the first 57 others;
-/// 4100001 60 gap multisine and trapezoid): it leaves 0.025 to 0.6. Double would deny two gaps above the limit
-/// that is told (4100233 sine, 4100023 trapezoid), half none, as this does; of 70 drives without a gap
-/// (4100001 70 gap_free sine) 37, 43 and 47 get a `none`.
+/// (study_sliding_mode 4100001 300 gap sine, those with loads below 0.3 of the motor, and the first 57
+/// others; 4100001 60 gap multisine and trapezoid): it leaves 0.025 to 0.6. Double would deny two gaps above
+/// the limit that is told (4100233 sine, 4100023 trapezoid), half none, as this does; of 70 drives without a
+/// gap (4100001 70 gap_free sine) 37, 43 and 47 get a `none`.
 constexpr double kLeastLeft = 0.02;
 
 /// The smallest gap whose impacts would have shown in this motion [rad]; infinite if none would.
