@@ -86,6 +86,29 @@ void climb_with_simpler_line(const SplitRecordings& data, Bench& bench, Budget& 
   take_line(bench, budget.model);
 }
 
+/// The first rung is asked again with all that came after it in the model, where each of those is named: what
+/// it could not be told from may be one of them. Of 100 drives with two effects 9 first ones are named then,
+/// all rightly; of 70 with one of a form that no law has, none.
+void ask_first_again(Bench& bench, Budget& budget, const TorqueViewOptions& options) {
+  if (budget.rungs.empty() || budget.rungs.front().named) return;
+  Rung& first = budget.rungs.front();
+  const Law* const law = first.choice().law;
+  const auto is_it = [&](const Term& t) { return t.law == law; };
+  const bool others = std::all_of(budget.rungs.begin() + 1, budget.rungs.end(),
+                                  [](const Rung& r) { return r.named || !r.helps; });
+  if (!is_clear(first.choice().evidence, options) || !others ||
+      std::count_if(budget.model.begin(), budget.model.end(), is_it) != 1)
+    return;
+  const auto at = static_cast<std::size_t>(std::find_if(budget.model.begin(), budget.model.end(), is_it) -
+                                           budget.model.begin());
+  if (carries_another(budget.model, at)) return;
+  Rung again = next_rung(bench, fitted(bench.fit, without(budget.model, at)), options);
+  if (!again.named || again.choice().law != law) return;
+  first.named = true;
+  first.group = std::move(again.group), first.rival = std::move(again.rival);
+  first.margin = again.margin, first.leading = again.leading;
+}
+
 Share share_of(Bench& bench, const Budget& budget, std::size_t i, const TorqueViewOptions& options) {
   const Term& term = budget.model[i];
   Share share{term.law, term.shape, term.theta, {}, {}, {}};
@@ -156,6 +179,7 @@ Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& option
   budget.nominal_rms = rms_of(bench.left(budget.nominal));
   climb(data, bench, budget, options);
   climb_with_simpler_line(data, bench, budget, options);
+  ask_first_again(bench, budget, options);
   budget.rms = rms_of(bench.left(budget.model));
   for (std::size_t i = budget.nominal.size(); i < budget.model.size(); ++i)
     budget.shares.push_back(share_of(bench, budget, i, options));

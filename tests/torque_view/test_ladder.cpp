@@ -59,6 +59,16 @@ TEST(Ladder, GravityIsNoCoggingTorqueWhosePeriodOtherEffectsHaveBent) {
   EXPECT_TRUE(b.rungs.front().named);
 }
 
+TEST(Ladder, TheFirstOfTwoIsNamedThoughTheSecondWasItsRival) {
+  const Budget b = diagnosed([](const Motion& m) { return 0.12 * side(m.w) + 0.16 * std::sin(9.0 * m.x); });
+  ASSERT_GE(b.rungs.size(), 2u);
+  EXPECT_EQ(names(b), (std::vector<std::string>{"cogging_torque", "motor_coulomb_friction"}));
+  const double margin = margin_over(b.rungs[0].choice().evidence, b.rungs[0].ranking[1].evidence);
+  EXPECT_LT(margin, TorqueViewOptions{}.least_margin) << b.rungs[0].ranking[1].law->name;
+  EXPECT_TRUE(b.rungs[0].named);
+  EXPECT_TRUE(b.rungs[1].named);
+}
+
 TEST(Ladder, NothingIsAddedToADriveThatLacksNothing) {
   for (const double noise : {0.01, 0.1})
     EXPECT_EQ(names(diagnosed([](const Motion&) { return 0.0; }, noise)), std::vector<std::string>{})
