@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/card_cause.h"
+#include "diagnosis/card_numbers.h"
 #include "diagnosis/card_open.h"
 #include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
@@ -18,6 +19,7 @@
 namespace gapscope {
 namespace {
 
+using internal::diagnosis::also_refitted;
 using internal::diagnosis::as_sentence;
 using internal::diagnosis::cause_line;
 using internal::diagnosis::gap_not_estimated;
@@ -25,6 +27,7 @@ using internal::diagnosis::helps_line;
 using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
+using internal::diagnosis::next_of_numbers;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
 using internal::diagnosis::unestablished_rung;
@@ -238,11 +241,10 @@ std::string next_line(const CardFacts& f, const Card& card) {
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
   if (is_added(d) && d.verdict == DiagnosisVerdict::kHelps)
     return "Try `fitted.yaml` on another motion (other speeds, other loads); held out, a recording of that "
-           "may "
-           "also tell the cause.";
+           "may also tell the cause.";
   if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
   if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
-  if (d.verdict == DiagnosisVerdict::kNone) return "None.";
+  if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
   if (unestablished_rung(d) != nullptr) return kSwapStep;
   return "Record the drive in another motion (other speeds, other loads) and diagnose that.";
 }
@@ -283,7 +285,7 @@ Card card_of(const CardFacts& f) {
   card.place = place_line(f);
   card.cause = cause_line(f);
   card.helps = helps_line(f, card);
-  card.next = next_line(f, card);
+  card.next = next_line(f, card) + also_refitted(f);
   return card;
 }
 

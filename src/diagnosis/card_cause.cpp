@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "diagnosis/card_numbers.h"
 #include "diagnosis/card_open.h"
 #include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
@@ -116,37 +117,14 @@ std::string outside_words(const CardFacts& f) {
                      100.0 * d.outside_probability);
 }
 
-/// Whether an amount is the effect's alone: laws that contain a simpler one share its amount with it.
-bool has_own_amount(const AddedEffect& a, const std::vector<AddedEffect>& all) {
-  const EffectEntry* entry = find_effect(a.effect);
-  if (entry == nullptr || contained_effect(*entry) != nullptr) return false;
-  return std::none_of(all.begin(), all.end(), [&](const AddedEffect& other) {
-    const EffectEntry* o = find_effect(other.effect);
-    return o != nullptr && contained_effect(*o) == entry;
-  });
-}
-
-/// "20.54 N, 95 %: 20.11 to 20.97": the amount that the fit gave it; nothing where that has no unit or is not
-/// its own.
-std::string amount_of(const AddedEffect& a, const CardFacts& f) {
-  if (a.parameters.empty() || !has_own_amount(a, f.diagnosis->added)) return "";
-  const NamedValue& amount = a.parameters.front();
-  const std::string unit = f.coordinates.shown_unit(amount.unit);
-  if (unit.empty() || !std::isfinite(amount.value)) return "";
-  const char* const none = contains(a.at_bound, amount.key) ? ", at the bound of its search"
-                           : a.established                  ? ""
-                                                            : ", which the recordings do not determine";
-  return SharedUnit(amount.value, unit).with_interval(amount.value, amount.ci95) +
-         (std::isfinite(amount.ci95.low) ? "" : none);
-}
-
 /// "cogging torque (2 N; takes 64 %)": what is known of it alone; an aside in its name stands under the
 /// cause.
 /// @param share  whether what it takes of the error above the floor belongs to it; where every effect has the
 /// torque that it leaves, or is the only one, the fall beside it says that
 std::string with_asides(const AddedEffect& a, const CardFacts& f, bool share) {
   std::vector<std::string> asides;
-  if (const std::string amount = amount_of(a, f); !amount.empty()) asides.push_back(amount);
+  if (const std::string amount = amount_of(a, f.diagnosis->added, f.coordinates); !amount.empty())
+    asides.push_back(amount);
   if (share && std::isfinite(a.shrink)) asides.push_back(fmt::format("takes {:.0f} %", 100.0 * a.shrink));
   return without_asides(called(a, f)) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
 }
@@ -249,7 +227,11 @@ std::string cause_line(const CardFacts& f) {
   const Diagnosis& d = *f.diagnosis;
   const std::string simulator = simulator_words(f.simulated);
   if (d.verdict == DiagnosisVerdict::kNone)
-    return "Nothing is missing that this recording could show." + simulator;
+    return (refitted_words(d, f.coordinates, kToldNumbers).empty()
+                ? "Nothing is missing that this recording could show."
+                : "No effect is missing that this recording could show; the drive has other numbers than the "
+                  "configuration starts at.") +
+           simulator;
   std::string text = established_causes(f), then = open_causes(f);
   if (text.empty() && then.empty() && d.stopped)
     return "Not told: the search was stopped before its end." + simulator;
@@ -261,7 +243,7 @@ std::string cause_line(const CardFacts& f) {
 std::string helps_line(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr) return kToldByDiagnose;
   const Diagnosis& d = *f.diagnosis;
-  if (d.verdict == DiagnosisVerdict::kNone) return "Nothing has to: the model is as good as the recording.";
+  if (d.verdict == DiagnosisVerdict::kNone) return other_numbers_help(f);
   std::vector<std::string> parts;
   if (!d.added.empty())
     parts.push_back((has_rungs(d) ? rungs(f, card) : shares(f, card)) + "; `fitted.yaml` has " +

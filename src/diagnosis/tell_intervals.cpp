@@ -1,5 +1,7 @@
 #include "diagnosis/tell_intervals.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -81,11 +83,84 @@ ModelGap gap_of(const ReferenceModel& model, const std::vector<AddedEffect>& add
   return {};
 }
 
+bool is_at_bound(const FitErrors& fit, reference::ParameterId id) {
+  return std::find(fit.at_bound.begin(), fit.at_bound.end(), id) != fit.at_bound.end();
+}
+
+/// A number of the model as it was configured; its effects stand in a fitted model in the same order, what
+/// was added behind them. Nothing where its effect has become part of another law.
+std::optional<RefittedNumber> as_configured(const ReferenceModel& sheet, const ReferenceModel& model,
+                                            reference::ParameterId id) {
+  const auto index = static_cast<std::size_t>(id.index);
+  if (id.effect == reference::ParameterId::kDrive)
+    return RefittedNumber{kDriveParameters[id.index].key,
+                          kDriveParameters[id.index].unit,
+                          sheet.parameters[index].value,
+                          model.parameters[index].value,
+                          {}};
+  const auto effect = static_cast<std::size_t>(std::max(0, id.effect));
+  if (id.effect < 0 || effect >= sheet.effects.size() || effect >= model.effects.size()) return {};
+  const EffectEntry* entry = sheet.effects[effect].entry;
+  if (entry != model.effects[effect].entry) return {};
+  const NamedValue was = effect_values(sheet.effects[effect])[index],
+                   is = effect_values(model.effects[effect])[index];
+  return RefittedNumber{fmt::format("{}.{}", entry->name, was.key), was.unit, was.value, is.value, {}};
+}
+
+/// Along a slide a count per turn is a length.
+RefittedNumber for_people(RefittedNumber n, Coordinates coordinates) {
+  constexpr std::string_view kCount = "periods_per_turn";
+  if (coordinates.rotational() || !n.key.ends_with(kCount)) return n;
+  const auto period = [](double cycles) { return 2.0 * kPi / cycles; };
+  n.key.replace(n.key.size() - kCount.size(), kCount.size(), "period");
+  n.unit = "rad", n.configured = period(n.configured), n.fitted = period(n.fitted);
+  n.ci95 = {period(n.ci95.high), period(n.ci95.low)};
+  return n;
+}
+
+/// By how much of itself it has moved; a phase by how much of a turn.
+double moved_by(const RefittedNumber& n) {
+  if (n.key.ends_with("phase_rad"))
+    return std::abs(std::remainder(n.fitted - n.configured, 2.0 * kPi)) / (2.0 * kPi);
+  return std::abs(n.fitted - n.configured) /
+         std::max(std::min(std::abs(n.fitted), std::abs(n.configured)), 1e-9 * std::abs(n.fitted));
+}
+
+std::vector<RefittedNumber> refitted_of(const Study& study, const ReferenceModel& model,
+                                        const FitErrors& fit) {
+  std::vector<RefittedNumber> all;
+  for (const auto& [id, error] : fit.errors) {
+    if (!std::isfinite(error) || is_at_bound(fit, id)) continue;
+    std::optional<RefittedNumber> n = as_configured(study.sheet, model, id);
+    if (!n || !std::isfinite(n->configured)) continue;
+    n->ci95 = normal_interval(n->fitted, error);
+    const double turn = n->key.ends_with("phase_rad") ? 2.0 * kPi : 0.0;
+    const double off =
+        turn > 0.0 ? std::remainder(n->configured - n->fitted, turn) : n->configured - n->fitted;
+    if (n->fitted + off < n->ci95.low || n->fitted + off > n->ci95.high)
+      all.push_back(for_people(std::move(*n), study.options.coordinates));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const RefittedNumber& a, const RefittedNumber& b) {
+    return moved_by(a) > moved_by(b);
+  });
+  return all;
+}
+
+bool has_estimates(const ReferenceModel& model) {
+  const auto estimated = [](const ParameterSetting& p) { return p.estimate; };
+  return std::ranges::any_of(model.parameters, estimated) ||
+         std::ranges::any_of(model.effects, [&](const ModelEffect& e) {
+           return std::ranges::any_of(e.parameters, estimated);
+         });
+}
+
 }  // namespace
 
 void tell_intervals(const Study& study, const FittedModel& fitted, Diagnosis& d) {
   d.model_gap = gap_of(fitted.model, d.added);
-  const bool asked = !d.added.empty() || d.model_gap->origin == GapOrigin::kEstimated;
+  const bool known = d.verdict != DiagnosisVerdict::kUnknown;
+  const bool asked = !d.added.empty() || d.model_gap->origin == GapOrigin::kEstimated ||
+                     (known && has_estimates(study.sheet));
   if (!asked || !std::isfinite(fitted.mean_cost)) return;
   const FitErrors fit = errors_of(study, fitted);
   tell_added_intervals(fitted.model, fit, d.added);
@@ -93,6 +168,7 @@ void tell_intervals(const Study& study, const FittedModel& fitted, Diagnosis& d)
   for (const auto& [id, error] : fit.errors)
     if (id == reference::drive_number(place::kGap) && !std::isnan(error))
       d.model_gap->ci95 = normal_interval(d.model_gap->value, error);
+  if (known) d.refitted = refitted_of(study, fitted.model, fit);
 }
 
 }  // namespace gapscope::internal::diagnosis

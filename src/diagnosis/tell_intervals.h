@@ -7,8 +7,8 @@
 namespace gapscope::internal::diagnosis {
 
 /// Gives the numbers of what was added, and the gap of the model, the 95 % intervals that the fit of the
-/// training recordings leaves them, where it determines them. They hold for the model with all that was added
-/// in it.
+/// training recordings leaves them, where it determines them, and tells which of the configured numbers lie
+/// outside of theirs. They hold for the model with all that was added in it.
 void tell_intervals(const Study& study, const FittedModel& fitted, Diagnosis& diagnosis);
 
 }  // namespace gapscope::internal::diagnosis

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/card_numbers.h"
 #include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/last_resort.h"
@@ -152,6 +153,17 @@ std::string unknown_sentence(const Diagnosis& d) {
   return text + ".";
 }
 
+std::string none_sentence(const Diagnosis& d, Coordinates coordinates) {
+  const std::string error = ratio(d.mismatch.before / d.mismatch.floor, d);
+  const std::string numbers = refitted_words(d, coordinates, kToldNumbers);
+  if (numbers.empty())
+    return fmt::format("Nothing is missing that this recording could show: the held-out error is {}.", error);
+  return fmt::format(
+      "No effect is missing that this recording could show: with numbers that are fitted the held-out error "
+      "is {}. They are other ones than the configuration starts at: {}.",
+      error, numbers);
+}
+
 std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
   switch (d.verdict) {
     case DiagnosisVerdict::kEffect:
@@ -159,8 +171,7 @@ std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
     case DiagnosisVerdict::kHelps:
       return ladder_sentence(d, coordinates);
     case DiagnosisVerdict::kNone:
-      return fmt::format("Nothing is missing that this recording could show: the held-out error is {}.",
-                         ratio(d.mismatch.before / d.mismatch.floor, d));
+      return none_sentence(d, coordinates);
     case DiagnosisVerdict::kUnknown:
       return d.stopped ? stopped_sentence(d) : unknown_sentence(d);
     case DiagnosisVerdict::kNotRun:

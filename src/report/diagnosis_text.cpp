@@ -10,9 +10,11 @@
 #include "report/added_table.h"
 #include "report/detectable.h"
 #include "report/diagnosis_figures.h"
+#include "report/diagnosis_words.h"
 #include "report/error_budget.h"
 #include "report/last_resort.h"
 #include "report/markdown.h"
+#include "report/refitted_table.h"
 #include "report/simulator.h"
 #include "report/wording.h"
 
@@ -25,22 +27,28 @@ std::string measure_name(const std::string& stored) {
   return stored.starts_with(kStored) ? "correcting " + stored.substr(kStored.size()) : stored;
 }
 
+/// What a measure reads with what was added, as a cell; no cell where nothing was.
+std::string after_cell(const DiagnosisResult& r, double after, double before, const std::string& unit) {
+  return added(r) ? " " + quantity_beside(after, before, unit) + " |" : "";
+}
+
 std::string measures_table(const DiagnosisResult& r) {
-  std::string text =
-      "\n## How large, on held-out data\n\n| measure (median over windows) | nominal model | with all that "
-      "was added | floor |\n|---|---|---|---|\n";
+  std::string text = fmt::format(
+      "\n## How large, on held-out data\n\n| measure (median over windows) | nominal model |{} floor |\n"
+      "|---|---|{}---|\n",
+      added(r) ? " with all that was added |" : "", added(r) ? "---|" : "");
   for (const MismatchMeasure& m : r.diagnosis.measures) {
     const std::string unit = Coordinates().shown_unit(m.unit);  // that of this drive already
-    text += fmt::format("| {} | {} | {} | {} |\n", measure_name(m.name), quantity(m.before, unit),
-                        quantity_beside(m.after, m.before, unit),
+    text += fmt::format("| {} | {} |{} {} |\n", measure_name(m.name), quantity(m.before, unit),
+                        after_cell(r, m.after, m.before, unit),
                         std::isfinite(m.floor) ? quantity_beside(m.floor, m.before, unit) : "–");
   }
   if (const auto& whole = r.diagnosis.whole_run) {
     const std::string unit = r.coordinates.position_unit();
     text += fmt::format(
-        "| largest error of one free run through the whole recording ({} of travel) | {} | {} | – |\n",
+        "| largest error of one free run through the whole recording ({} of travel) | {} |{} – |\n",
         quantity(whole->travel, unit), quantity(whole->before, unit),
-        quantity_beside(whole->after, whole->before, unit));
+        after_cell(r, whole->after, whole->before, unit));
   }
   const MismatchSize& g = r.diagnosis.mismatch;
   const bool balanced = std::any_of(r.diagnosis.budget.rungs.begin(), r.diagnosis.budget.rungs.end(),
@@ -64,13 +72,12 @@ std::string closed_loop_table(const DiagnosisResult& r) {
   if (!r.diagnosis.closed_loop) return "";
   const ClosedLoop& c = *r.diagnosis.closed_loop;
   const std::string unit = r.coordinates.position_unit();
-  std::string text =
+  std::string text = fmt::format(
       "\n## The drive under its controller\n\nThe command goes in, the position comes out; each held-out "
-      "recording all the way, rms of the position error.\n\n| recording | nominal model | with all that was "
-      "added |\n|---|---|---|\n";
+      "recording all the way, rms of the position error.\n\n| recording | nominal model |{}\n|---|---|{}\n",
+      added(r) ? " with all that was added |" : "", added(r) ? "---|" : "");
   const auto row = [&](const std::string& name, double before, double after) {
-    text +=
-        fmt::format("| {} | {} | {} |\n", name, quantity(before, unit), quantity_beside(after, before, unit));
+    text += fmt::format("| {} | {} |{}\n", name, quantity(before, unit), after_cell(r, after, before, unit));
   };
   for (const ClosedLoopRun& run : c.recordings) row(run.file, run.before, run.after);
   if (c.recordings.size() > 1) row("all", c.before, c.after);
@@ -182,15 +189,17 @@ std::string steps_table(const DiagnosisResult& r) {
 std::string periodic_table(const DiagnosisResult& r) {
   if (r.diagnosis.periodic.empty()) return "";
   const std::string angle = r.coordinates.position_unit(), torque = r.coordinates.shown_unit("N m");
-  std::string text = "\n## " + std::string(r.coordinates.rotational() ? "Torque" : "Force") +
-                     " that repeats with the position\n\nIn what the model leaves with all that was added. "
-                     "Listed, not added: `cogging_torque` and `torque_ripple` are candidates of every step, "
-                     "which start at the "
-                     "strongest lines and at given periods.\n\n| period | " +
-                     (r.coordinates.rotational() ? "cycles per turn | " : "") +
-                     "amplitude | over neighbouring periods | held-out windows better | holds there "
-                     "|\n|---|---|---|---|---|" +
-                     (r.coordinates.rotational() ? "---|\n" : "\n");
+  std::string text =
+      "\n## " + std::string(r.coordinates.rotational() ? "Torque" : "Force") +
+      " that repeats with the position\n\nIn what the model leaves" +
+      (added(r) ? " with all that was added" : "") +
+      ". Listed, not added: `cogging_torque` and `torque_ripple` are candidates of every step, "
+      "which start at the "
+      "strongest lines and at given periods.\n\n| period | " +
+      (r.coordinates.rotational() ? "cycles per turn | " : "") +
+      "amplitude | over neighbouring periods | held-out windows better | holds there "
+      "|\n|---|---|---|---|---|" +
+      (r.coordinates.rotational() ? "---|\n" : "\n");
   for (const PeriodicTorque& p : r.diagnosis.periodic)
     text += fmt::format("| {} | {}{} | {} | {} of {} | {} |\n", quantity(p.period, angle),
                         r.coordinates.rotational() ? rounded(p.periods_per_turn) + " | " : "",
@@ -261,9 +270,9 @@ std::string experiment_table(const DiagnosisResult& r) {
 
 std::string diagnosis_text(const DiagnosisResult& r) {
   return fmt::format("\n## What the simulation lacks\n\n**{}**\n", r.diagnosis.sentence) +
-         simulator_table(r) + added_table(r) + budget_table(r) + measures_table(r) + closed_loop_table(r) +
-         ranking_table(r) + steps_table(r) + periodic_table(r) + blame_table(r) + law_table(r) +
-         detectable_table(r) + experiment_table(r) +
+         simulator_table(r) + added_table(r) + refitted_table(r) + budget_table(r) + measures_table(r) +
+         closed_loop_table(r) + ranking_table(r) + steps_table(r) + periodic_table(r) + blame_table(r) +
+         law_table(r) + detectable_table(r) + experiment_table(r) +
          "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
 }
 

@@ -190,6 +190,15 @@ void fields(Archive& archive, BlameShift& b) {
 }
 
 template <class Archive>
+void fields(Archive& archive, RefittedNumber& n) {
+  archive("parameter", n.key);
+  archive("unit", n.unit);
+  archive("configured", n.configured);
+  archive("fitted", n.fitted);
+  archive("fitted_ci95", n.ci95);
+}
+
+template <class Archive>
 void fields(Archive& archive, WholeRun& w) {
   archive("before_rad", w.before);
   archive("after_rad", w.after);
@@ -269,6 +278,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.list("measures", g.measures);
   archive.seldom("closed_loop", g.closed_loop);
   archive.named("blame", g.blame, &BlameShift::key);
+  archive.added_list("refitted", g.refitted);
   archive("observer_hz", g.observer_hz);
   archive("warnings", g.warnings);
   archive("name", d.result.name);

@@ -30,6 +30,19 @@ TEST(Card, TellsTheAmountOfWhatHelps) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps, Not(HasSubstr("20.5"))) << "both share one amount";
 }
 
+TEST(Card, TellsAnAmountWithoutAUnitAsAShareAndALawByWhatItAddsToASimplerOne) {
+  Diagnosis d = slide_diagnosis();
+  d.added[0].parameters = {{"level_nm", "N m", 20.54}};
+  d.added[1].effect = "torque_ripple", d.added[1].parameters = {{"ratio", "-", 0.0312, {0.0305, 0.0319}}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              HasSubstr("(20.5 N), then 2 N with torque ripple (ratio 3.120 %, 95 %: 3.050 to 3.190) ("));
+  d.added[1].effect = "load_dependent_friction";
+  d.added[1].parameters = {{"level_nm", "N m", 20.54}, {"ratio", "-", 0.1, {0.09, 0.11}}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              HasSubstr("with motor Coulomb friction, then 2 N with load-dependent friction (ratio 10.0 %, "
+                        "95 %: 9.0 to 11.0) ("));
+}
+
 TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
   Diagnosis d = slide_diagnosis();
   d.added.erase(d.added.begin());

@@ -4,6 +4,7 @@
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/diagnosis/simulator.h"
 
 namespace gapscope {
 namespace {
@@ -71,6 +72,74 @@ TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
             "Motor Coulomb friction helps, but its cause is open: these recordings do not determine how much "
             "there is of it.");
   EXPECT_THAT(card_of(d).helps, HasSubstr("friction (274 N·m, which the recordings do not determine)"));
+}
+
+/// A model of 100 N m that its recordings cannot tell from the drive once its damping is 0.04 for 0.1.
+Diagnosis of_other_numbers() {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kNone;
+  d.mismatch.before = 1e-4, d.mismatch.after = 1e-4, d.mismatch.floor = 1.2e-4;
+  d.refitted = {{"motor_damping", "N m s/rad", 0.1, 0.04, {0.0399, 0.0401}},
+                {"motor_inertia", "kg m^2", 0.00532, 0.00781, {0.0078, 0.00782}},
+                {"load_unbalance.amplitude_nm", "N m", 0.353, 0.377, {0.376, 0.378}},
+                {"load_unbalance.phase_rad", "rad", 0.5236, 0.5237, {0.52365, 0.52375}}};
+  return d;
+}
+
+TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTheDrives) {
+  Diagnosis d = of_other_numbers();
+  const Card card = card_of(d);
+  EXPECT_EQ(card.cause,
+            "No effect is missing that this recording could show; the drive has other numbers than the "
+            "configuration starts at.");
+  EXPECT_EQ(
+      card.helps,
+      "Nothing has to be added; other numbers than the configuration starts at: motor damping 0.1 → 0.04 "
+      "N·m s/rad, motor inertia 0.00532 → 0.00781 kg m² and load unbalance amplitude 0.353 → 0.377 N·m; "
+      "`fitted.yaml` has them and is as good as the recording.")
+      << "the phase reads the same";
+  EXPECT_THAT(card.next, HasSubstr("Simulate with the numbers of `fitted.yaml`"));
+  d.refitted.insert(d.refitted.begin(), {"gap", "rad", 0.02, 0.03, {0.029, 0.031}});
+  EXPECT_THAT(card_of(d).helps, HasSubstr("0.00781 kg m² and 1 more; `fitted.yaml`"));
+  d.refitted = {of_other_numbers().refitted.back()};
+  EXPECT_EQ(card_of(d).helps, "Nothing has to: the model is as good as the recording.");
+  EXPECT_EQ(card_of(d).next, "None.");
+}
+
+TEST(CardCause, OfAnotherVerdictTellsTheNumbersBrieflyBehindTheNextStep) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.refitted = of_other_numbers().refitted;
+  EXPECT_THAT(
+      card_of(d).next,
+      HasSubstr(" `fitted.yaml` also has other numbers than the configuration starts at: motor damping "
+                "0.1 → 0.04 N·m s/rad, motor inertia 0.00532 → 0.00781 kg m² and 1 more."));
+  d.refitted.clear();
+  EXPECT_THAT(card_of(d).next, Not(HasSubstr("also has")));
+}
+
+TEST(CardCause, WhereOnlyTheSimulatorDiffersHelpsAndNextAgreeWithItsLine) {
+  Diagnosis d = of_other_numbers();
+  d.refitted.clear();
+  SimulatorComparison c;
+  for (const char* name : {"motor_damping", "motor_inertia"}) {
+    SimulatorRow& row = c.rows.emplace_back();
+    row.name = name, row.differs = true, row.sentence = "its motor damping is 100 where the drive's is 40";
+  }
+  c.errors.stand_in = 0.2688, c.errors.mended = 0.1257, c.errors.all_mended = 1.149e-4, c.shrink = 0.53;
+  CardFacts f;
+  f.diagnosis = &d, f.simulated = &c;
+  const Card card = gapscope::card_of(f);
+  EXPECT_EQ(
+      card.helps,
+      "Nothing has to be added to the model, which is as good as the recording. Your simulator's error, "
+      "268.8 mrad, falls to 125.7 mrad with motor damping mended and to 0.1149 mrad with all 2 rows that "
+      "differ.");
+  EXPECT_EQ(
+      card.next,
+      "Mend your simulator: motor damping and motor inertia, as the table of drive and simulator has it; "
+      "`fitted.yaml` has the drive's numbers.");
+  c.rows.front().differs = c.rows.back().differs = false;
+  EXPECT_EQ(gapscope::card_of(f).next, "None.");
 }
 
 TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {

@@ -52,5 +52,37 @@ TEST(OneBody, IsToldWhatLeavesItsEncoderNothingRatherThanWhatTheBalanceSees) {
   for (const RankedEffect& e : found.ranking) EXPECT_TRUE(std::isnan(e.probability)) << e.effect;
 }
 
+// A model whose numbers are estimated takes any that its configuration has: it would seem to be right.
+TEST(OneBody, OfAModelThatLacksNothingButHasWrongNumbersTellsWhichAreWrong) {
+  independent_plant::BlindDrive d;
+  d.load = independent_plant::BlindLoad::kNone;
+  d.motor_inertia = 1.885e-3, d.motor_damping = 0.06;
+  const Recording train = under(
+      d, [](double t) { return std::sin(1.1 * t) * (0.7 + 0.3 * std::sin(0.37 * t)); }, 1);
+  const Recording held_out = under(
+      d, [](double t) { return 0.6 * std::sin(0.8 * t) + 0.4 * std::sin(2.7 * t); }, 2);
+  const MotorTrace fitted[] = {train.motor_trace()}, judging[] = {held_out.motor_trace()};
+  const auto with_sheet = [&](double inertia, double damping) {
+    ReferenceModel sheet;
+    sheet.structure.has_load = false;
+    sheet.set("torque_constant", ParameterSetting::known(d.torque_constant));
+    sheet.set("motor_inertia", ParameterSetting::sought(inertia));
+    sheet.set("motor_damping", ParameterSetting::sought(damping));
+    return diagnose(fitted, judging, sheet, test::among({"motor_coulomb_friction"}));
+  };
+  const Diagnosis wrong = with_sheet(1.3e-3, 0.12);
+  ASSERT_EQ(wrong.verdict, DiagnosisVerdict::kNone) << wrong.sentence;
+  ASSERT_EQ(wrong.refitted.size(), 2u);
+  const RefittedNumber& damping = wrong.refitted[0];  // twice what it is, the farther off
+  EXPECT_EQ(damping.key, "motor_damping");
+  EXPECT_EQ(damping.configured, 0.12);
+  EXPECT_NEAR(damping.fitted, d.motor_damping, damping.ci95.high - damping.ci95.low)
+      << "four standard errors";
+  EXPECT_NE(wrong.sentence.find("motor damping 0.12 → 0.06"), std::string::npos) << wrong.sentence;
+  const Diagnosis right = with_sheet(wrong.refitted[1].fitted, damping.fitted);
+  EXPECT_TRUE(right.refitted.empty());
+  EXPECT_EQ(right.sentence.find("→"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -114,6 +114,15 @@ struct BlameShift {
   BoundReached without_at = BoundReached::kNone, with_at = BoundReached::kNone;
 };
 
+/// An estimated number whose 95 % interval leaves out the value that the configuration gives it: a claim that
+/// the recordings contradict, or a start that somebody had to write.
+struct RefittedNumber {
+  std::string key;  ///< "motor_damping", of an effect "load_unbalance.amplitude_nm"
+  std::string unit;
+  double configured = kNaN, fitted = kNaN;
+  Interval ci95;  ///< of the fitted one
+};
+
 /// One bin of a map: its share of the squared error and the share that an error without a place would have.
 struct MapShare {
   std::string bin;
@@ -219,6 +228,8 @@ struct Diagnosis {
   MismatchPlace where;
   MismatchPlace remaining;  ///< of what the accepted effects leave
   std::vector<BlameShift> blame;
+  /// Those that moved farthest first; none of a model that something unknown is missing from
+  std::vector<RefittedNumber> refitted;
   std::vector<std::string> warnings;
   std::vector<MismatchTrace> traces;
   ReferenceModel fitted;  ///< the model as fitted, accepted effects included

@@ -1,0 +1,144 @@
+#include "diagnosis/card_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/card_words.h"
+#include "gapscope/base/text.h"
+#include "gapscope/diagnosis/simulator.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+/// Whether a later effect contains this one, and has its numbers.
+bool is_within_another(const EffectEntry& entry, const std::vector<AddedEffect>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const AddedEffect& other) {
+    const EffectEntry* o = find_effect(other.effect);
+    return o != nullptr && contained_effect(*o) == &entry;
+  });
+}
+
+/// The number that says how much there is of an effect, past those of the simpler one that it contains;
+/// nullptr: none is known.
+const NamedValue* own_number(const AddedEffect& a, const std::vector<AddedEffect>& all) {
+  const EffectEntry* entry = find_effect(a.effect);
+  if (entry == nullptr || is_within_another(*entry, all)) return nullptr;
+  const EffectEntry* simpler = contained_effect(*entry);
+  const std::size_t own = simpler == nullptr ? 0 : simpler->parameters.size();
+  return own < a.parameters.size() ? &a.parameters[own] : nullptr;
+}
+
+/// "ratio 3.12 %, 95 %: 3.05 to 3.19"
+std::string share_text(const NamedValue& n) {
+  const Interval percent = {100.0 * n.ci95.low, 100.0 * n.ci95.high};
+  return name_of_key(n.key) + " " + SharedUnit(1.0, "%").with_interval(100.0 * n.value, percent);
+}
+
+std::string without_interval(const AddedEffect& a, const NamedValue& n) {
+  if (std::isfinite(n.ci95.low)) return "";
+  if (contains(a.at_bound, n.key)) return ", at the bound of its search";
+  return a.established ? "" : ", which the recordings do not determine";
+}
+
+std::string name_of_number(const RefittedNumber& n) {
+  const std::size_t dot = n.key.find('.');
+  if (dot == n.key.npos) return readable(n.key);
+  return readable(n.key.substr(0, dot)) + " " + name_of_key(n.key.substr(dot + 1));
+}
+
+/// "0.1 → 0.04"; empty where both read alike.
+std::string change_of(const RefittedNumber& n) {
+  const std::string from = fmt::format("{:.3g}", n.configured), to = fmt::format("{:.3g}", n.fitted);
+  return from == to ? "" : from + " → " + to;
+}
+
+std::size_t differing_rows(const SimulatorComparison* c) {
+  if (c == nullptr) return 0;
+  return static_cast<std::size_t>(
+      std::count_if(c->rows.begin(), c->rows.end(), [](const SimulatorRow& r) { return r.differs; }));
+}
+
+/// " Your simulator's error, 268.8 mrad, falls to 125.7 mrad with motor damping mended and to 0.1149 mrad
+/// with all 3 rows that differ."
+std::string simulator_helps(const CardFacts& f) {
+  const std::size_t differing = differing_rows(f.simulated);
+  if (differing == 0) return "";
+  const SimulatorErrors& e = f.simulated->errors;
+  std::vector<std::string> falls;
+  if (f.simulated->shrink > 0.0)
+    falls.push_back(fmt::format("to {} with {} mended", f.coordinates.thousandths(e.mended),
+                                readable(f.simulated->rows.front().name)));
+  if (differing > 1 && e.all_mended < e.stand_in)
+    falls.push_back(fmt::format("to {} with all {} rows that differ", f.coordinates.thousandths(e.all_mended),
+                                differing));
+  if (falls.empty()) return "";
+  return fmt::format(" Your simulator's error, {}, falls {}.", f.coordinates.thousandths(e.stand_in),
+                     enumerated(falls));
+}
+
+}  // namespace
+
+std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all, Coordinates coordinates) {
+  const NamedValue* amount = own_number(a, all);
+  if (amount == nullptr || !std::isfinite(amount->value)) return "";
+  const std::string unit = coordinates.shown_unit(amount->unit);
+  if (unit.empty()) return share_text(*amount) + without_interval(a, *amount);
+  const bool named = amount != &a.parameters.front();
+  return (named ? name_of_key(amount->key) + " " : "") +
+         SharedUnit(amount->value, unit).with_interval(amount->value, amount->ci95) +
+         without_interval(a, *amount);
+}
+
+std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::size_t most) {
+  std::vector<std::string> all;
+  for (const RefittedNumber& n : d.refitted) {
+    const std::string change = change_of(n);
+    if (change.empty()) continue;
+    const bool angle = n.key.ends_with("phase_rad");  // along a slide, too
+    const std::string unit = (angle ? Coordinates() : coordinates).shown_unit(n.unit);
+    all.push_back(name_of_number(n) + " " + change + (unit.empty() ? "" : " " + unit));
+  }
+  if (all.size() > most) {
+    const std::size_t more = all.size() - most;
+    all.resize(most);
+    all.push_back(fmt::format("{} more", more));
+  }
+  return enumerated(all);
+}
+
+std::string other_numbers_help(const CardFacts& f) {
+  const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kToldNumbers);
+  if (numbers.empty() && differing_rows(f.simulated) == 0)
+    return "Nothing has to: the model is as good as the recording.";
+  if (numbers.empty())
+    return "Nothing has to be added to the model, which is as good as the recording." + simulator_helps(f);
+  return "Nothing has to be added; other numbers than the configuration starts at: " + numbers +
+         "; `fitted.yaml` has them and is as good as the recording." + simulator_helps(f);
+}
+
+std::string next_of_numbers(const CardFacts& f) {
+  const bool numbers = !refitted_words(*f.diagnosis, f.coordinates, kToldNumbers).empty();
+  std::vector<std::string> rows;
+  if (differing_rows(f.simulated) > 0)
+    for (const SimulatorRow& row : f.simulated->rows)
+      if (row.differs) rows.push_back(readable(row.name));
+  if (!rows.empty())
+    return "Mend your simulator: " + enumerated(rows) +
+           ", as the table of drive and simulator has it; `fitted.yaml` has the drive's numbers.";
+  return numbers
+             ? "Simulate with the numbers of `fitted.yaml`; `gapscope export` takes it to other simulators."
+             : "None.";
+}
+
+std::string also_refitted(const CardFacts& f) {
+  constexpr std::size_t kMost = kToldNumbers - 1;
+  if (f.diagnosis == nullptr || f.diagnosis->added.empty() || f.diagnosis->stopped) return "";
+  const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kMost);
+  return numbers.empty()
+             ? ""
+             : " `fitted.yaml` also has other numbers than the configuration starts at: " + numbers + ".";
+}
+
+}  // namespace gapscope::internal::diagnosis

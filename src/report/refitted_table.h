@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/results/diagnosis_result.h"
+
+namespace gapscope::internal::report {
+
+/// The section of report.md on the numbers that the configuration gives and the recordings contradict, with
+/// those that were fitted; empty where there are none.
+std::string refitted_table(const DiagnosisResult& r);
+
+}  // namespace gapscope::internal::report
