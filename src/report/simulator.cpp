@@ -68,18 +68,17 @@ std::string row_size(const DiagnosisResult& r, const SimulatorRow& row) {
   return quantity(row.size, r.coordinates.position_unit());
 }
 
+/// "68 %"; no minus before a zero.
+std::string shrink_percent(double share) { return fmt::format("{:.0f} %", std::round(100.0 * share) + 0.0); }
+
 std::string rows_table(const DiagnosisResult& r, const SimulatorComparison& c) {
   std::string text =
       "\n| | in the drive | in the simulator | | size | error shrinks by, if mended alone |\n"
       "|---|---|---|---|---|---|\n";
-  std::vector<SimulatorRow> rows = c.rows;
-  std::stable_sort(rows.begin(), rows.end(), [](const SimulatorRow& a, const SimulatorRow& b) {
-    return a.differs != b.differs ? a.differs : a.differs && a.size > b.size;
-  });
-  for (const SimulatorRow& row : rows)
+  for (const SimulatorRow& row : c.rows)
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, side_text(r, row, true),
                         side_text(r, row, false), found_words(row), row_size(r, row),
-                        row.differs ? fmt::format("{:.0f} %", 100.0 * row.shrink) : "–");
+                        row.differs ? shrink_percent(row.shrink) : "–");
   return text;
 }
 

@@ -44,6 +44,16 @@ TEST(SimulatorReport, TellsInWhichOfBothAnEffectIs) {
   EXPECT_THAT(drive, HasSubstr("misses your simulator by 10.0 µrad"));
 }
 
+TEST(SimulatorReport, HasTheRowsInTheOrderOfItsSentenceAndNoMinusBeforeAZero) {
+  DiagnosisResult r = beside(friction(FoundIn::kDrive, 0.05, 0.0));
+  SimulatorRow larger = r.simulated->rows.front();
+  larger.name = "cogging_torque", larger.size = 9e-4, larger.shrink = -1e-3;
+  r.simulated->rows.insert(r.simulated->rows.begin() + 1, larger);
+  const std::string text = internal::report::simulator_table(r);
+  EXPECT_LT(text.find("| `motor_coulomb_friction`"), text.find("| `cogging_torque`"));
+  EXPECT_THAT(text, HasSubstr(" | 900 µrad | 0 % |"));
+}
+
 TEST(SimulatorReport, DrawsDriveSimulatorAndModelWithTheDifferencesBelow) {
   const auto figure = internal::report::diagnosis_simulator(beside(friction(FoundIn::kBoth, 0.05, 0.02)));
   ASSERT_EQ(figure.panels.size(), 2u);
