@@ -32,9 +32,10 @@ std::vector<double> within_band(const ErrorBudget& budget, const MismatchTrace& 
     sums.push_back(sums.back() + (known ? values[i] : 0.0)),
         counts.push_back(counts.back() + (known ? 1.0 : 0.0));
   }
+  const bool whole = values.size() - first > 2 * reach;
   for (std::size_t i = first; i < values.size(); ++i) {
     const std::size_t k = i - first, r = std::min({reach, k, values.size() - 1 - i});
-    if (std::isfinite(values[i]))
+    if (std::isfinite(values[i]) && (r == reach || !whole))
       means[i] = (sums[k + r + 1] - sums[k - r]) / (counts[k + r + 1] - counts[k - r]);
   }
   return means;

@@ -10,8 +10,9 @@
 namespace gapscope::internal::report {
 
 /// Means over the window that passes the budget's band (−3 dB at its top); as it is where there is no budget
-/// or its band holds all that is recorded.
-/// @param values  of `trace`, one for each sample; NaN stays NaN
+/// or its band holds all that is recorded. At either end half a window has no mean: a shorter one would pass
+/// what is above the band, where the last sample alone may be ten times what is in it.
+/// @param values  of `trace`, one for each sample; NaN stays NaN, and is what has no mean
 std::vector<double> within_band(const ErrorBudget& budget, const MismatchTrace& trace,
                                 const std::vector<double>& values);
 

@@ -94,6 +94,19 @@ TEST(ResidualScale, TheBandIsThatOfTheBudget) {
   EXPECT_EQ(within_band(wide, t, t.x1), t.x1);
 }
 
+TEST(ResidualScale, TheEndsOfTheRecordingHaveNoMeanOfTheirOwn) {
+  MismatchTrace t;
+  t.dt = 1e-3, t.x1.assign(2000, 0.0), t.scored_from = 500;
+  std::vector<double> torque(2000, 0.005);
+  torque.back() = -0.06, torque[500] = 0.06;  // what an observer at 30 Hz makes of a sample
+  ErrorBudget budget;
+  budget.band_hz = 23.0;
+  std::vector<double> shown = within_band(budget, t, torque);
+  EXPECT_TRUE(std::isnan(shown.back()) && std::isnan(shown[500]));
+  for (const double v : shown) EXPECT_FALSE(std::abs(v) > 0.01) << "one sample, in a mean of 19";
+  EXPECT_TRUE(std::isfinite(shown[1500]));
+}
+
 TEST(ResidualScale, TheMapShowsTheLawOfACoarseEncoderAndCountsWhatLiesOutside) {
   const DiagnosisResult r = coarse_result();
   for (const Panel& panel : diagnosis_torque_map(r).panels) {
