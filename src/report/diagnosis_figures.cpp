@@ -21,6 +21,7 @@ namespace gapscope::internal::report {
 namespace {
 
 constexpr std::size_t kShownCandidates = 12;
+constexpr double kSmallShares = 0.4;  ///< on an axis that goes to the floor these would be hard to tell apart
 
 LineStyle before_style() { return {kVermillion, 4.0, {}}; }
 LineStyle after_style() { return {kBlue, 4.0, {16, 9}}; }
@@ -91,10 +92,18 @@ std::string error_title(const std::vector<MismatchMeasure>& measures) {
   return "Error of the " + (measures.empty() ? std::string("restarted free run") : measures.front().name);
 }
 
-/// "0.99"; no minus before a zero.
-std::string share_text(double share) {
+/// "0.99"; no minus before a zero. Of small shares a digit more.
+std::string ranked_text(double share, double reach) {
   if (!std::isfinite(share)) return "diverges";
-  return tick_label(share, 2);
+  return tick_label(share, reach < kSmallShares ? 3 : 2);
+}
+
+/// How far the axis of the shares goes: to the floor, or, where the best candidate is far from it, to that.
+double ranked_reach(const std::vector<RankedEffect>& ranking, std::size_t shown) {
+  double best = 0.0;
+  for (std::size_t i = 0; i < shown; ++i)
+    if (std::isfinite(ranking[i].rel)) best = std::max(best, ranking[i].rel);
+  return best > 0.0 && best < kSmallShares ? best : 1.0;
 }
 
 }  // namespace
@@ -133,21 +142,28 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
     return missing_figure(figure.file, figure.title, "the model is at the floor, nothing was looked for");
   Panel panel;
   const std::size_t shown = std::min(kShownCandidates, ranking.size());
-  panel.title = "Share of the way to the floor";
+  panel.title = "Each alone, free run, first step";
   if (shown < ranking.size()) panel.title += fmt::format(": first {} of {}", shown, ranking.size());
-  panel.x = {"explained share", "", {-0.25, 1.3}, {}, {}};
+  const double reach = ranked_reach(ranking, shown);
+  panel.x = {"share of the way to the " + std::string(floor_name(r.diagnosis.mismatch.floor_from)),
+             "",
+             {-0.25 * reach, 1.3 * reach},
+             {},
+             {}};
   Series s{"", {kBlue, 4.0, {}}, {}, {}};
   s.joined = false, s.marker = Marker::kDisc, s.stems = true;
   for (std::size_t i = 0; i < shown; ++i) {
     panel.y.categories.push_back(readable(ranking[i].effect));
-    panel.y.remarks.push_back(share_text(ranking[i].rel));
-    const double rel = std::isfinite(ranking[i].rel) ? std::clamp(ranking[i].rel, -0.25, 1.1) : -0.25;
+    panel.y.remarks.push_back(ranked_text(ranking[i].rel, reach));
+    const double rel = std::isfinite(ranking[i].rel) ? std::clamp(ranking[i].rel, -0.25 * reach, 1.1 * reach)
+                                                     : -0.25 * reach;
     s.x.push_back(rel), s.y.push_back(static_cast<double>(i));
     s.x_intervals.push_back({std::min(0.0, rel), std::max(0.0, rel)});
   }
   panel.series.push_back(s);
   panel.x_marks.push_back({0.0, guide_style(), ""});
-  panel.x_marks.push_back({1.0, guide_style(), floor_name(r.diagnosis.mismatch.floor_from)});
+  if (1.3 * reach > 1.0)
+    panel.x_marks.push_back({1.0, guide_style(), floor_name(r.diagnosis.mismatch.floor_from)});
   panel.height = 80.0 + 70.0 * static_cast<double>(s.x.size());
   figure.panels.push_back(panel);
   figure.reading =
@@ -206,7 +222,10 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
   sheet.columns = 2;
   borrow(sheet, figures, "diagnosis_budget.png", 1);
   borrow(sheet, figures, "diagnosis_traces.png", 2);
-  borrow(sheet, figures, "diagnosis_ranking.png", 1);
+  if (budget_decides(r.diagnosis))  // what each does alone to the free run did not
+    sheet.panels.push_back(budget_shares(r));
+  else
+    borrow(sheet, figures, "diagnosis_ranking.png", 1);
   borrow(sheet, figures, r.diagnosis.laws.empty() ? "diagnosis_torque_map.png" : "diagnosis_law.png", 1);
   borrow(sheet, figures, "diagnosis_where.png", sheet.panels.size() % 2 == 0 ? 2 : 1);
   for (std::size_t i = 0; i + 1 < sheet.panels.size(); i += 2)  // neighbours are equally high

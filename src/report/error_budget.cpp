@@ -105,7 +105,7 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   add("the model as it is", 0.0, b.nominal, b.nominal, kInk);
   for (const BudgetRung& rung : b.rungs)
     add("− " + law_of(r, rung), rung.before, rung.after, rung.after, rung.added ? kBlue : kGrey);
-  add("what remains", 0.0, b.remains, b.remains, kInk);
+  if (!b.rungs.empty()) add("what remains", 0.0, b.remains, b.remains, kInk);
   const auto has = [&](bool effect) {
     return std::any_of(b.rungs.begin(), b.rungs.end(),
                        [=](const BudgetRung& g) { return g.added == effect; });
@@ -117,9 +117,12 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   figure.width = 2000.0;
   figure.panels.push_back(panel);
   figure.reading =
-      fmt::format("The missing {} falls from {} to {}, {} of what the input brings", torque_of(r),
-                  quantity(b.nominal, budget_unit(r)), quantity(b.remains, budget_unit(r)),
-                  percents_of(b)(percent_of_input(b, b.remains)));
+      b.rungs.empty()
+          ? fmt::format("The missing {} is {}, {} of what the input brings", torque_of(r),
+                        quantity(b.nominal, budget_unit(r)), percents_of(b)(percent_of_input(b, b.nominal)))
+          : fmt::format("The missing {} falls from {} to {}, {} of what the input brings", torque_of(r),
+                        quantity(b.nominal, budget_unit(r)), quantity(b.remains, budget_unit(r)),
+                        percents_of(b)(percent_of_input(b, b.remains)));
   figure.reading += has(true) && has(false)
                         ? ", with laws that this model cannot have; to " +
                               quantity_beside(b.with_effects, b.nominal, budget_unit(r)) + " without them."
@@ -128,6 +131,27 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
     figure.reading += fmt::format(" The floor ({}), {}, lies outside of the figure.", floors.front().name,
                                   quantity(floors.front().size, budget_unit(r)));
   return figure;
+}
+
+Panel budget_shares(const DiagnosisResult& r) {
+  Panel panel;
+  panel.title = "Shares of the error budget";
+  panel.x = {"share of the mean square", "", {0.0, 1.0}, {}, {}};
+  Series alone{"alone, of what the nominal model leaves", {kBlue, 4.0, {}}, {}, {}},
+      last{"last, of what all the others leave", {kInk, 4.0, {}}, {}, {}};
+  alone.joined = last.joined = false, alone.stems = true;
+  alone.marker = Marker::kDisc, last.marker = Marker::kCircle;
+  double row = 0.0;
+  for (const BudgetRung& rung : r.diagnosis.budget.rungs) {
+    panel.y.categories.push_back(typeset(law_of(r, rung)));
+    panel.y.remarks.push_back(rounded(rung.alone, 2) + ", " + rounded(rung.last, 2));
+    alone.x.push_back(rung.alone), alone.y.push_back(row);
+    alone.x_intervals.push_back({0.0, rung.alone});
+    last.x.push_back(rung.last), last.y.push_back(row++);
+  }
+  panel.series = {alone, last};
+  panel.height = 90.0 + 64.0 * row;
+  return panel;
 }
 
 bool budget_decides(const Diagnosis& d) {

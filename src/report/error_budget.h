@@ -14,7 +14,10 @@ FigureData diagnosis_budget(const DiagnosisResult& result);
 /// decide.
 bool budget_decides(const Diagnosis& diagnosis);
 
-/// The same as a table; nothing for a drive that has none.
+/// What each of its laws takes alone, and beside all the others.
+Panel budget_shares(const DiagnosisResult& result);
+
+/// The waterfall as a table; nothing for a drive that has none.
 std::string budget_table(const DiagnosisResult& result);
 
 }  // namespace gapscope::internal::report

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/base/text.h"
 #include "report/budget_band.h"
 #include "report/diagnosis_figures.h"
 #include "report/diagnosis_words.h"
@@ -152,13 +154,25 @@ std::string every(const DiagnosisResult& r, double periods_per_turn) {
   return cycles == "1" || cycles == rounded(1.0) ? "once per turn" : cycles + " cycles per turn";
 }
 
+/// "cogging torque, 12 cycles per turn": what was added of that kind.
+std::string cycles_added(const DiagnosisResult& r) {
+  std::vector<std::string> all;
+  for (const AddedEffect& a : r.diagnosis.added)
+    for (const NamedValue& p : a.parameters)
+      if (p.key == "periods_per_turn" && p.value > 0.0)
+        all.push_back(readable(a.effect) + ", " + every(r, p.value));
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
 /// What repeats with the motor angle: in what the nominal model leaves, and in what is left in the end.
 std::string cycles_reading(const DiagnosisResult& r) {
   const double periods = r.diagnosis.where.periods_per_turn;
+  const std::string taken = cycles_added(r);
   std::string text =
       std::isfinite(periods)
           ? "What the nominal model leaves repeats with the " + angle_word(r) + ", " + every(r, periods) + "."
-          : "No cycle over the " + angle_word(r) + " stands out of what the nominal model leaves.";
+      : taken.empty() ? "No cycle over the " + angle_word(r) + " stands out of what the nominal model leaves."
+                      : "What was added repeats with the " + angle_word(r) + ": " + taken + ".";
   std::string lines;
   for (const PeriodicTorque& p : r.diagnosis.periodic)
     if (!p.given || p.holds) lines += (lines.empty() ? "" : ", ") + every(r, p.periods_per_turn);

@@ -1,8 +1,12 @@
 // The report of a diagnosis does not contradict itself.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "report/diagnosis_figures.h"
 #include "report/error_budget.h"
+#include "results/scratch_folder.h"
 
 namespace gapscope {
 namespace {
@@ -68,6 +72,9 @@ TEST(DiagnosisWords, TheRankingSaysWhichRowTheCardTookAndWhy) {
               HasSubstr(" Not in this table, which is of the first step: `load_dependent_friction`."));
   EXPECT_THAT(internal::report::diagnosis_ranking(r).reading,
               HasSubstr("decides, for motor Coulomb friction"));
+  const auto panels = internal::report::diagnosis_figures(r).front().panels;
+  const auto is_of_budget = [](const auto& panel) { return panel.title == "Shares of the error budget"; };
+  EXPECT_TRUE(std::any_of(panels.begin(), panels.end(), is_of_budget)) << "what decided is on the sheet";
 }
 
 TEST(DiagnosisWords, WhatIsMissingAndWhatCorrectsTheObserverHaveNamesOfTheirOwn) {
@@ -141,6 +148,76 @@ TEST(DiagnosisWords, TheSpeedOfAPlaceIsToldToBeTheObservers) {
   std::string titles;
   for (const auto& panel : internal::report::diagnosis_where(r).panels) titles += panel.title + "; ";
   EXPECT_THAT(titles, HasSubstr("Speed (the observer's estimate)"));
+}
+
+/// The same where nothing is missing.
+DiagnosisResult at_the_floor() {
+  DiagnosisResult r = with_friction();
+  Diagnosis& d = r.diagnosis;
+  d.verdict = DiagnosisVerdict::kNone, d.sentence = "Nothing is missing.";
+  d.effects.clear(), d.budget.rungs.clear();
+  d.budget.nominal = d.budget.remains = d.budget.with_effects = 4.91e-3, d.budget.input = 0.2;
+  d.measures = {{"free run restarted every 0.5 s", "rad", 2e-3, 2e-3, 2e-5}};
+  return r;
+}
+
+TEST(DiagnosisWords, TheRankingSaysWhatItRanksAndItsAxisFitsSmallShares) {
+  DiagnosisResult r = with_friction();
+  for (const double rel : {0.9, 0.05}) {
+    r.diagnosis.ranking.emplace_back().effect = "cogging_torque";
+    r.diagnosis.ranking.back().rel = rel;
+  }
+  auto panel = internal::report::diagnosis_ranking(r).panels[0];
+  EXPECT_EQ(panel.title, "Each alone, free run, first step");
+  EXPECT_EQ(panel.x.name, "share of the way to the encoder floor");
+  EXPECT_GT(panel.x.range.high, 1.0);
+  EXPECT_EQ(panel.x_marks.size(), 2u);
+  r.diagnosis.ranking.front().rel = 0.062, r.diagnosis.ranking.back().rel = 0.0586;
+  panel = internal::report::diagnosis_ranking(r).panels[0];
+  EXPECT_LT(panel.x.range.high, 0.1);
+  EXPECT_EQ(panel.y.remarks[1], "0.059");
+  EXPECT_EQ(panel.x_marks.size(), 1u) << "the floor is outside";
+}
+
+TEST(DiagnosisWords, WhereNothingWasAddedNoColumnAndNoFallTellsOfIt) {
+  const DiagnosisResult r = at_the_floor();
+  const std::string text = internal::report::diagnosis_text(r);
+  EXPECT_THAT(text, HasSubstr("| measure (median over windows) | nominal model | floor |\n|---|---|---|\n"
+                              "| free run restarted every 0.5 s | 2.00 mrad | 0.0200 mrad |\n"));
+  EXPECT_THAT(text, Not(HasSubstr("with all that was added")));
+  const auto figure = internal::report::diagnosis_budget(r);
+  EXPECT_EQ(figure.reading, "The missing torque is 4.91 mN·m, 2.5 % of what the input brings.");
+  EXPECT_EQ(figure.panels[0].y.categories.size(), 1u);
+}
+
+TEST(DiagnosisWords, TellsTheNumbersThatTheRecordingsContradict) {
+  DiagnosisResult r = at_the_floor();
+  EXPECT_THAT(internal::report::diagnosis_text(r), Not(HasSubstr("Numbers of your model")));
+  r.diagnosis.refitted = {{"motor_damping", "N m s/rad", 0.1, 0.04, {0.0399, 0.0401}}};
+  EXPECT_THAT(internal::report::diagnosis_text(r),
+              HasSubstr("| number | the configuration starts at | fitted | 95 % |\n|---|---|---|---|\n| "
+                        "`motor_damping` | 0.100 N·m s/rad | 0.040000 N·m s/rad | 0.039900 to 0.040100 N·m "
+                        "s/rad |\n"));
+  r.diagnosis.group = {};
+  ScratchFolder scratch;
+  write_diagnosis_result(scratch.path.string(), r);
+  const auto stored = read_diagnosis_result(scratch.path.string()).diagnosis.refitted;
+  ASSERT_EQ(stored.size(), 1u);
+  EXPECT_EQ(stored[0].key, "motor_damping");
+  EXPECT_DOUBLE_EQ(stored[0].ci95.high, 0.0401);
+}
+
+TEST(DiagnosisWords, TheMapNamesTheCycleThatWasAdded) {
+  DiagnosisResult r = with_friction();
+  MismatchTrace& t = r.diagnosis.traces.emplace_back();
+  t.dt = 1e-3;
+  for (int i = 0; i < 1000; ++i) t.u.push_back(0.0), t.x1.push_back(std::sin(0.01 * i));
+  t.torque_before = t.torque_after = t.error_before = t.error_after = t.x1;
+  EXPECT_THAT(internal::report::diagnosis_torque_map(r).reading, HasSubstr("No cycle over the motor angle"));
+  AddedEffect& cogging = r.diagnosis.added.emplace_back();
+  cogging.effect = "cogging_torque", cogging.parameters = {{"periods_per_turn", "1/rev", 12.0}};
+  EXPECT_EQ(internal::report::diagnosis_torque_map(r).reading,
+            "What was added repeats with the motor angle: cogging torque, 12 cycles per turn.");
 }
 
 }  // namespace
