@@ -95,9 +95,12 @@ void add_diagnose(CommandLine& app) {
   command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
   add_work_options(command, arguments->threads, arguments->quiet);
   command.footer(
-      "Fits the model to recording: file, adds every effect of `gapscope effects` in turn, and judges on\n"
-      "recording: held_out (a file or a list; without it on the last third of each file). What `gapscope "
-      "check`\n"
+      "Fits the model to recording: file, adds the effects of `gapscope effects` in turn, and judges on\n"
+      "recording: held_out (a file or a list; without it on the last third of each file). Left out are\n"
+      "those that the model has already or has no place for (of a load, gap or contact where it is one\n"
+      "body), what would turn with a shaft that does not turn, coarser counts where the recording has\n"
+      "none, what --exclude names, and, where the torque balance of one body decides, laws that it shows\n"
+      "not to help. What `gapscope check`\n"
       "says will spoil the estimates is a warning, of each of these files alike.\n"
       "Writes DIR/diagnosis.json [rad, N m, s], fitted.yaml, report.md and report.html, figures (PNG),\n"
       "traces/held_out_*.\n"
@@ -128,9 +131,10 @@ void add_diagnose(CommandLine& app) {
       "Ctrl-C ends the search after its present step: the report says that it was stopped and what it had "
       "found by\n"
       "then (exit status 130). A second one ends the command at once, and nothing is kept.\n"
-      "The verdict is effect, none (the model is at the floor: that of the encoder or, where the drive "
-      "repeats its\n"
-      "motion far worse, that of its repeatability) or unknown (nothing in the catalogue explains it).\n\n"
+      "The verdict is effect (the cause of the first addition is established), helps (something takes much\n"
+      "of the error, its cause stays open), none (the model is at the floor: that of the encoder or, where\n"
+      "the drive repeats its motion far worse, that of its repeatability; its numbers may still be others\n"
+      "than the configuration's) or unknown (nothing in the catalogue explains it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --simulated mujoco.csv");
   command.action([arguments] {
