@@ -148,7 +148,7 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
                          diagnose_recordings(c, recordings, options)};
   result.sources = sources;
   result.input = internal::run::known_input(c);
-  result.simulated_data = internal::run::simulated_words(c);
+  result.simulated_data = internal::run::simulated_words(c, true);
   result.answer.emplace().tolerance = c.tolerance;
   Diagnosis& d = result.diagnosis;
   d.better_swapped = swapped;

@@ -204,7 +204,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.configuration = resolved_yaml(c);
   r.coordinates = c.coordinates;
   r.input = internal::run::known_input(c);
-  r.simulated_data = internal::run::simulated_words(c);
+  r.simulated_data = internal::run::simulated_words(c, wanted.reference);
   const UnevenRows uneven = wanted.reference ? UnevenRows::kStamped : UnevenRows::kRefused;
   LoadedRecordings loaded = load_recordings(c, uneven, progress);
   const LoadedRecordings grids = wanted.model_free && wanted.reference

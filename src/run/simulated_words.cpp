@@ -34,9 +34,24 @@ std::vector<std::string> simulated_files(const RecordingConfig& recording) {
   return names;
 }
 
+/// "a.csv, b.csv were"
+std::string were(const std::vector<std::string>& files) {
+  return fmt::format("{} {}", fmt::join(files, ", "), files.size() > 1 ? "were" : "was");
+}
+
+/// Where no model is fitted, none agrees with itself.
+std::vector<std::string> unfitted_words(const Configuration& c) {
+  if (c.simulation) return {"The data are simulated; no drive was measured."};
+  const std::vector<std::string> files =
+      c.recording ? simulated_files(*c.recording) : std::vector<std::string>{};
+  if (files.empty()) return {};
+  return {were(files) + " made by `gapscope simulate`; no drive was measured."};
+}
+
 }  // namespace
 
-std::vector<std::string> simulated_words(const Configuration& c) {
+std::vector<std::string> simulated_words(const Configuration& c, bool fitted) {
+  if (!fitted) return unfitted_words(c);
   if (c.simulation && c.simulation->independent)
     return {
         "The data are simulated, by equations that share no code with those that are fitted here; no drive "
@@ -48,10 +63,10 @@ std::vector<std::string> simulated_words(const Configuration& c) {
   if (!c.recording) return {};
   const std::vector<std::string> files = simulated_files(*c.recording);
   if (files.empty()) return {};
-  return {fmt::format(
-      "{} {} made by `gapscope simulate`, with the very equations that are fitted here unless its "
-      "plant was independent: a perfect fit shows nothing of a real drive.",
-      fmt::join(files, ", "), files.size() > 1 ? "were" : "was")};
+  return {
+      fmt::format("{} made by `gapscope simulate`, with the very equations that are fitted here unless its "
+                  "plant was independent: a perfect fit shows nothing of a real drive.",
+                  were(files))};
 }
 
 }  // namespace internal::run

@@ -78,11 +78,14 @@ TEST(RunPipeline, NotesOnceWhatThePublishedBoundIsAndWhatItIsFrom) {
 
 TEST(RunPipeline, KnowsDataThatNoDriveMade) {
   const Configuration simulated = parse_configuration(kSimulated, "simulated.yaml");
-  EXPECT_THAT(run_pipeline(simulated, {true, false}, kSilent).result.simulated_data,
+  EXPECT_THAT(run_pipeline(simulated, {true, true}, kSilent).result.simulated_data,
               ElementsAre(HasSubstr("the very equations that are fitted here")));
+  EXPECT_THAT(run_pipeline(simulated, {true, false}, kSilent).result.simulated_data,
+              ElementsAre("The data are simulated; no drive was measured."))
+      << "nothing is fitted";
   const Recorded recorded;
   EXPECT_THAT(run_pipeline(recorded.configuration(), {true, false}, kSilent).result.simulated_data,
-              ElementsAre(HasSubstr("drive.csv, again.csv were made by `gapscope simulate`")));
+              ElementsAre("drive.csv, again.csv were made by `gapscope simulate`; no drive was measured."));
 }
 
 TEST(LoadRecordings, NamesSourcesByTheirContent) {
