@@ -18,15 +18,16 @@ std::string refitted_row(const RefittedNumber& n, Coordinates coordinates) {
 }  // namespace
 
 std::string refitted_table(const DiagnosisResult& r) {
-  if (r.diagnosis.refitted.empty()) return "";
-  std::string text = fmt::format(
+  std::string rows;
+  for (const RefittedNumber& n : r.diagnosis.refitted)
+    if (rounded(n.configured) != rounded(n.fitted)) rows += refitted_row(n, r.coordinates);
+  if (rows.empty()) return "";
+  return fmt::format(
       "\n## Numbers of your model\n\nEstimated numbers whose interval leaves out what the configuration "
-      "starts at: a number that the recordings contradict, or no more than a first guess. The intervals hold "
-      "for the model {}; `fitted.yaml` has the fitted ones.\n\n"
-      "| number | the configuration starts at | fitted | 95 % |\n|---|---|---|---|\n",
-      added(r) ? with_added(r) : std::string("as it is"));
-  for (const RefittedNumber& n : r.diagnosis.refitted) text += refitted_row(n, r.coordinates);
-  return text;
+      "starts at, where three digits show that: a number that the recordings contradict, or no more than a "
+      "first guess. The intervals hold for the model {}; `fitted.yaml` has the fitted ones.\n\n"
+      "| number | the configuration starts at | fitted | 95 % |\n|---|---|---|---|\n{}",
+      added(r) ? with_added(r) : std::string("as it is"), rows);
 }
 
 }  // namespace gapscope::internal::report

@@ -198,7 +198,9 @@ TEST(DiagnosisWords, TellsTheNumbersThatTheRecordingsContradict) {
               HasSubstr("| number | the configuration starts at | fitted | 95 % |\n|---|---|---|---|\n| "
                         "`motor_damping` | 0.100 N·m s/rad | 0.040000 N·m s/rad | 0.039900 to 0.040100 N·m "
                         "s/rad |\n"));
-  r.diagnosis.group = {};
+  r.diagnosis.refitted.push_back({"motor_inertia", "kg m^2", 0.00781, 0.0078088, {0.0078082, 0.0078094}});
+  EXPECT_THAT(internal::report::diagnosis_text(r), Not(HasSubstr("| `motor_inertia` |"))) << "reads the same";
+  r.diagnosis.refitted.pop_back();
   ScratchFolder scratch;
   write_diagnosis_result(scratch.path.string(), r);
   const auto stored = read_diagnosis_result(scratch.path.string()).diagnosis.refitted;
