@@ -20,14 +20,21 @@ bool is_within_another(const EffectEntry& entry, const std::vector<AddedEffect>&
   });
 }
 
-/// The number that says how much there is of an effect, past those of the simpler one that it contains;
-/// nullptr: none is known.
+/// The number that says how much there is of an effect, past those of the simpler one that it contains; of
+/// several ratios, as friction that differs with the direction has them, the largest. nullptr: none is known.
 const NamedValue* own_number(const AddedEffect& a, const std::vector<AddedEffect>& all) {
   const EffectEntry* entry = find_effect(a.effect);
   if (entry == nullptr || is_within_another(*entry, all)) return nullptr;
   const EffectEntry* simpler = contained_effect(*entry);
   const std::size_t own = simpler == nullptr ? 0 : simpler->parameters.size();
-  return own < a.parameters.size() ? &a.parameters[own] : nullptr;
+  if (own >= a.parameters.size()) return nullptr;
+  const NamedValue* most = &a.parameters[own];
+  const auto is_ratio = [](const NamedValue& n) { return n.key.ends_with("ratio"); };
+  for (std::size_t i = own + 1; i < a.parameters.size(); ++i)
+    if (const NamedValue& n = a.parameters[i];
+        is_ratio(*most) && is_ratio(n) && std::abs(n.value) > std::abs(most->value))
+      most = &n;
+  return most;
 }
 
 /// "ratio 3.12 %, 95 %: 3.05 to 3.19"

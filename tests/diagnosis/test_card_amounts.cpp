@@ -43,6 +43,16 @@ TEST(Card, TellsAnAmountWithoutAUnitAsAShareAndALawByWhatItAddsToASimplerOne) {
                         "95 %: 9.0 to 11.0) ("));
 }
 
+TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
+  Diagnosis d = slide_diagnosis();
+  d.added[1].effect = "friction_asymmetry";
+  d.added[1].parameters = {{"level_nm", "N m", 20.54},
+                           {"coulomb_ratio", "-", -0.0052},
+                           {"viscous_ratio", "-", -0.2, {-0.22, -0.18}}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              HasSubstr("then 2 N with friction asymmetry (viscous ratio -20.0 %, 95 %: -22.0 to -18.0) ("));
+}
+
 TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
   Diagnosis d = slide_diagnosis();
   d.added.erase(d.added.begin());
