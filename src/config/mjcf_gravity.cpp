@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "config/mjcf_mass.h"
 #include "config/mjcf_turn.h"
-#include "gapscope/base/shown.h"
 
 namespace gapscope::internal::config {
 namespace {
@@ -16,23 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 
-std::string body_name(const XMLElement& body) {
-  return "body " +
-         printable(body.Attribute("name") != nullptr ? body.Attribute("name") : "without a name", 40);
-}
-
 bool is_named(const XMLElement& e, const char* name) { return std::strcmp(e.Name(), name) == 0; }
-
-/// Whether a body, or a frame in it, has such a part.
-bool has_part(const XMLElement& body, const char* name) {
-  if (body.FirstChildElement(name) != nullptr) return true;
-  for (const XMLElement* e = body.FirstChildElement("frame"); e != nullptr;
-       e = e->NextSiblingElement("frame"))
-    if (has_part(*e, name)) return true;
-  return false;
-}
-
-bool has_joint(const XMLElement& body) { return has_part(body, "joint") || has_part(body, "freejoint"); }
 
 Vector3d gravity_in(const Mjcf& m) {
   Vector3d g(0.0, 0.0, -9.81);
@@ -43,38 +27,6 @@ Vector3d gravity_in(const Mjcf& m) {
   }
   return g;
 }
-
-/// Mass times its place in the joint's body, of that body and of all that is fixed to it, and why some of it
-/// is not there.
-struct FixedMass {
-  Vector3d moment = Vector3d::Zero();  ///< Σ m c [kg m]
-  double mass = 0.0;                   ///< [kg]
-  std::string gap;                     ///< what is not in it; empty: all is
-
-  void add(const Mjcf& m, const XMLElement& body, const Vector3d& at, const Matrix3d& turn) {
-    const XMLElement* inertial = body.FirstChildElement("inertial");
-    if (inertial != nullptr)
-      add_inertial(m, body, *inertial, at, turn);
-    else if (is_named(body, "body") && has_part(body, "geom"))
-      gap = body_name(body) + " has no inertial";
-    for (const XMLElement* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-      if (!is_named(*e, "body") && !is_named(*e, "frame")) continue;
-      if (is_named(*e, "body") && has_joint(*e))
-        gap = body_name(*e) + " moves against it";
-      else
-        add(m, *e, at + turn * three_of(m, *e, "pos"), turn * turn_of(m, *e));
-    }
-  }
-
- private:
-  void add_inertial(const Mjcf& m, const XMLElement& body, const XMLElement& inertial, const Vector3d& at,
-                    const Matrix3d& turn) {
-    const double compensated = m.value(body, "gravcomp", 0.0);
-    const double heavy = m.value(inertial, "mass", 0.0) * (1.0 - compensated);
-    moment += heavy * (at + turn * three_of(m, inertial, "pos"));
-    mass += heavy;
-  }
-};
 
 /// The joint's body against the world, or why its gravity is not known: a joint above turns it, and not about
 /// the vertical.
@@ -116,23 +68,26 @@ void read_gravity(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
   const double weight = down.norm();
   if (!(axis.norm() > 0.0) || weight == 0.0) return;
   axis.normalize();
-  FixedMass fixed;
-  fixed.add(m, *body, Vector3d::Zero(), Matrix3d::Identity());
+  const FixedMass fixed = fixed_mass(m, *body);
+  const std::string absent = !fixed.unknown.empty() ? fixed.unknown
+                             : fixed.moving.empty() ? ""
+                                                    : fixed.moving + " moves against it";
   const Attitude attitude(m, *body, down);
   const Vector3d at = three_of(m, joint, "pos"), g = attitude.turn.transpose() * down;
   const auto refuse = [&](const std::string& why) { n.notes.push_back("not taken: gravity, " + why); };
-  if (fixed.mass == 0.0) return fixed.gap.empty() ? void() : refuse(fixed.gap);
+  if (fixed.hanging == 0.0) return absent.empty() ? void() : refuse(absent);
   if (!attitude.unknown.empty()) return refuse(attitude.unknown);
   if (n.slides) {
-    if (const double force = fixed.mass * axis.dot(g); std::abs(force) > kRounding * fixed.mass * weight)
+    if (const double force = fixed.hanging * axis.dot(g);
+        std::abs(force) > kRounding * fixed.hanging * weight)
       refuse(fmt::format("{:.4g} N along the slide: effect constant_load_torque", force));
     return;
   }
-  const Vector3d r = fixed.moment - fixed.mass * at;
+  const Vector3d r = fixed.hanging_moment - fixed.hanging * at;
   const double cosine = axis.dot(r.cross(g)), sine = r.dot(g) - r.dot(axis) * axis.dot(g);
   const double amplitude = std::hypot(cosine, sine);
-  if (!fixed.gap.empty())
-    n.notes.push_back("not taken: gravity on a part of what hangs on the joint, as " + fixed.gap);
+  if (!absent.empty())
+    n.notes.push_back("not taken: gravity on a part of what hangs on the joint, as " + absent);
   if (amplitude <= kRounding * weight * r.norm()) return;
   n.unbalance = amplitude;
   n.unbalance_phase = std::atan2(-cosine, sine) - m.turned(joint, "ref");

@@ -6,6 +6,7 @@
 
 #include "config/mjcf.h"
 #include "config/mjcf_gravity.h"
+#include "config/mjcf_mass.h"
 #include "config/mjcf_turn.h"
 #include "gapscope/base/errors.h"
 
@@ -23,37 +24,33 @@ const XMLElement* joint_named(const Mjcf& m, const std::string& name) {
   return nullptr;
 }
 
-/// The tensor of axes that are turned so, in those outside.  // Ixx, Iyy, Izz, Ixy, Ixz, Iyz
-std::vector<double> turned(const std::vector<double>& t, const Eigen::Matrix3d& turn) {
-  Eigen::Matrix3d own;
-  own << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
-  const Eigen::Matrix3d out = turn * own * turn.transpose();
-  return {out(0, 0), out(1, 1), out(2, 2), out(0, 1), out(0, 2), out(1, 2)};
-}
+/// How the compiled model tells what this file does not.
+constexpr const char* kCompiled =
+    "write an <inertial> (body_mass, body_ipos, body_iquat, body_inertia of the compiled model), or give the "
+    "file that mj_saveLastXML writes under <compiler saveinertial=\"true\"/>";
 
-/// Of the joint's own body about its axis, and the armature.
-double inertia_of(const Mjcf& m, const XMLElement& joint, std::vector<std::string>& notes) {
-  const double armature = m.value(joint, "armature", 0.0);
-  const XMLElement* body = joint.Parent()->ToElement();
-  const XMLElement* inertial = body == nullptr ? nullptr : body->FirstChildElement("inertial");
-  if (inertial == nullptr) {
-    notes.push_back("of the inertia only the armature was taken: the body's own is not given by an inertial");
-    return armature > 0.0 ? armature : kNaN;
+/// Of the joint's own body, with what is fixed to it, about its axis; NaN where it is not known.
+double body_inertia_of(const Mjcf& m, const XMLElement& joint, std::vector<std::string>& notes) {
+  const FixedMass fixed = fixed_mass(m, *joint.Parent()->ToElement());
+  if (!fixed.unknown.empty())
+    notes.push_back(fmt::format("{}, which is not read: {}", fixed.unknown, kCompiled));
+  if (!fixed.unknown.empty() || fixed.mass == 0.0) {
+    notes.push_back("of the inertia only the armature was taken: the body's own is not known");
+    return kNaN;
   }
-  if (body->FirstChildElement("body") != nullptr)
+  if (!fixed.moving.empty())
     notes.push_back(
         "the inertia is that of the joint's own body and the armature, not of the bodies behind it");
-  const double mass = m.value(*inertial, "mass", 0.0);
-  if (has_attribute(&joint, "type", "slide")) return armature + mass;
-  auto tensor = m.values(*inertial, "fullinertia");
-  if (tensor.empty()) tensor = m.values(*inertial, "diaginertia");
-  tensor.resize(6, 0.0);
-  tensor = turned(tensor, turn_of(m, *inertial));
-  auto axis = m.values(joint, "axis"), centre = m.values(*inertial, "pos"), at = m.values(joint, "pos");
-  if (axis.size() != 3) axis = {0.0, 0.0, 1.0};
-  centre.resize(3, 0.0), at.resize(3, 0.0);
-  for (std::size_t i = 0; i < 3; ++i) centre[i] -= at[i];
-  return armature + inertia_about(axis, mass, centre, tensor);
+  if (has_attribute(&joint, "type", "slide")) return fixed.mass;
+  const Eigen::Vector3d axis = three_of(m, joint, "axis", Eigen::Vector3d::UnitZ());
+  return fixed.inertia_about(axis, three_of(m, joint, "pos"));
+}
+
+/// With the armature.
+double inertia_with(const Mjcf& m, const XMLElement& joint, double body) {
+  const double armature = m.value(joint, "armature", 0.0);
+  if (std::isfinite(body)) return armature + body;
+  return armature > 0.0 ? armature : kNaN;
 }
 
 double gear_of(const Mjcf& m, const std::string& joint, std::vector<std::string>& notes) {
@@ -93,7 +90,7 @@ const XMLElement* read_tendon(const Mjcf& m, const std::string& joint, JointNumb
     const XMLElement* load = joint_named(m, other);
     if (load == nullptr) continue;
     n.gap = range[1] - range[0];
-    n.load_inertia = inertia_of(m, *load, n.notes);
+    n.load_inertia = inertia_with(m, *load, body_inertia_of(m, *load, n.notes));
     n.load_damping = m.value(*load, "damping", 0.0);
     n.load_friction = m.value(*load, "frictionloss", 0.0);
     const double mobility = 1.0 / n.inertia + 1.0 / n.load_inertia;
@@ -135,7 +132,8 @@ JointNumbers mjcf_joint(const XMLElement& mujoco, const std::string& file, const
   if (joint == nullptr) no_such_joint(mujoco, file, name);
   JointNumbers n;
   n.slides = has_attribute(joint, "type", "slide");
-  n.inertia = inertia_of(m, *joint, n.notes);
+  n.body_inertia = body_inertia_of(m, *joint, n.notes);
+  n.inertia = inertia_with(m, *joint, n.body_inertia);
   n.damping = m.value(*joint, "damping", 0.0);
   n.friction = m.value(*joint, "frictionloss", 0.0);
   n.torque_constant = gear_of(m, name, n.notes);

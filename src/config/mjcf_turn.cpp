@@ -18,19 +18,18 @@ using tinyxml2::XMLElement;
 constexpr double kLeastLength = 1e-10;  ///< of a direction: MuJoCo takes none that is shorter
 
 std::vector<double> as_many(const Mjcf& m, const XMLElement& e, const char* attribute, std::size_t count) {
-  std::vector<double> numbers = numbers_in(e.Attribute(attribute), m.file());
+  std::vector<double> numbers = m.values(e, attribute);
   if (numbers.size() != count)
     throw ConfigError(
         m.file(), e.GetLineNum(),
-        fmt::format("has {}={}, expected {} numbers", attribute, shown(e.Attribute(attribute)), count));
+        fmt::format("has {}={}, expected {} numbers", attribute, shown(m.text(e, attribute)), count));
   return numbers;
 }
 
 Vector3d direction(const Mjcf& m, const XMLElement& e, const char* attribute, const Vector3d& v) {
   if (!(v.norm() > kLeastLength))
-    throw ConfigError(
-        m.file(), e.GetLineNum(),
-        fmt::format("has {}={}, expected a direction", attribute, shown(e.Attribute(attribute))));
+    throw ConfigError(m.file(), e.GetLineNum(),
+                      fmt::format("has {}={}, expected a direction", attribute, shown(m.text(e, attribute))));
   return v.normalized();
 }
 
@@ -91,11 +90,16 @@ Vector3d three_of(const Mjcf& m, const XMLElement& e, const char* attribute, con
 }
 
 Matrix3d turn_of(const Mjcf& m, const XMLElement& e) {
-  if (e.Attribute("quat") != nullptr) return by_quaternion(m, e);
-  if (e.Attribute("axisangle") != nullptr) return about_axis(m, e);
-  if (e.Attribute("xyaxes") != nullptr) return by_two_axes(m, e);
-  if (e.Attribute("zaxis") != nullptr) return by_z_axis(m, e);
-  if (e.Attribute("euler") != nullptr) return by_euler(m, e);
+  constexpr std::pair<const char*, Matrix3d (*)(const Mjcf&, const XMLElement&)> kForms[] = {
+      {"quat", by_quaternion},
+      {"axisangle", about_axis},
+      {"xyaxes", by_two_axes},
+      {"zaxis", by_z_axis},
+      {"euler", by_euler}};
+  for (const auto& [name, read] : kForms)
+    if (e.Attribute(name) != nullptr) return read(m, e);
+  for (const auto& [name, read] : kForms)  // of a geom's class
+    if (m.text(e, name) != nullptr) return read(m, e);
   return Matrix3d::Identity();
 }
 
