@@ -173,6 +173,7 @@ namespace {
 struct PaperPool {
   std::vector<double> up, down, lateness, steps;
   double quiet = 1.0, half_periods = 0.0, travel = kInfinity, noise = 0.0, restless = 0.0;
+  double reversals = 0.0;  ///< one more than half periods where the recording begins and ends in a passage
 };
 
 Remark paper_objection(const PaperPool& pool) {
@@ -192,13 +193,16 @@ Remark paper_objection(const PaperPool& pool) {
 }
 
 void add_reading(PaperPool& pool, const ImpactAnalysis& analysis, const PaperReading& reading) {
+  const auto half_periods = static_cast<double>(analysis.facts.half_periods);
+  const auto read = static_cast<double>(std::ranges::count_if(reading.events, &GapEvent::accepted));
+  pool.reversals += std::max(half_periods, read);
   for (const GapEvent& event : reading.events)
     if (event.accepted) (event.direction > 0 ? pool.up : pool.down).push_back(event.gap);
   pool.lateness.insert(pool.lateness.end(), reading.lateness.begin(), reading.lateness.end());
   pool.steps.insert(pool.steps.end(), reading.steps.begin(), reading.steps.end());
   pool.quiet = std::min(pool.quiet, reading.quiet);
   pool.restless += static_cast<double>(reading.restless);
-  pool.half_periods += static_cast<double>(analysis.facts.half_periods);
+  pool.half_periods += half_periods;
   pool.travel = std::min(pool.travel, analysis.facts.travel);
   pool.noise = std::max(pool.noise, analysis.facts.noise);
 }
@@ -215,7 +219,7 @@ void fill_paper_estimate(const PaperPool& pool, GapEstimate& estimate) {
                            latency * latency + 2.0 * pool.noise * pool.noise);
   estimate.ci95 = {std::max(estimate.gap - kNormal95 * estimate.std, 0.0),
                    estimate.gap + kNormal95 * estimate.std};
-  estimate.reason = words::reversals_read(n, pool.half_periods, estimate.bound);
+  estimate.reason = words::reversals_read(n, pool.reversals, estimate.bound);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ Remark bound_above_gap_mode() {
 }
 Remark bound_below_engaged() {
   return {"bound_below_engaged",
-          "no t1: the bound is below the engaged acceleration before the reversal, and where contact is lost "
-          "e_x does not bend visibly; use a finer encoder or a higher bound"};
+          "no t1: with this bound e_x is away from zero before the reversal, and where contact is lost it "
+          "does not bend visibly"};
 }
 Remark flank_late(double percent) {
   const char* const text =
