@@ -5,9 +5,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "gapscope/config/joint_numbers.h"
 
 namespace gapscope::cli {
 namespace {
@@ -17,6 +19,7 @@ namespace fs = std::filesystem;
 struct ExportArguments {
   ConfigArguments source;
   std::string format, folder;
+  std::string into, joint;  ///< a model that has the joint already
   bool quiet = false;
 };
 
@@ -31,7 +34,9 @@ void say_parts(const char* what, Fidelity fidelity, const Certificate& c) {
 void export_configuration(const ExportArguments& a, const Configuration& c) {
   ReportFolder report(a.folder, FolderKind::kExport, source_paths(c));
   progress_on_terminal(a.quiet)("exporting " + c.name);
-  const DriveExport drive = export_drive(c, export_format(a.format));
+  std::optional<JointNumbers> own;
+  if (!a.into.empty()) own = joint_numbers(a.into, a.joint);
+  const DriveExport drive = export_drive(c, export_format(a.format), own);
   write_export(report, drive);
   print_warnings(drive.certificate.warnings);
   for (const ExportedFile& file : drive.files) say("written", (fs::path(a.folder) / file.name).string());
@@ -64,6 +69,14 @@ void add_drive_export(CommandLine& app) {
   command.add_option("-o,--output", arguments->folder, "folder for the model and its certificate")
       .required()
       .value("DIR");
+  Option into = command
+                    .add_option("--into", arguments->into,
+                                "MJCF that has the joint already: the numbers to paste are told for it")
+                    .value("MODEL");
+  Option joint =
+      command.add_option("--joint", arguments->joint, "joint in it that is the drive").value("NAME");
+  into.needs(joint);
+  joint.needs(into);
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(
       format_help() +

@@ -35,8 +35,10 @@ static_assert(std::size(kExporters) == std::size(kFormats));
 
 std::span<const ExportFormatSpec> export_formats() { return kFormats; }
 
-DriveExport export_drive(const Configuration& configuration, ExportFormat format) {
-  const ExportSource source = internal::exports::export_source(configuration);
+DriveExport export_drive(const Configuration& configuration, ExportFormat format,
+                         const std::optional<JointNumbers>& own) {
+  ExportSource source = internal::exports::export_source(configuration);
+  source.own = own;
   DriveExport out = kExporters[static_cast<std::size_t>(format)](source);
   Certificate& c = out.certificate;
   c.name = source.name;

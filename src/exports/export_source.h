@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gapscope/config/configuration.h"
+#include "gapscope/config/joint_numbers.h"
 #include "gapscope/plant/plant_model.h"
 
 namespace gapscope::internal::exports {
@@ -16,12 +18,13 @@ struct ExportSource {
   SimulatedPlant drive;  ///< numbers and effects as configured
   PlantModel<double> plant;
   DriveState<double> initial;
-  double dt = 0.0;             ///< sampling interval of the input [s]
-  std::vector<double> u;       ///< held over it; of a long recording the first seconds
-  std::vector<double> all_u;   ///< the whole of it
-  double encoder_floor = 0.0;  ///< [rad]; NaN: the encoder is not known
-  std::string input;           ///< in words
-  std::string configuration;   ///< as resolved
+  double dt = 0.0;                       ///< sampling interval of the input [s]
+  std::vector<double> u;                 ///< held over it; of a long recording the first seconds
+  std::vector<double> all_u;             ///< the whole of it
+  double encoder_floor = 0.0;            ///< [rad]; NaN: the encoder is not known
+  std::string input;                     ///< in words
+  std::string configuration;             ///< as resolved
+  std::optional<JointNumbers> own = {};  ///< of the model of the user's own, where it is known
 
   double duration() const { return dt * static_cast<double>(u.size()); }
 };

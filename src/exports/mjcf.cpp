@@ -131,18 +131,48 @@ std::string heading(const ExportSource& s, const MujocoDrive& d, const std::stri
   return text.insert(text.size() - 1, " -->");
 }
 
+/// What gravity asks of the user's own body; empty: it is right, or not known.
+std::string own_gravity(const ExportSource& s) {
+  constexpr double kShown = 1e-3;  // of a ratio, as far as it is written
+  const double fitted = effect_value(s, "load_unbalance", "amplitude_nm"), has = s.own->unbalance;
+  if (!(fitted > 0.0) || !(has > 0.0) || std::abs(fitted / has - 1.0) < kShown) return "";
+  return fmt::format(
+      "; gravity: {:.4g} instead of {:.4g} N m: the body's mass, or the distance of its centre from the "
+      "axis, "
+      "times {:.3f} (what inertia that adds about the axis: off the armature)",
+      fitted, has, fitted / has);
+}
+
+/// Of armature and body, behind the numbers to paste.
+std::string own_inertia(const ExportSource& s, const MujocoDrive& d) {
+  const std::string take_off =
+      "the armature is all the inertia: take off what your bodies have about the axis";
+  if (!s.own) return "; " + take_off + " (export --into MODEL --joint NAME does it)";
+  if (!std::isfinite(s.own->body_inertia))
+    return "; " + take_off + ", which " + s.own->model + " does not tell";
+  const double left = d.inertia[0] - s.own->body_inertia;
+  const std::string of = fmt::format("the {:.6g} about the axis that the body of {} has in {}",
+                                     s.own->body_inertia, s.own->joint, s.own->model);
+  if (left < 0.0)
+    return fmt::format("; {} is more than all of the inertia found ({:.6g}): make the body lighter by {:.6g}",
+                       of, d.inertia[0], -left);
+  return fmt::format("; the armature is all the inertia ({:.6g}) less {}", d.inertia[0], of);
+}
+
 /// What to change in a model that has these joints already.
-std::string own_file(const MujocoDrive& d) {
+std::string own_file(const ExportSource& s, const MujocoDrive& d) {
   const bool two = d.has_load && !d.locked;
   const auto joint = [&](std::size_t body) {
     const double friction = d.friction[body];
-    return fmt::format("armature=\"{:.6g}\" damping=\"{:.6g}\" {}", d.inertia[body], d.damping[body],
+    const bool known = body == 0 && s.own && std::isfinite(s.own->body_inertia);
+    const double armature = std::max(0.0, d.inertia[body] - (known ? s.own->body_inertia : 0.0));
+    return fmt::format("armature=\"{:.6g}\" damping=\"{:.6g}\" {}", armature, d.damping[body],
                        friction > 0.0 ? dry_friction(fmt::format("{:.6g}", friction)) : "frictionloss=\"0\"");
   };
   std::string text = fmt::format("{}: {}; actuator: gear=\"{:.6g}\"", two ? "joint of the motor" : "joint",
                                  joint(0), d.torque_constant);
   if (two) text += "; joint of the load: " + joint(1);
-  return text + "; the armature is all the inertia: take off what your bodies have about the axis";
+  return text + own_inertia(s, d) + (s.own ? own_gravity(s) : "");
 }
 
 std::string alone(const ExportSource& s, const MujocoDrive& d, double step) {
@@ -250,7 +280,7 @@ DriveExport export_mjcf(const ExportSource& s) {
   DriveExport out;
   Certificate& c = out.certificate;
   c.format = "mjcf";
-  c.own_file = own_file(d);
+  c.own_file = own_file(s, d);
   c.parts = mujoco_parts(s);
   add_loop_lines(s, {"qpos", "qvel", "ctrl", 1.0, "qfrc_applied"}, c);
   judge(s, d, c);

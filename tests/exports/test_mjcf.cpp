@@ -269,6 +269,21 @@ TEST(Mjcf, OfOneBodySpeaksOfNeitherTendonNorLoadAndSaysWhatToChangeElsewhere) {
   EXPECT_THAT(certificate_text(drive.certificate), HasSubstr("## In a file of your own"));
 }
 
+TEST(Mjcf, TellsTheArmatureBesideTheBodyThatAFileOfTheUsersOwnHas) {
+  const Configuration c =
+      rig_configuration(", mass_ratio: 0", "  effects: [{load_unbalance: {amplitude_nm: 0.0375}}]\n");
+  JointNumbers own;
+  own.model = "arm.xml", own.joint = "shoulder", own.body_inertia = 0.0005, own.unbalance = 0.03;
+  const auto told = [&] { return export_drive(c, ExportFormat::kMjcf, own).certificate.own_file; };
+  EXPECT_THAT(told(), HasSubstr("armature=\"0.000378\""));
+  EXPECT_THAT(told(), HasSubstr("(0.000878) less the 0.0005 about the axis that the body of shoulder has in "
+                                "arm.xml"));
+  EXPECT_THAT(told(), HasSubstr("from the axis, times 1.250"));
+  own.body_inertia = 0.001;
+  EXPECT_THAT(told(), HasSubstr("armature=\"0\""));
+  EXPECT_THAT(told(), HasSubstr("make the body lighter by 0.000122"));
+}
+
 TEST(Mjcf, TheFragmentIsAModelWhenItIsIncluded) {
   const DriveExport drive = export_drive(rig_configuration(kTwoBodies), ExportFormat::kMjcf);
   std::string text = drive.files[1].text;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "gapscope/config/configuration.h"
+#include "gapscope/config/joint_numbers.h"
 #include "gapscope/results/certificate.h"
 
 namespace gapscope {
@@ -32,8 +34,10 @@ struct DriveExport {
 
 /// The drive of a configuration as a simulator takes it: of `simulation:` the plant under its excitation
 /// (fitted.yaml of a report), of `recording:` the model under the recorded input.
+/// @param own  of the MJCF that has the joint already: the certificate of mjcf then tells the numbers for it
 /// @throws ConfigError where a number of the model is not known, or the recording cannot be read;
 /// Interrupted
-DriveExport export_drive(const Configuration& configuration, ExportFormat format);
+DriveExport export_drive(const Configuration& configuration, ExportFormat format,
+                         const std::optional<JointNumbers>& own = {});
 
 }  // namespace gapscope
