@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "inspection/rules.h"
 #include "signals/noise.h"
@@ -18,6 +19,7 @@ using Samples = std::span<const double>;
 constexpr double kTaken = -0.02;        ///< work cosine below which the drive gives back more than it takes
 constexpr double kLongestDelay = 0.02;  ///< of a measurement that could make it look so [s]
 constexpr double kFollows = 0.9;        ///< share of x1 that goes with u against a locked output
+constexpr int kPhases = 12;             ///< of gravity that are tried in half a turn
 constexpr std::size_t kLags = 8;        ///< samples in which a loop answers
 constexpr double kAnswers = 0.15;       ///< correlation that is an answer
 /// Impulse of the inertia over what one body leaves [-], rms, from which on it is seen.
@@ -71,6 +73,22 @@ Answer answer_of(const std::vector<double>& u, const std::vector<double>& x) {
   return best;
 }
 
+/// The body beside a torque sin(x1 + phase), at the phase that shows its inertia best; nothing where none
+/// shows.
+std::optional<signals::OneBody> with_gravity(const Material& m, const MotorTrace& trace) {
+  if (!m.coordinates.rotational()) return {};
+  std::optional<signals::OneBody> best;
+  for (int step = 0; step < kPhases; ++step) {  // half a turn: the other half has the other sign
+    const double phase = step * std::numbers::pi / kPhases;
+    std::vector<std::vector<double>> known(1);
+    for (const double x : trace.x1) known[0].push_back(std::sin(x + phase));
+    const signals::OneBody body = signals::as_one_body(std::span(&trace, 1), known);
+    const bool seen = body.inertia > 0.0 && body.inertia_over_left > kSeen;
+    if (seen && (!best || body.inertia_over_left > best->inertia_over_left)) best = body;
+  }
+  return best;
+}
+
 }  // namespace
 
 Finding check_sign(const Material& m, RecordingFacts& facts) {
@@ -101,10 +119,21 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
   const signals::OneBody rough = signals::as_one_body(std::span(&trace, 1));
   facts.inertia = rough.inertia, facts.damping = rough.damping, facts.friction = rough.friction;
   const char* const units = m.coordinates.rotational() ? "kg m^2, N m s, N m" : "kg, N s/m, N";
-  if (!(rough.inertia > 0.0) && !(rough.damping > 0.0))
-    return {"scale of u", Severity::kNote, "no inertia and no damping is seen in how x1 answers u",
-            "look at the sign of u; add faster parts to the excitation"};
   const auto number = [](double value) { return value > 0.0 ? figure(value) : "too small to be seen"; };
+  if (!(rough.inertia > 0.0) && !(rough.damping > 0.0)) {
+    const char* const unseen = "no inertia and no damping is seen in how x1 answers u";
+    if (const auto hanging = with_gravity(m, trace))
+      return {"scale of u", Severity::kNote,
+              fmt::format("{}: a torque that goes with the position hides them, as gravity on a pendulum; "
+                          "beside one as sin(x1 + phase), inertia {}, damping {}, friction {}, each times "
+                          "torque_constant in {}",
+                          unseen, number(hanging->inertia), number(hanging->damping),
+                          number(hanging->friction), units),
+              "give the model load_unbalance, estimated; a motion that reverses faster shows the inertia"};
+    return {"scale of u", Severity::kNote, unseen,
+            facts.work_cosine > 0.0 ? "add faster parts to the excitation"
+                                    : "look at the sign of u; add faster parts to the excitation"};
+  }
   const std::string found =
       fmt::format("as one body: inertia {}, damping {}, friction {}, each times torque_constant in {}",
                   number(rough.inertia), number(rough.damping), number(rough.friction), units);
