@@ -24,6 +24,22 @@ Series at_events(const ReportView& view, const std::string& label, Marker marker
   return s;
 }
 
+/// Impacts of which no begin was seen: none of them tells a gap, but e_x shows them.
+Series at_lone_impacts(const ReportView& view) {
+  Series s;
+  s.label = "impact without $t_1$";
+  s.style = {kVermillion, 4.0, {}};
+  s.marker = Marker::kCross;
+  s.joined = false;
+  for (const GapEvent& e : view.events) {
+    const bool lone = !e.accepted && std::isnan(e.t1) && std::isfinite(e.x1_t2);
+    if (!lone || !(e.t2 >= view.window.low && e.t2 <= view.window.high)) continue;
+    s.x.push_back(e.t2);
+    s.y.push_back(e.x1_t2);
+  }
+  return s;
+}
+
 /// The bound of the differentiator that left the error trace.
 std::string at_bound(const ReportView& view) {
   const GapEstimate& g = *view.run.model_free;
@@ -64,8 +80,10 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
   displacement.height = 420.0;
   displacement.series.push_back(
       view.over_time("", measured_style(), view.recording->position(), view.window));
+  const bool by_one_bound = view.run.model_free && view.run.model_free->method == GapMethod::kPaper;
   for (const Series& s : {at_events(view, "contact lost, $t_1$", Marker::kCircle, true),
-                          at_events(view, "regained, $t_2$", Marker::kDisc, false)})
+                          at_events(view, "regained, $t_2$", Marker::kDisc, false),
+                          by_one_bound ? at_lone_impacts(view) : Series{}})
     if (!s.x.empty()) displacement.series.push_back(s);
   Panel error;
   error.title = view.error_title();

@@ -40,6 +40,17 @@ TEST(ReportView, PutsTheStateOfTwoEncodersAroundZero) {
   EXPECT_NEAR(robust_middle(view.state), 0.0, 1e-12);
 }
 
+TEST(Fig5, MarksTheImpactsOfOneBoundThatShowNoBegin) {
+  RunResult run = sample_run({.samples = 7500});
+  run.model_free->method = GapMethod::kPaper;
+  for (GapEvent& e : run.model_free->events) e.accepted = false, e.t1 = e.x1_t1 = e.gap = kNaN;
+  const FigureData figure = fig5_displacement_and_error(ReportView(run));
+  const Series& impacts = labelled(figure.panels[0], "impact");
+  EXPECT_FALSE(impacts.joined);
+  EXPECT_EQ(impacts.x.size(), run.model_free->events.size());
+  EXPECT_EQ(impacts.y.front(), run.model_free->events.front().x1_t2);
+}
+
 TEST(Fig2, ShowsTheDataThemselvesInTheWindow) {
   const ReportView view(full_run());
   const FigureData figure = fig2_input_and_displacement(view);
