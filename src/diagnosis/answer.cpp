@@ -44,7 +44,7 @@ Answer from_model_free(const Findings& f, AnswerTrust trust) {
       "The backlash gap is " + with_interval(g.gap, g.ci95, f.coordinates) + ", measured without a model";
   if (g.method == GapMethod::kPaper)
     a.sentence += fmt::format(", with the bound that was given (L = {:.3g} {})", g.bound,
-                              f.coordinates.unit("rad/s^2"));
+                              f.coordinates.shown_unit("rad/s^2"));
   return a;
 }
 
@@ -87,15 +87,21 @@ Answer read(const Findings& f) {
   return a;
 }
 
-Answer denied(const Findings& f) {
+/// "191.1 mrad (11 % of the travel)".
+std::string least_denied(const Findings& f) {
   const double limit = f.model_free->none_above();
   const std::string least = f.coordinates.thousandths(limit);
-  Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kGood, "", {}};
+  return f.travel > 0.0 ? fmt::format("{} ({:.2g} % of the travel)", least, 100.0 * limit / f.travel) : least;
+}
+
+Answer denied(const Findings& f) {
+  const double limit = f.model_free->none_above();
+  const std::string least = least_denied(f);
+  Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
   const FittedParameter* gap = told_gap(f);
   if (gap == nullptr) {
     a.sentence = "There is no backlash above " + least + end_without_model(f);
   } else if (gap->ci95.low > limit) {
-    a.trust = AnswerTrust::kLimited;
     a.sentence = "Without a model there is no backlash above " + least + ", but the fitted model says " +
                  with_interval(gap->value, gap->ci95, f.coordinates) + ".";
   } else {

@@ -59,13 +59,24 @@ PublishedBound published_bound(const Configuration& c, const std::vector<MotorTr
   return published;
 }
 
-/// "... eq. (13) with this model's numbers (|u| <= 0.5, G = 5e-05 N m): 98.01 < L < 147 rad/s^2; ..."
+double largest_travel(const std::vector<Recording>& recordings) {
+  double largest = 0.0;
+  for (const Recording& recording : recordings) {
+    const auto x = recording.position();
+    if (x.empty()) continue;
+    const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    largest = std::max(largest, *high - *low);
+  }
+  return largest;
+}
+
+/// "... eq. (13) with this model's numbers (|u| <= 0.5, G = 5e-05 N m): 98.01 < L < 147 rad/s²; ..."
 std::string told_bound(const PublishedBound& p, Coordinates coordinates, double taken) {
   return fmt::format(
       "bound of the paper's eq. (13) with this model's numbers (|u| <= {:.4g}, G = {:.3g} {}): {:.4g} < L < "
       "{:.4g} {}; {}",
       p.known.input_limit, p.known.load_force_bound, coordinates.unit("N m"), p.bound.low, p.bound.high,
-      coordinates.unit("rad/s^2"),
+      coordinates.shown_unit("rad/s^2"),
       taken > 0.0 ? fmt::format("L = {:.4g} is taken", taken) : "the bank of bounds does not use it");
 }
 
@@ -228,7 +239,8 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);
   r.answer = answer_of({r.model_free ? &*r.model_free : nullptr, r.reference ? &*r.reference : nullptr,
-                        r.comparison ? r.comparison->agree : std::nullopt, r.coordinates});
+                        r.comparison ? r.comparison->agree : std::nullopt, r.coordinates,
+                        largest_travel(r.recordings)});
   r.answer->tolerance = c.tolerance;
   stop_point();
   return out;

@@ -184,6 +184,15 @@ TEST(Answer, TakesTheModelWhereTheReadingIsInconclusiveOrWasNotAskedFor) {
       "The gap is not known: without a model the recording is inconclusive (no impact to be expected).");
 }
 
+TEST(Answer, TrustsADenialWithoutAModelLessAndTellsItsShareOfTheTravel) {
+  const GapEstimate none = denying(0.1911);
+  const FitSummary small = fitted(FitTrust::kGood, 5e-4, 1e-5);
+  const Answer alone = answer_of({&none, nullptr, {}, {}, 1.737});
+  EXPECT_EQ(alone.sentence, "There is no backlash above 191.1 mrad (11 % of the travel).");
+  EXPECT_EQ(alone.trust, AnswerTrust::kLimited);
+  EXPECT_EQ(answer_of({&none, &small, {}, {}, 1.737}).trust, AnswerTrust::kGood) << "a good model agrees";
+}
+
 TEST(Answer, HoldsADeniedGapAgainstTheModel) {
   const FitSummary small = fitted(FitTrust::kGood, 5e-4, 1e-5), large = fitted(FitTrust::kGood, 5e-3, 1e-5);
   const GapEstimate none = denying(1e-3);

@@ -38,11 +38,13 @@ struct Findings {
   const FitSummary* reference = nullptr;
   std::optional<bool> agree;  ///< of the comparison
   Coordinates coordinates;
+  double travel = kNaN;  ///< of x1, peak to peak, the largest of the recordings [rad]; NaN: not told
 };
 
 /// Which of both numbers to believe. A rejected reference has no say; one that is good goes before a reading
 /// that contradicts it, and before one that agrees and is less sharp; one that is limited behind any reading.
-/// Where they contradict each other the trust is limited.
+/// Where they contradict each other the trust is limited, and that in a gap denied without a model alone: a
+/// load far lighter than the motor leaves a weaker impact, and such a reading does not know the load.
 Answer answer_of(const Findings& findings);
 
 /// The gap of the model that a diagnosis has fitted, where that follows the held-out recordings and the
