@@ -119,7 +119,10 @@ void warn_of_left_out(const ExportSource& source, Certificate& c) {
   c.warnings.push_back(
       fmt::format("without what is left out ({}) this file is {} rms off, on a travel of {}{}{}", names,
                   length_words(error->rms, source.coordinates), length_words(c.travel, source.coordinates),
-                  error->rms > kFarOff * c.travel ? ": do not use it as it is." : ".", lines));
+                  error->rms > kFarOff * c.travel
+                      ? ": do not use it as it is, unless the file that you have is farther off."
+                      : ".",
+                  lines));
 }
 
 }  // namespace gapscope::internal::exports
