@@ -108,21 +108,19 @@ bool hides_the_steps(const ExportSource& source, const std::vector<CarriedPart>&
 void warn_of_left_out(const ExportSource& source, Certificate& c) {
   const TargetError* error = least(c.errors);
   if (error == nullptr || error->rms <= source.encoder_floor) return;
+  const bool far = error->rms > kFarOff * c.travel;
   std::string names, lines;
   for (const CarriedPart& part : c.parts) {
-    if (!lacks(part)) continue;
+    if (!lacks(part) && !(far && part.fidelity == Fidelity::kApproximate)) continue;
     names += (names.empty() ? "" : ", ") + part.part;
     if (const auto at = part.how.find(kInTheLoop); at != part.how.npos)
       lines += " What mends " + part.part + ", " + part.how.substr(at) + ".";
   }
   if (names.empty()) return;
-  c.warnings.push_back(
-      fmt::format("without what is left out ({}) this file is {} rms off, on a travel of {}{}{}", names,
-                  length_words(error->rms, source.coordinates), length_words(c.travel, source.coordinates),
-                  error->rms > kFarOff * c.travel
-                      ? ": do not use it as it is, unless the file that you have is farther off."
-                      : ".",
-                  lines));
+  c.warnings.push_back(fmt::format(
+      "by what is left out or approximated ({}) this file is {} rms off, on a travel of {}{}{}", names,
+      length_words(error->rms, source.coordinates), length_words(c.travel, source.coordinates),
+      far ? ": do not use it as it is, unless the file that you have is farther off." : ".", lines));
 }
 
 }  // namespace gapscope::internal::exports

@@ -24,8 +24,9 @@ void add_loop_lines(const ExportSource& source, const LoopWords& words, Certific
 bool hides_the_steps(const ExportSource& source, const std::vector<CarriedPart>& parts, double rms,
                      double travel);
 
-/// A warning, where the target lacks a part of the drive and is off by more than the encoder's floor, by the
-/// least row of its errors: how far, what it lacks, and the lines that mend it.
+/// A warning, where the target lacks a part of the drive, or approximates one so badly that it is far off,
+/// and is off by more than the encoder's floor, by the least row of its errors: how far, what it lacks, and
+/// the lines that mend it.
 void warn_of_left_out(const ExportSource& source, Certificate& certificate);
 
 }  // namespace gapscope::internal::exports

@@ -34,7 +34,7 @@ TEST(LeftOut, IsAWarningWithTheLinesThatMendIt) {
   const Certificate c = export_drive(rippling(), ExportFormat::kMjcf).certificate;
   ASSERT_EQ(c.warnings.size(), 1u);
   EXPECT_THAT(c.warnings[0],
-              HasSubstr("without what is left out (cogging_torque, torque_ripple) this file is "));
+              HasSubstr("by what is left out or approximated (cogging_torque, torque_ripple) this file is "));
   EXPECT_THAT(c.warnings[0], HasSubstr(": do not use it as it is"));
   EXPECT_THAT(c.warnings[0], HasSubstr("`qfrc_applied -= 0.03*(sin(y) + 0.2*sin(2*y)) with y = 24*qpos`"));
   EXPECT_THAT(c.warnings[0], HasSubstr("`ctrl = u*(1 + 0.08*sin(6*qpos - 0.5))`"));

@@ -211,8 +211,7 @@ TEST(Mjcf, NamesWhatItLeavesOutAndWhy) {
   EXPECT_THAT(certificate_text(c), HasSubstr("| `cogging_torque` | **left out** |"));
 }
 
-/// What it only approximates takes it far from the model at any step; how large a step may be is told all the
-/// same.
+/// What it only approximates takes it far from the model at any step; how large one may be is told.
 TEST(Mjcf, OfADriveThatItOnlyApproximatesTellsTheStepsByItsOwnMotion) {
   const DriveExport drive = export_drive(
       rig_configuration(kTwoBodies, "  effects: [{load_dependent_friction: {level_nm: 0.01, ratio: 0.6}}]\n"),
@@ -226,6 +225,7 @@ TEST(Mjcf, OfADriveThatItOnlyApproximatesTellsTheStepsByItsOwnMotion) {
   }
   EXPECT_GT(c.errors.size(), 8u);
   EXPECT_THAT(certificate_text(c), HasSubstr("its own motion at the finest step"));
+  EXPECT_THAT(c.warnings.back(), HasSubstr("load_dependent_friction) this file is 51"));
 }
 
 /// A load that friction holds against a torque: with the defaults it creeps, in the engine as foretold.
