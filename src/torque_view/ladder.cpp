@@ -90,7 +90,7 @@ void climb_with_simpler_line(const SplitRecordings& data, Bench& bench, Budget& 
 /// it could not be told from may be one of them. Of 100 drives with two effects 9 first ones are named then,
 /// all rightly; of 70 with one of a form that no law has, none.
 void ask_first_again(Bench& bench, Budget& budget, const TorqueViewOptions& options) {
-  if (budget.rungs.empty() || budget.rungs.front().named) return;
+  if (budget.rungs.empty() || !budget.rungs.front().helps || budget.rungs.front().named) return;
   Rung& first = budget.rungs.front();
   const Law* const law = first.choice().law;
   const auto is_it = [&](const Term& t) { return t.law == law; };

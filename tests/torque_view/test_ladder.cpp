@@ -60,7 +60,7 @@ TEST(Ladder, GravityIsNoCoggingTorqueWhosePeriodOtherEffectsHaveBent) {
 }
 
 TEST(Ladder, TheFirstOfTwoIsNamedThoughTheSecondWasItsRival) {
-  const Budget b = diagnosed([](const Motion& m) { return 0.12 * side(m.w) + 0.16 * std::sin(9.0 * m.x); });
+  const Budget b = diagnosed([](const Motion& m) { return 0.12 * side(m.w) + 0.1 * std::sin(9.0 * m.x); });
   ASSERT_GE(b.rungs.size(), 2u);
   const Rung &first = b.rungs[0], &second = b.rungs[1];
   const auto alone = std::find_if(first.ranking.begin(), first.ranking.end(),
