@@ -114,6 +114,13 @@ const std::vector<Harmless> kHarmless = {
        });
      },
      "input", Severity::kNote, "whole numbers"},
+    {"a_drive_that_was_switched_off",
+     [] {
+       return changed([](Rows& r) {
+         for (std::size_t i = r.u.size() / 2; i < r.u.size(); ++i) r.u[i] = 0.0;
+       });
+     },
+     "input", Severity::kNote, "while x1 goes on moving"},
     {"a_weight_on_the_input",
      [] {
        return changed([](Rows& r) {
