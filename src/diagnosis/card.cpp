@@ -138,7 +138,9 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
-  if (b.records >= floor) return "; the recordings (or parts of one) disagree with each other by " + size;
+  if (b.records >= floor)
+    return "; the recordings (or parts of one) differ from each other by " + size +
+           ", which no one model follows";
   return "; no model gets below " + size +
          (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
               ? ", by which the drive does not repeat itself"

@@ -46,7 +46,8 @@ std::string unknown_words(const CardFacts& f) {
 std::string exhausted_words(const Diagnosis& d) {
   const bool at_floor = d.mismatch.remains < kRule.floor_ratio;
   if (!d.exhausted || d.stopped || at_floor || d.verdict == DiagnosisVerdict::kNone) return "";
-  return " The search ended at its limit of work, so that further causes may have been missed.";
+  return std::string(" The search ended at its limit of work, so that further causes may have been missed") +
+         (d.added.empty() ? "." : "; a diagnosis of `fitted.yaml` goes on from here.");
 }
 
 }  // namespace gapscope::internal::diagnosis

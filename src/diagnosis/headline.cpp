@@ -35,7 +35,8 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
   return "changes with the direction of motion " +
-         (denser_than_chance(most) ? fmt::format("({:.0f} % of it {})", 100.0 * most.share, most.bin)
+         (denser_than_chance(most) ? fmt::format("({:.0f} % of it {}, in {:.0f} % of the time)",
+                                                 100.0 * most.share, most.bin, 100.0 * most.expected)
                                    : "(as large in both)");
 }
 

@@ -106,9 +106,9 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   d.budget.nominal = 10.0, d.budget.records = 0.613, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
   d.budget.input = 50.0, d.budget.remains = 2.0;
   ASSERT_TRUE(d.budget.exists());
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).mismatch,
-      EndsWith("input brings; the recordings (or parts of one) disagree with each other by 0.613 N."));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
+              EndsWith("input brings; the recordings (or parts of one) differ from each other by 0.613 N, "
+                       "which no one model follows."));
   d.budget.encoder = 0.7;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
               EndsWith("input brings; no model gets below 0.7 N, which is the encoder's noise."));

@@ -147,9 +147,10 @@ TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {
   d.mismatch.remains = 10.0;
   EXPECT_THAT(card_of(d).cause, Not(HasSubstr("limit of work")));
   d.exhausted = true;
-  EXPECT_THAT(card_of(d).cause,
-              HasSubstr(" The search ended at its limit of work, so that further causes may "
-                        "have been missed."));
+  EXPECT_THAT(
+      card_of(d).cause,
+      HasSubstr(" The search ended at its limit of work, so that further causes may have been missed; a "
+                "diagnosis of `fitted.yaml` goes on from here."));
   d.mismatch.remains = 1.1;
   EXPECT_THAT(card_of(d).cause, Not(HasSubstr("limit of work"))) << "nothing is left to be found";
 }

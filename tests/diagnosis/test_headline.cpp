@@ -28,7 +28,8 @@ TEST(Headline, SaysInWhichDirectionTheErrorIsOrThatItIsInBoth) {
   place.direction = {{"backward", 0.5, 0.5}, {"forward", 0.5, 0.5}};
   EXPECT_EQ(headline_of(place, {}), "changes with the direction of motion (as large in both)");
   place.direction = {{"backward", 0.9, 0.5}, {"forward", 0.1, 0.5}};
-  EXPECT_EQ(headline_of(place, {}), "changes with the direction of motion (90 % of it backward)");
+  EXPECT_EQ(headline_of(place, {}),
+            "changes with the direction of motion (90 % of it backward, in 50 % of the time)");
 }
 
 TEST(Headline, CallsOneCycleOncePerTurn) {
