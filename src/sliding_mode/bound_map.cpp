@@ -23,14 +23,17 @@ std::vector<double> fine_grid(const std::vector<double>& grid, double paper_boun
   return bounds;
 }
 
+/// Where a passage lies: its start, or its end where the start is not told.
+double place_of(const GapEvent& event) { return std::isfinite(event.t1) ? event.t1 : event.t2; }
+
 /// Start of the accepted passage nearest to the estimate; without any, the middle of the recording.
 double middle_of_interest(const MotorTrace& trace, const GapEstimate& estimate) {
   const GapEvent* best = nullptr;
   for (const GapEvent& e : estimate.events)
-    if (e.accepted && e.file == trace.file &&
+    if (e.accepted && e.file == trace.file && std::isfinite(place_of(e)) &&
         (best == nullptr || std::abs(e.gap - estimate.gap) < std::abs(best->gap - estimate.gap)))
       best = &e;
-  return best != nullptr ? best->t1 : trace.time(trace.size() / 2);
+  return best != nullptr ? place_of(*best) : trace.time(trace.size() / 2);
 }
 
 }  // namespace

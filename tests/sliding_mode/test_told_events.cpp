@@ -5,6 +5,8 @@
 #include <map>
 
 #include "gapscope/sliding_mode/detector.h"
+#include "signals/signal_facts.h"
+#include "sliding_mode/bound_map.h"
 #include "sliding_mode/test_drive.h"
 
 namespace gapscope {
@@ -30,6 +32,18 @@ const TestRecording& of_a_coarse_encoder() {
 GapEstimate estimate_of(const TestRecording& recording, const DetectorOptions& options = {}) {
   const MotorTrace trace = recording.trace();
   return detect_gap({&trace, 1}, options);
+}
+
+/// The map of bounds is drawn around the passage that is nearest to the estimate.
+TEST(ToldEvents, OneWithoutAStartHasItsPlaceInTheMapOfBounds) {
+  const TestRecording recording = paper_experiment();
+  const MotorTrace trace = recording.trace();
+  GapEstimate estimate = estimate_of(recording);
+  for (GapEvent& e : estimate.events) e.t1 = e.x1_t1 = kNaN;
+  const auto map = internal::sliding_mode::bound_map(trace, internal::signals::read_facts(trace), estimate);
+  ASSERT_TRUE(map.has_value());
+  EXPECT_GE(map->start, trace.start);
+  EXPECT_LT(map->start, trace.time(trace.size() - 1));
 }
 
 TEST(ToldEvents, LieOnTheTraceOfTheirRecordingAlsoThoseOfAMeanPeriod) {
