@@ -87,8 +87,8 @@ void climb_with_simpler_line(const SplitRecordings& data, Bench& bench, Budget& 
 }
 
 /// The first rung is asked again with all that came after it in the model, where each of those is named: what
-/// it could not be told from may be one of them. Of 100 drives with two effects 9 first ones are named then,
-/// all rightly; of 70 with one of a form that no law has, none.
+/// it could not be told from may be one of them. Later rungs are not: what they take is small, and patches
+/// the form of those before.
 void ask_first_again(Bench& bench, Budget& budget, const TorqueViewOptions& options) {
   if (budget.rungs.empty() || !budget.rungs.front().helps || budget.rungs.front().named) return;
   Rung& first = budget.rungs.front();
