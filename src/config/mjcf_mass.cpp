@@ -92,7 +92,9 @@ class Geom {
   Vector3d centre() const { return has_ends() ? Vector3d((from() + to()) / 2.0) : three_of(m_, e_, "pos"); }
   Matrix3d turn() const {
     if (!has_ends()) return turn_of(m_, e_);
-    return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), from() - to()).toRotationMatrix();
+    // Whatever has ends is as wide in x as in y, so that any turn about its own axis will do.
+    const Vector3d z = (from() - to()).normalized(), x = z.unitOrthogonal();
+    return (Matrix3d() << x, z.cross(x), z).finished();
   }
 
  private:
