@@ -272,11 +272,12 @@ PooledKink PooledFlights::trial_impact(const KinkShape& shape, bool brakes, doub
     Eigen::VectorXd& column = columns[static_cast<std::size_t>(k - 3)];
     const double scale = std::max(column.norm(), 1e-300);
     column /= scale;
-    for (Eigen::Index c = 0; c < k; ++c) {
-      const auto before = c < 3 ? Eigen::VectorXd(basis_.col(c)) : columns[static_cast<std::size_t>(c - 3)];
+    const auto leave_out = [&](Eigen::Index c, const auto& before) {
       A(c, k) = before.dot(column);
       column -= before * A(c, k);
-    }
+    };
+    for (Eigen::Index c = 0; c < 3; ++c) leave_out(c, basis_.col(c));
+    for (Eigen::Index c = 3; c < k; ++c) leave_out(c, columns[static_cast<std::size_t>(c - 3)]);
     A(k, k) = column.norm();
     column *= A(k, k) > 1e-5 ? 1.0 / A(k, k) : 0.0;  // what the others imitate says nothing
     y(k) = column.dot(residual_);
