@@ -3,6 +3,7 @@
 #include <string>
 
 #include "gapscope/diagnosis/card.h"
+#include "gapscope/diagnosis/error_budget.h"
 
 /// What a card says of causes that are not told.
 namespace gapscope::internal::diagnosis {
