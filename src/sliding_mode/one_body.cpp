@@ -1,9 +1,9 @@
 #include "sliding_mode/one_body.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <unsupported/Eigen/LevenbergMarquardt>
 #include <vector>
 
 #include "gapscope/base/statistics.h"
@@ -21,18 +21,26 @@ constexpr double kSlow = 0.1;  ///< of the largest speed: the sign of slower mot
 constexpr double kFadings[] = {0.02, 0.2};  ///< of the rms speed: begins of friction that fades
 constexpr double kLeastFading = 0.003;      ///< of the largest speed
 
-using Numbers = Eigen::Matrix<double, 8, 1>;  ///< of the law, then place and speed of one period
-constexpr Eigen::Index kOfOneBody = 6;
-
 /// The recording at the instants at which it is followed.
 struct Instants {
   double dt = 0.0;
   std::vector<double> u, x;
   struct Period {
     std::size_t first = 0, last = 0;
+    std::size_t mean() const {  ///< instants that one takes
+      return std::max<std::size_t>(1,
+                                   static_cast<std::size_t>(static_cast<double>(last - first + 1) / kMeans));
+    }
+    std::size_t means() const { return (last - first + 1) / mean(); }
   };
   std::vector<Period> periods;
-  double fastest = 0.0, strongest = 0.0, width = 0.0;  ///< [rad/s], of u, peak to peak [rad]
+  double fastest = 0.0, strongest = 0.0;  ///< [rad/s], of u
+
+  std::size_t means() const {
+    std::size_t all = 0;
+    for (const Period& p : periods) all += p.means();
+    return all;
+  }
 
   double speed(std::size_t i, std::size_t reach) const {
     const std::size_t from = i - std::min(i, reach), to = std::min(i + reach, x.size() - 1);
@@ -64,7 +72,6 @@ Instants instants_of(const MotorTrace& trace, const signals::SignalFacts& facts)
   if (every > 1) s.periods.resize((s.periods.size() + every - 1) / every);
   for (const double u : s.u) s.strongest = std::max(s.strongest, std::abs(u));
   for (std::size_t i = 2; i + 2 < s.x.size(); ++i) s.fastest = std::max(s.fastest, std::abs(s.speed(i, 2)));
-  if (!s.x.empty()) s.width = *std::ranges::max_element(s.x) - *std::ranges::min_element(s.x);
   return s;
 }
 
@@ -91,111 +98,86 @@ void advance(const OneBodyLaw& law, double a, double dt, double& x, double& v) {
   v = next;
 }
 
-OneBodyLaw law_of(const Numbers& n) { return {n(0), n(1), n(2), n(3), n(4), n(5)}; }
-
-/// x1 less the motion, at every instant of a period.
-Eigen::VectorXd left_of(const Instants& s, const Instants::Period& p, const Numbers& n) {
-  Eigen::VectorXd left(static_cast<Eigen::Index>(p.last - p.first + 1));
-  const OneBodyLaw law = law_of(n);
-  double x = n(kOfOneBody), v = n(kOfOneBody + 1);
-  for (std::size_t i = p.first; i <= p.last; ++i) {
-    left(static_cast<Eigen::Index>(i - p.first)) = s.x[i] - x;
-    advance(law, law.drive * s.u[i] + law.constant, s.dt, x, v);
-  }
-  return left;
-}
-
-/// Law and begins; the law is that of every period.
+/// The law, the speed at the begin of each period [rad/s], and what they leave [rad].
 struct OneBodyState {
-  std::vector<Numbers> periods;
-  double squares = kInfinity;
+  OneBodyLaw law;
+  Eigen::VectorXd speeds;
+  double left = kInfinity;
 };
 
-class OneBodySearch {
+/// Means of x1 less the motion over a period, less their mean.
+Eigen::VectorXd left_of(const Instants& s, const Instants::Period& p, const OneBodyLaw& law, double v) {
+  Eigen::VectorXd left = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(p.means()));
+  double x = s.x[p.first];
+  for (std::size_t i = p.first; i < p.first + p.means() * p.mean(); ++i) {
+    left(static_cast<Eigen::Index>((i - p.first) / p.mean())) += s.x[i] - x;
+    advance(law, law.drive * s.u[i] + law.constant, s.dt, x, v);
+  }
+  left /= static_cast<double>(p.mean());
+  return left.array() - left.mean();
+}
+
+/// What the law leaves of x1, in means less their mean over the period: where a period begins does not matter
+/// to its motion. The numbers have no bounds and are of one size: drive, constant, viscous, dry and, where
+/// friction fades with speed, dry + sticking, all over their scales, and the logarithm of the fading speed;
+/// then the speed at the begin of each period. The sign of what cannot be negative is not looked at.
+class OneBodyLeft : public Eigen::DenseFunctor<double> {
  public:
-  OneBodySearch(const Instants& s, const OneBodyLaw& start) : s_(s) {
-    const double pushed = std::abs(start.drive) * s.strongest;
-    scales_ << start.drive, pushed, std::max(start.viscous, 0.1), pushed, pushed, 0.0, s.width, s.fastest;
+  OneBodyLeft(const Instants& s, const OneBodyLaw& start, bool fades)
+      : DenseFunctor(static_cast<int>((fades ? 6 : 4) + s.periods.size()), static_cast<int>(s.means())),
+        s_(s),
+        drive_(start.drive),
+        pushed_(start.drive * s.strongest),
+        viscous_(std::max(start.viscous, 0.1)),
+        fades_(fades) {}
+
+  Eigen::VectorXd numbers(const OneBodyState& state) const {
+    const OneBodyLaw& law = state.law;
+    Eigen::VectorXd n(inputs());
+    n.head(4) << law.drive / drive_, law.constant / pushed_, law.viscous / viscous_, law.dry / pushed_;
+    if (fades_) n.segment(4, 2) << (law.dry + law.sticking) / pushed_, std::log(law.fading / s_.fastest);
+    n.tail(state.speeds.size()) = state.speeds / s_.fastest;
+    return n;
   }
 
-  /// From `state` downhill.  @param fades  whether the friction may fade with speed
-  OneBodyState improve(OneBodyState state, bool fades) {
-    scales_(5) = fades ? state.periods.front()(5) : 0.0;
-    fades_ = fades;
-    state.squares = squares(state);
-    double damping = 1e-3;
-    for (int i = 0; i < kRounds; ++i) {
-      linearise(state);
-      const double before = state.squares;
-      for (; damping < 1e4; damping *= 6.0)
-        if (OneBodyState next = stepped(state, damping); next.squares < state.squares) {
-          state = std::move(next);
-          damping *= 0.1;
-          break;
-        }
-      if (!(state.squares < (1.0 - kSettled) * before)) break;
+  OneBodyState state(const Eigen::VectorXd& n) const {
+    OneBodyLaw law{drive_ * n(0), pushed_ * n(1), viscous_ * std::abs(n(2)), pushed_ * std::abs(n(3))};
+    if (fades_) law.sticking = pushed_ * std::abs(n(4)) - law.dry;
+    if (fades_) law.fading = s_.fastest * std::clamp(std::exp(n(5)), kLeastFading, 1.0);
+    return {law, s_.fastest * n.tail(std::ssize(s_.periods))};
+  }
+
+  int operator()(const Eigen::VectorXd& n, Eigen::VectorXd& left) const {
+    const OneBodyState at = state(n);
+    Eigen::Index row = 0;
+    for (std::size_t p = 0; p < s_.periods.size(); ++p) {
+      const auto means = static_cast<Eigen::Index>(s_.periods[p].means());
+      left.segment(row, means) = left_of(s_, s_.periods[p], at.law, at.speeds(static_cast<Eigen::Index>(p)));
+      row += means;
     }
-    return state;
+    return 0;
   }
 
  private:
-  double squares(const OneBodyState& state) const {
-    double sum = 0.0;
-    for (std::size_t p = 0; p < s_.periods.size(); ++p)
-      sum += left_of(s_, s_.periods[p], state.periods[p]).squaredNorm();
-    return sum;
-  }
-
-  bool is_free(Eigen::Index k) const { return fades_ || (k != 4 && k != 5); }
-  static Eigen::Index place(Eigen::Index k, std::size_t period) {
-    return k < kOfOneBody ? k : k + 2 * static_cast<Eigen::Index>(period);
-  }
-
-  void linearise(const OneBodyState& state) {
-    const Eigen::Index all = kOfOneBody + 2 * std::ssize(s_.periods);
-    normal_ = Eigen::MatrixXd::Zero(all, all);
-    down_ = Eigen::VectorXd::Zero(all);
-    for (std::size_t p = 0; p < s_.periods.size(); ++p) {
-      const Eigen::VectorXd left = left_of(s_, s_.periods[p], state.periods[p]);
-      Eigen::MatrixXd J = Eigen::MatrixXd::Zero(left.size(), scales_.size());
-      for (Eigen::Index k = 0; k < scales_.size(); ++k) {
-        if (!is_free(k)) continue;
-        Numbers near = state.periods[p];
-        near(k) += kStep * scales_(k);
-        J.col(k) = (left - left_of(s_, s_.periods[p], near)) / kStep;
-      }
-      const Eigen::MatrixXd square = J.transpose() * J;
-      const Eigen::VectorXd along = J.transpose() * left;
-      for (Eigen::Index a = 0; a < scales_.size(); ++a) {
-        down_(place(a, p)) += along(a);
-        for (Eigen::Index b = 0; b < scales_.size(); ++b) normal_(place(a, p), place(b, p)) += square(a, b);
-      }
-    }
-  }
-
-  /// Friction never drives.
-  OneBodyState stepped(const OneBodyState& state, double damping) const {
-    Eigen::MatrixXd A = normal_;
-    A.diagonal() += damping * normal_.diagonal() + Eigen::VectorXd::Constant(A.rows(), 1e-300);
-    const Eigen::VectorXd step = A.ldlt().solve(down_);
-    OneBodyState next = state;
-    if (!step.allFinite()) return {state.periods, kInfinity};
-    for (std::size_t p = 0; p < next.periods.size(); ++p) {
-      Numbers& n = next.periods[p];
-      for (Eigen::Index k = 0; k < n.size(); ++k) n(k) += scales_(k) * step(place(k, p));
-      n(2) = std::max(n(2), 0.0), n(3) = std::max(n(3), 0.0), n(4) = std::max(n(4), -n(3));
-      n(5) = std::clamp(n(5), kLeastFading * s_.fastest, s_.fastest);
-    }
-    next.squares = squares(next);
-    return next;
-  }
-
   const Instants& s_;
-  Numbers scales_;
-  bool fades_ = false;
-  Eigen::MatrixXd normal_;
-  Eigen::VectorXd down_;
+  double drive_, pushed_, viscous_;
+  bool fades_;
 };
+
+/// From `state` downhill.  @param fades  whether the friction may fade with speed
+OneBodyState improved(const Instants& s, const OneBodyLaw& scales, const OneBodyState& state, bool fades) {
+  const OneBodyLeft left(s, scales, fades);
+  Eigen::NumericalDiff<OneBodyLeft> differences(left, kStep * kStep);
+  Eigen::LevenbergMarquardt<Eigen::NumericalDiff<OneBodyLeft>> search(differences);
+  search.setFtol(kSettled);
+  search.setXtol(kSettled * kSettled);
+  search.setMaxfev(kRounds * (left.inputs() + 2));
+  Eigen::VectorXd n = left.numbers(state);
+  search.minimize(n);
+  OneBodyState found = left.state(n);
+  found.left = search.fnorm() / std::sqrt(static_cast<double>(left.values()));
+  return found;
+}
 
 /// Second differences of x1 over a thirtieth of a period, by the mean u that they had.
 OneBodyLaw first_law(const Instants& s) {
@@ -223,27 +205,12 @@ OneBodyLaw first_law(const Instants& s) {
 }
 
 OneBodyState begun(const Instants& s, const OneBodyLaw& law) {
-  OneBodyState state;
-  for (const Instants::Period& p : s.periods) {
-    Numbers n;
-    n << law.drive, law.constant, law.viscous, law.dry, law.sticking, law.fading, s.x[p.first],
-        s.speed(p.first, std::max<std::size_t>(2, (p.last - p.first) / 100));
-    state.periods.push_back(n);
+  OneBodyState state{law, Eigen::VectorXd(std::ssize(s.periods))};
+  for (Eigen::Index k = 0; k < state.speeds.size(); ++k) {
+    const Instants::Period& p = s.periods[static_cast<std::size_t>(k)];
+    state.speeds(k) = s.speed(p.first, std::max<std::size_t>(2, (p.last - p.first) / 100));
   }
   return state;
-}
-
-double rms_of_means(const Instants& s, const OneBodyState& state) {
-  double sum = 0.0;
-  Eigen::Index means = 0;
-  for (std::size_t p = 0; p < s.periods.size(); ++p) {
-    const Eigen::VectorXd left = left_of(s, s.periods[p], state.periods[p]);
-    const auto m =
-        std::max<Eigen::Index>(1, static_cast<Eigen::Index>(static_cast<double>(left.size()) / kMeans));
-    for (Eigen::Index i = 0; i + m <= left.size(); i += m, ++means)
-      sum += std::pow(left.segment(i, m).mean(), 2);
-  }
-  return std::sqrt(sum / static_cast<double>(means));
 }
 
 }  // namespace
@@ -254,17 +221,14 @@ OneBodyFit fit_one_body(const MotorTrace& trace, const signals::SignalFacts& fac
   if (s.periods.empty() || !(s.fastest > 0.0) || !(s.strongest > 0.0)) return {};
   const OneBodyLaw start = first_law(s);
   if (!(start.drive > 0.0)) return {};
-  OneBodySearch search(s, start);
-  OneBodyState best = search.improve(begun(s, start), false);
+  OneBodyState best = improved(s, start, begun(s, start), false);
   for (const double fading : kFadings) {
     OneBodyState other = best;
-    for (Numbers& n : other.periods) {
-      n(4) = 0.3 * std::max(n(3), 0.02 * start.drive * s.strongest);
-      n(5) = std::max(fading * facts.speed_rms, kLeastFading * s.fastest);
-    }
-    if (other = search.improve(std::move(other), true); other.squares < best.squares) best = std::move(other);
+    other.law.sticking = 0.3 * std::max(other.law.dry, 0.02 * start.drive * s.strongest);
+    other.law.fading = std::max(fading * facts.speed_rms, kLeastFading * s.fastest);
+    if (other = improved(s, start, other, true); other.left < best.left) best = std::move(other);
   }
-  return {law_of(best.periods.front()), rms_of_means(s, best)};
+  return {best.law, best.left};
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -22,12 +22,12 @@ struct OneBodyFit {
   double left = kInfinity;  ///< rms of x1 less its motion, in means over 1/80 of a period [rad]
 };
 
-/// The law of one body that leaves least squares of x1, followed freely through each period, from one
-/// crossing of the centre to the next but one, with a place and a speed of its own at its begin.
+/// The law of one body that leaves least squares of those means, followed freely through each period, from
+/// one crossing of the centre to the next but one, with a place and a speed of its own at its begin.
 /// (lone_motor_squares() asks for a motor alone, and for its way to a rest.) At most 12 periods, spread over
 /// the recording, each at 400 instants: u is the mean up to the next one, x1 that of the samples around it.
-/// Levenberg and Marquardt, begun at the accelerations that smoothed positions show, without and with
-/// friction that fades with speed.
+/// Levenberg and Marquardt (Eigen's), begun at the accelerations that smoothed positions show, without and
+/// with friction that fades with speed.
 /// @returns left = infinity where no period is seen, or the input drives nothing
 OneBodyFit fit_one_body(const MotorTrace& trace, const signals::SignalFacts& facts);
 
