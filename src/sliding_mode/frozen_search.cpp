@@ -168,7 +168,7 @@ ImpactAnalysis FrozenSearch::summary() const {
   a.marks = marks_ - marks_gone_;
   a.smallest_visible_gap = frozen_.visible[top_bound(tops_, kMostTops, a.sliding) + 1];
   a.finest_gap = frozen_.visible[a.sliding];
-  a.one_body_gap = frozen_.one_body;
+  a.one_body_gap = [gap = frozen_.one_body] { return gap; };
   for (const KeptPassage& k : kept_) a.passages.push_back(k.passage);
   return a;
 }

@@ -59,8 +59,15 @@ ImpactAnalysis analyse(const MotorTrace& trace, const signals::SignalFacts& fact
   a.facts = facts;
   a.quantum = a.facts.quantum;
   search(trace, a);
-  if (a.facts.defect.empty()) a.one_body_gap = one_body_visible_gap(trace, a.facts);
+  a.one_body_gap = [trace, facts] { return one_body_visible_gap(trace, facts); };
   return a;
+}
+
+double one_body_gap(std::span<const ImpactAnalysis> analyses) {
+  double gap = 0.0;
+  for (const ImpactAnalysis& a : analyses)
+    if (a.facts.defect.empty() && gap < kInfinity) gap = std::max(gap, a.one_body_gap());
+  return gap;
 }
 
 ImpactAnalysis analyse_mean(const signals::FoldedMotion& mean, const MotorTrace& whole) {

@@ -93,7 +93,6 @@ Pool collect(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.quantum = std::max(pool.quantum, a.quantum);
     pool.dt = std::max(pool.dt, intervals[i]);
     pool.visible = std::max(pool.visible, a.smallest_visible_gap);
-    pool.one_body = std::max(pool.one_body, a.one_body_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
     pool.encoder = std::max(pool.encoder, encoder_visible_gap(a.facts));
     pool.events += a.marks;
@@ -273,7 +272,7 @@ GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const
   estimate.method = GapMethod::kImpact;
   for (const ImpactAnalysis& a : analyses)
     for (const Transition& t : a.passages) estimate.events.push_back(event_of(t));
-  const Pool pool = collect(analyses, intervals);
+  Pool pool = collect(analyses, intervals);
   if (pool.half_periods == 0.0) {
     estimate.reason = analyses.empty() ? words::no_recording() : analyses.front().facts.defect;
     return estimate;
@@ -282,7 +281,10 @@ GapEstimate decide_gap(std::span<const ImpactAnalysis> analyses, std::span<const
   const Remark against = objection(pool);
   if (against.empty()) {
     fill_estimate(pool, estimate);
-  } else if (is_informative(pool.one_body, pool.travel, pool.encoder)) {
+    return estimate;
+  }
+  pool.one_body = one_body_gap(analyses);
+  if (is_informative(pool.one_body, pool.travel, pool.encoder)) {
     estimate.verdict = GapVerdict::kNone;  // one body explains the motion: larger gaps would have left more
     estimate.smallest_visible_gap = pool.one_body;
     estimate.reason = words::one_body(kLightestLoad, pool.half_periods);
