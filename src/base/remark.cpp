@@ -40,7 +40,7 @@ std::string length_text(const std::string& form, double value, Coordinates coord
 
 std::string field_text(const std::string& form, const Remark::Value& value, bool length,
                        Coordinates coordinates) {
-  if (const auto* unit = std::get_if<RemarkUnit>(&value)) return coordinates.unit(unit->rotational);
+  if (const auto* unit = std::get_if<RemarkUnit>(&value)) return coordinates.shown_unit(unit->rotational);
   if (const auto* count = std::get_if<long>(&value)) return fmt::format(fmt::runtime(form), *count);
   if (const auto* text = std::get_if<std::string>(&value)) return fmt::format(fmt::runtime(form), *text);
   const double number = std::get<double>(value);

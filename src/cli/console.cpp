@@ -76,7 +76,8 @@ void print_parameters(const FitSummary& f, const InputFacts& input, Coordinates 
   for (const FittedParameter& p : f.parameters) width = std::max(width, p.key.size());
   for (const FittedParameter& p : f.parameters) {
     if (!p.estimated || p.key == "gap") continue;
-    const std::string unit = p.unit == "-" ? "" : " " + with_input_unit(coordinates.unit(p.unit), input);
+    const std::string unit =
+        p.unit == "-" ? "" : " " + with_input_unit(coordinates.shown_unit(p.unit), input);
     const std::string interval = f.rejected()      ? "model rejected"
                                  : !p.identifiable ? "not identifiable"
                                  : std::isnan(p.ci95.low)

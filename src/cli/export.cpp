@@ -41,7 +41,7 @@ void export_configuration(const ExportArguments& a, const Configuration& c) {
   print_warnings(drive.certificate.warnings);
   for (const ExportedFile& file : drive.files) say("written", (fs::path(a.folder) / file.name).string());
   say("certificate", (fs::path(a.folder) / "certificate.md").string());
-  if (!drive.certificate.own_file.empty()) say("your file", drive.certificate.own_file);
+  if (!drive.certificate.own_file.empty()) say("to paste", drive.certificate.own_file);
   say_parts("exact", Fidelity::kExact, drive.certificate);
   say_parts("approximate", Fidelity::kApproximate, drive.certificate);
   say_parts("left out", Fidelity::kLeftOut, drive.certificate);

@@ -74,7 +74,8 @@ std::string named_after(const std::string& axis, std::string yaml) {
 }
 
 void write_starter(const InitArguments& a, const RecordingArguments& r, bool several) {
-  const StarterKnowledge known{model_of(a.model), nominal_of(a), anchor_of(a), r.gain_sought()};
+  const std::string name = fs::path(a.output).stem().string();  // a name that was given is the report's, too
+  const StarterKnowledge known{model_of(a.model), nominal_of(a), anchor_of(a), name, r.gain_sought()};
   const std::string output = output_of(a, r, several);
   require_file_name(output, {r.file, a.held_out}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
@@ -107,8 +108,10 @@ void add_init(CommandLine& app) {
                   "richer one (speed, travel, input, reversals) is better fitted: init says which it is")
       .value("FILE");
   command
-      .add_option("-o,--output", arguments->output,
-                  "configuration to write (default: the recording's name with .yaml, here)")
+      .add_option(
+          "-o,--output", arguments->output,
+          "configuration to write; its name is the report's (default: the recording's name, here; the report "
+          "of --from is called after the joint)")
       .value("CONFIG");
   command
       .add_option("--model", arguments->model,

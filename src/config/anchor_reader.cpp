@@ -58,10 +58,12 @@ std::string AnchorConfig::told(Coordinates coordinates) const {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (std::isfinite(mass))
-    add(fmt::format("a mass of {:g} kg on an arm of {:g} m (gravity up to {:.4g} N m, {:.4g} kg m^2)", mass,
+    add(fmt::format("a mass of {:g} kg on an arm of {:g} m (gravity up to {:.4g} N·m, {:.4g} kg m²)", mass,
                     arm, torque(), mass_inertia()));
-  if (std::isfinite(inertia)) add(fmt::format("an inertia of {:g} {}", inertia, coordinates.unit("kg m^2")));
-  if (std::isfinite(friction)) add(fmt::format("a friction of {:g} {}", friction, coordinates.unit("N m")));
+  if (std::isfinite(inertia))
+    add(fmt::format("an inertia of {:g} {}", inertia, coordinates.shown_unit("kg m^2")));
+  if (std::isfinite(friction))
+    add(fmt::format("a friction of {:g} {}", friction, coordinates.shown_unit("N m")));
   return "the scale of torque and inertia is that of what is known: " + text;
 }
 

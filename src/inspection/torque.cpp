@@ -118,7 +118,7 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
             "x1 goes with u, as against a locked output: it says nothing about the inertia", ""};
   const signals::OneBody rough = signals::as_one_body(std::span(&trace, 1));
   facts.inertia = rough.inertia, facts.damping = rough.damping, facts.friction = rough.friction;
-  const char* const units = m.coordinates.rotational() ? "kg m^2, N m s, N m" : "kg, N s/m, N";
+  const char* const units = m.coordinates.rotational() ? "kg m², N·m s, N·m" : "kg, N s/m, N";
   const auto number = [](double value) { return value > 0.0 ? figure(value) : "too small to be seen"; };
   if (!(rough.inertia > 0.0) && !(rough.damping > 0.0)) {
     const char* const unseen = "no inertia and no damping is seen in how x1 answers u";

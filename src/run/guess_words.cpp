@@ -10,8 +10,8 @@ std::vector<std::string> guess_warnings(const Configuration& c) {
     const auto at = static_cast<std::size_t>(i);
     if (!c.model.guessed[at] || !has_parameter(c.model.structure, i)) continue;
     const std::string key = kDriveParameters[i].key;
-    const std::string number =
-        fmt::format("{:g} {}", c.model.parameters[at].value, c.coordinates.unit(kDriveParameters[i].unit));
+    const std::string number = fmt::format("{:g} {}", c.model.parameters[at].value,
+                                           c.coordinates.shown_unit(kDriveParameters[i].unit));
     warnings.push_back(
         key == "torque_constant"
             ? fmt::format(

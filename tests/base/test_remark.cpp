@@ -16,7 +16,7 @@ TEST(Remark, IsPutTogetherWithTheUnitsOfTheAxis) {
   EXPECT_EQ(gap_seen().text(Coordinates::kTranslation),
             "a gap of 12 mm in 7 passages, [1.0, 2.0] by x [rad]");
   const Remark damping("damping", "{} {}", {0.5, RemarkUnit{"N m s/rad"}});
-  EXPECT_EQ(damping.text(), "0.5 N m s/rad");
+  EXPECT_EQ(damping.text(), "0.5 N·m s/rad");
   EXPECT_EQ(damping.text(Coordinates::kTranslation), "0.5 N s/m");
 }
 

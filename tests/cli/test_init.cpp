@@ -43,7 +43,6 @@ TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {
   const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
   place.file("logs/my drive 7.csv", one_body_csv(input));
   const std::string yaml = tried(place, "'logs/my drive 7.csv' --model one_body");
-  EXPECT_THAT(yaml, HasSubstr("name: my_drive_7"));
   EXPECT_THAT(yaml, HasSubstr("file: \"logs/my drive 7.csv\""));
   EXPECT_THAT(yaml, HasSubstr("encoder: {bits: 18}"));
   EXPECT_THAT(yaml, HasSubstr("mass_ratio: 0"));
@@ -51,6 +50,14 @@ TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {
   EXPECT_THAT(yaml, HasSubstr("# anchor: {inertia: 8.8e-4}"));
   EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.005"));  // 8.78e-4/0.172 = 5.1e-3 units of u s^2/rad
   EXPECT_THAT(yaml, Not(HasSubstr("SPOILS")));
+}
+
+TEST(Init, TheReportIsCalledAsTheConfigurationIs) {
+  Workplace place;
+  place.file("my 7.csv", one_body_csv([](double t) { return 0.3 * std::sin(9.0 * t); }));
+  for (const std::string o : {"", " -o 'left arm.yaml'"}) place.run("init 'my 7.csv' --model one_body" + o);
+  EXPECT_THAT(testing::text_of(place.folder() / "my 7.yaml"), HasSubstr("name: my_7  #"));
+  EXPECT_THAT(testing::text_of(place.folder() / "left arm.yaml"), HasSubstr("name: left_arm  #"));
 }
 
 /// A torque per torque is one, and known; where nothing is guessed nobody is sent to look for a guess.
@@ -82,9 +89,9 @@ TEST(Init, AnAnchorLeavesTheTorqueConstantToTheFitAndWhatWasReadInItsUnits) {
   EXPECT_THAT(yaml, Not(HasSubstr("GUESS")));
   const auto fit = place.run("fit known.yaml -o report");
   EXPECT_EQ(fit.status, 0) << fit.err;
-  EXPECT_THAT(fit.out, ::testing::ContainsRegex("torque_constant +0[.]17[0-9]+ N m"));
+  EXPECT_THAT(fit.out, ::testing::ContainsRegex("torque_constant +0[.]17[0-9]+ N·m"));
   EXPECT_THAT(place.run("init r.csv --model one_body --mass 0.5 --arm 0.1 -o mass.yaml").out,
-              HasSubstr("a mass of 0.5 kg on an arm of 0.1 m (gravity up to 0.4903 N m"));
+              HasSubstr("a mass of 0.5 kg on an arm of 0.1 m (gravity up to 0.4903 N·m"));
   EXPECT_THAT(testing::text_of(place.folder() / "mass.yaml"), HasSubstr("anchor: {mass: 0.5, arm: 0.1}"));
   EXPECT_EQ(place.run("init r.csv --mass 0.5 -o m.yaml").status, 2);
   EXPECT_THAT(place.run("init r.csv --model locked --mass 0.5 --arm 0.1 -o m.yaml").err,

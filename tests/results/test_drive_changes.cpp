@@ -199,7 +199,7 @@ TEST(DriveChanges, WhatWasGivenOrNotDeterminedIsNoFinding) {
   EXPECT_EQ(damping.changes[0].verdict, ChangeVerdict::kUntold);
   EXPECT_EQ(damping.observed[1].remark, "at a bound");
   EXPECT_THAT(c.warnings,
-              ElementsAre(HasSubstr("b: motor_inertia was given as 0.0011 kg m^2, in a as 0.001")));
+              ElementsAre(HasSubstr("b: motor_inertia was given as 0.0011 kg m², in a as 0.001")));
 }
 
 TEST(DriveChanges, OtherRecordingsAndPoorModelsAreTold) {

@@ -72,7 +72,7 @@ TEST(RunPipeline, NotesOnceWhatThePublishedBoundIsAndWhatItIsFrom) {
   EXPECT_TRUE(bank.model_free->warnings.empty()) << "another choice of L is no doubt about this one";
   EXPECT_THAT(given.notes, ::testing::Each(::testing::Not(of_13)));
   ASSERT_THAT(taken.notes, ::testing::Contains(of_13).Times(1));
-  EXPECT_THAT(taken.notes, ::testing::Contains(::testing::AllOf(HasSubstr("|u| <= 0.58, G = 0.05 N m"),
+  EXPECT_THAT(taken.notes, ::testing::Contains(::testing::AllOf(HasSubstr("|u| <= 0.58, G = 0.05 N·m"),
                                                                 HasSubstr("is taken"))));
 }
 

@@ -32,6 +32,7 @@ struct StarterKnowledge {
   /// What fixes the scale of the torques: torque_constant is then left to the fit, and with it every number
   /// that was read in units of u.
   std::optional<AnchorConfig> anchor = {};
+  std::string name = {};     ///< that its report shall have; empty: the joint's, or the recording's
   bool gain_sought = false;  ///< of the controller that makes the input of the target: the fit finds it
 };
 
