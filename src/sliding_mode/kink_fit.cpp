@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -55,6 +56,31 @@ class ShapeWalk {
   std::complex<double> step_, z_;
 };
 
+/// Of the values of a shape: their squares, and their products with the residual and with each column.
+struct KinkSums {
+  double square = 0.0, with_residual = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1> dots;
+};
+
+/// N columns, known to the compiler: most of a detection is spent in this loop.
+template <int N>
+KinkSums kink_sums(ShapeWalk walk, std::span<const double> residual, const double* row) {
+  KinkSums sums;
+  Eigen::Matrix<double, N, 1> dots = Eigen::Matrix<double, N, 1>::Zero();
+  for (const double r : residual) {
+    const double c = walk.next();
+    sums.square += c * c;
+    sums.with_residual += c * r;
+    dots += c * Eigen::Map<const Eigen::Matrix<double, N, 1>>(row);
+    row += N;
+  }
+  sums.dots = dots;
+  return sums;
+}
+
+constexpr std::array kKinkSums{kink_sums<0>, kink_sums<1>, kink_sums<2>, kink_sums<3>, kink_sums<4>,
+                               kink_sums<5>, kink_sums<6>, kink_sums<7>, kink_sums<8>};
+
 }  // namespace
 
 Eigen::MatrixXd polynomial_columns(std::size_t n, int degree) {
@@ -79,20 +105,15 @@ KinkScan::KinkScan(std::span<const double> y, std::size_t first, const Eigen::Ma
 KinkFit KinkScan::trial(const KinkShape& shape, double time) const {
   const double local = time - static_cast<double>(first_);
   const auto begin = static_cast<std::size_t>(std::max(std::ceil(local), 0.0));
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1> dots(basis_.cols());
-  dots.setZero();
-  ShapeWalk walk(shape, static_cast<double>(begin) - local);
-  double square = 0.0, with_residual = 0.0;
-  for (std::size_t i = begin; i < size(); ++i) {
-    const double c = walk.next();
-    square += c * c;
-    with_residual += c * residual_[i];
-    dots += c * basis_.row(static_cast<Eigen::Index>(i)).transpose();
-  }
-  const double left = square - dots.squaredNorm();  // of what the columns cannot imitate
-  if (!(left > 1e-9 * square)) return {time, shape, 0.0, smooth_sse_};
-  const double amplitude = with_residual / left;
-  return {time, shape, amplitude, std::max(smooth_sse_ - amplitude * with_residual, 0.0)};
+  if (begin >= size()) return {time, shape, 0.0, smooth_sse_};
+  const auto columns = static_cast<std::size_t>(basis_.cols());
+  const KinkSums sums =
+      kKinkSums[columns](ShapeWalk(shape, static_cast<double>(begin) - local),
+                         std::span(residual_).subspan(begin), basis_.data() + begin * columns);
+  const double left = sums.square - sums.dots.squaredNorm();  // of what the columns cannot imitate
+  if (!(left > 1e-9 * sums.square)) return {time, shape, 0.0, smooth_sse_};
+  const double amplitude = sums.with_residual / left;
+  return {time, shape, amplitude, std::max(smooth_sse_ - amplitude * sums.with_residual, 0.0)};
 }
 
 KinkFit KinkScan::best(const KinkShape& shape, double from, double to, double step) const {
