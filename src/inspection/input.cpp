@@ -27,8 +27,8 @@ constexpr double kAbrupt =
 constexpr std::size_t kMostForSpectrum = 1u << 16;
 constexpr double kLeastOfCounts = 5.0;  ///< peak of whole numbers that are no rounded torque
 constexpr double kNoNoise = 1e-6;       ///< of the range: what is left of rounding
-/// Of the recording, that u is zero at one go. Of the 20 recordings of real drives at hand both of a falling
-/// arm have such a stretch, by half and by double of it as well, and no other.
+/// Of the recording, that u is zero at one go. `gapscope check` of the 20 recordings of real drives at hand
+/// finds both of a falling arm (0.75) and no other (0.007 at most), with half and with double as well.
 constexpr double kSwitchedOff = 0.1;
 constexpr double kMoved = 10.0;   ///< quanta of x1: it moves
 constexpr double kOneLine = 0.9;  ///< share of the power that makes one line all there is
