@@ -1,10 +1,9 @@
 #include "gapscope/base/percents.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/decimals.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope {
@@ -28,7 +27,7 @@ Percents::Percents(std::span<const double> together) {
 }
 
 std::string Percents::number(double percent) const {
-  return std::isfinite(percent) ? fmt::format("{:.{}f}", percent, decimals_) : "–";
+  return std::isfinite(percent) ? with_decimals(percent, decimals_) : "–";
 }
 
 std::string Percents::operator()(double percent) const {

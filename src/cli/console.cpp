@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gapscope/base/decimals.h"
+
 namespace gapscope::cli {
 namespace {
 
@@ -23,8 +25,8 @@ std::string estimate(double value, const Interval& ci95, Coordinates coordinates
   if (std::isnan(ci95.low))
     return fmt::format("{:<17} {:<22}", coordinates.thousandths(value), "no interval");
   const int d = decimals(ci95);
-  return fmt::format("{:<17} {:<22}", fmt::format("{:.{}f} m{}", 1e3 * value, d, coordinates.position_unit()),
-                     fmt::format("[{:.{}f}, {:.{}f}]", 1e3 * ci95.low, d, 1e3 * ci95.high, d));
+  return fmt::format("{:<17} {:<22}", with_decimals(1e3 * value, d) + " m" + coordinates.position_unit(),
+                     "[" + with_decimals(1e3 * ci95.low, d) + ", " + with_decimals(1e3 * ci95.high, d) + "]");
 }
 
 /// "19 events", those that are used, or "mean of 9 periods".
@@ -109,7 +111,7 @@ void print_card(const Card& card) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool all = !card.diagnosed && &l.text == &card.place;
     line(all ? "diagnosis" : l.name,
-         all ? "Place, cause and what helps: run `gapscope diagnose CONFIG`." : l.text);
+         all ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.text);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "gapscope/base/decimals.h"
+
 namespace gapscope {
 namespace {
 
@@ -26,8 +28,8 @@ std::string with_interval(double value, const Interval& ci95, Coordinates c) {
   const double half = 1e3 * width(ci95) / 2.0;
   if (!(half > 0.0)) return c.thousandths(value);
   const int d = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 6.0));
-  return fmt::format("{:.{}f} m{} (95 %: {:.{}f} to {:.{}f})", 1e3 * value, d, c.position_unit(),
-                     1e3 * ci95.low, d, 1e3 * ci95.high, d);
+  return fmt::format("{} m{} (95 %: {} to {})", with_decimals(1e3 * value, d), c.position_unit(),
+                     with_decimals(1e3 * ci95.low, d), with_decimals(1e3 * ci95.high, d));
 }
 
 /// Without its full stop.

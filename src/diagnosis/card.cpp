@@ -27,10 +27,12 @@ using internal::diagnosis::helps_line;
 using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
+using internal::diagnosis::motion_error;
 using internal::diagnosis::next_of_numbers;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
-using internal::diagnosis::unestablished_rung;
+using internal::diagnosis::step_to_establish;
+using internal::diagnosis::where_words;
 using internal::diagnosis::without_asides;
 
 bool is_added(const Diagnosis& d) { return !d.added.empty(); }
@@ -107,14 +109,14 @@ std::string fitted_line(const CardFacts& f) {
       percent, f.coordinates.torque_word());
 }
 
-/// "9.66 N rms on held-out data, 17.1 % of the 56.5 N that the input brings"
+/// "The model misses 9.66 N rms of force on held-out data, 17.1 % of the 56.5 N rms that the input applies"
 std::string torque_size(const CardFacts& f, const Card& card) {
   const MismatchSize& m = f.diagnosis->mismatch;
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
-  std::string text = fmt::format("The model misses {} of {} on held-out data", torque(card.torque),
+  std::string text = fmt::format("The model misses {} rms of {} on held-out data", torque(card.torque),
                                  f.coordinates.torque_word());
   if (std::isfinite(card.percent))
-    text += fmt::format(", {} the {} that the input brings",
+    text += fmt::format(", {} the {} rms that the input applies",
                         card.torque < 2.0 * m.input_torque ? percent_text(card.percent) + " of"
                                                            : fmt::format("{:.2g} times", 0.01 * card.percent),
                         SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque));
@@ -139,37 +141,39 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
   if (b.records >= floor)
-    return "; the recordings (or parts of one) differ from each other by " + size +
-           ", which no one model follows";
-  return "; no model gets below " + size +
+    return "; the recordings (or parts of one) differ among themselves by " + size +
+           ", which no single model follows";
+  return "; no model can get below " + size +
          (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
               ? ", by which the drive does not repeat itself"
-              : ", which is the encoder's noise");
+              : ", the noise of the encoder");
 }
 
 std::string floor_words(const CardFacts& f, const Card& card) {
   if (const std::string words = torque_floor(f, card); !words.empty()) return words;
   const MismatchSize& m = f.diagnosis->mismatch;
   if (!(m.before > 0.0 && m.floor > 0.0)) return "";
-  return fmt::format("; {}the error is {} times the {}",
+  return fmt::format("; {}the {} is {} times the {}",
                      f.diagnosis->verdict == DiagnosisVerdict::kNone ? "that is noise: " : "",
-                     SharedUnit(1.0, "").number(m.before / m.floor), floor_name(m.floor_from));
+                     motion_error(*f.diagnosis), SharedUnit(1.0, "").number(m.before / m.floor),
+                     floor_name(m.floor_from));
 }
 
-/// " Under its controller the model is 392 mrad off; with what was added it is 56 mrad off (rms of ...)."
+/// " With its controller in the loop the model is 392 mrad rms off in position; with what was added it is 56
+/// mrad off."
 std::string closed_loop_words(const CardFacts& f) {
   if (!f.diagnosis->closed_loop) return "";
   const ClosedLoop& c = *f.diagnosis->closed_loop;
   const SharedUnit position(std::isfinite(c.before) ? c.before : c.after, f.coordinates.position_unit());
   const auto is = [&](double error) {
-    return std::isfinite(error) ? "is " + position(error) + " off" : std::string("runs away");
+    return std::isfinite(error) ? "is " + position(error) + " rms off in position" : std::string("runs away");
   };
-  return fmt::format(" Under its controller the model {}{} (rms of the position).", is(c.before),
+  return fmt::format(" With its controller in the loop the model {}{}.", is(c.before),
                      is_added(*f.diagnosis) ? "; with what was added it " + is(c.after) : "");
 }
 
-/// " Simulated freely from the first sample on, the model departs from the held-out motion by up to 407 mrad,
-/// of 876 mrad of travel; with what was added, by up to 41 mrad." Under its controller a drive is judged by
+/// " Simulated freely from the first sample on, the model drifts up to 407 mrad from the held-out motion,
+/// whose travel is 876 mrad; with what was added, up to 41 mrad." Under its controller a drive is judged by
 /// that.
 std::string whole_run_words(const CardFacts& f) {
   const Diagnosis& d = *f.diagnosis;
@@ -178,17 +182,13 @@ std::string whole_run_words(const CardFacts& f) {
   const bool stays = std::isfinite(w.before), stays_after = std::isfinite(w.after);
   const double largest = std::max({w.travel, stays ? w.before : 0.0, stays_after ? w.after : 0.0});
   const SharedUnit position(largest, f.coordinates.position_unit());
-  const std::string of = ", of " + position(w.travel) + " of travel";
-  std::string text =
-      " Simulated freely from the first sample on, the model " +
-      (stays ? "departs from the held-out motion by up to " + position(w.before) + of : "runs away");
+  const std::string of = " from the held-out motion, whose travel is " + position(w.travel);
+  std::string text = " Simulated freely from the first sample on, the model " +
+                     (stays ? "drifts up to " + position(w.before) + of : "runs away");
   if (!is_added(d)) return text + ".";
   text += "; with what was added, ";
   if (!stays_after) return text + "it runs away.";
-  return text +
-         (stays ? "by up to " + position(w.after)
-                : "it departs from the held-out motion by up to " + position(w.after) + of) +
-         ".";
+  return text + (stays ? "up to " + position(w.after) : "it drifts up to " + position(w.after) + of) + ".";
 }
 
 std::string mismatch_line(const CardFacts& f, const Card& card) {
@@ -200,9 +200,7 @@ std::string mismatch_line(const CardFacts& f, const Card& card) {
 }
 
 std::string place_line(const CardFacts& f) {
-  if (f.diagnosis == nullptr) return kToldByDiagnose;
-  if (f.diagnosis->verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no order.";
-  return as_sentence(f.diagnosis->where.headline);
+  return f.diagnosis == nullptr ? kToldByDiagnose : where_words(*f.diagnosis, f.coordinates);
 }
 
 /// The step that the estimate asks for; what a diagnosis would say is known where there is one.
@@ -224,9 +222,10 @@ std::string unexplained(const CardFacts& f, const Card& card) {
                                  [&](const AddedEffect& a) { return a.after_torque < card.torque; });
   if (!(sized && floor > 0.0 && card.torque_after > kRule.far * floor)) return "";
   return fmt::format(
-      "{} of the {} is still unexplained ({:.0f} times the floor): diagnose the other way round, with what "
-      "is fitted held out and what is held out fitted, or record another motion; `fitted.yaml` has what was "
-      "found.",
+      "{} of the input's {} is still unexplained ({:.0f} times the floor): diagnose the other way round, "
+      "with "
+      "what is fitted held out and what is held out fitted, or record another motion; `fitted.yaml` has what "
+      "was found.",
       percent_text(card.percent_after), f.coordinates.torque_word(), card.torque_after / floor);
 }
 
@@ -247,8 +246,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
   if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
   if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
-  if (unestablished_rung(d) != nullptr) return kSwapStep;
-  return "Record the drive in another motion (other speeds, other loads) and diagnose that.";
+  return step_to_establish(d);
 }
 
 void measure(const CardFacts& f, Card& card) {
@@ -262,16 +260,16 @@ void measure(const CardFacts& f, Card& card) {
 }  // namespace
 
 void Tolerance::fields(FieldVisitor& v) {
-  v.field(
-      {"torque_percent", "%", "rms of the torque that the model misses, of what the input brings", 1e-6, 1e3},
-      torque_percent);
+  v.field({"torque_percent", "%", "rms of the torque that the model misses, of what the input applies", 1e-6,
+           1e3},
+          torque_percent);
   v.field({"gap", "rad", "largest backlash gap", 1e-12, 10.0}, gap);
 }
 
 std::array<CardLine, 6> Card::lines() const {
   return {{{"gap", gap},
-           {"mismatch", mismatch},
-           {"place", place},
+           {"model error", mismatch},
+           {"where", place},
            {"cause", cause},
            {"helps", helps},
            {"next", next}}};

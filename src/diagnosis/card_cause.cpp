@@ -12,6 +12,7 @@
 #include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/words.h"
+#include "gapscope/base/decimals.h"
 #include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/simulator.h"
@@ -79,18 +80,22 @@ std::vector<std::string> rivals(const Diagnosis& d) {
   return all;
 }
 
-/// "friction (established)"; on top of what is open, with what else that holds.
+/// "friction (established)", with which evidence does not bear it out; on top of what is open, with what else
+/// that holds.
 std::string established_causes(const CardFacts& f) {
   const std::vector<std::string> causes = names(f, true);
+  const std::string doubt = doubt_of_motion(*f.diagnosis);
   std::string text;
   if (!causes.empty()) {
     text = enumerated(shortened(causes));
-    text = !rests_on_open_cause(*f.diagnosis) ? text + " (established)"
-                                              : fmt::format("with {} in the model, {} {} established",
+    text = !rests_on_open_cause(*f.diagnosis) ? text + " (established" + doubt + ")"
+                                              : fmt::format("with {} in the model, {} {} established{}",
                                                             names(f, false).size() > 1 ? "them" : "it", text,
-                                                            causes.size() > 1 ? "are" : "is");
+                                                            causes.size() > 1 ? "are" : "is", doubt);
   }
-  for (const std::string& group : groups(f)) text += (text.empty() ? "" : "; ") + group;
+  for (const std::string& group : groups(f))
+    text += (text.empty() ? "" : "; ") + group +
+            (causes.empty() && !doubt.empty() ? " (established" + doubt + ")" : "");
   return text;
 }
 
@@ -98,12 +103,14 @@ std::string open_causes(const CardFacts& f) {
   const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
   if (open.empty()) return "";
   const bool beside = !established_causes(f).empty() && !rests_on_open_cause(*f.diagnosis);
-  const std::string several = beside ? " help too, but their causes are" : " help, but their causes are";
+  const std::string too = beside ? " too" : "";
   std::vector<std::string> why;
   if (!others.empty()) why.push_back("it may as well be " + enumerated(shortened(others), "or"));
   if (std::string words = undetermined_words(*f.diagnosis); !words.empty()) why.push_back(std::move(words));
-  return enumerated(shortened(open)) + (open.size() > 1 ? several : " helps, but its cause is") + " open" +
-         (why.empty() ? "" : fmt::format(": {}", fmt::join(why, ", and ")));
+  return enumerated(shortened(open)) +
+         (open.size() > 1 ? " help" + too + ", but whether they are the cause"
+                          : " helps" + too + ", but whether it is the cause") +
+         " is open" + (why.empty() ? "" : fmt::format(": {}", fmt::join(why, ", and ")));
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -117,26 +124,42 @@ std::string outside_words(const CardFacts& f) {
                      100.0 * d.outside_probability);
 }
 
-/// "cogging torque (2 N; takes 64 %)": what is known of it alone; an aside in its name stands under the
-/// cause.
-/// @param share  whether what it takes of the error above the floor belongs to it; where every effect has the
-/// torque that it leaves, or is the only one, the fall beside it says that
+/// "takes it from 46.3 to 25.5 mN·m", "takes 64 % of the free-run error": on the basis that has decided.
+std::string share_words(const AddedEffect& a, const CardFacts& f) {
+  if (!std::isfinite(a.shrink)) return "";
+  if (a.share_of == ShareOf::kMotion)
+    return fmt::format("takes {} % of the {}", with_decimals(100.0 * a.shrink, 0),
+                       motion_error(*f.diagnosis));
+  const auto& rungs = f.diagnosis->budget.rungs;
+  const auto at = std::find_if(rungs.begin(), rungs.end(), [&](const BudgetRung& r) {
+    return r.effect == a.effect && !(std::abs(r.after - a.after_torque) > 0.0);
+  });
+  if (at == rungs.end()) return "";
+  const SharedUnit torque(at->before, f.coordinates.shown_unit("N m"));
+  return fmt::format("takes it from {} to {}", torque.number(at->before), torque(at->after));
+}
+
+/// "cogging torque (2 N; takes 64 % of the free-run error)": what is known of it alone; an aside in its name
+/// stands under the cause.
+/// @param share  whether what it takes belongs to it, by what has decided on it: torque as the error budget
+/// has it, or a share of the motion's error above the floor; where every effect has the torque that it
+/// leaves, or is the only one, the fall beside it says that
 std::string with_asides(const AddedEffect& a, const CardFacts& f, bool share) {
   std::vector<std::string> asides;
   if (const std::string amount = amount_of(a, f.diagnosis->added, f.coordinates); !amount.empty())
     asides.push_back(amount);
-  if (share && std::isfinite(a.shrink)) asides.push_back(fmt::format("takes {:.0f} %", 100.0 * a.shrink));
+  if (const std::string taken = share ? share_words(a, f) : ""; !taken.empty()) asides.push_back(taken);
   return without_asides(called(a, f)) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
 }
 
-/// "17.1 % to 2.2 %"
+/// "17.1 % to 2.2 % of the input's": on the basis of the line of the model's error
 std::string percents(const Card& card) {
   const double both[] = {card.percent, card.percent_after};
   const Percents percent(both);
-  return percent(card.percent) + " to " + percent(card.percent_after);
+  return percent(card.percent) + " to " + percent(card.percent_after) + " of the input's";
 }
 
-/// "from 9.66 to 1.22 N (17.1 % to 2.16 %)"
+/// "from 9.66 to 1.22 N (17.1 % to 2.16 % of the input's)"
 std::string fall(const CardFacts& f, const Card& card) {
   const MismatchSize& m = f.diagnosis->mismatch;
   if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
@@ -158,8 +181,11 @@ std::string shares(const CardFacts& f, const Card& card) {
     (is_counted(a, *f.diagnosis) ? all : others).push_back(with_asides(a, f, added.size() > 1));
   std::string text;
   if (!all.empty())
-    text = enumerated(shortened(all)) + (all.size() > 1 ? " bring it down " : " brings it down ") +
-           fall(f, card);
+    text =
+        fmt::format("{} {} the {} down {}", enumerated(shortened(all)), all.size() > 1 ? "bring" : "brings",
+                    std::isfinite(card.torque) ? "missing " + std::string(f.coordinates.torque_word())
+                                               : motion_error(*f.diagnosis),
+                    fall(f, card));
   if (others.empty()) return text;
   return text + (text.empty() ? "" : "; ") + enumerated(shortened(others)) +
          (others.size() > 1 ? " help" : " helps") + " the simulated motion, and no size of " +
@@ -176,7 +202,8 @@ bool has_rungs(const Diagnosis& d) {
                      [](const AddedEffect& a) { return std::isfinite(a.after_torque); });
 }
 
-/// "From 9.84 N to 4.19 N with friction, then 2.20 N with cogging torque (17.1 % to 3.8 %)"
+/// "The missing force falls from 9.84 N to 4.19 N with friction, then to 2.20 N with cogging torque (17.1 %
+/// to 3.8 % of the input's)"
 std::string rungs(const CardFacts& f, const Card& card) {
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
   std::vector<std::string> all;
@@ -185,7 +212,8 @@ std::string rungs(const CardFacts& f, const Card& card) {
     all.push_back(torque(a.after_torque) + " with " + with_asides(a, f, false));
   if (const std::size_t more = added.size() - all.size(); more > 0)
     all.push_back(torque(added.back().after_torque) + fmt::format(" with {} more", more));
-  return fmt::format("from {} to {} ({})", torque(card.torque), fmt::join(all, ", then "), percents(card));
+  return fmt::format("the missing {} falls from {} to {} ({})", f.coordinates.torque_word(),
+                     torque(card.torque), fmt::join(all, ", then to "), percents(card));
 }
 
 /// "Your simulator has no cogging torque, the drive has (8 mN·m)" of "it has no ...".
@@ -215,9 +243,10 @@ std::string motion_words(const MismatchSize& m, Coordinates coordinates) {
                      motion(m.before), motion(m.after), m.measure);
 }
 
-std::string law_words(const LastResortLaw& law) {
-  return fmt::format("a free curve over the {} takes {:.0f} % of {} (compensation_{}.csv)", law.variable,
-                     100.0 * law.shrink, law.on_top_of.empty() ? "the error" : "what is left", law.law);
+std::string law_words(const LastResortLaw& law, const Diagnosis& d) {
+  return fmt::format("a free curve over the {} takes {} % of the {}{} (compensation_{}.csv)", law.variable,
+                     with_decimals(100.0 * law.shrink, 0), motion_error(d),
+                     law.on_top_of.empty() ? "" : " that is left", law.law);
 }
 
 }  // namespace
@@ -249,7 +278,7 @@ std::string helps_line(const CardFacts& f, const Card& card) {
     parts.push_back((has_rungs(d) ? rungs(f, card) : shares(f, card)) + "; `fitted.yaml` has " +
                     (d.added.size() > 1 ? "them" : "it"));
   if (!d.added.empty()) parts.back() += motion_words(d.mismatch, f.coordinates);
-  for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law));
+  for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law, d));
   if (parts.empty() && d.stopped) return "Not told: the search was stopped before its end.";
   if (parts.empty() && unestablished_rung(d) != nullptr) return "Nothing that these recordings establish.";
   if (parts.empty()) return "Nothing of the catalogue does.";

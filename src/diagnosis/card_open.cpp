@@ -40,7 +40,21 @@ std::string unknown_words(const CardFacts& f) {
                      torque.number(rung->before), torque(rung->after),
                      d.better_swapped
                          ? "the recording that was fitted moves too little to establish a cause"
-                         : "no model with it follows the recordings well enough to establish it");
+                         : "no model with it follows the recordings well enough to establish it") +
+         (input_is_made(d) ? std::string("; the ") + f.coordinates.torque_word() +
+                                 " here is what the model's controller makes of the goal: with the recorded "
+                                 "input the same effect may be established"
+                           : "");
+}
+
+bool input_is_made(const Diagnosis& d) { return !d.traces.empty() && !d.traces.front().target.empty(); }
+
+std::string step_to_establish(const Diagnosis& d) {
+  return input_is_made(d)
+             ? "Record the motor's input as well (duty, current or torque) and diagnose by that: made of the "
+               "goal "
+               "by a controller's numbers, it takes up a part of what the model lacks."
+             : "Record the drive in another motion (other speeds, other loads) and diagnose that.";
 }
 
 std::string exhausted_words(const Diagnosis& d) {

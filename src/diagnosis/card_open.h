@@ -20,6 +20,12 @@ std::string unknown_words(const CardFacts& facts);
 /// established; nullptr: there is none.
 const BudgetRung* unestablished_rung(const Diagnosis& diagnosis);
 
+/// Whether the input was not recorded: the model's controller makes it of the goal.
+bool input_is_made(const Diagnosis& diagnosis);
+
+/// The step where the recordings show a mismatch and establish nothing, and the other way round is no better.
+std::string step_to_establish(const Diagnosis& diagnosis);
+
 /// " The search ended at its limit of work: ..." where that may have left something unfound; else empty.
 std::string exhausted_words(const Diagnosis& diagnosis);
 

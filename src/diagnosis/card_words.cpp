@@ -7,6 +7,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "gapscope/base/decimals.h"
+
 namespace gapscope::internal::diagnosis {
 
 SharedUnit::SharedUnit(double first, const std::string& unit) : unit_(unit) {
@@ -20,8 +22,8 @@ SharedUnit::SharedUnit(double first, const std::string& unit) : unit_(unit) {
 
 std::string SharedUnit::number(double value) const {
   const double shown = value * factor_;
-  const bool whole = std::abs(shown) >= 999.5;  // never "1.2e+03"
-  return whole ? fmt::format("{:.0f}", shown) : fmt::format("{:.3g}", shown);
+  const bool whole = std::abs(shown) >= 999.5;                                  // never "1.2e+03"
+  return whole ? with_decimals(shown, 0) : fmt::format("{:.3g}", shown + 0.0);  // no sign of a zero
 }
 
 std::string SharedUnit::interval_after(double value, const Interval& ci95, const char* before,
@@ -29,8 +31,8 @@ std::string SharedUnit::interval_after(double value, const Interval& ci95, const
   const double half = factor_ * (ci95.high - ci95.low) / 2.0;
   if (!(half > 0.0)) return (*this)(value);
   const int d = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(half)), 0.0, 6.0));
-  return fmt::format("{:.{}f} {}{}95 %: {:.{}f} to {:.{}f}{}", factor_ * value, d, unit_, before,
-                     factor_ * ci95.low, d, factor_ * ci95.high, d, after);
+  return fmt::format("{} {}{}95 %: {} to {}{}", with_decimals(factor_ * value, d), unit_, before,
+                     with_decimals(factor_ * ci95.low, d), with_decimals(factor_ * ci95.high, d), after);
 }
 
 std::string SharedUnit::with_interval(double value, const Interval& ci95) const {
@@ -83,6 +85,18 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
              told_without_model(*diagnosis);
   }
   return kElsewhere;
+}
+
+std::string where_words(const Diagnosis& d, Coordinates coordinates) {
+  if (d.verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no pattern.";
+  const std::string& what = d.where.headline;
+  const bool has_verb = std::ranges::any_of(std::array{"changes", "depends", "arises"},
+                                            [&](const char* verb) { return what.starts_with(verb); });
+  return fmt::format("The missing {} {}{}.", coordinates.torque_word(),
+                     has_verb                  ? ""
+                     : what.starts_with("no ") ? "has "
+                                               : "is ",
+                     what);
 }
 
 std::string without_asides(std::string text) {

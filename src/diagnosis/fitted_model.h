@@ -17,6 +17,8 @@ struct FittedModel {
   double mean_cost = kInfinity;       ///< what it leaves, see reference::RefinedFit [floor²]
   std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
   std::array<BoundReached, kDriveParameterCount> drive_at_bound = {};  ///< of the drive's parameters
+  bool balanced =
+      false;  ///< its numbers are those of the torque balance, which no fit to the motion has moved
 };
 
 /// The model where a refinement has led; infinite if that failed.

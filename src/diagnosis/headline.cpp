@@ -35,9 +35,9 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 std::string direction_words(const std::vector<MapShare>& direction) {
   const MapShare& most = largest(direction);
   return "changes with the direction of motion " +
-         (denser_than_chance(most) ? fmt::format("({:.0f} % of it {}, in {:.0f} % of the time)",
+         (denser_than_chance(most) ? fmt::format("({:.0f} % of its square {}, in {:.0f} % of the time)",
                                                  100.0 * most.share, most.bin, 100.0 * most.expected)
-                                   : "(as large in both)");
+                                   : "(equally large both ways)");
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
@@ -112,7 +112,7 @@ std::string headline_of(const MismatchPlace& place, Coordinates coordinates) {
     const char* const joint = patterns.find(',') == patterns.npos ? " and " : ", and ";
     patterns += patterns.empty() || words.empty() ? words : joint + words;
   }
-  if (place.follows.empty()) patterns = "no clear order in angle, speed, input or time";
+  if (place.follows.empty()) patterns = "no clear pattern in angle, speed, input or time";
   const std::string phase = phase_words(place, coordinates);
   return phase + (phase.empty() || patterns.empty() ? "" : ", ") + patterns;
 }

@@ -198,21 +198,20 @@ std::vector<Playback> play_from(const std::vector<reference::RecordingStart>& fr
   return playbacks;
 }
 
-std::vector<double> whole_run_errors(const ReferenceModel& model, const HeldOut& held_out,
-                                     double observer_hz) {
+Positions whole_runs(const ReferenceModel& model, const HeldOut& held_out, double observer_hz) {
   const reference::ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
   const reference::ModelRun run = fit.run_at({{}, settled_starts(held_out.traces, model, observer_hz)});
-  std::vector<double> errors(held_out.traces.size());
-  for (std::size_t r = 0; r < errors.size(); ++r) {
+  Positions positions(held_out.traces.size());
+  for (std::size_t r = 0; r < positions.size(); ++r) {
     MotorTrace trace = run.under_own_input(held_out.traces[r], r);
     const Scaled scaled(trace, held_out, r);
+    positions[r].resize(trace.size());
     const auto visit = [&](std::size_t i, const DriveStepper<double>& runner) {
-      if (i >= held_out.scored_from[r])
-        errors[r] = std::max(errors[r], std::abs(trace.x1[i] - runner.measured()));
+      positions[r][i] = runner.measured();
     };
     if (!reference::roll_out(run.plant, run.starts[r], trace, reference::ObserverGains(), visit)) return {};
   }
-  return errors;
+  return positions;
 }
 
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out) {

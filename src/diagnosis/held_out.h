@@ -68,10 +68,12 @@ std::vector<Playback> play_from(const std::vector<reference::RecordingStart>& fr
                                 const ReferenceModel& model, const HeldOut& held_out, double observer_hz,
                                 bool all);
 
-/// Largest error of each recording's scored part when the model runs freely from its first sample on, never
-/// restarted [rad]. Empty if a motion diverges.
-std::vector<double> whole_run_errors(const ReferenceModel& model, const HeldOut& held_out,
-                                     double observer_hz);
+/// A position for each sample of each recording [rad]. Empty: a motion diverges.
+using Positions = std::vector<std::vector<double>>;
+
+/// What the encoder would read of the model that runs freely from the first sample of each recording on,
+/// never restarted.
+Positions whole_runs(const ReferenceModel& model, const HeldOut& held_out, double observer_hz);
 
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
 

@@ -157,10 +157,21 @@ double undetermined_by(const Study& study, const ReferenceModel& model) {
                             other.point_of(model, settled_starts(held, model, hz)));
 }
 
-WholeRun whole_run(const Study& study, const ReferenceModel& before, const ReferenceModel& after) {
-  const HeldOut& held = study.held_out;
-  const std::vector<double> b = whole_run_errors(before, held, study.observer_hz),
-                            a = whole_run_errors(after, held, study.observer_hz);
+namespace {
+
+/// Of each recording; empty where a motion diverges.
+std::vector<double> largest_errors(const HeldOut& held, const Positions& positions) {
+  std::vector<double> errors(positions.size());
+  for (std::size_t r = 0; r < errors.size(); ++r)
+    for (std::size_t i = held.scored_from[r]; i < positions[r].size(); ++i)
+      errors[r] = std::max(errors[r], std::abs(held.traces[r].x1[i] - positions[r][i]));
+  return errors;
+}
+
+}  // namespace
+
+WholeRun whole_run(const HeldOut& held, const Positions& before, const Positions& after) {
+  const std::vector<double> b = largest_errors(held, before), a = largest_errors(held, after);
   const auto largest = [](const std::vector<double>& errors) {
     return errors.empty() ? kNaN : *std::max_element(errors.begin(), errors.end());
   };

@@ -31,7 +31,7 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
 double undetermined_by(const Study& study, const ReferenceModel& model);
 
 /// The model without and with what was added, simulated freely through what is held out.
-WholeRun whole_run(const Study& study, const ReferenceModel& before, const ReferenceModel& after);
+WholeRun whole_run(const HeldOut& held_out, const Positions& before, const Positions& after);
 
 /// Weight of a candidate against the best one: exp(−ΔS/T).
 double weight_of(const ScoredModel& candidate, const ScoredModel& best);

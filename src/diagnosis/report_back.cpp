@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/open_question.h"
@@ -53,9 +54,10 @@ std::vector<BlameShift> blame_of(const ScoredModel& before, const ScoredModel& a
   for (std::size_t i = 0; i < kDriveParameterCount; ++i) {
     const ParameterSetting& p = before.fitted.model.parameters[i];
     if (p.estimate)
-      blame.push_back({kDriveParameters[i].key, kDriveParameters[i].unit, p.value,
-                       after.fitted.model.parameters[i].value, before.fitted.drive_at_bound[i],
-                       after.fitted.drive_at_bound[i]});
+      blame.push_back(
+          {kDriveParameters[i].key, kDriveParameters[i].unit, p.value, after.fitted.model.parameters[i].value,
+           before.fitted.drive_at_bound[i], after.fitted.drive_at_bound[i],
+           after.fitted.balanced && std::equal_to<>()(after.fitted.model.parameters[i].value, p.value)});
   }
   return blame;
 }
@@ -105,14 +107,18 @@ std::vector<std::string> names_of(const std::vector<const EffectEntry*>& entries
   return names;
 }
 
-std::string place_left_by(const Study& study, const ReferenceModel& model) {
+/// NaN: there is no error budget.
+double band_of(const Findings& found) { return found.budget ? found.budget->band.hz : kNaN; }
+
+std::string place_left_by(const Study& study, const ReferenceModel& model, double band_hz) {
   const double km = model.parameters[place::kTorqueConstant].value;
   const auto played = play(model, study.held_out, study.observer_hz, true);
-  return place_of(played, study.held_out, km, study.options.coordinates, nullptr).headline;
+  return place_of(played, study.held_out, km, study.options.coordinates, nullptr, band_hz).headline;
 }
 
 /// @param after the model that the step has led to
-DiagnosisStep step_of(const Study& study, const FurtherStep& step, const ScoredModel& after, bool added) {
+DiagnosisStep step_of(const Study& study, const FurtherStep& step, const ScoredModel& after, bool added,
+                      double band_hz) {
   DiagnosisStep s;
   for (const ModelEffect& e : step.before.fitted.model.effects) s.on_top_of.push_back(e.entry->name);
   if (step.candidates.empty()) return s;
@@ -123,7 +129,7 @@ DiagnosisStep step_of(const Study& study, const FurtherStep& step, const ScoredM
   s.ranking = ranking_of(study, step.before, step.candidates, step.decision);
   if (!s.accepted) return s;
   s.group = names_of(step.decision.group);
-  s.remaining = place_left_by(study, after.fitted.model);
+  s.remaining = place_left_by(study, after.fitted.model, band_hz);
   return s;
 }
 
@@ -134,7 +140,7 @@ const ModelEffect& alone(const Findings& found, const EffectEntry* entry) {
   return (at == found.candidates.end() ? found.candidates.front() : *at).fitted.model.effects.back();
 }
 
-void tell_steps(const Study& study, const Additions& added, Diagnosis& d) {
+void tell_steps(const Study& study, const Additions& added, double band_hz, Diagnosis& d) {
   for (const Addition& effect : added.effects)
     if (added.accepted) d.effects.push_back(effect.entry->name);
   if (added.accepted) d.group = names_of(added.effects.front().group);
@@ -144,7 +150,7 @@ void tell_steps(const Study& study, const Additions& added, Diagnosis& d) {
     const ScoredModel& after = !last   ? added.steps[i + 1].before
                                : taken ? added.after
                                        : added.steps[i].candidates.front();
-    d.steps.push_back(step_of(study, added.steps[i], after, added.accepted));
+    d.steps.push_back(step_of(study, added.steps[i], after, added.accepted, band_hz));
   }
 }
 
@@ -216,14 +222,14 @@ void tell_models(const Study& study, const Findings& found, const ScoredModel& n
         probability_shares(found.candidates, found.decision, study.options.known.outside_catalogue).outside;
   d.mismatch = mismatch_size(study, nominal, after);
   d.undetermined = undetermined_by(study, d.fitted);
-  d.closed_loop = judged_under_controller(study, nominal.fitted.model, d.fitted);
   d.measures = measures_of(study, before_played, after_played);
-  d.where = place_of(before_played, study.held_out, km, study.options.coordinates, first);
-  d.remaining = place_of(after_played, study.held_out, km, study.options.coordinates, nullptr);
+  const double band = band_of(found);
+  d.where = place_of(before_played, study.held_out, km, study.options.coordinates, first, band);
+  d.remaining = place_of(after_played, study.held_out, km, study.options.coordinates, nullptr, band);
   d.traces = traces_of(study, before_played, after_played);
   tell_torque(study, km, d);
   if (found.budget) tell_budget(study, *found.budget, d);
-  d.whole_run = whole_run(study, nominal.fitted.model, d.fitted);
+  tell_whole_runs(study, nominal.fitted.model, added, d);
   if (found.budget || study.repeats_badly()) forget_probabilities(d);
 }
 
@@ -234,11 +240,11 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   d.verdict = verdict_of(found, additions);
   const bool added = d.verdict == DiagnosisVerdict::kEffect;
   const ScoredModel& nominal = added ? nominal_of(found, additions) : found.before;
-  tell_steps(study, additions, d);
+  tell_steps(study, additions, band_of(found), d);
   tell_models(study, found, nominal, added ? additions.after : nominal,
               added ? &alone(found, additions.effects.front().entry) : nullptr, d);
   if (added) tell_added(study, nominal, additions, d);
-  tell_intervals(study, added ? additions.after.fitted : nominal.fitted, d);
+  tell_intervals(study, added ? additions.after.fitted : nominal.fitted, nominal.fitted.model, d);
   d.rivals = open_question(found, additions);
   d.sentence = sentence_of(d, study.options.coordinates);
   return d;
@@ -260,7 +266,8 @@ Diagnosis report_added(const Study& study, const Findings& found, const ScoredMo
     return e.entry == first || contained_effect(*e.entry) == first;
   });
   tell_models(study, found, found.before, after, at == fitted.end() ? nullptr : &*at, d);
-  tell_intervals(study, after.fitted, d);
+  d.balanced = after.fitted.balanced;
+  tell_intervals(study, after.fitted, found.before.fitted.model, d);
   return d;
 }
 

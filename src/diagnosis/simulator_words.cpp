@@ -8,6 +8,7 @@
 
 #include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
+#include "gapscope/base/decimals.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
@@ -141,9 +142,10 @@ std::string mended_words(const SimulatorComparison& c, Coordinates coordinates) 
       coordinates.thousandths(e.simulator), coordinates.thousandths(e.stand_in_miss),
       coordinates.thousandths(e.stand_in));
   const std::string first = readable(c.rows.front().name);
-  text += c.shrink > 0.0 ? fmt::format(" falls to {} with {} mended, by {:.0f} %",
-                                       coordinates.thousandths(e.mended), first, 100.0 * c.shrink)
-                         : fmt::format(" does not fall with {} alone mended", first);
+  text += c.shrink > 0.0
+              ? fmt::format(" falls to {} with {} mended, by {} %", coordinates.thousandths(e.mended), first,
+                            with_decimals(100.0 * c.shrink, 0))
+              : fmt::format(" does not fall with {} alone mended", first);
   const auto differing =
       std::count_if(c.rows.begin(), c.rows.end(), [](const SimulatorRow& r) { return r.differs; });
   if (differing > 1)

@@ -147,6 +147,7 @@ std::vector<AddedEffect> added_effects(const view::Budget& budget, const TorqueS
     const Interval share = inflated(rung.choice().evidence.interval, rung.choice().evidence.share);
     a.shrink = shrink_by(rung.choice().evidence.share, before, floor);
     a.shrink_ci95 = {shrink_by(share.low, before, floor), shrink_by(share.high, before, floor)};
+    a.share_of = ShareOf::kTorque;
     a.after_torque = rung.rms;
     const ModelEffect* effect = effect_of(ladder, i);
     a.parameters = effect != nullptr ? effect_values(*effect)

@@ -126,12 +126,23 @@ double moved_by(const RefittedNumber& n) {
          std::max(std::min(std::abs(n.fitted), std::abs(n.configured)), 1e-9 * std::abs(n.fitted));
 }
 
-std::vector<RefittedNumber> refitted_of(const Study& study, const ReferenceModel& model,
-                                        const FitErrors& fit) {
+/// Whether the torque balance has left a number where the nominal fit had it.
+bool is_held(const FittedModel& fitted, const ReferenceModel& nominal, reference::ParameterId id) {
+  if (!fitted.balanced) return false;
+  ReferenceModel is = fitted.model, was = nominal;
+  if (id.effect >= 0) {
+    const auto at = static_cast<std::size_t>(id.effect);
+    if (at >= was.effects.size() || was.effects[at].entry != is.effects[at].entry) return false;
+  }
+  return std::equal_to<>()(setting_of(is, id).value, setting_of(was, id).value);
+}
+
+std::vector<RefittedNumber> refitted_of(const Study& study, const FittedModel& fitted,
+                                        const ReferenceModel& nominal, const FitErrors& fit) {
   std::vector<RefittedNumber> all;
   for (const auto& [id, error] : fit.errors) {
-    if (!std::isfinite(error) || is_at_bound(fit, id)) continue;
-    std::optional<RefittedNumber> n = as_configured(study.sheet, model, id);
+    if (!std::isfinite(error) || is_at_bound(fit, id) || is_held(fitted, nominal, id)) continue;
+    std::optional<RefittedNumber> n = as_configured(study.sheet, fitted.model, id);
     if (!n || !std::isfinite(n->configured)) continue;
     n->ci95 = normal_interval(n->fitted, error);
     const double turn = n->key.ends_with("phase_rad") ? 2.0 * kPi : 0.0;
@@ -156,7 +167,8 @@ bool has_estimates(const ReferenceModel& model) {
 
 }  // namespace
 
-void tell_intervals(const Study& study, const FittedModel& fitted, Diagnosis& d) {
+void tell_intervals(const Study& study, const FittedModel& fitted, const ReferenceModel& nominal,
+                    Diagnosis& d) {
   d.model_gap = gap_of(fitted.model, d.added);
   const bool known = d.verdict != DiagnosisVerdict::kUnknown;
   const bool asked = !d.added.empty() || d.model_gap->origin == GapOrigin::kEstimated ||
@@ -168,7 +180,7 @@ void tell_intervals(const Study& study, const FittedModel& fitted, Diagnosis& d)
   for (const auto& [id, error] : fit.errors)
     if (id == reference::drive_number(place::kGap) && !std::isnan(error))
       d.model_gap->ci95 = normal_interval(d.model_gap->value, error);
-  if (known) d.refitted = refitted_of(study, fitted.model, fit);
+  if (known) d.refitted = refitted_of(study, fitted, nominal, fit);
 }
 
 }  // namespace gapscope::internal::diagnosis

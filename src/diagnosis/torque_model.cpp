@@ -114,7 +114,7 @@ ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
   ScoredModel refitted =
       judge(nullptr, fit_near(study.train, balanced, options, hz, effort), study.held_out, hz);
   if (std::max(refitted.median_free, refitted.median_innovation) < options.rejected_ratio) return refitted;
-  ScoredModel as_is = judge(nullptr, {balanced, {}, 0.0, {}}, study.held_out, hz);
+  ScoredModel as_is = judge(nullptr, {balanced, {}, 0.0, {}, {}, true}, study.held_out, hz);
   const auto& effects = refitted.fitted.model.effects;
   const bool kept = std::none_of(effects.begin(), effects.end(), has_vanished);
   return (locked && kept && refitted.score < as_is.score) || !std::isfinite(as_is.score) ? refitted : as_is;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "diagnosis/mismatch_size.h"
 #include "gapscope/simulation/closed_loop.h"
 #include "reference/observer.h"
 
@@ -22,29 +24,17 @@ bool has_controller(const Study& study) {
          std::all_of(held.begin(), held.end(), commanded);
 }
 
-SquaredError error_of(const PlantModel<double>& plant, const DriveController& controller,
-                      const MotorTrace& trace, const DriveState<double>& start, std::size_t scored_from) {
-  DriveStepper<double> stepper = reference::stepper_for(plant, trace);
-  const DriveState<double> drive = reference::behind_the_sensor(plant, stepper, start);
-  const std::vector<double> x = positions_under_controller(plant, controller, trace, drive);
+SquaredError error_of(const MotorTrace& trace, const std::vector<double>& x, std::size_t scored_from) {
   if (x.empty()) return {};
   SquaredError e{0.0, static_cast<double>(trace.size() - scored_from)};
   for (std::size_t i = scored_from; i < trace.size(); ++i) e.sum += std::pow(trace.x1[i] - x[i], 2);
   return e;
 }
 
-std::vector<SquaredError> errors_of(const Study& study, const ReferenceModel& model) {
-  const HeldOut& held = study.held_out;
-  const auto starts = settled_starts(held.traces, model, study.observer_hz);
-  ReferenceModel drive = all_fixed(model);
-  drive.controller.reset();  // whose delay acts in the loop
-  const reference::ModelRun run =
-      reference::ModelFit(held.traces, drive, {}, study.observer_hz).run_at({{}, starts});
-  const DriveController controller =
-      model.controller ? model.controller->at_start() : *study.options.controller;
+std::vector<SquaredError> errors_of(const HeldOut& held, const Positions& positions) {
   std::vector<SquaredError> errors;
-  for (std::size_t r = 0; r < held.traces.size(); ++r)
-    errors.push_back(error_of(run.plant, controller, held.traces[r], run.starts[r], held.scored_from[r]));
+  for (std::size_t r = 0; r < positions.size(); ++r)
+    errors.push_back(error_of(held.traces[r], positions[r], held.scored_from[r]));
   return errors;
 }
 
@@ -56,14 +46,50 @@ double pooled(const std::vector<SquaredError>& errors) {
 
 }  // namespace
 
-std::optional<ClosedLoop> judged_under_controller(const Study& study, const ReferenceModel& before,
-                                                  const ReferenceModel& after) {
+Positions runs_under_controller(const Study& study, const ReferenceModel& model) {
   if (!has_controller(study)) return {};
-  const std::vector<SquaredError> b = errors_of(study, before), a = errors_of(study, after);
+  const HeldOut& held = study.held_out;
+  const auto starts = settled_starts(held.traces, model, study.observer_hz);
+  ReferenceModel drive = all_fixed(model);
+  drive.controller.reset();  // whose delay acts in the loop
+  const reference::ModelRun run =
+      reference::ModelFit(held.traces, drive, {}, study.observer_hz).run_at({{}, starts});
+  const DriveController controller =
+      model.controller ? model.controller->at_start() : *study.options.controller;
+  Positions positions;
+  for (std::size_t r = 0; r < held.traces.size(); ++r) {
+    DriveStepper<double> stepper = reference::stepper_for(run.plant, held.traces[r]);
+    const DriveState<double> start = reference::behind_the_sensor(run.plant, stepper, run.starts[r]);
+    positions.push_back(positions_under_controller(run.plant, controller, held.traces[r], start));
+  }
+  return positions;
+}
+
+std::optional<ClosedLoop> judged_under_controller(const HeldOut& held, const Positions& before,
+                                                  const Positions& after) {
+  if (before.empty()) return {};
+  const std::vector<SquaredError> b = errors_of(held, before), a = errors_of(held, after);
   ClosedLoop judged{pooled(b), pooled(a), {}};
   for (std::size_t r = 0; r < b.size(); ++r)
-    judged.recordings.push_back({study.held_out.traces[r].file, b[r].rms(), a[r].rms()});
+    judged.recordings.push_back({held.traces[r].file, b[r].rms(), a[r].rms()});
   return judged;
+}
+
+void tell_whole_runs(const Study& study, const ReferenceModel& nominal, bool added, Diagnosis& d) {
+  const auto both = [&](const auto& runs) {
+    Positions before = runs(nominal);
+    return std::pair(before, added ? runs(d.fitted) : before);
+  };
+  const auto free =
+      both([&](const ReferenceModel& m) { return whole_runs(m, study.held_out, study.observer_hz); });
+  const auto held = both([&](const ReferenceModel& m) { return runs_under_controller(study, m); });
+  d.whole_run = whole_run(study.held_out, free.first, free.second);
+  d.closed_loop = judged_under_controller(study.held_out, held.first, held.second);
+  const auto& [before, after] = held.first.empty() ? free : held;
+  for (std::size_t r = 0; r < d.traces.size(); ++r) {
+    if (r < before.size()) d.traces[r].simulated_before = before[r];
+    if (added && r < after.size()) d.traces[r].simulated_after = after[r];
+  }
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -9,6 +9,9 @@
 
 #include "diagnosis/harmonics.h"
 #include "diagnosis/headline.h"
+#include "gapscope/base/decimals.h"
+#include "torque_view/low_pass.h"
+#include "torque_view/options.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -34,14 +37,8 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
 
 using SampleValue = std::function<double(const Sample&)>;
 
-/// "0", never "-0".
-std::string edge(double value, int decimals) {
-  const std::string text = fmt::format("{:.{}f}", value, decimals);
-  return text.find_first_not_of("-0.") == text.npos && text.front() == '-' ? text.substr(1) : text;
-}
-
 std::string range_key(double low, double high, int decimals, const std::string& unit) {
-  return edge(low, decimals) + ".." + edge(high, decimals) + " " + unit;
+  return with_decimals(low, decimals) + ".." + with_decimals(high, decimals) + " " + unit;
 }
 
 /// "34..51 mm/s": in thousandths where all of it is below one.
@@ -183,12 +180,28 @@ std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples, con
       {ResidualPattern::kTime, displaced(place.time)}};
 }
 
+std::vector<Playback> within_band(std::vector<Playback> playbacks, const HeldOut& held_out, double band_hz) {
+  if (!(band_hz > 0.0)) return playbacks;
+  for (std::size_t r = 0; r < playbacks.size(); ++r) {
+    const MotorTrace& trace = held_out.traces[r];
+    std::vector<double> t, low;
+    for (std::size_t i = 0; i < trace.size(); ++i) t.push_back(trace.elapsed(i));
+    const std::vector<double> cells = torque_view::cell_lengths(t);
+    torque_view::SmoothingKernel kernel(t, cells, torque_view::kernel_sigma(band_hz),
+                                        torque_view::TorqueViewOptions{}.kernel_reach);
+    for (const double T : t) low.push_back(kernel.motion(playbacks[r].torque, T).x);
+    playbacks[r].torque = std::move(low);
+  }
+  return playbacks;
+}
+
 }  // namespace
 
-MismatchPlace place_of(const std::vector<Playback>& playbacks, const HeldOut& held_out,
-                       double torque_constant, Coordinates coordinates, const ModelEffect* effect) {
+MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_out, double torque_constant,
+                       Coordinates coordinates, const ModelEffect* effect, double band_hz) {
   MismatchPlace place;
-  if (playbacks.empty()) return place;
+  if (played.empty()) return place;
+  const std::vector<Playback> playbacks = within_band(played, held_out, band_hz);
   const std::vector<Sample> samples = samples_of(playbacks, held_out, torque_constant);
   fill_maps(samples, coordinates, place);
   place.frequency = frequency_map(playbacks, held_out);

@@ -10,6 +10,7 @@
 #include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/last_resort.h"
+#include "gapscope/base/decimals.h"
 #include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
 
@@ -73,8 +74,9 @@ std::string ratio(double value, const Diagnosis& d) {
 std::string effect_sentence(const Diagnosis& d) {
   std::string text = fmt::format("The model lacks {}", listed(d));
   if (std::isfinite(d.mismatch.shrink))
-    text += fmt::format(": with {} the held-out error shrinks by {:.0f} % of what is above the floor",
-                        d.effects.size() > 1 ? "them" : "it", 100.0 * d.mismatch.shrink);
+    text += fmt::format(": with {} the held-out {} shrinks by {} % of what is above the floor",
+                        d.effects.size() > 1 ? "them" : "it", motion_error(d),
+                        with_decimals(100.0 * d.mismatch.shrink, 0));
   return text + fmt::format(", to {}.", ratio(d.mismatch.remains, d));
 }
 
@@ -86,15 +88,21 @@ std::string torque_fall(const Diagnosis& d, Coordinates coordinates) {
   const double both[] = {100.0 * m.before_torque / m.input_torque, 100.0 * m.after_torque / m.input_torque};
   const Percents percent(both);
   return fmt::format(
-      "the missing {} on held-out data falls from {} to {} ({} to {} of what the input brings)",
+      "the missing {} on held-out data falls from {} to {} ({} to {} of what the input applies)",
       coordinates.torque_word(), torque(m.before_torque), torque(m.after_torque), percent(both[0]),
       percent(both[1]));
 }
 
 /// The same by the measure of a drive whose torque balance depends on its contact.
 std::string error_fall(const Diagnosis& d) {
-  return fmt::format("the held-out error shrinks by {:.0f} % of what is above the floor, to {}",
-                     100.0 * d.mismatch.shrink, ratio(d.mismatch.remains, d));
+  return fmt::format("the held-out {} shrinks by {} % of what is above the floor, to {}", motion_error(d),
+                     with_decimals(100.0 * d.mismatch.shrink, 0), ratio(d.mismatch.remains, d));
+}
+
+/// " (established by the balance of torque alone; ...)", where the motion does not bear it out.
+std::string doubt_aside(const Diagnosis& d) {
+  const std::string doubt = doubt_of_motion(d);
+  return doubt.empty() ? "" : " (established" + doubt + ")";
 }
 
 /// What is added, in order: causes that are established, then what helps.
@@ -115,7 +123,7 @@ std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
         "Adding {} helps, but {} cause stays open; with {} in the model, {} {} established: with all {}.",
         fmt::join(open, ", then "), open.size() > 1 ? "their" : "its", open.size() > 1 ? "them" : "it",
         fmt::join(causes, ", then "), causes.size() > 1 ? "are" : "is", fall);
-  std::string text = fmt::format("The model lacks {}", fmt::join(causes, ", then "));
+  std::string text = fmt::format("The model lacks {}{}", fmt::join(causes, ", then "), doubt_aside(d));
   if (!open.empty())
     text += fmt::format("; {} {} as well, though {} cause stays open", fmt::join(open, " and "),
                         open.size() > 1 ? "help" : "helps", open.size() > 1 ? "their" : "its");
@@ -129,10 +137,12 @@ std::string law_sentence(const Diagnosis& d) {
     std::vector<std::string> variables;
     for (const std::string& other : law.group) variables.push_back(variable_of(*find_effect(other)));
     text += fmt::format(
-        " What {} is a function of {}, whatever its cause: as a free curve it takes {:.0f} % (95 %: {:.0f} "
-        "to {:.0f}) of the held-out error above the floor, to {}.",
-        d.effects.empty() ? "is missing" : "remains", fmt::join(variables, " or "), 100.0 * law.shrink,
-        100.0 * law.shrink_ci95.low, 100.0 * law.shrink_ci95.high, ratio(law.after / d.mismatch.floor, d));
+        " What {} is a function of {}, whatever its cause: as a free curve it takes {} % (95 %: {} "
+        "to {}) of the held-out {} above the floor, to {}.",
+        d.effects.empty() ? "is missing" : "remains", fmt::join(variables, " or "),
+        with_decimals(100.0 * law.shrink, 0), with_decimals(100.0 * law.shrink_ci95.low, 0),
+        with_decimals(100.0 * law.shrink_ci95.high, 0), motion_error(d),
+        ratio(law.after / d.mismatch.floor, d));
   }
   return text;
 }
@@ -148,7 +158,7 @@ std::string unknown_sentence(const Diagnosis& d) {
                   ratio(d.mismatch.before / d.mismatch.floor, d), d.where.headline);
   if (d.laws.empty() && !d.ranking.empty() && d.ranking.front().rel > 0.0)
     text +=
-        fmt::format("; {} comes nearest, but explains only {:.0f} % of it",
+        fmt::format("; {} comes nearest, but goes only {:.0f} % of the way to the floor",
                     readable(d.ranking.front().effect), 100.0 * std::clamp(d.ranking.front().rel, 0.0, 1.0));
   return text + ".";
 }
@@ -181,6 +191,24 @@ std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
 }
 
 }  // namespace
+
+std::string motion_error(const Diagnosis& d) {
+  return d.mismatch.measure.starts_with("prediction") ? "prediction error" : "free-run error";
+}
+
+std::string doubt_of_motion(const Diagnosis& d) {
+  const MismatchSize& m = d.mismatch;
+  if (d.added.empty() || d.is_shown_by_motion()) return "";
+  const bool balance = d.added.front().share_of == ShareOf::kTorque;
+  const std::string what = m.measure.starts_with("prediction") ? "prediction" : "free run";
+  if (!std::isfinite(m.shrink_ci95.low))
+    return !balance ? "" : " by the balance of torque alone; the " + what + ", near its floor, cannot tell";
+  const auto percent = [](double share) { return with_decimals(100.0 * share, 0); };
+  return fmt::format("{} its error shrinks by {} % (95 %: {} to {})",
+                     balance ? " by the balance of torque alone; the " + what + " cannot tell:"
+                             : "; the " + what + " of another recording may not show it:",
+                     percent(m.shrink), percent(m.shrink_ci95.low), percent(m.shrink_ci95.high));
+}
 
 bool rests_on_open_cause(const Diagnosis& d) {
   return !d.added.empty() && !d.added.front().established &&

@@ -6,6 +6,14 @@
 
 namespace gapscope::internal::diagnosis {
 
+/// Where the motion does not bear out an established cause, which of the two tells it: " by the torque
+/// balance alone; the free run cannot tell: its error shrinks by 46 % (95 %: -116 to 83)". Empty where it
+/// does, or nothing was added.
+std::string doubt_of_motion(const Diagnosis& diagnosis);
+
+/// "free-run error" or "prediction error": what the motion is judged by.
+std::string motion_error(const Diagnosis& diagnosis);
+
 /// The answer in a sentence or two.
 std::string sentence_of(const Diagnosis& diagnosis, Coordinates coordinates);
 

@@ -38,6 +38,28 @@ std::string alternatives(const AddedEffect& a, const std::vector<std::string>& e
   return text;
 }
 
+/// Which evidence has decided, where the motion does not bear it out.
+const char* established_word(const DiagnosisResult& r) {
+  const Diagnosis& d = r.diagnosis;
+  if (d.added.empty() || d.added.front().share_of == ShareOf::kMotion || d.is_shown_by_motion())
+    return "established";
+  return r.coordinates.rotational() ? "established by the balance of torque alone"
+                                    : "established by the balance of force alone";
+}
+
+/// Where its numbers are from: they are not those of a ranking by the motion.
+std::string origin_words(const DiagnosisResult& r) {
+  const Diagnosis& d = r.diagnosis;
+  const std::string torque = r.coordinates.torque_word();
+  if (d.balanced)
+    return ", by the " + torque +
+           " balance on the recordings that were fitted: the simulated motion lacks something yet, for which "
+           "a "
+           "refit to it would bend them";
+  return std::string(", refitted together to the motion") +
+         (d.added.front().share_of == ShareOf::kTorque ? "; the " + torque + " balance has chosen them" : "");
+}
+
 }  // namespace
 
 bool is_left_out(const NamedValue& p) {
@@ -48,13 +70,14 @@ bool is_left_out(const NamedValue& p) {
 std::string added_table(const DiagnosisResult& r) {
   std::string text;
   const std::vector<AddedEffect>& added = r.diagnosis.added;
+  const char* const established = established_word(r);
   for (const AddedEffect& a : added) {
     const bool on_top = a.established && !added.front().established;
     const std::string others = a.established ? alternatives(a, r.diagnosis.effects) : "";
     std::string effect = fmt::format("`{}`{} ({})", a.effect, others,
                                      !others.empty() ? "not told apart"
                                      : on_top        ? "established with `" + added.front().effect + "`"
-                                     : a.established ? "established"
+                                     : a.established ? established
                                                      : "cause open");
     if (const AddedEffect* other = with_these_numbers(a, added)) {
       text += fmt::format("| {} | | within `{}` |\n", effect, other->effect);
@@ -67,8 +90,10 @@ std::string added_table(const DiagnosisResult& r) {
     }
   }
   if (text.empty()) return "";
-  return "\n## What was added\n\nThe intervals hold for the model with all of it, as it follows the "
-         "recordings that were fitted; a number without one these do not determine by themselves.\n\n"
+  return "\n## What was added\n\nThe numbers of the model with all of it" + origin_words(r) +
+         ". The intervals hold for that model, as it follows the recordings that were fitted; a number "
+         "without "
+         "one these do not determine by themselves.\n\n"
          "| effect | number | value |\n|---|---|---|\n" +
          text;
 }

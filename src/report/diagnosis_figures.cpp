@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
+#include "gapscope/base/statistics.h"
 #include "gapscope/base/text.h"
 #include "report/budget_band.h"
 #include "report/detectable.h"
@@ -52,6 +54,48 @@ Panel pair_panel(const DiagnosisResult& r, const MismatchTrace& t, const std::st
   Panel panel = time_panel(title, y, t);
   panel.series.push_back(over_time(added(r) ? "nominal model" : "", before_style(), t, before));
   if (added(r)) panel.series.push_back(over_time(with_added(r), after_style(), t, after));
+  return panel;
+}
+
+/// 100 (1 − |x − x̂|/|x − mean|) of what is scored [%].
+double fit_percent(const MismatchTrace& t, const std::vector<double>& simulated) {
+  const std::span<const double> x = std::span(t.x1).subspan(t.scored_from);
+  const double middle = mean(x);
+  double missed = 0.0, moved = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    missed += std::pow(x[i] - simulated[t.scored_from + i], 2), moved += std::pow(x[i] - middle, 2);
+  return moved > 0.0 ? 100.0 * (1.0 - std::sqrt(missed / moved)) : kNaN;
+}
+
+/// A line of the model, cut where it leaves the frame that the recording needs.
+Series simulated_line(const std::string& name, const LineStyle& style, const MismatchTrace& t,
+                      const std::vector<double>& simulated, const Interval& frame) {
+  Series s = over_time("", style, t, simulated);
+  bool leaves = false;
+  for (double& x : s.y)
+    if (x < frame.low || x > frame.high) x = kNaN, leaves = true;
+  s.label = fmt::format("{}, fit {}{}", name, fit_text(fit_percent(t, simulated)),
+                        leaves ? " (leaves the frame)" : "");
+  return s;
+}
+
+/// The first picture that one looks for: from the first sample on the model is never corrected by the
+/// recording.
+Panel recorded_over_simulated(const DiagnosisResult& r, const MismatchTrace& t) {
+  const bool simulated = t.simulated_before.size() == t.x1.size() || t.simulated_after.size() == t.x1.size();
+  Panel panel =
+      time_panel("Held-out recording", {"displacement " + position_name(r), length_unit(r), {}, {}, {}}, t);
+  panel.series.push_back(over_time(simulated ? "recorded" : "", measured_style(), t, t.x1));
+  if (!simulated) return panel;
+  panel.title = r.diagnosis.closed_loop ? "Recorded, and simulated under the drive's controller"
+                                        : "Recorded, and simulated freely from the first sample on";
+  const auto [low, high] = std::minmax_element(panel.series[0].y.begin(), panel.series[0].y.end());
+  const double room = 0.5 * (*high - *low);
+  const Interval frame = {*low - room, *high + room};
+  if (t.simulated_before.size() == t.x1.size())
+    panel.series.push_back(simulated_line("nominal model", before_style(), t, t.simulated_before, frame));
+  if (t.simulated_after.size() == t.x1.size())
+    panel.series.push_back(simulated_line(with_added(r), after_style(), t, t.simulated_after, frame));
   return panel;
 }
 
@@ -111,7 +155,7 @@ double ranked_reach(const std::vector<RankedEffect>& ranking, std::size_t shown)
 FigureData diagnosis_traces(const DiagnosisResult& r) {
   FigureData figure;
   figure.file = "diagnosis_traces.png";
-  figure.title = "Errors on held-out data";
+  figure.title = "Recording, model and errors on held-out data";
   const MismatchTrace* t = shown_trace(r);
   if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
   figure.panels.push_back(pair_panel(r, *t, error_title(r.diagnosis.measures),
@@ -121,10 +165,7 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   figure.panels.push_back(pair_panel(r, *t, "Correcting " + torque_word(r) + band_words(budget, *t),
                                      correction_axis(r), within_band(budget, *t, t->torque_before),
                                      within_band(budget, *t, t->torque_after)));
-  Panel input =
-      time_panel("Held-out recording", {"displacement " + position_name(r), length_unit(r), {}, {}, {}}, *t);
-  input.series.push_back(over_time("", measured_style(), *t, t->x1));
-  figure.panels.push_back(input);
+  figure.panels.insert(figure.panels.begin(), recorded_over_simulated(r, *t));
   const MismatchSize& g = r.diagnosis.mismatch;
   figure.reading = fmt::format("On {} the error is {} (median over windows), the floor {}", t->file,
                                quantity(g.before, length_unit(r)), quantity(g.floor, length_unit(r)));
@@ -136,7 +177,7 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
 FigureData diagnosis_ranking(const DiagnosisResult& r) {
   FigureData figure;
   figure.file = "diagnosis_ranking.png";
-  figure.title = "Candidates, each refitted";
+  figure.title = "Candidates, each refitted alone, by the motion";
   const auto& ranking = r.diagnosis.ranking;
   if (ranking.empty())
     return missing_figure(figure.file, figure.title, "the model is at the floor, nothing was looked for");
@@ -221,7 +262,7 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
   sheet.width = 3200.0, sheet.scale = kSheetScale;
   sheet.columns = 2;
   borrow(sheet, figures, "diagnosis_budget.png", 1);
-  borrow(sheet, figures, "diagnosis_traces.png", 2);
+  borrow(sheet, figures, "diagnosis_traces.png", 3);
   if (budget_decides(r.diagnosis))  // what each does alone to the free run did not
     sheet.panels.push_back(budget_shares(r));
   else

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "gapscope/base/decimals.h"
 #include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
 #include "report/added_table.h"
@@ -58,10 +59,11 @@ std::string measures_table(const DiagnosisResult& r) {
                       quantity(g.floor, r.coordinates.position_unit()), floor_name(g.floor_from),
                       g.floor_of.empty() ? "" : ": ", g.floor_of);
   if (std::isfinite(g.shrink)) {
-    text += fmt::format(" The error above the floor shrinks by {:.0f} %", 100.0 * g.shrink);
+    const auto percent = [](double share) { return with_decimals(100.0 * share, 0); };
+    text += fmt::format(" The error above the floor shrinks by {} %", percent(g.shrink));
     if (std::isfinite(g.shrink_ci95.low))
-      text += fmt::format(" (95 %: {:.0f} to {:.0f} %, for this kind of excitation)",
-                          100.0 * g.shrink_ci95.low, 100.0 * g.shrink_ci95.high);
+      text += fmt::format(" (95 %: {} to {} %, for this kind of excitation)", percent(g.shrink_ci95.low),
+                          percent(g.shrink_ci95.high));
     text += fmt::format("; what remains is {} times the {}; place: {}.", rounded(g.remains),
                         floor_name(g.floor_from), r.diagnosis.remaining.headline);
   }
@@ -131,6 +133,18 @@ std::string probability_words(const DiagnosisResult& r) {
       d.outside_probability);
 }
 
+/// What the columns are of, and why the numbers are not those of what was added.
+std::string basis_words(const DiagnosisResult& r) {
+  std::string text =
+      "Each candidate alone, on the nominal model, every estimated number refitted to the motion; the "
+      "columns "
+      "are of the held-out *motion*, not of the missing " +
+      std::string(torque_word(r)) + " that the card tells.";
+  if (!r.diagnosis.added.empty())
+    text += " What the model with all that was added has stands under What was added.";
+  return text + " `gapscope effects --laws` has the law of each and what its parameters mean.";
+}
+
 /// With the card's choice marked.
 std::string remark_of(const RankedEffect& e, const Diagnosis& d) {
   if (!contains(d.effects, e.effect)) return e.remark;
@@ -145,11 +159,9 @@ std::string ranking_table(const DiagnosisResult& r) {
                        std::any_of(ranking.begin(), ranking.end(),
                                    [](const RankedEffect& e) { return std::isfinite(e.probability); });
   std::string text =
-      "\n## Which effect\n\nEvery candidate was refitted with all parameters of the drive; "
-      "`gapscope effects --laws` has the law of each and what its parameters mean." +
-      probability_words(r) +
+      "\n## Which effect, judged by the motion\n\n" + basis_words(r) + probability_words(r) +
       fmt::format(
-          "\n\n| effect |{} explained share | error removed | windows better | parameters | remark "
+          "\n\n| effect |{} explained share | error removed | windows better | parameters, alone | remark "
           "|\n|---|{}---|---|---|---|---|\n",
           learned ? " probability |" : "", learned ? "---|" : "");
   for (const RankedEffect& e : r.diagnosis.ranking)
@@ -215,9 +227,9 @@ std::string blamed(double value, BoundReached at, const std::string& unit) {
   return fmt::format("at its {} bound, {}", at == BoundReached::kLower ? "lower" : "upper", number);
 }
 
-/// What stands at a bound is no reading, and has no bias.
+/// What stands at a bound is no reading, and has no bias; nor has what was held.
 double bias_of(const BlameShift& b) {
-  const bool read = b.without_at == BoundReached::kNone && b.with_at == BoundReached::kNone;
+  const bool read = !b.held && b.without_at == BoundReached::kNone && b.with_at == BoundReached::kNone;
   return read ? 100.0 * (b.without - b.with) / std::abs(b.with) : kNaN;
 }
 
@@ -226,6 +238,7 @@ std::string blame_table(const DiagnosisResult& r) {
   std::string text =
       "\n## Parameters biased by what was missing\n\n| parameter | nominal model | with all that was added | "
       "bias of the nominal model |\n|---|---|---|---|\n";
+  bool held = false;
   std::vector<double> all;
   for (const BlameShift& b : r.diagnosis.blame)
     if (std::isfinite(bias_of(b))) all.push_back(bias_of(b));
@@ -233,13 +246,18 @@ std::string blame_table(const DiagnosisResult& r) {
   for (const BlameShift& b : r.diagnosis.blame) {
     const double percent = bias_of(b);
     const std::string unit = r.coordinates.shown_unit(b.unit);
+    held = held || b.held;
     text += fmt::format("| `{}` | {} | {} | {} |\n", b.key, blamed(b.without, b.without_at, unit),
-                        blamed(b.with, b.with_at, unit),
+                        b.held ? std::string("held, not refitted") : blamed(b.with, b.with_at, unit),
                         std::isfinite(percent)
                             ? fmt::format("{} {}", shown(std::abs(percent)), percent > 0 ? "high" : "low")
                             : "–");
   }
-  return text;
+  return text +
+         (held ? "\nHeld: the " + std::string(torque_word(r)) +
+                     " balance, which has the numbers of what was added here, leaves it where the fit of "
+                     "the nominal model had it, with that model's bias.\n"
+               : "");
 }
 
 std::string experiment_table(const DiagnosisResult& r) {

@@ -118,9 +118,9 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   figure.panels.push_back(panel);
   figure.reading =
       b.rungs.empty()
-          ? fmt::format("The missing {} is {}, {} of what the input brings", torque_of(r),
+          ? fmt::format("The missing {} is {}, {} of what the input applies", torque_of(r),
                         quantity(b.nominal, budget_unit(r)), percents_of(b)(percent_of_input(b, b.nominal)))
-          : fmt::format("The missing {} falls from {} to {}, {} of what the input brings", torque_of(r),
+          : fmt::format("The missing {} falls from {} to {}, {} of what the input applies", torque_of(r),
                         quantity(b.nominal, budget_unit(r)), quantity(b.remains, budget_unit(r)),
                         percents_of(b)(percent_of_input(b, b.remains)));
   figure.reading += has(true) && has(false)
@@ -191,9 +191,10 @@ std::string budget_table(const DiagnosisResult& r) {
   if (!b.exists()) return "";
   const Percents percent = percents_of(b);
   std::string text = fmt::format(
-      "\n## Error budget\n\nMissing {}: what the input brings and the model does not, rms on held-out data "
+      "\n## Error budget\n\nMissing {}: what the input applies and the model does not account for, rms on "
+      "held-out data "
       "below "
-      "{} Hz. The input brings {} in all. Every line refits all numbers of the "
+      "{} Hz. The input applies {} in all. Every line refits all numbers of the "
       "lines above it. *Share*: of the mean square that was left (95 % by blocks of held-out time); *alone*: "
       "of "
       "what the nominal model leaves; *last*: of what all the others leave, which is what no other can "

@@ -48,11 +48,13 @@ constexpr Word kWords[] = {
      "what an observer with its poles there still misses at the next sample: slow drifts show at the lower, "
      "ripple at the higher one"},
     {"issing torque", "missing torque",
-     "rms of the torque that the input brings and the model does not, on held-out data and below the "
+     "rms of the torque that the input applies and the model does not account for, on held-out data and "
+     "below the "
      "frequency "
      "that the error budget tells (with no budget: the correcting torque): the torque that the card tells"},
     {"issing force", "missing force",
-     "rms of the force that the input brings and the model does not, on held-out data and below the "
+     "rms of the force that the input applies and the model does not account for, on held-out data and below "
+     "the "
      "frequency "
      "that the error budget tells (with no budget: the correcting force): the force that the card tells"},
     {"orrecting torque", "correcting torque",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/decimals.h"
 #include "gapscope/base/text.h"
 #include "report/markdown.h"
 #include "report/wording.h"
@@ -69,7 +70,7 @@ std::string row_size(const DiagnosisResult& r, const SimulatorRow& row) {
 }
 
 /// "68 %"; no minus before a zero.
-std::string shrink_percent(double share) { return fmt::format("{:.0f} %", std::round(100.0 * share) + 0.0); }
+std::string shrink_percent(double share) { return with_decimals(100.0 * share, 0) + " %"; }
 
 std::string rows_table(const DiagnosisResult& r, const SimulatorComparison& c) {
   std::string text =

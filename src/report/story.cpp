@@ -29,14 +29,14 @@ std::vector<std::string> all_warnings(const DriveStory& s) {
 }  // namespace
 
 std::string card_text(const Card& card) {
-  static constexpr std::array kTitles = {"Gap", "Mismatch", "Place", "Cause", "What helps", "Next step"};
+  static constexpr std::array kTitles = {"Gap", "Model error", "Where", "Cause", "What helps", "Next step"};
   std::string text = "\n";
   std::size_t i = 0;
   for (const CardLine& line : card.lines()) {
     const char* const title = kTitles[i++];
     if (!card.diagnosed && (&line.text == &card.cause || &line.text == &card.helps)) continue;
     const bool all = !card.diagnosed && &line.text == &card.place;
-    text += fmt::format("- **{}:** {}\n", all ? "Place, cause, what helps" : title, typeset(line.text));
+    text += fmt::format("- **{}:** {}\n", all ? "Where, cause, what helps" : title, typeset(line.text));
   }
   return text;
 }

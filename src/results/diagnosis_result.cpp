@@ -36,6 +36,7 @@ TraceSet set_of(const MismatchTrace& m) {
   if (m.encoder == EncoderSide::kLoad) std::swap(r.x1, r.x2);
   TraceSet set{std::move(r), {}, {}, m.error_before, m.error_after, m.torque_before, m.torque_after};
   set.target = m.target, set.supply = m.supply;
+  set.simulated_before = m.simulated_before, set.simulated_after = m.simulated_after;
   return set;
 }
 
@@ -72,6 +73,7 @@ MismatchTrace load(const std::string& folder, const StoredMismatch& stored) {
   m.error_before = std::move(set.error_before), m.error_after = std::move(set.error_after);
   m.torque_before = std::move(set.torque_before), m.torque_after = std::move(set.torque_after);
   m.target = std::move(set.target), m.supply = std::move(set.supply);
+  m.simulated_before = std::move(set.simulated_before), m.simulated_after = std::move(set.simulated_after);
   return m;
 }
 

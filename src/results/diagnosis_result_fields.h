@@ -82,6 +82,9 @@ void fields(Archive& archive, AddedEffect& a) {
   archive("shrink_ci95", a.shrink_ci95);
   archive("after_torque_nm", a.after_torque);
   archive.seldom("at_bound", a.at_bound);
+  archive.seldom_choice("shrink_of", a.share_of,
+                        Words<ShareOf>{{ShareOf::kMotion, "motion"}, {ShareOf::kTorque, "torque"}},
+                        ShareOf::kMotion);
 }
 
 template <class Archive>
@@ -187,6 +190,7 @@ void fields(Archive& archive, BlameShift& b) {
   archive("with", b.with);
   archive.seldom_choice("without_at_bound", b.without_at, bounds, BoundReached::kNone);
   archive.seldom_choice("with_at_bound", b.with_at, bounds, BoundReached::kNone);
+  archive.seldom_choice("held", b.held, Words<bool>{{true, "yes"}, {false, "no"}}, false);
 }
 
 template <class Archive>
@@ -255,6 +259,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.seldom_choice("search", g.stopped, Words<bool>{{true, "stopped"}, {false, "ended"}}, false);
   archive.seldom_choice("search_work", g.exhausted, Words<bool>{{true, "all_taken"}, {false, "within"}},
                         false);
+  archive.seldom_choice("numbers_of", g.balanced, Words<bool>{{true, "balance"}, {false, "motion"}}, false);
   archive.seldom_choice("better_swapped", g.better_swapped, Words<bool>{{true, "yes"}, {false, "no"}}, false);
   archive.seldom("answer", d.result.answer);
   archive("effects", g.effects);

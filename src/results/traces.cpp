@@ -86,6 +86,10 @@ constexpr NumberColumn kNumbers[] = {
         "target_rad", [](auto& s) -> auto& { return s.target; }),
     column<double>(
         "supply", [](auto& s) -> auto& { return s.supply; }),
+    column<double>(
+        "simulated_before_rad", [](auto& s) -> auto& { return s.simulated_before; }),
+    column<double>(
+        "simulated_after_rad", [](auto& s) -> auto& { return s.simulated_after; }),
 };
 constexpr ModeColumn kModeColumns[] = {
     column<Mode>(

@@ -23,6 +23,8 @@ struct TraceSet {
   std::vector<double> simulator = {}, stand_in = {}, mended = {};
   /// What u was made of by a controller: the target [rad], and the supply that multiplies its output [V].
   std::vector<double> target = {}, supply = {};
+  /// Of a diagnosis: positions of the model from the first sample on, without and with what was added [rad].
+  std::vector<double> simulated_before = {}, simulated_after = {};
 };
 
 /// Writes the filled columns only; an undefined number is an empty field.  @throws std::runtime_error

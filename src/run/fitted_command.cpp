@@ -12,9 +12,14 @@
 namespace gapscope::internal::run {
 namespace {
 
+/// Whether the model that a number is of stands: one that nothing establishes, or that is rejected, has no
+/// intervals.
+enum class Standing { kStands, kUnestablished };
+
 /// "controller.position.gain 1.15 [1.13, 1.17] unit of u/rad"
-std::string told(const FittedParameter& p, const FitSummary& of) {
-  const std::string interval = of.rejected()    ? " (model rejected)"
+std::string told(const FittedParameter& p, const FitSummary& of, Standing model) {
+  const std::string interval = of.rejected()                       ? " (model rejected)"
+                               : model == Standing::kUnestablished ? " (no interval: no model is established)"
                                : p.identifiable ? fmt::format(" [{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high)
                                                 : " (not determined)";
   return fmt::format("{} {:.4g}{} {}", p.key, p.value, interval, p.unit);
@@ -22,10 +27,10 @@ std::string told(const FittedParameter& p, const FitSummary& of) {
 
 bool is_of_controller(const FittedParameter& p) { return p.estimated && p.key.starts_with("controller."); }
 
-std::string numbers_told(const FitSummary& found) {
+std::string numbers_told(const FitSummary& found, Standing model) {
   std::vector<std::string> numbers;
   for (const FittedParameter& p : found.parameters)
-    if (is_of_controller(p)) numbers.push_back(told(p, found));
+    if (is_of_controller(p)) numbers.push_back(told(p, found, model));
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
@@ -90,8 +95,8 @@ std::string confounded_with_what_is_missing(const Configuration& c, const Diagno
   if (effect == nullptr) return said;
   const FitSummary found = fit(fitted, with_ranked(d.fitted, *effect), c.fit);
   if (found.status == FitStatus::kFailed) return said;
-  return said + fmt::format(": with {}, which comes nearest to it, they are {}", readable(effect->effect),
-                            numbers_told(found));
+  return said + fmt::format(": with {}, which comes nearest to it and is not established, they are {}",
+                            readable(effect->effect), numbers_told(found, Standing::kUnestablished));
 }
 
 std::vector<MotorTrace> motor_traces(const std::vector<Recording>& recordings) {
@@ -135,8 +140,8 @@ SettledController settle_controller(const Configuration& c, std::vector<Recordin
   const DriveController controller = fitted_controller(*c.controller, found);
   command_anew(controller, fitted);
   command_anew(controller, held_out);
-  const std::string numbers =
-      fmt::format("{}{}", numbers_told(found), found.converged() ? "" : " (the fit has not converged)");
+  const std::string numbers = fmt::format("{}{}", numbers_told(found, Standing::kStands),
+                                          found.converged() ? "" : " (the fit has not converged)");
   if (!is_determined(found))
     return {controller,
             {},
@@ -157,10 +162,10 @@ std::string controller_found(const Configuration& c, const Diagnosis& d,
   if (found.status == FitStatus::kFailed) return {};
   const std::string when = d.effects.empty() ? "the controller, as nothing was added: "
                                              : "the controller with what the diagnosis has added: ";
-  return when + numbers_told(found) +
-         "; these are of a last fit, which tells their intervals, and `fitted.yaml` has " +
-         numbers_written(*d.fitted.controller) + " of the search" +
-         (is_determined(found) ? "" : confounded_with(found, c.coordinates)) +
+  const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
+  return when + numbers_told(found, unknown ? Standing::kUnestablished : Standing::kStands) +
+         "; these are of a last fit, and `fitted.yaml` has " + numbers_written(*d.fitted.controller) +
+         " of the search" + (is_determined(found) ? "" : confounded_with(found, c.coordinates)) +
          (lacks_something(found) ? confounded_with_what_is_missing(c, d, fitted) : "");
 }
 

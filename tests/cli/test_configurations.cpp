@@ -144,7 +144,7 @@ TEST(Configurations, ADriveWithDetentsIsSaidToLackThemAndNothingElse) {
   EXPECT_THAT(
       outcome.out,
       ::testing::HasSubstr("\ncause       Cogging torque (established).\nhelps       Cogging torque (8.000"));
-  EXPECT_THAT(outcome.out, ::testing::HasSubstr(") brings it down from 5.47 to 0.637 mN·m"));
+  EXPECT_THAT(outcome.out, ::testing::HasSubstr(") brings the missing torque down from 5.47 to 0.637 mN·m"));
   EXPECT_THAT(outcome.out, ::testing::HasSubstr("eriodic in the motor angle with 24 cycles per turn"));
   EXPECT_TRUE(std::filesystem::exists(place.folder() / "report/diagnosis.png"));
 }

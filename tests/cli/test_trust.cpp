@@ -53,7 +53,7 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   const auto run = place.run("run right.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap is 18.999"));
-  EXPECT_THAT(run.out, HasSubstr(" Trust: good.\nmismatch    The fitted model follows 99.9"));
+  EXPECT_THAT(run.out, HasSubstr(" Trust: good.\nmodel error The fitted model follows 99.9"));
   const auto result = result_of(place, "reports/right");
   EXPECT_EQ(result["reference"]["trust"], "good");
   EXPECT_GT(result["reference"]["fit_percent"].get<double>(), 99.0);
@@ -67,8 +67,9 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   for (std::string line : {"gap", "mismatch", "place", "next"}) {
     const bool told = line != "place";  // what nobody has diagnosed is one line
     const std::string text =
-        told ? card[line] : "Place, cause and what helps: run `gapscope diagnose CONFIG`.";
+        told ? card[line] : "Where, cause and what helps: run `gapscope diagnose CONFIG`.";
     if (!told) line = "diagnosis";
+    if (line == "mismatch") line = "model error";
     line.resize(12, ' ');
     all += line + text + "\n";
   }

@@ -75,16 +75,19 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
   const Card card = card_of(facts_of(nullptr, &d));
   EXPECT_EQ(
       card.mismatch,
-      "The model misses 10 N of force on held-out data, 20 % of the 50 N that the input brings; the error "
-      "is 30 times the encoder floor.");
-  EXPECT_EQ(card.place, "Changes with the direction of motion (55 % of it backward).");
+      "The model misses 10 N rms of force on held-out data, 20 % of the 50 N rms that the input applies; the "
+      "free-run error is 30 times the encoder floor.");
+  EXPECT_EQ(card.place,
+            "The missing force changes with the direction of motion (55 % of its square backward).");
+  EXPECT_EQ(card.cause,
+            "Motor Coulomb friction (established); cogging torque helps too, but whether it is the cause is "
+            "open: it may as well be "
+            "torque ripple.");
   EXPECT_EQ(
-      card.cause,
-      "Motor Coulomb friction (established); cogging torque helps, but its cause is open: it may as well be "
-      "torque ripple.");
-  EXPECT_EQ(card.helps,
-            "From 10 N to 4 N with motor Coulomb friction, then 2 N with cogging torque (20.0 % to 4.0 %); "
-            "`fitted.yaml` has them.");
+      card.helps,
+      "The missing force falls from 10 N to 4 N with motor Coulomb friction, then to 2 N with cogging torque "
+      "(20.0 % to 4.0 % of the input's); "
+      "`fitted.yaml` has them.");
   EXPECT_DOUBLE_EQ(card.percent, 20.0);
   EXPECT_DOUBLE_EQ(card.percent_after, 4.0);
 }
@@ -94,7 +97,8 @@ TEST(Card, TellsWhatIsStillUnexplained) {
   d.budget.nominal = 10.0, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).next,
-      HasSubstr(" of the force is still unexplained (20 times the floor): diagnose the other way round"));
+      HasSubstr(
+          " of the input's force is still unexplained (20 times the floor): diagnose the other way round"));
   d.added.back().after_torque = kNaN;  // the budget has no size of it: it may take all of that
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `fitted.yaml`"));
   d.added.back().after_torque = 2.0, d.budget.encoder = 0.3;
@@ -107,19 +111,19 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   d.budget.input = 50.0, d.budget.remains = 2.0;
   ASSERT_TRUE(d.budget.exists());
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("input brings; the recordings (or parts of one) differ from each other by 0.613 N, "
-                       "which no one model follows."));
+              EndsWith("input applies; the recordings (or parts of one) differ among themselves by 0.613 N, "
+                       "which no single model follows."));
   d.budget.encoder = 0.7;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("input brings; no model gets below 0.7 N, which is the encoder's noise."));
+              EndsWith("input applies; no model can get below 0.7 N, the noise of the encoder."));
   d.budget.repeatability = 0.72;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("input brings; no model gets below 0.72 N, which is the encoder's noise."));
+              EndsWith("input applies; no model can get below 0.72 N, the noise of the encoder."));
   d.budget.repeatability = 1.2;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("no model gets below 1.2 N, by which the drive does not repeat itself."));
+              EndsWith("no model can get below 1.2 N, by which the drive does not repeat itself."));
   d.budget.repeatability = 3.0;
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, Not(HasSubstr("no model gets below")))
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, Not(HasSubstr("no model can get below")))
       << "the model with what was added is below";
   d.budget.records = 20.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, EndsWith("30 times the encoder floor."))
@@ -134,7 +138,7 @@ TEST(Card, SaysWhereMostLikelyNothingOfTheCatalogueIsTheCause) {
   d.ranking.resize(1);
   d.ranking.front().effect = d.effects.front();
   const Card card = card_of(facts_of(nullptr, &d));
-  EXPECT_THAT(card.cause, HasSubstr(" help, but their causes are open"));
+  EXPECT_THAT(card.cause, HasSubstr(" help, but whether they are the cause is open"));
   EXPECT_THAT(card.cause, EndsWith("; most likely (88 %) the cause is none of the catalogue's."));
   EXPECT_THAT(card.next, StartsWith("Try `fitted.yaml` on another motion ("));
   d.added.back().established = true;

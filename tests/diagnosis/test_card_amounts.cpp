@@ -16,9 +16,9 @@ TEST(Card, TellsTheAmountOfWhatHelps) {
   Diagnosis d = slide_diagnosis();
   d.added[0].parameters = {{"level_nm", "N m", 20.54}};
   d.added[1].parameters = {{"share", "-", 0.2}};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("From 10 N to 4 N with motor Coulomb friction (20.5 N), then 2 N with cogging torque ("));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("The missing force falls from 10 N to 4 N with motor Coulomb friction (20.5 N), "
+                         "then to 2 N with cogging torque ("));
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps, Not(HasSubstr("simulated motion")));
   d.mismatch.before = 1.28e-3, d.mismatch.after = 1.42e-3,
   d.mismatch.measure = "free run restarted every 2 s";
@@ -35,12 +35,13 @@ TEST(Card, TellsAnAmountWithoutAUnitAsAShareAndALawByWhatItAddsToASimplerOne) {
   d.added[0].parameters = {{"level_nm", "N m", 20.54}};
   d.added[1].effect = "torque_ripple", d.added[1].parameters = {{"ratio", "-", 0.0312, {0.0305, 0.0319}}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("(20.5 N), then 2 N with torque ripple (ratio 3.120 %, 95 %: 3.050 to 3.190) ("));
+              HasSubstr("(20.5 N), then to 2 N with torque ripple (ratio 3.120 %, 95 %: 3.050 to 3.190) ("));
   d.added[1].effect = "load_dependent_friction";
   d.added[1].parameters = {{"level_nm", "N m", 20.54}, {"ratio", "-", 0.1, {0.09, 0.11}}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("with motor Coulomb friction, then 2 N with load-dependent friction (ratio 10.0 %, "
-                        "95 %: 9.0 to 11.0) ("));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      HasSubstr("with motor Coulomb friction, then to 2 N with load-dependent friction (ratio 10.0 %, "
+                "95 %: 9.0 to 11.0) ("));
 }
 
 TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
@@ -49,8 +50,9 @@ TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
   d.added[1].parameters = {{"level_nm", "N m", 20.54},
                            {"coulomb_ratio", "-", -0.0052},
                            {"viscous_ratio", "-", -0.2, {-0.22, -0.18}}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("then 2 N with friction asymmetry (viscous ratio -20.0 %, 95 %: -22.0 to -18.0) ("));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      HasSubstr("then to 2 N with friction asymmetry (viscous ratio -20.0 %, 95 %: -22.0 to -18.0) ("));
 }
 
 TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
@@ -59,16 +61,17 @@ TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
   d.added.front().established = true;
   d.added.front().parameters = {{"amplitude_nm", "N m", 2.054}, {"periods_per_turn", "1/rev", 2513.3}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Cogging torque (2.05 N) brings it down from 10 to 2 N (20.0 % to 4.0 %)"));
+              StartsWith("Cogging torque (2.05 N) brings the missing force down from 10 to 2 N (20.0 % to "
+                         "4.0 % of the input's)"));
   d.added.front().parameters.clear();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Cogging torque brings it down from 10 to 2 N"));
+              StartsWith("Cogging torque brings the missing force down from 10 to 2 N"));
   d = slide_diagnosis();
   d.added[0].after_torque = kNaN, d.added[0].parameters = {{"level_nm", "N m", 20.54}};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("Motor Coulomb friction (20.5 N; takes 60 %) and cogging torque (takes 50 %) bring it down "
-                 "from 10"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("Motor Coulomb friction (20.5 N; takes 60 % of the free-run error) and cogging "
+                         "torque (takes 50 % of the free-run error) bring the missing force down "
+                         "from 10"));
 }
 
 /// Between the lines of a budget there may be laws that the model cannot have, and effects beside them.
@@ -76,17 +79,17 @@ TEST(Card, TellsTheTorqueOfTheModelThatFittedYamlHas) {
   Diagnosis d = slide_diagnosis();
   d.budget.band_hz = 8.0;
   d.mismatch.after_torque = 3.0;  // the last line, 2.0, has a law beside both that nobody can add
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("Motor Coulomb friction (takes 60 %) and cogging torque (takes 50 %) bring it down from 10 "
-                 "to 3 N (20.0 % to 6.0 %)"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("Motor Coulomb friction (takes 60 % of the free-run error) and cogging torque "
+                         "(takes 50 % of the free-run error) bring the missing force down from 10 "
+                         "to 3 N (20.0 % to 6.0 % of the input's)"));
   d.budget.uncounted = {"cogging_torque"};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith(
-          "Motor Coulomb friction (takes 60 %) brings it down from 10 to 3 N (20.0 % to 6.0 %); cogging "
-          "torque (takes 50 %) helps the simulated motion, and no size of it in force is known; "
-          "`fitted.yaml` has them"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("Motor Coulomb friction (takes 60 % of the free-run error) brings the missing force "
+                         "down from 10 to 3 N (20.0 % to 6.0 % of the input's); cogging "
+                         "torque (takes 50 % of the free-run error) helps the simulated motion, and no size "
+                         "of it in force is known; "
+                         "`fitted.yaml` has them"));
 }
 
 TEST(Card, TellsAnAmountWithItsInterval) {
@@ -95,8 +98,9 @@ TEST(Card, TellsAnAmountWithItsInterval) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
               HasSubstr("4 N with motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98), then"));
   d.added.pop_back();
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98) brings it down"));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      StartsWith("Motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98) brings the missing force down"));
 }
 
 TEST(Card, OfManyEffectsTellsTheFirstAndCountsTheRest) {
@@ -105,8 +109,11 @@ TEST(Card, OfManyEffectsTellsTheFirstAndCountsTheRest) {
   for (const char* more : {"cogging_torque", "viscous_friction", "torque_ripple", "load_friction"})
     d.added.push_back({more, true, {more}, kNaN, {}, 0.1, {}, 4.0 - 0.5 * double(d.added.size())});
   Card card = card_of(facts_of(nullptr, &d));
-  EXPECT_THAT(card.helps, StartsWith("From 10 N to 4 N with motor Coulomb friction, then 3.5 N with cogging "
-                                     "torque, then 3 N with viscous friction, then 2 N with 2 more ("));
+  EXPECT_THAT(
+      card.helps,
+      StartsWith(
+          "The missing force falls from 10 N to 4 N with motor Coulomb friction, then to 3.5 N with cogging "
+          "torque, then to 3 N with viscous friction, then to 2 N with 2 more ("));
   EXPECT_EQ(card.cause, "Motor Coulomb friction, cogging torque, viscous friction and 2 more (established).");
   d.added.pop_back();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, HasSubstr("viscous friction and torque ripple (est"));
@@ -121,9 +128,9 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
   d.added[1].parameters = {{"amplitude_nm", "N m", 1.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 0.01}};
   CardFacts f = facts_of(nullptr, &d);
   EXPECT_EQ(card_of(f).cause, "Cogging torque every 2.5 mm and cogging torque every 10 mm (established).");
-  EXPECT_THAT(card_of(f).helps,
-              StartsWith("From 10 N to 4 N with cogging torque every 2.5 mm (5 N), then 2 N with cogging "
-                         "torque every 10 mm (1 N) ("));
+  EXPECT_THAT(card_of(f).helps, StartsWith("The missing force falls from 10 N to 4 N with cogging torque "
+                                           "every 2.5 mm (5 N), then to 2 N with cogging "
+                                           "torque every 10 mm (1 N) ("));
   f.coordinates = Coordinates::kRotation;
   d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
   EXPECT_EQ(card_of(f).cause,

@@ -38,10 +38,10 @@ Card card_of(const Diagnosis& d) {
 }
 
 TEST(CardCause, ALaterOneIsEstablishedWithAnOpenFirstOneInTheModel) {
-  EXPECT_EQ(
-      card_of(of_friction_and_delay(false, true)).cause,
-      "Motor Coulomb friction helps, but its cause is open: it may as well be quadratic drag; with it in the "
-      "model, input delay is established.");
+  EXPECT_EQ(card_of(of_friction_and_delay(false, true)).cause,
+            "Motor Coulomb friction helps, but whether it is the cause is open: it may as well be quadratic "
+            "drag; with it in the "
+            "model, input delay is established.");
 }
 
 TEST(CardCause, OneOfAGroupIsNotCalledEstablished) {
@@ -53,8 +53,9 @@ TEST(CardCause, OneOfAGroupIsNotCalledEstablished) {
   d.added[0].group.pop_back();
   EXPECT_EQ(card_of(d).cause, "Motor Coulomb friction and input delay (established).");
   d.added[1].established = false;
-  EXPECT_EQ(card_of(d).cause,
-            "Motor Coulomb friction (established); input delay helps, but its cause is open.");
+  EXPECT_EQ(
+      card_of(d).cause,
+      "Motor Coulomb friction (established); input delay helps too, but whether it is the cause is open.");
 }
 
 TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
@@ -62,14 +63,15 @@ TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
   d.added[0].parameters = {{"level_nm", "N m", 274.0}};
   d.added[0].at_bound = {"level_nm"};
   d.added[1].parameters = {{"delay_s", "s", 0.003, {0.002, 0.004}}};
-  EXPECT_EQ(
-      card_of(d).cause,
-      "Motor Coulomb friction and input delay help, but their causes are open: it may as well be quadratic "
-      "drag, and these recordings do not determine how much motor Coulomb friction there is.");
+  EXPECT_EQ(card_of(d).cause,
+            "Motor Coulomb friction and input delay help, but whether they are the cause is open: it may as "
+            "well be quadratic "
+            "drag, and these recordings do not determine how much motor Coulomb friction there is.");
   EXPECT_THAT(card_of(d).helps, HasSubstr("motor Coulomb friction (274 N·m, at the bound of its search)"));
   d.added[0].group.pop_back(), d.added[0].at_bound.clear(), d.added.pop_back();
   EXPECT_EQ(card_of(d).cause,
-            "Motor Coulomb friction helps, but its cause is open: these recordings do not determine how much "
+            "Motor Coulomb friction helps, but whether it is the cause is open: these recordings do not "
+            "determine how much "
             "there is of it.");
   EXPECT_THAT(card_of(d).helps, HasSubstr("friction (274 N·m, which the recordings do not determine)"));
 }
@@ -172,6 +174,8 @@ TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
             "N·m, but no model "
             "with it follows the recordings well enough to establish it.");
   EXPECT_EQ(card_of(d).helps, "Nothing that these recordings establish.");
+  EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"))
+      << "swapped they would send back: what is fitted asks as much";
   d.better_swapped = true;
   EXPECT_EQ(card_of(d).cause,
             "Unknown: in the error budget load unbalance brings the missing torque down from 12.6 to 2.43 "
@@ -180,10 +184,24 @@ TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   d.next_experiment.sentence = "Record a sine.";
   EXPECT_THAT(card_of(d).next, HasSubstr("Swap the recordings")) << "takes no new one";
   d.next_experiment = {};
-  EXPECT_THAT(card_of(d).mismatch, HasSubstr("12.6 N·m of torque on held-out data, 10 times the 1.24 N·m"));
+  EXPECT_THAT(card_of(d).mismatch,
+              HasSubstr("12.6 N·m rms of torque on held-out data, 10 times the 1.24 N·m rms"));
   d.budget.rungs.front().share = 0.3, d.better_swapped = false;
   EXPECT_EQ(card_of(d).cause, "Unknown: no effect of the catalogue explains it.");
   EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"));
+}
+
+/// Of a servo that logs goal and position alone, what a recorded input establishes may stay unknown.
+TEST(CardCause, OfAnInputThatTheControllerMakesSaysWhatWouldEstablishIt) {
+  Diagnosis d = unknown_beside_a_budget();
+  d.traces.resize(1);
+  d.traces.front().target = {0.0, 0.1};
+  EXPECT_THAT(
+      card_of(d).cause,
+      HasSubstr("to establish it; the torque here is what the model's controller makes of the goal: with the "
+                "recorded input the same effect may be established."));
+  EXPECT_THAT(card_of(d).next,
+              ::testing::StartsWith("Record the motor's input as well (duty, current or torque)"));
 }
 
 TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
@@ -191,17 +209,18 @@ TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
   d.whole_run = WholeRun{0.407, 0.0412, 0.876};
   EXPECT_THAT(
       card_of(d).mismatch,
-      HasSubstr(" Simulated freely from the first sample on, the model departs from the held-out motion "
-                "by up to 407 mrad, of 876 mrad of travel; with what was added, by up to 41.2 mrad."));
+      HasSubstr(" Simulated freely from the first sample on, the model drifts up to 407 mrad from "
+                "the held-out motion, whose travel is 876 mrad; with what was added, up to 41.2 mrad."));
   d.whole_run->before = 54.2;
-  EXPECT_THAT(card_of(d).mismatch,
-              HasSubstr("by up to 54.2 rad, of 0.876 rad of travel; with what was added, by "
-                        "up to 0.0412 rad."));
+  EXPECT_THAT(
+      card_of(d).mismatch,
+      HasSubstr("up to 54.2 rad from the held-out motion, whose travel is 0.876 rad; with what was added, "
+                "up to 0.0412 rad."));
   d.whole_run->before = kNaN;
   EXPECT_THAT(
       card_of(d).mismatch,
-      HasSubstr("sample on, the model runs away; with what was added, it departs from the held-out motion "
-                "by up to 41.2 mrad, of 876 mrad of travel."));
+      HasSubstr("sample on, the model runs away; with what was added, it drifts up to 41.2 mrad from the "
+                "held-out motion, whose travel is 876 mrad."));
   d.closed_loop = ClosedLoop{0.392, 0.0561, {}};
   EXPECT_THAT(card_of(d).mismatch, Not(HasSubstr("Simulated freely"))) << "a drive that holds a position";
 }
@@ -221,12 +240,14 @@ TEST(CardMismatch, TellsTheErrorUnderTheController) {
   Diagnosis d = of_friction_and_delay(true, true);
   EXPECT_THAT(card_of(d).mismatch, Not(HasSubstr("controller")));
   d.closed_loop = ClosedLoop{0.392, 0.0561, {}};
-  EXPECT_THAT(card_of(d).mismatch, HasSubstr(" Under its controller the model is 392 mrad off; with what was "
-                                             "added it is 56.1 mrad off (rms of the position)."));
+  EXPECT_THAT(card_of(d).mismatch,
+              HasSubstr(" With its controller in the loop the model is 392 mrad rms off in "
+                        "position; with what was added it is 56.1 mrad rms off in position."));
   d.closed_loop->before = kNaN;
-  EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model runs away; with what was added it is 56.1 mrad off"));
+  EXPECT_THAT(card_of(d).mismatch,
+              HasSubstr("the model runs away; with what was added it is 56.1 mrad rms off"));
   d.closed_loop->before = 0.392, d.added.clear();
-  EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model is 392 mrad off (rms of the position)."));
+  EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model is 392 mrad rms off in position."));
 }
 
 TEST(CardGap, OfAnEncoderOnTheLoadIsNotSentToTheDetector) {

@@ -14,8 +14,8 @@ std::string headline_with(double share, double expected) {
 }
 
 TEST(Headline, NamesAPhaseOfTheContactOnlyWhereTheErrorIsDenserThanChance) {
-  EXPECT_EQ(headline_with(0.82, 0.8), "no clear order in angle, speed, input or time");
-  EXPECT_EQ(headline_with(0.6, 0.8), "no clear order in angle, speed, input or time");
+  EXPECT_EQ(headline_with(0.82, 0.8), "no clear pattern in angle, speed, input or time");
+  EXPECT_EQ(headline_with(0.6, 0.8), "no clear pattern in angle, speed, input or time");
   EXPECT_TRUE(
       headline_with(0.98, 0.8).starts_with("in engagement (98 % of the squared correcting torque in 80 %"));
   EXPECT_TRUE(headline_with(0.4, 0.2).starts_with("in engagement"));
@@ -26,10 +26,10 @@ TEST(Headline, SaysInWhichDirectionTheErrorIsOrThatItIsInBoth) {
   place.mode = {{"gap", 0.0, 0.0}, {"engagement", 1.0, 1.0}, {"impact", 0.0, 0.0}};
   place.follows = {ResidualPattern::kDirection};
   place.direction = {{"backward", 0.5, 0.5}, {"forward", 0.5, 0.5}};
-  EXPECT_EQ(headline_of(place, {}), "changes with the direction of motion (as large in both)");
+  EXPECT_EQ(headline_of(place, {}), "changes with the direction of motion (equally large both ways)");
   place.direction = {{"backward", 0.9, 0.5}, {"forward", 0.1, 0.5}};
   EXPECT_EQ(headline_of(place, {}),
-            "changes with the direction of motion (90 % of it backward, in 50 % of the time)");
+            "changes with the direction of motion (90 % of its square backward, in 50 % of the time)");
 }
 
 TEST(Headline, CallsOneCycleOncePerTurn) {

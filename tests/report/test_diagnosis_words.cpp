@@ -81,8 +81,10 @@ TEST(DiagnosisWords, WhatIsMissingAndWhatCorrectsTheObserverHaveNamesOfTheirOwn)
   DiagnosisResult r = with_friction();
   r.diagnosis.measures = {{"residual torque", "N m", 0.2, 0.1, kNaN}};
   const std::string text = internal::report::diagnosis_text(r);
-  EXPECT_THAT(text, HasSubstr("Missing torque: what the input brings and the model does not, rms on held-out "
-                              "data below 8 Hz. The input brings 1.00 N·m in all."));
+  EXPECT_THAT(
+      text,
+      HasSubstr("Missing torque: what the input applies and the model does not account for, rms on held-out "
+                "data below 8 Hz. The input applies 1.00 N·m in all."));
   EXPECT_THAT(text, HasSubstr("| correcting torque | 200 mN·m | 100 mN·m | – |"));
   EXPECT_THAT(text, Not(HasSubstr("esidual torque")));
   EXPECT_EQ(internal::report::diagnosis_budget(r).title, "Error budget: missing torque on held-out data");
@@ -92,7 +94,7 @@ TEST(DiagnosisWords, WhatIsMissingAndWhatCorrectsTheObserverHaveNamesOfTheirOwn)
 TEST(DiagnosisWords, TheBudgetsFigureTellsTheTorqueOfTheModelBesideThatOfAllLaws) {
   DiagnosisResult r = with_friction();
   EXPECT_THAT(internal::report::diagnosis_budget(r).reading,
-              EndsWith("falls from 100 mN·m to 36.0 mN·m, 3.6 % of what the input brings."));
+              EndsWith("falls from 100 mN·m to 36.0 mN·m, 3.6 % of what the input applies."));
   r.diagnosis.budget.remains = 0.02;
   r.diagnosis.budget.rungs.push_back({"resonance", "", false, 0.036, 0.02, 0.7, {0.6, 0.8}, 0.1, 0.7, kNaN});
   EXPECT_THAT(internal::report::diagnosis_budget(r).reading,
@@ -186,7 +188,7 @@ TEST(DiagnosisWords, WhereNothingWasAddedNoColumnAndNoFallTellsOfIt) {
                               "| free run restarted every 0.5 s | 2.00 mrad | 0.0200 mrad |\n"));
   EXPECT_THAT(text, Not(HasSubstr("with all that was added")));
   const auto figure = internal::report::diagnosis_budget(r);
-  EXPECT_EQ(figure.reading, "The missing torque is 4.91 mN·m, 2.5 % of what the input brings.");
+  EXPECT_EQ(figure.reading, "The missing torque is 4.91 mN·m, 2.5 % of what the input applies.");
   EXPECT_EQ(figure.panels[0].y.categories.size(), 1u);
 }
 

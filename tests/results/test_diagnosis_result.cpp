@@ -104,6 +104,7 @@ DiagnosisResult sample() {
     t.u.push_back(i * kThird), t.x1.push_back(i * kThird * kThird);
     t.error_before.push_back(1e-3 * i * kThird), t.error_after.push_back(1e-6 * i);
     t.torque_before.push_back(kThird), t.torque_after.push_back(-kThird);
+    t.simulated_before.push_back(2e-3 * i * kThird), t.simulated_after.push_back(2e-6 * i);
     t.mode.push_back(i % 2 == 0 ? Mode::kGap : Mode::kEngagementPlus);
   }
   d.traces = {t};

@@ -17,14 +17,14 @@ struct SimulatorComparison;
 
 /// `tolerance:` – what the user calls good enough. What is absent is not judged.
 struct Tolerance {
-  std::optional<double> torque_percent;  ///< rms of the missing torque [% of what the input brings]
+  std::optional<double> torque_percent;  ///< rms of the missing torque [% of what the input applies]
   std::optional<double> gap;             ///< backlash gap 2β [rad]
 
   bool stated() const { return torque_percent || gap; }
   void fields(FieldVisitor& visitor);
 };
 
-/// One line of the card: "mismatch" and what is to be said of it.
+/// One line of the card: "model error" and what is to be said of it.
 struct CardLine {
   const char* name;
   const std::string& text;
@@ -40,7 +40,7 @@ struct Card {
   std::string helps;                ///< what takes how much of it
   std::string next;                 ///< the next step
   double torque = kNaN;             ///< rms of the missing torque of the model as it is, held-out [N m]
-  double percent = kNaN;            ///< the same, of what the input brings [%]
+  double percent = kNaN;            ///< the same, of what the input applies [%]
   double torque_after = kNaN;       ///< with all that helps [N m]
   double percent_after = kNaN;      ///< the same [%]
   std::optional<bool> good_enough;  ///< by the tolerance; nothing: none is stated, or it cannot be told

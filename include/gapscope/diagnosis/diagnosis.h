@@ -54,7 +54,7 @@ struct MismatchSize {
   FloorSource floor_from = FloorSource::kEncoder;
   std::string floor_of;                              ///< what it was read from, in words: recordings, periods
   double before_torque = kNaN, after_torque = kNaN;  ///< missing torque, rms [N m]
-  double floor_torque = kNaN, input_torque = kNaN;   ///< what no model gets below; what the input brings
+  double floor_torque = kNaN, input_torque = kNaN;   ///< what no model gets below; what the input applies
   double shrink = kNaN;   ///< (before − after)/(before − floor); NaN while before < 1.3 floors
   Interval shrink_ci95;   ///< for the next recording of the same drive
   double remains = kNaN;  ///< after/floor
@@ -75,6 +75,10 @@ struct RankedEffect {
   std::string remark;  ///< why it was listed and not added, where that needs a word
 };
 
+/// What a share of an added effect is of: the error of the held-out motion, or the missing torque, which has
+/// then decided on it.
+enum class ShareOf { kMotion, kTorque };
+
 /// An effect that was added to the model: what it takes of the held-out error, and whether it is its cause.
 struct AddedEffect {
   std::string effect;
@@ -88,6 +92,7 @@ struct AddedEffect {
   Interval shrink_ci95;
   double after_torque = kNaN;              ///< rms of the missing torque with it [N m]
   std::vector<std::string> at_bound = {};  ///< keys of its parameters that ended at a bound of their search
+  ShareOf share_of = ShareOf::kMotion;     ///< what `shrink` is of
 };
 
 /// Where the gap of a fitted model comes from: it is one body and has none, its configuration gives it, or
@@ -106,12 +111,13 @@ struct ModelGap {
 enum class BoundReached { kNone, kLower, kUpper };
 
 /// What a nominal parameter reads with and without the effect: what it had to take the blame for. What ended
-/// at a bound is no reading.
+/// at a bound is no reading, nor is what was held: the torque balance leaves it where the nominal fit had it.
 struct BlameShift {
   std::string key;
   std::string unit;
   double without = kNaN, with = kNaN;
   BoundReached without_at = BoundReached::kNone, with_at = BoundReached::kNone;
+  bool held = false;
 };
 
 /// An estimated number whose 95 % interval leaves out the value that the configuration gives it: a claim that
@@ -196,6 +202,9 @@ struct MismatchTrace {
   EncoderSide encoder = EncoderSide::kMotor;        ///< of the load: x1 is that of the load
   /// What u was made of by a controller [rad], and the supply that multiplies its output [V]; empty: neither.
   std::vector<double> target = {}, supply = {};
+  /// Position of the model, without and with what was added, from the first sample on simulated freely, or
+  /// under the drive's controller where there is one [rad]; empty: its motion diverges, or it was not stored.
+  std::vector<double> simulated_before = {}, simulated_after = {};
 
   double time(std::size_t i) const {
     return stamps.empty() ? start + dt * static_cast<double>(i) : stamps[i];
@@ -207,6 +216,9 @@ struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNotRun;
   std::string sentence = "diagnose() was not called.";
   bool stopped = false;  ///< the search was asked to finish before its end; what it says is what it had found
+  /// The model with what was added has the numbers of the torque balance: a refit to the motion, in which
+  /// something is still missing, would bend them. Of the others it has those of the nominal fit
+  bool balanced = false;
   bool exhausted = false;  ///< it has taken all the work it may, after which it begins no further step
   /// What is held out asks more of the drive than what is fitted: the other way round may tell more
   bool better_swapped = false;
@@ -245,6 +257,10 @@ struct Diagnosis {
   std::optional<DriveController> controller = {};  ///< that controller, as fitted with what was added
 
   std::string brief_report() const;  ///< one line: log, command line
+
+  /// Whether the next recording's motion would show what was added, too: the interval of the shrink is above
+  /// zero.
+  bool is_shown_by_motion() const { return mismatch.shrink_ci95.low > 0.0; }
 };
 
 /// `diagnosis:` – what is known of the drive beforehand, and what is asked beside the verdict.

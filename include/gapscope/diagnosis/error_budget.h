@@ -26,7 +26,7 @@ struct BudgetRung {
 /// on.
 struct ErrorBudget {
   double band_hz = kNaN;        ///< top of the band
-  double input = kNaN;          ///< torque that the input brings
+  double input = kNaN;          ///< torque that the input applies
   double nominal = kNaN;        ///< left by the nominal model
   double with_effects = kNaN;   ///< by that with the effects that were added
   double remains = kNaN;        ///< by that with all laws of the rungs

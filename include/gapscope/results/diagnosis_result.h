@@ -28,7 +28,8 @@ struct DiagnosisResult {
 };
 
 /// Writes diagnosis.json and traces/held_out_<n>_<file>.csv into an existing folder. The columns of a trace
-/// are t_s, u, x1_rad, error_before_rad, error_after_rad, torque_before_nm, torque_after_nm and mode.
+/// are t_s, u, x1_rad, error_before_rad, error_after_rad, torque_before_nm, torque_after_nm,
+/// simulated_before_rad, simulated_after_rad and mode.
 /// @throws std::runtime_error naming what cannot be written.
 void write_diagnosis_result(const std::string& folder, const DiagnosisResult& result);
 

@@ -1,0 +1,123 @@
+// What the figures of a card are of: which evidence has decided, in which band, of which model.
+#include <gmock/gmock.h>
+
+#include "diagnosis/card_words.h"
+#include "diagnosis/slide_card.h"
+#include "diagnosis/where.h"
+#include "diagnosis/words.h"
+#include "gapscope/base/decimals.h"
+#include "gapscope/base/percents.h"
+
+namespace gapscope {
+namespace {
+
+using internal::diagnosis::HeldOut;
+using internal::diagnosis::place_of;
+using internal::diagnosis::Playback;
+using internal::diagnosis::SharedUnit;
+using testing::facts_of;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::slide_diagnosis;
+using ::testing::StartsWith;
+
+/// As the torque balance has decided, with a free run that may not bear it out.
+Diagnosis by_balance(double shrink, const Interval& ci95) {
+  Diagnosis d = slide_diagnosis();
+  for (AddedEffect& a : d.added) a.share_of = ShareOf::kTorque;
+  d.mismatch.shrink = shrink, d.mismatch.shrink_ci95 = ci95;
+  d.mismatch.measure = "free run restarted every 0.5 s, median over windows of the rms";
+  return d;
+}
+
+TEST(CardBasis, WhatRoundsToZeroHasNoSign) {
+  EXPECT_EQ(with_decimals(-0.004, 2), "0.00");
+  EXPECT_EQ(with_decimals(-0.0, 0), "0");
+  EXPECT_EQ(with_decimals(-0.006, 2), "-0.01");
+  EXPECT_EQ(SharedUnit(1.0, "%").with_interval(35.0, {-0.2, 70.2}), "35 %, 95 %: 0 to 70");
+  EXPECT_EQ(SharedUnit(1.0, "N").number(-0.0), "0");
+  const double both[] = {-0.2, 64.0};
+  EXPECT_EQ(Percents(both)(-0.0001), "0.00 %");
+}
+
+TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
+  const Diagnosis d = by_balance(0.46, {-2.57, 0.83});
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).cause,
+      StartsWith("Motor Coulomb friction (established by the balance of torque alone; the free run cannot "
+                 "tell: its error shrinks by 46 % (95 %: -257 to 83))"));
+  EXPECT_THAT(
+      internal::diagnosis::sentence_of(d, Coordinates()),
+      StartsWith("The model lacks motor Coulomb friction (established by the balance of torque alone; "));
+  const Diagnosis shown = by_balance(0.9, {0.59, 1.0});
+  EXPECT_THAT(card_of(facts_of(nullptr, &shown)).cause, StartsWith("Motor Coulomb friction (established); "));
+  const Diagnosis at_floor = by_balance(kNaN, {});
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &at_floor)).cause,
+      HasSubstr("(established by the balance of torque alone; the free run, near its floor, cannot tell)"));
+  Diagnosis by_motion = d;
+  for (AddedEffect& a : by_motion.added) a.share_of = ShareOf::kMotion;
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &by_motion)).cause,
+      StartsWith("Motor Coulomb friction (established; the free run of another recording may not show it: "
+                 "its error shrinks by 46 % (95 %: -257 to 83))"));
+}
+
+/// Of the balance a share is a fall of torque, as its table has it; of the motion one of its error.
+TEST(CardBasis, AShareSaysWhatItIsOf) {
+  Diagnosis d = by_balance(0.9, {0.6, 1.0});
+  d.budget.band_hz = 8.0;
+  d.budget.rungs.resize(2);
+  d.budget.rungs[0].effect = d.effects[0], d.budget.rungs[0].before = 10.0, d.budget.rungs[0].after = 4.0;
+  d.budget.rungs[1].effect = d.effects[1], d.budget.rungs[1].before = 4.0, d.budget.rungs[1].after = 2.0;
+  d.mismatch.after_torque = 3.0;  // the fitted model is another one than that of the last line
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      StartsWith("Motor Coulomb friction (takes it from 10 to 4 N) and cogging torque (takes it from 4 to "
+                 "2 N) bring the missing force down from 10 to 3 N (20.0 % to 6.0 % of the input's)"));
+  for (AddedEffect& a : d.added) a.share_of = ShareOf::kMotion;
+  d.mismatch.measure = "prediction of an observer at 3 Hz, median over windows of the rms";
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("Motor Coulomb friction (takes 60 % of the prediction error) and "));
+  d.laws.push_back({});
+  d.laws.front().variable = "speed", d.laws.front().shrink = -0.001;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              HasSubstr("A free curve over the speed takes 0 % of the prediction error ("));
+}
+
+TEST(CardBasis, TheLineOfThePlaceIsASentence) {
+  Diagnosis d = slide_diagnosis();
+  const auto where = [&](const std::string& headline) {
+    d.where.headline = headline;
+    return card_of(facts_of(nullptr, &d)).place;
+  };
+  EXPECT_EQ(where("periodic in the motor position, every 5 mm"),
+            "The missing force is periodic in the motor position, every 5 mm.");
+  EXPECT_EQ(where("depends on the speed (largest at 34–51 mm/s)"),
+            "The missing force depends on the speed (largest at 34–51 mm/s).");
+  EXPECT_EQ(where("no clear pattern in angle, speed, input or time"),
+            "The missing force has no clear pattern in angle, speed, input or time.");
+}
+
+/// A torque that is damping, under ten times as much at 30 Hz, which the error budget does
+/// not count.
+TEST(CardBasis, ThePlaceIsOfTheBandThatTheSizeIsOf) {
+  std::vector<double> u, x1;
+  Playback p;
+  constexpr double kStep = 1e-3;
+  for (int i = 0; i < 8000; ++i) {
+    const double t = kStep * i, w = std::sin(2.0 * kPi * 0.5 * t);
+    u.push_back(0.0), x1.push_back(t), p.w1.push_back(w);
+    p.torque.push_back(w + 10.0 * std::sin(2.0 * kPi * 30.0 * t));
+    p.mode.push_back(Mode::kEngagementPlus);
+  }
+  MotorTrace trace;
+  trace.dt = kStep, trace.u = u, trace.x1 = x1;
+  HeldOut held;
+  held.traces = {trace}, held.scored_from = {0}, held.floors = {1e-6}, held.periods = {0.0};
+  EXPECT_THAT(place_of({p}, held, 1.0, {}, nullptr).headline, StartsWith("no clear pattern"));
+  EXPECT_THAT(place_of({p}, held, 1.0, {}, nullptr, 5.0).headline, StartsWith("depends on the speed"));
+}
+
+}  // namespace
+}  // namespace gapscope
