@@ -195,7 +195,7 @@ TEST(Card, OfADriveThatLacksNothingSaysSoInEveryLine) {
   f.coordinates = Coordinates::kRotation;
   const Card card = card_of(f);
   EXPECT_THAT(card.mismatch,
-              StartsWith("The model misses 200 µN·m of torque on held-out data, 0.286 % of the "
+              StartsWith("The model misses 200 µN·m rms of torque on held-out data, 0.286 % of the "
                          "70 mN·m"));
   EXPECT_THAT(card.mismatch, HasSubstr("that is noise"));
   EXPECT_EQ(card.next, "None.");

@@ -17,7 +17,6 @@ using internal::diagnosis::Playback;
 using internal::diagnosis::SharedUnit;
 using testing::facts_of;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using testing::slide_diagnosis;
 using ::testing::StartsWith;
 
@@ -99,16 +98,17 @@ TEST(CardBasis, TheLineOfThePlaceIsASentence) {
             "The missing force has no clear pattern in angle, speed, input or time.");
 }
 
-/// A torque that is damping, under ten times as much at 30 Hz, which the error budget does
-/// not count.
+/// A torque that is damping, under ten times as much noise, which the error budget does not count.
 TEST(CardBasis, ThePlaceIsOfTheBandThatTheSizeIsOf) {
   std::vector<double> u, x1;
   Playback p;
   constexpr double kStep = 1e-3;
+  std::uint32_t draw = 1;
   for (int i = 0; i < 8000; ++i) {
-    const double t = kStep * i, w = std::sin(2.0 * kPi * 0.5 * t);
-    u.push_back(0.0), x1.push_back(t), p.w1.push_back(w);
-    p.torque.push_back(w + 10.0 * std::sin(2.0 * kPi * 30.0 * t));
+    const double angle = 2.0 * kPi * 0.5 * kStep * i, w = std::sin(angle);
+    draw = 1664525u * draw + 1013904223u;
+    u.push_back(0.0), x1.push_back(-std::cos(angle)), p.w1.push_back(w);
+    p.torque.push_back(w + ((draw >> 31) == 0 ? 10.0 : -10.0));
     p.mode.push_back(Mode::kEngagementPlus);
   }
   MotorTrace trace;

@@ -124,7 +124,7 @@ TEST(ResidualScale, TheMapShowsTheLawOfACoarseEncoderAndCountsWhatLiesOutside) {
     for (const double y : outside->y) EXPECT_LT(std::abs(y), panel.y.range.high) << "seen at the edge";
   }
   EXPECT_THAT(diagnosis_torque_map(r).panels[0].title, HasSubstr("Nominal model below 10 Hz, over"));
-  EXPECT_THAT(diagnosis_traces(r).panels[1].title, HasSubstr("Correcting torque below 10 Hz"));
+  EXPECT_THAT(diagnosis_traces(r).panels[2].title, HasSubstr("Correcting torque below 10 Hz"));
 }
 
 TEST(ResidualScale, TheLawIsInTheFrameAndABandBeyondTheDataIsNot) {
