@@ -74,7 +74,7 @@ Series simulated_line(const std::string& name, const LineStyle& style, const Mis
   bool leaves = false;
   for (double& x : s.y)
     if (x < frame.low || x > frame.high) x = kNaN, leaves = true;
-  s.label = fmt::format("{}, fit {}{}", name, fit_text(fit_percent(t, simulated)),
+  s.label = fmt::format("{}, fit {}{}", name, fit_text(fit_percent(t, simulated), 3),
                         leaves ? " (leaves the frame)" : "");
   return s;
 }
@@ -88,7 +88,7 @@ Panel recorded_over_simulated(const DiagnosisResult& r, const MismatchTrace& t) 
   panel.series.push_back(over_time(simulated ? "recorded" : "", measured_style(), t, t.x1));
   if (!simulated) return panel;
   panel.title = r.diagnosis.closed_loop ? "Recorded, and simulated under the drive's controller"
-                                        : "Recorded, and simulated freely from the first sample on";
+                                        : "Recorded, and simulated without a restart";
   const auto [low, high] = std::minmax_element(panel.series[0].y.begin(), panel.series[0].y.end());
   const double room = 0.5 * (*high - *low);
   const Interval frame = {*low - room, *high + room};

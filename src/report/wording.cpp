@@ -164,8 +164,8 @@ std::string beside_interval(double value, const Interval& ci95, const std::strin
          unit_after(scale.unit);
 }
 
-std::string fit_text(double percent) {
-  return percent >= 99.995 && percent < 100.0 ? "> 99.99 %" : rounded(percent, 4) + " %";
+std::string fit_text(double percent, int digits) {
+  return percent >= 99.995 && percent < 100.0 ? "> 99.99 %" : rounded(percent, digits) + " %";
 }
 
 std::string interval_text(const Interval& ci95, const std::string& unit) {

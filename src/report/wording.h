@@ -32,7 +32,7 @@ std::string interval_text(const Interval& ci95, const std::string& unit);
 /// The value of an estimate with as many digits as its interval has, or three.
 std::string beside_interval(double value, const Interval& ci95, const std::string& unit);
 /// A fit in per cent; what is no whole one is never rounded to "100 %".
-std::string fit_text(double percent);
+std::string fit_text(double percent, int digits = 4);
 std::string plus_minus(double value, const Interval& ci95, const std::string& unit);
 
 /// A ratio or count for people: "7.0", "132".

@@ -164,8 +164,9 @@ std::string controller_found(const Configuration& c, const Diagnosis& d,
                                              : "the controller with what the diagnosis has added: ";
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   return when + numbers_told(found, unknown ? Standing::kUnestablished : Standing::kStands) +
-         "; these are of a last fit, and `fitted.yaml` has " + numbers_written(*d.fitted.controller) +
-         " of the search" + (is_determined(found) ? "" : confounded_with(found, c.coordinates)) +
+         "; these are of a last fit" + (unknown ? "" : ", which tells their intervals") +
+         ", and `fitted.yaml` has " + numbers_written(*d.fitted.controller) + " of the search" +
+         (is_determined(found) ? "" : confounded_with(found, c.coordinates)) +
          (lacks_something(found) ? confounded_with_what_is_missing(c, d, fitted) : "");
 }
 

@@ -76,6 +76,7 @@ TEST(WithheldGain, IsFoundWithWhatTheDiagnosisHasAdded) {
 TEST(WithheldGain, IsSaidToBeConfoundedWithWhatTheModelStillLacks) {
   const std::string said = said_of_gain({"quadratic_drag", "input_delay"});
   EXPECT_THAT(said, HasSubstr("confounded with that")) << "without the friction that it lacks";
+  EXPECT_THAT(said, Not(HasSubstr("["))) << "an interval of a model that nothing establishes";
 }
 
 }  // namespace
