@@ -1,4 +1,5 @@
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -8,6 +9,14 @@
 #include "results/traces.h"
 
 namespace gapscope::internal::results {
+
+std::string trace_path(const std::string& folder, const std::string& name) {
+  const std::filesystem::path path(name);
+  if (path.parent_path() != "traces" || path.filename() == ".." || path.filename() == ".")
+    throw ConfigError(folder,
+                      "its stored result names the trace " + shown(name) + ", expected a file in traces/");
+  return folder + "/" + name;
+}
 
 void write_bound_map(const std::string& path, const BoundMap& map) {
   std::string text;

@@ -255,14 +255,6 @@ void write_trace(const std::string& path, const TraceSet& set) {
   if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-std::string trace_path(const std::string& folder, const std::string& name) {
-  const std::filesystem::path path(name);
-  if (path.parent_path() != "traces" || path.filename() == ".." || path.filename() == ".")
-    throw ConfigError(folder,
-                      "its stored result names the trace " + shown(name) + ", expected a file in traces/");
-  return folder + "/" + name;
-}
-
 std::ifstream open_table(const std::string& path, const char* what) {
   namespace fs = std::filesystem;
   std::error_code problem;

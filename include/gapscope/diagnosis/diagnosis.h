@@ -10,6 +10,7 @@
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/fields.h"
 #include "gapscope/base/statistics.h"
+#include "gapscope/diagnosis/added_effect.h"
 #include "gapscope/diagnosis/detectable.h"
 #include "gapscope/diagnosis/error_budget.h"
 #include "gapscope/diagnosis/evidence.h"
@@ -73,26 +74,6 @@ struct RankedEffect {
   double windows_better = kNaN;  ///< share of the windows above the floor that improve
   std::vector<NamedValue> parameters;
   std::string remark;  ///< why it was listed and not added, where that needs a word
-};
-
-/// What a share of an added effect is of: the error of the held-out motion, or the missing torque, which has
-/// then decided on it.
-enum class ShareOf { kMotion, kTorque };
-
-/// An effect that was added to the model: what it takes of the held-out error, and whether it is its cause.
-struct AddedEffect {
-  std::string effect;
-  /// No other effect and no free law of another variable does nearly as well, the interval of its amount has
-  /// more than none of it, and the held-out motion comes nearer
-  bool established = false;
-  std::vector<std::string> group;  ///< itself, and the rivals that this recording cannot tell from it
-  double probability = kNaN;
-  std::vector<NamedValue> parameters;
-  double shrink = kNaN;  ///< (before − after)/(before − floor) of this step alone
-  Interval shrink_ci95;
-  double after_torque = kNaN;              ///< rms of the missing torque with it [N m]
-  std::vector<std::string> at_bound = {};  ///< keys of its parameters that ended at a bound of their search
-  ShareOf share_of = ShareOf::kMotion;     ///< what `shrink` is of
 };
 
 /// Where the gap of a fitted model comes from: it is one body and has none, its configuration gives it, or
