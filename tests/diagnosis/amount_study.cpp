@@ -139,7 +139,7 @@ StudyRow examine_amount(const blind::BlindPair& pair, std::uint64_t seed) {
     added.established = true;
     added.parameters = values_in(fitted.model, *find_effect(law.effect));
     d.added = {added};
-    tell_intervals(study, fitted, d);
+    tell_intervals(study, fitted, fitted.model, d);
     row.group = 1;
     row.covered = is_beside(fitted, fitted_with(study, law, pair.truth), train[0].size()) ? kBeside : kBest;
     row.details = fmt::format("[{}]{}", law.effect, told_numbers_in_words(pair.drawn, d));
