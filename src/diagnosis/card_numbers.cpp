@@ -143,9 +143,7 @@ std::string also_refitted(const CardFacts& f) {
   constexpr std::size_t kMost = kToldNumbers - 1;
   if (f.diagnosis == nullptr || f.diagnosis->added.empty() || f.diagnosis->stopped) return "";
   const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kMost);
-  return numbers.empty()
-             ? ""
-             : " `fitted.yaml` also has other numbers than the configuration starts at: " + numbers + ".";
+  return numbers.empty() ? "" : " `fitted.yaml` also changes " + numbers + ".";
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -28,7 +28,7 @@ std::string other_numbers_help(const CardFacts& f);
 /// The next step of the same.
 std::string next_of_numbers(const CardFacts& f);
 
-/// " `fitted.yaml` also has other numbers than the configuration starts at: ...", where something was added.
+/// " `fitted.yaml` also changes ...", where something was added.
 std::string also_refitted(const CardFacts& f);
 
 }  // namespace gapscope::internal::diagnosis

@@ -111,12 +111,10 @@ TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTh
 TEST(CardCause, OfAnotherVerdictTellsTheNumbersBrieflyBehindTheNextStep) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.refitted = of_other_numbers().refitted;
-  EXPECT_THAT(
-      card_of(d).next,
-      HasSubstr(" `fitted.yaml` also has other numbers than the configuration starts at: motor damping "
-                "0.1 → 0.04 N·m s/rad, motor inertia 0.00532 → 0.00781 kg m² and 1 more."));
+  EXPECT_THAT(card_of(d).next, HasSubstr(" `fitted.yaml` also changes motor damping 0.1 → 0.04 N·m s/rad, "
+                                         "motor inertia 0.00532 → 0.00781 kg m² and 1 more."));
   d.refitted.clear();
-  EXPECT_THAT(card_of(d).next, Not(HasSubstr("also has")));
+  EXPECT_THAT(card_of(d).next, Not(HasSubstr("also changes")));
 }
 
 TEST(CardCause, WhereOnlyTheSimulatorDiffersHelpsAndNextAgreeWithItsLine) {
