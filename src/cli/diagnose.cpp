@@ -132,7 +132,7 @@ void add_diagnose(CommandLine& app) {
       "found by\n"
       "then (exit status 130). A second one ends the command at once, and nothing is kept.\n"
       "The verdict is effect (the cause of the first addition is established), helps (something takes much\n"
-      "of the error, its cause stays open), none (the model is at the floor: that of the encoder or, where\n"
+      "of the error, whether it is the cause is open), none (the model is at the floor: that of the encoder or, where\n"
       "the drive repeats its motion far worse, that of its repeatability; its numbers may still be others\n"
       "than the configuration's) or unknown (nothing in the catalogue explains it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance\n"

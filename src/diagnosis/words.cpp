@@ -115,18 +115,18 @@ std::string ladder_sentence(const Diagnosis& d, Coordinates coordinates) {
   const bool counted = d.budget.exists() && d.budget.uncounted.empty();
   const std::string fall = counted ? torque_fall(d, coordinates) : error_fall(d);
   const char* const with = d.added.size() > 1 ? "them" : "it";
+  const char* const whether =
+      open.size() > 1 ? "but whether they are the cause is open" : "but whether it is the cause is open";
   if (causes.empty())
-    return fmt::format("Adding {} helps, but the cause stays open: with {} {}.", fmt::join(open, ", then "),
-                       with, fall);
+    return fmt::format("Adding {} helps, {}: with {} {}.", fmt::join(open, ", then "), whether, with, fall);
   if (rests_on_open_cause(d))
-    return fmt::format(
-        "Adding {} helps, but {} cause stays open; with {} in the model, {} {} established: with all {}.",
-        fmt::join(open, ", then "), open.size() > 1 ? "their" : "its", open.size() > 1 ? "them" : "it",
-        fmt::join(causes, ", then "), causes.size() > 1 ? "are" : "is", fall);
+    return fmt::format("Adding {} helps, {}; with {} in the model, {} {} established: with all {}.",
+                       fmt::join(open, ", then "), whether, open.size() > 1 ? "them" : "it",
+                       fmt::join(causes, ", then "), causes.size() > 1 ? "are" : "is", fall);
   std::string text = fmt::format("The model lacks {}{}", fmt::join(causes, ", then "), doubt_aside(d));
   if (!open.empty())
-    text += fmt::format("; {} {} as well, though {} cause stays open", fmt::join(open, " and "),
-                        open.size() > 1 ? "help" : "helps", open.size() > 1 ? "their" : "its");
+    text += fmt::format("; {} {} as well, {}", fmt::join(open, " and "), open.size() > 1 ? "help" : "helps",
+                        whether);
   return text + fmt::format(": with {} {}.", with, fall);
 }
 

@@ -47,9 +47,11 @@ TEST(OpenCauses, AnAmountWhoseIntervalHoldsZeroMayBeNone) {
   EXPECT_EQ(first.verdict, DiagnosisVerdict::kHelps);
   EXPECT_FALSE(first.added[0].established);
   EXPECT_TRUE(first.added[1].established);
-  EXPECT_THAT(first.sentence,
-              HasSubstr("Adding load unbalance helps, but its cause stays open; with it in the model, motor "
-                        "Coulomb friction is established: with all "));
+  EXPECT_THAT(
+      first.sentence,
+      HasSubstr(
+          "Adding load unbalance helps, but whether it is the cause is open; with it in the model, motor "
+          "Coulomb friction is established: with all "));
   const Diagnosis second = judged(of_two(kFriction, perhaps));
   EXPECT_EQ(second.verdict, DiagnosisVerdict::kEffect);
   EXPECT_TRUE(second.added[0].established);
@@ -130,7 +132,7 @@ TEST(OpenCauses, EffectsThatBringTheMotionNoNearerAreNone) {
   d = judged(d);
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kHelps);
   EXPECT_FALSE(d.added[0].established || d.added[1].established);
-  EXPECT_THAT(d.sentence, HasSubstr("the cause stays open"));
+  EXPECT_THAT(d.sentence, HasSubstr("the cause is open"));
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(StoppedDiagnosis, LeavesCausesOpenThatFurtherStepsCouldHaveTaken) {
   EXPECT_TRUE(open.stopped);
   EXPECT_EQ(open.verdict, DiagnosisVerdict::kHelps);
   EXPECT_FALSE(open.added.front().established);
-  EXPECT_THAT(open.sentence, HasSubstr("the cause stays open"));
+  EXPECT_THAT(open.sentence, HasSubstr("the cause is open"));
   tell_stopped(study, {}, true, balanced);
   EXPECT_TRUE(balanced.stopped && balanced.added.front().established) << "the torque balance saw its end";
   added.after.median_free = added.after.median_innovation = 1.0;
