@@ -54,6 +54,7 @@ struct Mark {
 /// What fits around an impact: the law of the flight and a kink, and how far the kink may be moved.
 struct Kink {
   bool found = false, holds = false;  ///< holds: within the noise
+  bool along = false;                 ///< the passage: no contact pushes that way
   KinkFit best;
   FlightLaw::Fit law;
   double time = 0.0;             ///< [samples]
@@ -127,6 +128,7 @@ Kink find_kink(const TransitionContext& context, const Mark& mark, const FlightL
     known(i) = kink.best(static_cast<double>(first) + static_cast<double>(i));
   kink.law = law.fit_without(first, known);
   kink.found = true;
+  kink.along = law.direction() * kink.best.amplitude > 0.0;
   const std::size_t from = mark.start - back;
   const double sigma2 = context.facts.noise * context.facts.noise,
                left = left_over(context.trace, law, kink, from, last);
@@ -156,6 +158,7 @@ Kink find_kinks(const TransitionContext& context, const Mark& mark, const Flight
   for (const double reach : kReaches) {
     const Kink longer = within(reach);
     if (!longer.found || !longer.holds) continue;
+    kink.along = kink.along || longer.along;
     kink.low = std::min(kink.low, longer.low);
     kink.high = std::max(kink.high, longer.high);
     kink.hidden = std::max(kink.hidden, longer.hidden);
@@ -193,6 +196,7 @@ ImpactTime refine_impact(const TransitionContext& context, const BankEvent& impa
   if (!kink.found) return result;
   const MotorState before = law.state(kink.law, kink.time);
   result.found = true;
+  result.freed = kink.along;
   result.time = kink.time;
   const double away = std::abs(kink.time - static_cast<double>(impact.start));
   const double doubt = std::max({0.5 * (kink.high - kink.low), kTrust * away, kLeastDoubt});

@@ -34,6 +34,8 @@ const char* refusal_text(Refusal refusal) {
       return "the flank that was left is hit again";
     case Refusal::kThrownOff:
       return "the impact before it threw motor and load apart";
+    case Refusal::kTorn:
+      return "the contact held under pull and tore: the load was dragged along";
     case Refusal::kRestsAlone:
       return "the motor may have come to rest within the gap";
   }
@@ -42,7 +44,7 @@ const char* refusal_text(Refusal refusal) {
 
 bool speaks_of_moving_load(Refusal refusal) {
   return refusal == Refusal::kThrownOff || refusal == Refusal::kLoadMoving ||
-         refusal == Refusal::kSameFlank || refusal == Refusal::kRestsAlone;
+         refusal == Refusal::kSameFlank || refusal == Refusal::kTorn || refusal == Refusal::kRestsAlone;
 }
 
 Remark advice(Refusal refusal) {
@@ -63,6 +65,8 @@ Remark advice(Refusal refusal) {
     case Refusal::kThrownOff:
     case Refusal::kLoadMoving:
       return words::load_moves();
+    case Refusal::kTorn:
+      return words::contact_tears();
     case Refusal::kRestsAlone:
       return words::rests_alone();
     case Refusal::kNone:
@@ -180,6 +184,10 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
   t.speed = t.event.direction * time.speed;
   t.acceleration = t.event.direction * time.acceleration;
   t.contact = time.contact;
+  if (time.freed) {
+    t.refusal = Refusal::kTorn;
+    return t;
+  }
   if (!(time.drive > 0.0)) {
     t.refusal = small ? Refusal::kNoReversal : Refusal::kLoadHits;
     return t;

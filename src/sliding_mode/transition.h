@@ -24,6 +24,7 @@ enum class Refusal {
   kLoadMoving,   ///< the load's own travel is too uncertain
   kSameFlank,    ///< the flank that is hit is the one that was left: the load has only been caught up with
   kThrownOff,    ///< the impact before threw the bodies apart: they do not share a speed at t1
+  kTorn,         ///< what looks like the impact frees the motor: the contact pulled until it tore
   kRestsAlone,   ///< the motor may have come to rest within the gap, which its load left before
 };
 

@@ -73,6 +73,11 @@ Remark rests_alone() {
       "the motor may have come to rest within the gap, after a load that coasted on; let the torque fall to "
       "zero more slowly, so that the load stops while it is still pushed, or use a finer encoder"};
 }
+Remark contact_tears() {
+  return {"contact_tears",
+          "the contact holds under pull until it tears, and drags the load along until then; look for grease "
+          "that sticks, or let the load rest longer at its reversals"};
+}
 Remark more_periods() { return {"more_periods", "record more periods"}; }
 Remark few_passages_each_way(long plus, long minus, const Remark& advice) {
   return Remark("few_passages",
