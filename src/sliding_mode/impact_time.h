@@ -8,7 +8,7 @@ namespace gapscope::internal::sliding_mode {
 /// The instant of an impact, by local fits.
 struct ImpactTime {
   bool found = false;
-  bool freed = false;         ///< the kink is along the passage: the motor did not meet a load there, it lost one
+  bool freed = false;         ///< the kink is along the passage: what pulled at the motor let go
   std::size_t core = 0;       ///< last sample that is safely before it
   double time = 0.0;          ///< [samples]
   double half_width = 0.0;    ///< over the kinks that fit almost as well, and what is hidden [s]
