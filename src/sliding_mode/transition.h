@@ -18,13 +18,13 @@ enum class Refusal {
   kContrast,     ///< not more abrupt than the motion before it
   kNoReversal,   ///< x1 does not reverse before the impact: the load has crossed the gap
   kSmallRise,    ///< the passage is a few quanta wide
+  kTorn,         ///< what looks like the impact frees the motor: the contact pulled until it tore
   kLoadHits,     ///< the motor was not moving along the gap when it was hit
   kNoImpactFit,  ///< no kink where the impact should be
   kNoRelease,    ///< neither a rest of the motor nor a separation in motion is seen before the impact
   kLoadMoving,   ///< the load's own travel is too uncertain
   kSameFlank,    ///< the flank that is hit is the one that was left: the load has only been caught up with
   kThrownOff,    ///< the impact before threw the bodies apart: they do not share a speed at t1
-  kTorn,         ///< what looks like the impact frees the motor: the contact pulled until it tore
   kRestsAlone,   ///< the motor may have come to rest within the gap, which its load left before
 };
 

@@ -23,6 +23,7 @@ std::vector<Remark> all_remarks() {
           words::release_not_located(),
           words::load_moves(),
           words::rests_alone(),
+          words::contact_tears(),
           more,
           words::few_passages_each_way(1, 2, more),
           words::few_passages(3, 4.0, 5, 6.0, more),
