@@ -62,6 +62,8 @@ Recording read_simulated(const std::string& path, const RecordingColumns& column
     require_same_input(rows, row, like.u[i], peak, like);
     r.x1.push_back(rows.x1[row]);
   }
+  r.encoder = like.encoder;
+  if (r.encoder == EncoderSide::kLoad) std::swap(r.x1, r.x2);
   return r;
 }
 

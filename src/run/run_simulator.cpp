@@ -22,18 +22,20 @@ constexpr double kFarStart = 0.05;  // of the travel: another start than the dri
 /// One instrument looks at both: nothing is told of the simulator that the drive's encoder could not show.
 void read_by_encoder(Recording& simulated, double quantum) {
   if (quantum > 0.0 && kFiner * simulated.quantum < quantum)
-    for (double& x : simulated.x1) x = quantum * std::round(x / quantum);
+    for (double& x : simulated.encoder == EncoderSide::kLoad ? simulated.x2 : simulated.x1)
+      x = quantum * std::round(x / quantum);
   simulated.quantum = std::max(quantum, simulated.quantum);
 }
 
 void note_start(const Recording& simulated, const Recording& drive, Coordinates coordinates,
                 std::vector<std::string>& warnings) {
-  const auto [low, high] = std::minmax_element(drive.x1.begin(), drive.x1.end());
-  if (std::abs(simulated.x1.front() - drive.x1.front()) <= kFarStart * (*high - *low)) return;
+  const std::vector<double>&begun = simulated.position(), &recorded = drive.position();
+  const auto [low, high] = std::minmax_element(recorded.begin(), recorded.end());
+  if (std::abs(begun.front() - recorded.front()) <= kFarStart * (*high - *low)) return;
   warnings.push_back(fmt::format(
       "{} begins at x1 = {}, the drive at {}: what is told of its error holds that, begin it where {} does",
-      simulated.file, coordinates.thousandths(simulated.x1.front()),
-      coordinates.thousandths(drive.x1.front()), drive.file));
+      simulated.file, coordinates.thousandths(begun.front()), coordinates.thousandths(recorded.front()),
+      drive.file));
 }
 
 /// A position in another unit than the recording's is this many times off.
@@ -49,15 +51,16 @@ constexpr UnitSlip kSlips[] = {{kPi / 180.0, "rad where the recording has deg"},
 /// Rms of a simulated motion, a times as large, about the drive's, both without their means, in parts of the
 /// drive's own rms.
 double shape_error(const Recording& simulated, const Recording& drive, double times) {
-  const std::size_t n = std::min(simulated.size(), drive.size());
+  const std::vector<double>&answer = simulated.position(), &recorded = drive.position();
+  const std::size_t n = std::min(answer.size(), recorded.size());
   const auto mean = [n](const std::vector<double>& x) {
     return std::accumulate(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n), 0.0) /
            static_cast<double>(n);
   };
-  const double middle = mean(simulated.x1), place = mean(drive.x1);
+  const double middle = mean(answer), place = mean(recorded);
   double error = 0.0, moved = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double own = drive.x1[i] - place, e = times * (simulated.x1[i] - middle) - own;
+    const double own = recorded[i] - place, e = times * (answer[i] - middle) - own;
     error += e * e, moved += own * own;
   }
   return std::sqrt(error / moved);
@@ -86,7 +89,7 @@ void require_there(const Configuration& c, const RecordedFile& file) {
 Recording read_answer(const Configuration& c, const RecordedFile& file, const Recording& drive,
                       SimulatedRecordings& all) {
   require_there(c, file);
-  Recording r = read_simulated(file.path, c.recording->reading.columns, drive);
+  Recording r = read_simulated(file.path, c.recording->reading_of(file, UnevenRows::kStamped).columns, drive);
   require_same_unit(r, drive);
   note_start(r, drive, c.coordinates, all.warnings);
   read_by_encoder(r, drive.quantum);

@@ -9,6 +9,7 @@
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/run/run_diagnosis.h"
 #include "results/scratch_folder.h"
+#include "run/run_simulator.h"
 #include "support/paper_model.h"
 #include "support/reading.h"
 
@@ -39,11 +40,23 @@ class DriveAndSimulator {
         << "recording: {file: drive.csv, simulated: sim.csv}\nencoder: {bits: 18}\nmodel: "
         << testing::kPaperModel;
   }
+  /// The same files of an encoder that is on the load of a drive of one body.
+  void read_from_load() const {
+    std::ofstream(at("drive.yaml"))
+        << "recording: {file: drive.csv, simulated: sim.csv, columns: {position: x1}}\n"
+           "encoder: {bits: 18, side: load}\nmodel: {parameters: {motor_inertia: 1.0e-3, torque_constant: 1, "
+           "motor_damping: {estimate: true}, mass_ratio: 0}}\n";
+  }
   /// What the simulator wrote, in another unit.
   void rescale_simulator(double times) const {
     Recording r = read_recording(at("sim.csv"), ReadOptions());
     for (double& x : r.x1) x *= times;
     write_csv(at("sim.csv"), r);
+  }
+  internal::run::SimulatedRecordings read() const {
+    const Configuration c = load_configuration(at("drive.yaml"));
+    const Progress quiet = [](const std::string&) {};
+    return internal::run::load_simulated(c, load_for_diagnosis(c, quiet), quiet);
   }
   /// Of the parameters alone: no effect is a candidate.
   SimulatorComparison compared() const {
@@ -97,6 +110,19 @@ TEST(Simulator, ThatItsModelMissesByMoreThanItDiffersIsToldNoRow) {
   for (const SimulatorRow& row : c.rows) EXPECT_FALSE(row.differs) << row.name << " by " << row.floors;
   EXPECT_THAT(c.sentence, HasSubstr("no row is told"));
   EXPECT_TRUE(std::isnan(c.shrink));
+}
+
+TEST(Simulator, OfADriveWhoseEncoderIsOnTheLoadIsRead) {
+  const DriveAndSimulator pair("0.016");
+  pair.read_from_load();
+  const internal::run::SimulatedRecordings read = pair.read();
+  ASSERT_EQ(read.train.recordings.size(), 1u);
+  const Recording& r = read.train.recordings.front();
+  EXPECT_EQ(r.encoder, EncoderSide::kLoad);
+  EXPECT_TRUE(r.x1.empty());
+  EXPECT_EQ(r.size(), r.u.size());
+  pair.rescale_simulator(1e-3);
+  EXPECT_THAT(testing::refusal([&] { pair.read(); }), HasSubstr("moves 0.001 times as far"));
 }
 
 TEST(Simulator, OfAnotherInputIsRefusedByFileAndLine) {

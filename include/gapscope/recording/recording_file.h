@@ -86,10 +86,10 @@ Recording read_recording(const std::string& path, const ReadOptions& options = {
 /// beside the input that was recorded. Nothing where there is no controller, or no input.
 std::optional<InputComparison> compare_with_controller(const std::string& path, const ReadOptions& options);
 
-/// The answer of a user's simulator to the input of a recording: its x1 at that recording's times, with that
-/// recording's u. The file may have rows between these times. Its input, where it has that column, must be
-/// the recorded one.
-/// @param columns  as those of the recording, whose units its numbers are in
+/// The answer of a user's simulator to the input of a recording: its position, of the side that the encoder
+/// of that recording reads, at that recording's times, with that recording's u. The file may have rows
+/// between these times. Its input, where it has that column, must be the recorded one.
+/// @param columns  those that the recording was read with, whose units its numbers are in
 /// @throws ConfigError with file and line, as read_recording() does; for a time of the recording without a
 /// row
 ///   (within a tenth of a step), and for another input (by 0.1 % of its peak)
