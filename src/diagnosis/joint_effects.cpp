@@ -1,6 +1,7 @@
 #include "diagnosis/joint_effects.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/numbers.h"
 #include "gapscope/base/text.h"
@@ -28,6 +29,11 @@ bool names_phase(const EffectParameterSpec& spec) {
   return std::string(spec.key).find("phase") != std::string::npos;
 }
 
+bool is_free_form(const EffectEntry& entry) {
+  return entry.stands_for < 0 && entry.parameters[0].absent != 0.0 &&
+         std::isfinite(entry.parameters[0].absent) && entry.parameters.size() > 1;
+}
+
 /// With the level of a relative, everything free; of no relation: small, and in the other's shape.
 ModelEffect not_there(const ModelEffect& other, const ModelEffect* relative, const ReferenceModel& model) {
   ModelEffect e = other;
@@ -37,12 +43,14 @@ ModelEffect not_there(const ModelEffect& other, const ModelEffect* relative, con
     if (root_of(relative->entry) == root_of(&entry)) size.value = relative->parameters[0].value;
     return e;
   }
+  const std::vector<std::size_t> sizes = sizes_of(entry);
+  const auto is_size = [&](std::size_t i) { return std::find(sizes.begin(), sizes.end(), i) != sizes.end(); };
   for (std::size_t i = 1; i < entry.parameters.size(); ++i)
-    if (!names_phase(entry.parameters[i])) e.parameters[i].estimate = false;
-  if (entry.stands_for >= 0)
-    size.value = model.parameters[static_cast<std::size_t>(entry.stands_for)].value;
-  else if (entry.parameters[0].absent == 0.0)
-    size.value *= SearchEffort{}.weaker;  // of nothing at all a phase has no slope
+    if (!names_phase(entry.parameters[i]) && !is_size(i)) e.parameters[i].estimate = false;
+  if (entry.stands_for >= 0) size.value = model.parameters[static_cast<std::size_t>(entry.stands_for)].value;
+  for (const std::size_t i : sizes)
+    if (entry.parameters[i].absent == 0.0)
+      e.parameters[i].value *= SearchEffort{}.weaker;  // of nothing at all a phase has no slope
   return e;
 }
 
@@ -88,6 +96,24 @@ std::vector<std::string> joint_names(const std::vector<JointEffect>& effects) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> sizes_of(const EffectEntry& entry) {
+  const bool free_form = is_free_form(entry), richer = contained_effect(entry) != nullptr;
+  std::vector<std::size_t> sizes;
+  if (!free_form) sizes.push_back(0);
+  for (std::size_t i = 1; i < entry.parameters.size(); ++i)
+    if (entry.parameters[i].absent == 0.0 &&
+        (free_form || (richer && entry.parameters[i].scale == Scale::kOne)))
+      sizes.push_back(i);
+  return sizes;
+}
+
+bool is_absent(const ModelEffect& effect) {
+  const std::vector<std::size_t> sizes = sizes_of(*effect.entry);
+  return std::all_of(sizes.begin(), sizes.end(), [&](std::size_t i) {
+    return effect.parameters[i].value == effect.entry->parameters[i].absent;
+  });
+}
 
 std::vector<std::vector<JointEffect>> joint_effects(const Diagnosis& drive, const Diagnosis& simulator) {
   std::vector<std::vector<JointEffect>> sets = {preferring(drive, simulator, true)};

@@ -47,14 +47,12 @@ namespace {
 
 /// Of an effect that is not there nothing has a spread: a lag of no time has no slope that would tell how
 /// well its time is known.
-bool is_absent(const SideFit& fit, const PlannedRow& planned) {
-  if (!planned.row.is_effect) return false;
-  const ModelEffect& e = fit.model.effects[static_cast<std::size_t>(planned.effect)];
-  return e.parameters[0].value == e.entry->parameters[0].absent;
+bool lacks_row(const SideFit& fit, const PlannedRow& planned) {
+  return planned.row.is_effect && is_absent(fit.model.effects[static_cast<std::size_t>(planned.effect)]);
 }
 
 std::vector<double> spreads_on(const Side& side, const SideFit& fit, const PlannedRow& planned) {
-  if (is_absent(fit, planned)) return std::vector<double>(planned.ids.size(), kNaN);
+  if (lacks_row(fit, planned)) return std::vector<double>(planned.ids.size(), kNaN);
   return spreads_of(side, fit, planned.ids);
 }
 
@@ -79,20 +77,27 @@ void fill_numbers(const RowInstrument& of, const JointFit& fit, PlannedRow& plan
   }
 }
 
-/// Where a side's interval ends, from its number on; the amount of an effect that is not there is exactly
+/// Whether a number says how much there is of an effect, and that there is none.
+bool says_none(double number, const std::string& key, const SimulatorRow& row) {
+  if (!row.is_effect) return false;
+  const EffectEntry& entry = *find_effect(row.name);
+  for (const std::size_t i : sizes_of(entry))
+    if (key == entry.parameters[i].key) return number == entry.parameters[i].absent;
+  return false;
+}
+
+/// Where a side's interval ends, from its number on; an amount of an effect that is not there is exactly
 /// that.
-double reach(double number, const Interval& ci95, const SimulatorRow& row, bool is_amount) {
-  if (row.is_effect && is_amount && number == find_effect(row.name)->parameters[0].absent) return 0.0;
-  return (ci95.high - ci95.low) / 2.0;
+double reach(double number, const Interval& ci95, const std::string& key, const SimulatorRow& row) {
+  return says_none(number, key, row) ? 0.0 : (ci95.high - ci95.low) / 2.0;
 }
 
 /// Whether the intervals of any number are apart; where there are none, nothing speaks against it.
 bool intervals_apart(const SimulatorRow& row) {
   bool asked = false;
   for (const ComparedNumber& n : row.numbers) {
-    const bool is_amount = &n == &row.numbers.front();
-    const double d = reach(n.drive, n.drive_ci95, row, is_amount);
-    const double s = reach(n.simulator, n.simulator_ci95, row, is_amount);
+    const double d = reach(n.drive, n.drive_ci95, n.key, row);
+    const double s = reach(n.simulator, n.simulator_ci95, n.key, row);
     if (std::isnan(d) || std::isnan(s)) continue;
     asked = true;
     if (std::abs(n.drive - n.simulator) > std::hypot(d, s)) return true;
@@ -109,7 +114,7 @@ double in_floors(double excess, const SideFit& fit, double floor) {
 /// its amount has gone to nothing.
 bool is_there(const Side& side, const SideFit& fit, const PlannedRow& planned, bool in_diagnosis,
               double floor) {
-  if (is_absent(fit, planned)) return false;
+  if (lacks_row(fit, planned)) return false;
   if (in_diagnosis) return true;
   ReferenceModel without = fit.model;
   without.effects.erase(without.effects.begin() + planned.effect);

@@ -178,15 +178,22 @@ std::string comparison_sentence(const SimulatorComparison& c, Coordinates coordi
          mended_words(c, coordinates);
 }
 
-/// No row differs, but what the model leaves on a side is more than a row would have to show.
+/// No row differs, but what the model leaves on a side is more than a row would have to show. A simulator
+/// that it does not follow was not compared at all.
 std::string hidden_sentence(const SimulatorComparison& c, double drive_floors, double simulator_floors,
                             Coordinates coordinates) {
-  const bool on_drive = drive_floors > simulator_floors;
+  const SharedUnit floors(1.0, "");
+  const std::string off = fmt::format("Over the held-out input your simulator is {} rms off the drive.",
+                                      coordinates.thousandths(c.errors.simulator));
+  if (simulator_floors > kRule.far)
+    return fmt::format(
+        "What differs is not told: the model with all effects of both leaves {} floors on your "
+        "simulator, which it does not follow. {}",
+        floors.number(simulator_floors), off);
   return fmt::format(
-      "No row differs, but the model with all effects of both leaves {} floors on {}: what differs may "
-      "hide there. Over the held-out input your simulator is {} rms off the drive.",
-      SharedUnit(1.0, "").number(on_drive ? drive_floors : simulator_floors),
-      on_drive ? "the drive" : "your simulator", coordinates.thousandths(c.errors.simulator));
+      "No row differs, but the model with all effects of both leaves {} floors on the drive: what differs "
+      "may hide there. {}",
+      floors.number(drive_floors), off);
 }
 
 }  // namespace

@@ -67,7 +67,10 @@ TEST(SimulatorWords, SayThatSomethingMayHideWhereTheModelMissesASide) {
   EXPECT_THAT(sentence_beside(c, 35.0, 1.0, Coordinates()),
               ::testing::AllOf(HasSubstr("No row differs, but"), HasSubstr("leaves 35 floors on the drive"),
                                HasSubstr("3 mrad rms off the drive")));
-  EXPECT_THAT(sentence_beside(c, 1.0, 35.0, Coordinates()), HasSubstr("35 floors on your simulator"));
+  for (const double drive : {1.0, 60.0})
+    EXPECT_THAT(sentence_beside(c, drive, 35.0, Coordinates()),
+                ::testing::AllOf(HasSubstr("What differs is not told"),
+                                 HasSubstr("35 floors on your simulator"), Not(HasSubstr("No row differs"))));
   c.rows.front().differs = true, c.rows.front().sentence = "its motor inertia is off";
   EXPECT_THAT(sentence_beside(c, 35.0, 1.0, Coordinates()), HasSubstr("differs from the drive: its motor"));
 }
