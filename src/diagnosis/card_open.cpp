@@ -61,7 +61,9 @@ std::string exhausted_words(const Diagnosis& d) {
   const bool at_floor = d.mismatch.remains < kRule.floor_ratio;
   if (!d.exhausted || d.stopped || at_floor || d.verdict == DiagnosisVerdict::kNone) return "";
   return std::string(" The search ended at its limit of work, so that further causes may have been missed") +
-         (d.added.empty() ? "." : "; a diagnosis of `fitted.yaml` goes on from here.");
+         (d.added.empty() ? "."
+                          : "; a diagnosis goes on from here with the `model:` of `fitted.yaml` in the place "
+                            "of the configuration's (and its `anchor:`).");
 }
 
 }  // namespace gapscope::internal::diagnosis

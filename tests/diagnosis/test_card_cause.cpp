@@ -150,7 +150,8 @@ TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {
   EXPECT_THAT(
       card_of(d).cause,
       HasSubstr(" The search ended at its limit of work, so that further causes may have been missed; a "
-                "diagnosis of `fitted.yaml` goes on from here."));
+                "diagnosis goes on from here with the `model:` of `fitted.yaml` in the place of the "
+                "configuration's (and its `anchor:`)."));
   d.mismatch.remains = 1.1;
   EXPECT_THAT(card_of(d).cause, Not(HasSubstr("limit of work"))) << "nothing is left to be found";
 }
