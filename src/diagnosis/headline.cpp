@@ -32,11 +32,12 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
                      100.0 * place.mode[phase].expected);
 }
 
+/// Of the one in which it is denser than the time that it takes, be it the smaller share.
 std::string direction_words(const std::vector<MapShare>& direction) {
-  const MapShare& most = largest(direction);
+  const auto dense = std::find_if(direction.begin(), direction.end(), denser_than_chance);
   return "changes with the direction of motion " +
-         (denser_than_chance(most) ? fmt::format("({:.0f} % of its square {}, in {:.0f} % of the time)",
-                                                 100.0 * most.share, most.bin, 100.0 * most.expected)
+         (dense != direction.end() ? fmt::format("({:.0f} % of its square {}, in {:.0f} % of the time)",
+                                                 100.0 * dense->share, dense->bin, 100.0 * dense->expected)
                                    : "(equally large both ways)");
 }
 
@@ -105,16 +106,31 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
   return followed;
 }
 
+std::string one_way_words(const std::vector<MapShare>& direction) {
+  for (const MapShare& way : direction) {
+    if (way.expected >= 0.05)
+      continue;  // less than a twentieth of the time in motion: nothing to compare with
+    return way.expected > 0.0
+               ? fmt::format("hardly any {} motion was recorded", way.bin)
+               : fmt::format("only {} motion was recorded", way.bin == "forward" ? "backward" : "forward");
+  }
+  return "";
+}
+
 std::string headline_of(const MismatchPlace& place, Coordinates coordinates) {
   std::string patterns;
+  const std::string one_way = one_way_words(place.direction);
   for (const ResidualPattern pattern : place.follows) {
+    if (pattern == ResidualPattern::kDirection && !one_way.empty()) continue;  // nothing to compare with
     const std::string words = pattern_words(pattern, place, coordinates);
     const char* const joint = patterns.find(',') == patterns.npos ? " and " : ", and ";
     patterns += patterns.empty() || words.empty() ? words : joint + words;
   }
   if (place.follows.empty()) patterns = "no clear pattern in angle, speed, input or time";
   const std::string phase = phase_words(place, coordinates);
-  return phase + (phase.empty() || patterns.empty() ? "" : ", ") + patterns;
+  const std::string told = phase + (phase.empty() || patterns.empty() ? "" : ", ") + patterns;
+  if (one_way.empty()) return told;
+  return (told.empty() ? "no place that these recordings tell" : told) + "; " + one_way;
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -27,6 +27,9 @@ std::optional<ContactPhase> densest_phase(const std::vector<MapShare>& mode);
 std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength>& patterns,
                                                const ModelEffect* effect);
 
+/// "only forward motion was recorded"; empty where both directions take enough of the time to be compared.
+std::string one_way_words(const std::vector<MapShare>& direction);
+
 /// The place of a mismatch in words.
 std::string headline_of(const MismatchPlace& place, Coordinates coordinates);
 

@@ -10,6 +10,7 @@
 #include "diagnosis/harmonics.h"
 #include "diagnosis/headline.h"
 #include "gapscope/base/decimals.h"
+#include "signals/local_motion.h"
 #include "torque_view/low_pass.h"
 #include "torque_view/options.h"
 
@@ -21,8 +22,18 @@ constexpr int kMapBins = 8;
 /// One scored sample.
 struct Sample {
   double torque, w1, x1, u, time;
+  int direction;  ///< of the motion, ±1; 0: the drive stands
   Mode mode;
 };
+
+/// By what x1 covers around the sample. A drive that stands has a speed, too: that of the encoder's last
+/// count, which an observer makes a motion of.
+int direction_at(const MotorTrace& t, std::size_t i, double floor) {
+  const std::size_t reach = std::max<std::size_t>(signals::speed_window(t) / 2, 1);
+  const double moved = t.x1[std::min(i + reach, t.size() - 1)] - t.x1[i - std::min(i, reach)];
+  const double count = 1.5 * std::sqrt(12.0) * floor;  // more than one count, whose rounding is the floor
+  return std::abs(moved) <= count ? 0 : moved > 0.0 ? 1 : -1;
+}
 
 std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const HeldOut& held_out, double km) {
   std::vector<Sample> samples;
@@ -30,7 +41,8 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
     const MotorTrace& t = held_out.traces[r];
     const Playback& p = playbacks[r];
     for (std::size_t i = std::max(held_out.scored_from[r], held_out.restart(r)); i < t.size(); ++i)
-      samples.push_back({p.torque[i], p.w1[i], t.x1[i], km * t.u[i], t.elapsed(i), p.mode[i]});
+      samples.push_back({p.torque[i], p.w1[i], t.x1[i], km * t.u[i], t.elapsed(i),
+                         direction_at(t, i, held_out.floors[r]), p.mode[i]});
   }
   return samples;
 }
@@ -68,6 +80,12 @@ std::vector<MapShare> range_map(const std::vector<Sample>& samples, const Sample
     map[static_cast<std::size_t>(b)].expected += 1.0;
   }
   return map;
+}
+
+/// Samples in which the drive moves.
+std::vector<Sample> moving(std::vector<Sample> samples) {
+  std::erase_if(samples, [](const Sample& s) { return s.direction == 0; });
+  return samples;
 }
 
 std::vector<MapShare> class_map(const std::vector<Sample>& samples, const std::vector<std::string>& names,
@@ -132,8 +150,8 @@ void fill_maps(const std::vector<Sample>& samples, Coordinates coordinates, Mism
                                         : s.mode == Mode::kImpact ? ContactPhase::kImpact
                                                                   : ContactPhase::kEngagement);
       });
-  place.direction = class_map(samples, {"backward", "forward"},
-                              [](const Sample& s) -> std::size_t { return s.w1 > 0.0 ? 1 : 0; });
+  place.direction = class_map(moving(samples), {"backward", "forward"},
+                              [](const Sample& s) -> std::size_t { return s.direction > 0 ? 1 : 0; });
   place.speed = range_map(
       samples, [](const Sample& s) { return std::abs(s.w1); }, coordinates.unit("rad/s"));
   place.angle = range_map(
@@ -171,8 +189,10 @@ std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples, con
                                          double line_explained) {
   return {
       {ResidualPattern::kAngle, line_explained},
-      {ResidualPattern::kDirection, explained(
-                                        samples, [](const Sample& s) { return s.w1 > 0.0 ? 1.0 : 0.0; }, 2)},
+      {ResidualPattern::kDirection, one_way_words(place.direction).empty()
+                                        ? explained(
+                                              moving(samples), [](const Sample& s) { return s.direction; }, 2)
+                                        : 0.0},
       {ResidualPattern::kSpeed, explained(
                                     samples, [](const Sample& s) { return s.w1; }, kMapBins)},
       {ResidualPattern::kInput, explained(

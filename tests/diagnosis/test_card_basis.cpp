@@ -119,5 +119,29 @@ TEST(CardBasis, ThePlaceIsOfTheBandThatTheSizeIsOf) {
   EXPECT_THAT(place_of({p}, held, 1.0, {}, nullptr, 5.0).headline, StartsWith("depends on the speed"));
 }
 
+/// One way for a second, then at rest, where the encoder's last count flickers and an observer makes motion
+/// of it.
+TEST(CardBasis, ADriveThatStandsMovesInNoDirection) {
+  constexpr double kStep = 1e-3, kQuantum = 1e-3;
+  std::vector<double> u, x1;
+  Playback p;
+  for (int i = 0; i < 4000; ++i) {
+    const bool moves = i < 1000, odd = i % 2 == 1;
+    const double x = moves ? 0.4 * kStep * i : 0.4 + (odd ? kQuantum : 0.0);
+    u.push_back(0.0), x1.push_back(kQuantum * std::round(x / kQuantum));
+    p.w1.push_back(moves ? 0.4 : odd ? 0.1 : -0.1), p.torque.push_back(1.0 + (odd ? 0.1 : 0.0));
+    p.mode.push_back(Mode::kEngagementPlus);
+  }
+  MotorTrace trace;
+  trace.dt = kStep, trace.u = u, trace.x1 = x1, trace.quantum = kQuantum;
+  HeldOut held;
+  held.traces = {trace}, held.scored_from = {0}, held.floors = {kQuantum / std::sqrt(12.0)},
+  held.periods = {0.0};
+  const MismatchPlace place = place_of({p}, held, 1.0, {}, nullptr);
+  EXPECT_EQ(place.direction[0].expected, 0.0);
+  EXPECT_EQ(place.direction[1].expected, 1.0);
+  EXPECT_THAT(place.headline, ::testing::EndsWith("; only forward motion was recorded"));
+}
+
 }  // namespace
 }  // namespace gapscope

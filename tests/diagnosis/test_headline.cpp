@@ -32,6 +32,25 @@ TEST(Headline, SaysInWhichDirectionTheErrorIsOrThatItIsInBoth) {
             "changes with the direction of motion (90 % of its square backward, in 50 % of the time)");
 }
 
+TEST(Headline, SaysNothingOfADirectionWithoutTheOther) {
+  MismatchPlace place;
+  place.mode = {{"gap", 0.0, 0.0}, {"engagement", 1.0, 1.0}, {"impact", 0.0, 0.0}};
+  place.follows = {ResidualPattern::kDirection, ResidualPattern::kInput};
+  place.input = {{"0..1 N m", 0.2, 0.5}, {"1..2 N m", 0.8, 0.5}};
+  place.direction = {{"backward", 0.0, 0.0}, {"forward", 1.0, 1.0}};
+  EXPECT_EQ(headline_of(place, {}),
+            "depends on the input level (largest at 1–2 N·m); only forward motion was recorded");
+  place.direction = {{"backward", 0.26, 0.04}, {"forward", 0.74, 0.96}};
+  EXPECT_EQ(headline_of(place, {}),
+            "depends on the input level (largest at 1–2 N·m); hardly any backward motion was recorded");
+  place.follows = {ResidualPattern::kDirection};
+  EXPECT_EQ(headline_of(place, {}),
+            "no place that these recordings tell; hardly any backward motion was recorded");
+  place.direction = {{"backward", 0.26, 0.06}, {"forward", 0.74, 0.94}};
+  EXPECT_EQ(headline_of(place, {}),
+            "changes with the direction of motion (26 % of its square backward, in 6 % of the time)");
+}
+
 TEST(Headline, CallsOneCycleOncePerTurn) {
   MismatchPlace place;
   place.mode = {{"gap", 0.0, 0.0}, {"engagement", 1.0, 1.0}, {"impact", 0.0, 0.0}};
