@@ -173,7 +173,8 @@ std::vector<PeriodicTorque> periodic_torques(const Study& study, const Reference
   };
   for (const double n : given_periods(study.options.known)) tell(fitted_line(fitted, study.train, n), true);
   for (const TorqueLine& line : standing_lines(fitted, study.train))
-    if (std::none_of(found.begin(), found.end(), [&](const PeriodicTorque& other) {
+    if (!is_of_encoder(line.line.periods, study.train) &&
+        std::none_of(found.begin(), found.end(), [&](const PeriodicTorque& other) {
           return std::abs(other.periods_per_turn - line.line.periods) < one_cycle(study.train);
         }))
       tell(line, false);

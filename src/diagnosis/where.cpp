@@ -228,9 +228,12 @@ MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_
   for (auto* map : {&place.mode, &place.direction, &place.speed, &place.angle, &place.input, &place.frequency,
                     &place.time})
     normalise(*map);
-  const auto lines = strongest_lines(playbacks, held_out.traces, 0.0, 1);
-  const double line_explained = lines.empty() ? 0.0 : lines.front().explained;
-  if (line_explained > kTelling.strength) place.periods_per_turn = lines.front().periods;
+  const auto lines = strongest_lines(playbacks, held_out.traces, 0.0, SearchEffort{}.lines);
+  const auto line = std::find_if_not(lines.begin(), lines.end(), [&](const Harmonic& h) {
+    return is_of_encoder(h.periods, held_out.traces);
+  });
+  const double line_explained = line == lines.end() ? 0.0 : line->explained;
+  if (line_explained > kTelling.strength) place.periods_per_turn = line->periods;
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.phase = densest_phase(place.mode);
   place.follows = followed_patterns(patterns_of(samples, place, line_explained), effect);

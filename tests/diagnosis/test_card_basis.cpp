@@ -143,5 +143,23 @@ TEST(CardBasis, ADriveThatStandsMovesInNoDirection) {
   EXPECT_THAT(place.headline, ::testing::EndsWith("; only forward motion was recorded"));
 }
 
+TEST(CardBasis, ACycleOfTheEncodersCountsIsNoFinding) {
+  constexpr double kStep = 1e-3, kCounts = 4096.0;
+  std::vector<double> u(8000, 0.0), x1;
+  Playback p;
+  for (int i = 0; i < 8000; ++i) {
+    x1.push_back(0.15 * (1.0 - std::cos(2.0 * kPi * 0.125 * kStep * i)));
+    p.w1.push_back(0.0), p.torque.push_back(std::sin(kCounts * x1.back()));
+    p.mode.push_back(Mode::kEngagementPlus);
+  }
+  MotorTrace trace;
+  trace.dt = kStep, trace.u = u, trace.x1 = x1;
+  HeldOut held;
+  held.traces = {trace}, held.scored_from = {0}, held.floors = {1e-6}, held.periods = {0.0};
+  EXPECT_NEAR(place_of({p}, held, 1.0, {}, nullptr).periods_per_turn, kCounts, 0.01 * kCounts);
+  held.traces[0].quantum = 2.0 * kPi / kCounts;
+  EXPECT_TRUE(std::isnan(place_of({p}, held, 1.0, {}, nullptr).periods_per_turn));
+}
+
 }  // namespace
 }  // namespace gapscope
