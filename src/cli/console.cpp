@@ -4,11 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 #include "gapscope/base/decimals.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope::cli {
 namespace {
@@ -105,13 +108,23 @@ std::string validation_line(const RunResult& r) {
                      r.coordinates.thousandths(s.floor));
 }
 
+/// Whether a shell takes it as one word, as it stands.
+bool is_plain_word(const std::string& path) {
+  return !path.empty() && std::ranges::all_of(path, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("._-/").find(c) != std::string_view::npos;
+  });
+}
+
 /// What everybody wants to know, last: it is what stays in view.
-void print_card(const Card& card) {
+void print_card(const Card& card, const std::string& configuration) {
+  const std::string to = is_plain_word(configuration) ? configuration + "`" : "CONFIG`";
   for (const CardLine& l : card.lines()) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool all = !card.diagnosed && &l.text == &card.place;
     line(all ? "diagnosis" : l.name,
-         all ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.text);
+         replaced(all ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.text, "CONFIG`",
+                  to));
   }
 }
 
@@ -138,7 +151,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
-void print_headline(const std::string& folder, const RunResult& r) {
+void print_headline(const std::string& folder, const RunResult& r, const std::string& configuration) {
   line("report", folder);
   if (r.model_free) line("model-free", model_free_line(*r.model_free, r.coordinates));
   if (r.model_free && r.model_free->lost_motion.read())
@@ -153,16 +166,16 @@ void print_headline(const std::string& folder, const RunResult& r) {
          fmt::format("{:<17} width of the x1-x2 map", r.coordinates.thousandths(r.comparison->map_width)));
   if (r.second_encoder && !std::isnan(r.second_encoder->rmse)) line("validation", validation_line(r));
   if (!std::isnan(r.simulated_gap)) line("simulated", r.coordinates.thousandths(r.simulated_gap));
-  if (r.answer) print_card(r.answer->card);
+  if (r.answer) print_card(r.answer->card, configuration);
 }
 
-void print_diagnosis(const std::string& folder, const DiagnosisResult& r) {
+void print_diagnosis(const std::string& folder, const DiagnosisResult& r, const std::string& configuration) {
   const Diagnosis& d = r.diagnosis;
   line("report", folder);
   line("verdict", to_string(d.verdict));
   for (const std::string& effect : d.effects) line("effect", effect);
   if (r.simulated) line("simulator", r.simulated->sentence);
-  if (r.answer) print_card(r.answer->card);
+  if (r.answer) print_card(r.answer->card, configuration);
 }
 
 }  // namespace gapscope::cli

@@ -20,9 +20,10 @@ void say(const char* what, const std::string& text);
 void print_warnings(const std::vector<std::string>& warnings);
 
 /// The headline of a run on standard output: the report, both estimates with intervals, and how they compare.
-void print_headline(const std::string& folder, const RunResult& result);
+void print_headline(const std::string& folder, const RunResult& result, const std::string& configuration);
 
 /// The answer of a diagnosis on standard output: the report, the verdict, the sentence and the place.
-void print_diagnosis(const std::string& folder, const DiagnosisResult& result);
+void print_diagnosis(const std::string& folder, const DiagnosisResult& result,
+                     const std::string& configuration);
 
 }  // namespace gapscope::cli

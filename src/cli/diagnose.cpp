@@ -66,7 +66,7 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   write_diagnosis(report, c, a.figures, outcome);
   print_warnings(without(result.diagnosis.warnings, told));
   if (result.simulated) print_warnings(result.simulated->warnings);
-  print_diagnosis(folder, result);
+  print_diagnosis(folder, result, c.file);
   if (stopped) throw ExitStatus{kInterruptedWithReport};
 }
 
@@ -132,7 +132,8 @@ void add_diagnose(CommandLine& app) {
       "found by\n"
       "then (exit status 130). A second one ends the command at once, and nothing is kept.\n"
       "The verdict is effect (the cause of the first addition is established), helps (something takes much\n"
-      "of the error, whether it is the cause is open), none (the model is at the floor: that of the encoder or, where\n"
+      "of the error, whether it is the cause is open), none (the model is at the floor: that of the encoder "
+      "or, where\n"
       "the drive repeats its motion far worse, that of its repeatability; its numbers may still be others\n"
       "than the configuration's) or unknown (nothing in the catalogue explains it).\n\n"
       "Example: gapscope diagnose drive.yaml -o reports/drive --exclude load_unbalance\n"

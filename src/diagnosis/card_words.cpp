@@ -64,7 +64,8 @@ namespace {
 /// Who tells the gap without a model. An encoder on the load shows none, so that `detect` would send the
 /// reader back.
 std::string told_without_model(const Diagnosis& d) {
-  const bool on_load = !d.traces.empty() && d.traces.front().encoder == EncoderSide::kLoad;
+  const bool on_load = (d.model_gap && d.model_gap->encoder == EncoderSide::kLoad) ||
+                       (!d.traces.empty() && d.traces.front().encoder == EncoderSide::kLoad);
   return on_load ? "that takes the motor's position, which is not recorded." : "`gapscope detect CONFIG`.";
 }
 
@@ -76,6 +77,8 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   switch (diagnosis->model_gap->origin) {
     case GapOrigin::kNone:
       return "The model is a single body, without a gap; whether the recording shows one: " +
+      if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
+        return "The model is a single body, without a gap; with the encoder on the load a gap does not show.";
              told_without_model(*diagnosis);
     case GapOrigin::kGiven:
       return "The model takes it as known, " + coordinates.thousandths(diagnosis->model_gap->value) +

@@ -170,6 +170,7 @@ bool has_estimates(const ReferenceModel& model) {
 void tell_intervals(const Study& study, const FittedModel& fitted, const ReferenceModel& nominal,
                     Diagnosis& d) {
   d.model_gap = gap_of(fitted.model, d.added);
+  d.model_gap->encoder = fitted.model.structure.encoder;
   const bool known = d.verdict != DiagnosisVerdict::kUnknown;
   const bool asked = !d.added.empty() || d.model_gap->origin == GapOrigin::kEstimated ||
                      (known && has_estimates(study.sheet));
@@ -177,6 +178,7 @@ void tell_intervals(const Study& study, const FittedModel& fitted, const Referen
   const FitErrors fit = errors_of(study, fitted);
   tell_added_intervals(fitted.model, fit, d.added);
   d.model_gap = gap_of(fitted.model, d.added);
+  d.model_gap->encoder = fitted.model.structure.encoder;
   for (const auto& [id, error] : fit.errors)
     if (id == reference::drive_number(place::kGap) && !std::isnan(error))
       d.model_gap->ci95 = normal_interval(d.model_gap->value, error);

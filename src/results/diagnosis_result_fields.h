@@ -174,12 +174,12 @@ void fields(Archive& archive, ClosedLoop& c) {
 
 template <class Archive>
 void fields(Archive& archive, ModelGap& g) {
-  archive.choice("origin", g.origin,
-                 Words<GapOrigin>{{GapOrigin::kNone, "one_body"},
-                                  {GapOrigin::kGiven, "given"},
-                                  {GapOrigin::kEstimated, "estimated"}});
+  const Words<GapOrigin> origins = {
+      {GapOrigin::kNone, "one_body"}, {GapOrigin::kGiven, "given"}, {GapOrigin::kEstimated, "estimated"}};
+  archive.choice("origin", g.origin, origins);
   archive("value_rad", g.value);
   archive("ci95_rad", g.ci95);
+  encoder_side_field(archive, g.encoder);
 }
 
 template <class Archive>

@@ -262,5 +262,13 @@ TEST(CardGap, OfAnEncoderOnTheLoadIsNotSentToTheDetector) {
   }
 }
 
+TEST(CardGap, OfASingleBodyWithItsEncoderOnTheLoadDoesNotShow) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.model_gap = ModelGap();
+  d.model_gap->encoder = EncoderSide::kLoad;  // of one body its traces are of the motor, too
+  EXPECT_EQ(card_of(d).gap,
+            "The model is a single body, without a gap; with the encoder on the load a gap does not show.");
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -95,7 +95,7 @@ DiagnosisResult sample() {
   d.where.periods_per_turn = 24.0;
   d.remaining.headline = "nowhere";
   d.blame = {{"motor_damping", "N m s/rad", 0.08, 0.06, BoundReached::kNone, BoundReached::kUpper}};
-  d.model_gap = ModelGap{GapOrigin::kEstimated, kThird, {0.3, 0.4}};
+  d.model_gap = ModelGap{GapOrigin::kEstimated, kThird, {0.3, 0.4}, EncoderSide::kLoad};
   d.warnings = {"a warning"};
   d.observer_hz = 3.0;
   MismatchTrace t;
@@ -221,6 +221,7 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(b.model_gap->origin, GapOrigin::kEstimated);
   EXPECT_EQ(b.model_gap->value, kThird);
   EXPECT_EQ(b.model_gap->ci95.high, 0.4);
+  EXPECT_EQ(b.model_gap->encoder, EncoderSide::kLoad);
   ASSERT_EQ(b.traces.size(), 1u);
   EXPECT_EQ(b.traces[0].x1, a.traces[0].x1);
   EXPECT_EQ(b.traces[0].torque_after, a.traces[0].torque_after);

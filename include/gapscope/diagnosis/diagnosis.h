@@ -86,6 +86,8 @@ struct ModelGap {
   GapOrigin origin = GapOrigin::kNone;
   double value = kNaN;  ///< 2β [rad]
   Interval ci95;        ///< NaN where the fitted recordings do not determine it
+  EncoderSide encoder =
+      EncoderSide::kMotor;  ///< on the load it shows no gap: nobody tells it without a model
 };
 
 /// Where a fitted number stands in its bounds.
