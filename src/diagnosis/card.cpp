@@ -22,6 +22,7 @@ namespace {
 using internal::diagnosis::also_refitted;
 using internal::diagnosis::as_sentence;
 using internal::diagnosis::cause_line;
+using internal::diagnosis::export_words;
 using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
 using internal::diagnosis::kRule;
@@ -244,7 +245,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
     return "Try `fitted.yaml` on another motion (other speeds, other loads); held out, a recording of that "
            "may also tell the cause.";
   if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
-  if (is_added(d)) return "Simulate with `fitted.yaml`; `gapscope export` takes it to other simulators.";
+  if (is_added(d)) return "Simulate with `fitted.yaml`; " + export_words(f);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
   return step_to_establish(d);
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gapscope/base/decimals.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -76,9 +77,9 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   if (diagnosis == nullptr || !diagnosis->model_gap) return kElsewhere;
   switch (diagnosis->model_gap->origin) {
     case GapOrigin::kNone:
-      return "The model is a single body, without a gap; whether the recording shows one: " +
       if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
         return "The model is a single body, without a gap; with the encoder on the load a gap does not show.";
+      return "The model is a single body, without a gap; whether the recording shows one: " +
              told_without_model(*diagnosis);
     case GapOrigin::kGiven:
       return "The model takes it as known, " + coordinates.thousandths(diagnosis->model_gap->value) +
@@ -100,6 +101,17 @@ std::string where_words(const Diagnosis& d, Coordinates coordinates) {
                      : what.starts_with("no ") ? "has "
                                                : "is ",
                      what);
+}
+
+std::string export_words(const CardFacts& f) {
+  if (!f.carriers) return "`gapscope export` takes it to other simulators.";
+  if (!f.carriers->empty())
+    return "`gapscope export --to " + f.carriers->front() + "` takes it to other simulators.";
+  std::vector<std::string> names;
+  for (const std::string& effect : f.uncarried) names.push_back(readable(effect));
+  return "no format of `gapscope export` has " +
+         (names.empty() ? "all of it" : enumerated(names) + " whole") +
+         ": the certificate of an export tells how far off it is.";
 }
 
 std::string without_asides(std::string text) {

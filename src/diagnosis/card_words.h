@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
+#include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 /// How a card writes numbers and lists.
@@ -42,6 +43,9 @@ std::string where_words(const Diagnosis& diagnosis, Coordinates coordinates);
 
 /// Of a gap that a diagnosis does not estimate: who tells it. A null pointer: there is no diagnosis either.
 std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinates);
+
+/// "`gapscope export --to mjcf` takes it to other simulators.", or that no format has all that was added.
+std::string export_words(const CardFacts& facts);
 
 /// Without what stands in brackets: the detail of a report has it.
 std::string without_asides(std::string text);

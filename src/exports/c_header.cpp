@@ -23,40 +23,6 @@ constexpr int kMostHeld = 1 << 12;
 #include "exports/drive_step.c"
 #undef GSD_HELD
 
-constexpr Fidelity kExactly = Fidelity::kExact;
-
-constexpr Carriage kByC[] = {
-    {"motor_inertia", kExactly, "m1"},
-    {"torque_constant", kExactly, "km"},
-    {"motor_damping", kExactly, "d1_plus, d1_minus"},
-    {"mass_ratio", kExactly, "m2"},
-    {"gap", kExactly, "half_gap; closing and opening at their own instants"},
-    {"load_damping", kExactly, "d2"},
-    {"load_coulomb_friction", kExactly, "f2, set-valued at rest"},
-    {"contact_stiffness", kExactly, "k"},
-    {"contact_damping", kExactly, "c"},
-    {"motor_coulomb_friction", kExactly, "f1_plus, f1_minus, set-valued at rest"},
-    {"friction_asymmetry", kExactly, "f1_plus, f1_minus, d1_plus, d1_minus"},
-    {"stribeck_friction", kExactly, "f1 at rest, stiction at speed"},
-    {"quadratic_drag", kExactly, "drag"},
-    {"cogging_torque", kExactly, "cogging"},
-    {"torque_ripple", kExactly, "ripple"},
-    {"load_unbalance", kExactly, "unbalance"},
-    {"constant_load_torque", kExactly, "load_torque"},
-    {"torque_saturation", kExactly, "knee, sharpness"},
-    {"input_dead_zone", kExactly, "dead_zone"},
-    {"input_delay", kExactly, "delay, fractions of a step too"},
-    {"actuator_lag", kExactly, "lag"},
-    {"shaft_compliance", kExactly, "k"},
-    {"impact_damping", kExactly, "c"},
-    {"contact_adhesion", kExactly, "adhesion"},
-    {"presliding_friction", Fidelity::kApproximate, "f1 of its level; the bristle is left out"},
-    {"load_dependent_friction", Fidelity::kApproximate,
-     "f1 of its level; what grows with the torque is left out"},
-    {"contact_hardening", Fidelity::kApproximate, "k at first touch"},
-    {"backlash", Fidelity::kApproximate, "a stiff contact in place of an impact"},
-};
-
 constexpr const char* kNotInC = "the generated code has no such law";
 
 void set_motor(const ExportSource& s, gsd_numbers& n) {
@@ -247,7 +213,7 @@ DriveExport export_c(const ExportSource& s) {
   DriveExport out;
   Certificate& c = out.certificate;
   c.format = "c";
-  c.parts = carried_parts(s, kByC, kNotInC);
+  c.parts = carried_parts(s, carriage_of("c"), kNotInC);
   for (CarriedPart& part : c.parts)
     if (part.part == "gap" && s.drive.structure.contact == ContactLaw::kRigid)
       part = {"gap", Fidelity::kApproximate, "a stiff contact in place of the impact law"};

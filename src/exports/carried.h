@@ -5,17 +5,10 @@
 #include <vector>
 
 #include "exports/export_source.h"
+#include "gapscope/results/carriage.h"
 #include "gapscope/results/certificate.h"
 
 namespace gapscope::internal::exports {
-
-/// How a format says one part of a drive.
-struct Carriage {
-  std::string_view part;  ///< a parameter of the drive or an effect
-  Fidelity fidelity;
-  const char* how;
-  std::string_view exact_without = {};  ///< a parameter of the effect: at its neutral value all is exact
-};
 
 /// Every number that the drive has and every effect, as the table says; what it does not name is left out.
 /// @param otherwise  why, and what would help

@@ -8,57 +8,6 @@
 namespace gapscope::internal::exports {
 namespace {
 
-constexpr Fidelity kWhole = Fidelity::kExact, kNearly = Fidelity::kApproximate;
-constexpr const char* kSummed = "in the joint's own, which is right while motor and load move together";
-
-constexpr Carriage kByLink[] = {
-    {"torque_constant", Fidelity::kLeftOut,
-     "yours to apply: the torque of the joint is torque_constant times u"},
-    {"motor_inertia", kNearly, "in the link's inertia: the format has no armature"},
-    {"mass_ratio", kNearly, "in the link's inertia, which is right while motor and load move together"},
-    {"motor_damping", kWhole, "damping of the joint"},
-    {"load_damping", kNearly, kSummed},
-    {"load_coulomb_friction", kNearly, kSummed},
-    {"motor_coulomb_friction", kWhole,
-     "friction of the joint; whether it holds at rest is the engine's affair"},
-    {"friction_asymmetry", kNearly, "friction of the joint: the mean level"},
-    {"stribeck_friction", kNearly, "friction of the joint: the level at speed"},
-    {"presliding_friction", kNearly, "friction of the joint: the level"},
-    {"load_dependent_friction", kNearly, "friction of the joint: the level without torque"},
-    {"load_unbalance", kWhole, "a mass beside the axis, under gravity 9.81 m/s² along −z"},
-};
-
-constexpr Carriage kByIsaac[] = {
-    {"torque_constant", Fidelity::kLeftOut,
-     "yours to apply: the torque of the joint is torque_constant times u"},
-    {"motor_inertia", kWhole, "armature"},
-    {"mass_ratio", kNearly, "the link's own inertia, which the file gives as a comment"},
-    {"motor_damping", kWhole, "viscous_friction; damping is a gain of the controller there"},
-    {"load_damping", kNearly, kSummed},
-    {"load_coulomb_friction", kNearly, kSummed},
-    {"motor_coulomb_friction", kWhole, "friction and dynamic_friction"},
-    {"friction_asymmetry", kNearly, "friction: the mean level"},
-    {"stribeck_friction", kNearly, "friction at rest, dynamic_friction at speed; nothing between"},
-    {"presliding_friction", kNearly, "friction: the level"},
-    {"load_dependent_friction", kNearly, "friction: the level without torque"},
-};
-
-constexpr Carriage kByBam[] = {
-    {"torque_constant", Fidelity::kLeftOut,
-     "yours to apply: the torque of the joint is torque_constant times u"},
-    {"motor_inertia", kWhole, "armature"},
-    {"mass_ratio", kNearly, "the inertia that the simulation has behind the joint"},
-    {"motor_damping", kWhole, "friction_viscous"},
-    {"load_damping", kNearly, kSummed},
-    {"load_coulomb_friction", kNearly, kSummed},
-    {"motor_coulomb_friction", kWhole, "friction_base"},
-    {"friction_asymmetry", kNearly, "friction_base: the mean level"},
-    {"stribeck_friction", kWhole, "friction_base, friction_stribeck, dtheta_stribeck, alpha"},
-    {"presliding_friction", kNearly, "friction_base: the level"},
-    {"load_dependent_friction", kNearly,
-     "friction_base and load_friction_base, per torque of the motor less that outside"},
-};
-
 /// The link that turns or slides, in the words that URDF and SDF share.
 OffsetMass link_mass(const FlatJoint& joint, bool turns) {
   const double inertia = joint.armature + joint.link;
@@ -162,19 +111,19 @@ DriveExport flat_export(const ExportSource& s, const char* format, const std::st
 }  // namespace
 
 DriveExport export_urdf(const ExportSource& s) {
-  return flat_export(s, "urdf", s.stem + ".urdf", kByLink, true, urdf_text);
+  return flat_export(s, "urdf", s.stem + ".urdf", carriage_of("urdf"), true, urdf_text);
 }
 
 DriveExport export_sdf(const ExportSource& s) {
-  return flat_export(s, "sdf", s.stem + ".sdf", kByLink, true, sdf_text);
+  return flat_export(s, "sdf", s.stem + ".sdf", carriage_of("sdf"), true, sdf_text);
 }
 
 DriveExport export_isaac(const ExportSource& s) {
-  return flat_export(s, "isaac", s.stem + "_cfg.py", kByIsaac, false, isaac_text);
+  return flat_export(s, "isaac", s.stem + "_cfg.py", carriage_of("isaac"), false, isaac_text);
 }
 
 DriveExport export_bam(const ExportSource& s) {
-  DriveExport out = flat_export(s, "bam", s.stem + "_bam.json", kByBam, false, bam_text);
+  DriveExport out = flat_export(s, "bam", s.stem + "_bam.json", carriage_of("bam"), false, bam_text);
   out.certificate.warnings.push_back(
       "kt and R are not in the file: a recording of u and x1 has only their quotient (torque_constant, with "
       "u in volts) "

@@ -8,41 +8,7 @@
 namespace gapscope::internal::exports {
 namespace {
 
-constexpr Fidelity kExact = Fidelity::kExact, kApproximate = Fidelity::kApproximate;
-
-constexpr Carriage kByMjcf[] = {
-    {"motor_inertia", kExact, "inertial of the motor's body"},
-    {"torque_constant", kExact, "gear of the actuator; ctrl is u"},
-    {"motor_damping", kExact, "damping of the motor's joint"},
-    {"mass_ratio", kExact, "inertial of the load's body"},
-    {"gap", kExact, "range of the fixed tendon motor − load"},
-    {"load_damping", kExact, "damping of the load's joint"},
-    {"load_coulomb_friction", kExact,
-     "frictionloss with solreffriction and solimpfriction that hold; the defaults creep"},
-    {"contact_stiffness", kExact, "solreflimit of the tendon: −k (1/m1 + 1/m2), solimplimit 1e-4"},
-    {"contact_damping", kExact, "solreflimit of the tendon: −c (1/m1 + 1/m2)"},
-    {"motor_coulomb_friction", kExact, "frictionloss of the motor's joint"},
-    {"friction_asymmetry", kApproximate,
-     "frictionloss of the mean level and a constant actuator for the difference; the viscous part is the "
-     "mean of "
-     "both directions, the rest needs qfrc_applied in your loop",
-     "viscous_ratio"},
-    {"stribeck_friction", kApproximate,
-     "frictionloss of the level at speed; what break-away takes beyond it needs MuJoCo 3.7 (dcmotor with "
-     "lugre)"},
-    {"presliding_friction", kApproximate,
-     "frictionloss of the level; the bristle needs MuJoCo 3.7 (dcmotor with lugre)"},
-    {"load_dependent_friction", kApproximate,
-     "frictionloss of the level; what grows with the torque needs qfrc_applied in your loop"},
-    {"constant_load_torque", kExact, "a general actuator with a bias and no gain"},
-    {"load_unbalance", kExact, "a mass beside the axis, under gravity 9.81 m/s² along −z"},
-    {"shaft_compliance", kExact, "solreflimit of the tendon"},
-    {"impact_damping", kExact, "solreflimit of the tendon"},
-    {"contact_hardening", kApproximate, "the stiffness at first touch"},
-    {"backlash", kApproximate, "a stiff contact in place of an impact"},
-    {"torque_saturation", kApproximate, "ctrlrange: a hard limit at the knee"},
-    {"actuator_lag", kExact, "dyntype filter of the actuator"},
-};
+constexpr Fidelity kApproximate = Fidelity::kApproximate;
 
 constexpr const char* kOtherwise =
     "MJCF of MuJoCo 2.2 has no element for it; --to c gives it as code for a callback or your loop";
@@ -91,7 +57,7 @@ MujocoDrive mujoco_drive(const ExportSource& s) {
 }
 
 std::vector<CarriedPart> mujoco_parts(const ExportSource& s) {
-  std::vector<CarriedPart> parts = carried_parts(s, kByMjcf, kOtherwise);
+  std::vector<CarriedPart> parts = carried_parts(s, carriage_of("mjcf"), kOtherwise);
   for (CarriedPart& part : parts) {
     if (part.part == "gap" && s.drive.structure.contact == ContactLaw::kRigid)
       part = {"gap", kApproximate, "range of the fixed tendon; a stiff contact in place of the impact law"};

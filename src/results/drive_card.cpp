@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "gapscope/results/carriage.h"
+
 namespace gapscope {
 namespace {
 
@@ -33,6 +35,9 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
     facts.simulated = diagnosis->simulated ? &*diagnosis->simulated : nullptr;
     facts.diagnosis = &diagnosis->diagnosis;
     facts.coordinates = diagnosis->coordinates;
+    const std::optional<ModelGap>& gap = diagnosis->diagnosis.model_gap;
+    facts.carriers = carriers_of(diagnosis->diagnosis.added, gap && gap->origin != GapOrigin::kNone);
+    facts.uncarried = carried_by_none(diagnosis->diagnosis.added);
     input = diagnosis->input;
     if (run == nullptr && diagnosis->answer) facts.tolerance = diagnosis->answer->tolerance;
   }

@@ -138,5 +138,19 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
             "(established).");
 }
 
+TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {
+  Diagnosis d = slide_diagnosis();
+  for (AddedEffect& a : d.added) a.established = true;
+  CardFacts f = facts_of(nullptr, &d);
+  EXPECT_THAT(card_of(f).next, HasSubstr("`gapscope export` takes it to other simulators."));
+  f.carriers = {"c"};
+  EXPECT_THAT(card_of(f).next, HasSubstr("`gapscope export --to c` takes it to other simulators."));
+  f.carriers = std::vector<std::string>(), f.uncarried = {"load_dependent_friction"};
+  EXPECT_THAT(card_of(f).next,
+              HasSubstr("no format of `gapscope export` has load-dependent friction whole: the "
+                        "certificate of an export tells how far off it is."));
+  EXPECT_THAT(card_of(f).next, Not(HasSubstr("takes it to other simulators")));
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/fields.h"
@@ -57,8 +58,11 @@ struct CardFacts {
   const SimulatorComparison* simulated = nullptr;  ///< the user's simulator, where its answer was given
   Coordinates coordinates;
   Tolerance tolerance;
-  bool lost_motion = false;       ///< that of the loop is read: measured, whatever it means
-  bool constant_guessed = false;  ///< torque_constant is a guess, and the torques rest on it
+  /// Formats of `export` that have the drive and all that was added exactly; nothing: not known
+  std::optional<std::vector<std::string>> carriers;
+  std::vector<std::string> uncarried;  ///< what was added and no format has exactly
+  bool lost_motion = false;            ///< that of the loop is read: measured, whatever it means
+  bool constant_guessed = false;       ///< torque_constant is a guess, and the torques rest on it
 };
 
 Card card_of(const CardFacts& facts);
