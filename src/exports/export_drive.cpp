@@ -48,6 +48,7 @@ DriveExport export_drive(const Configuration& configuration, ExportFormat format
   if (std::isnan(c.duration)) c.duration = source.duration();
   c.encoder_floor = source.encoder_floor;
   c.configuration = source.configuration;
+  if (source.commanded) internal::exports::tell_controller(source, c);
   internal::exports::warn_of_left_out(source, c);
   for (const ExportedFile& file : out.files) c.files.push_back(file.name);
   return out;

@@ -83,6 +83,11 @@ ExportSource recorded_source(const Configuration& c) {
 ExportSource export_source(const Configuration& c) {
   if (!c.simulation) return recorded_source(c);
   const SimulationConfig& s = *c.simulation;
+  if (c.controller) {  // what it asks for is the input of the drive: the goal is that of the controller
+    ExportSource source = source_of(c, simulated_recording(c).u, "what the controller makes of its goal");
+    source.commanded = true;
+    return source;
+  }
   const std::string input = s.excitation.kind == ExcitationKind::kRecorded
                                 ? "the input of " + shown(s.excitation.file)
                                 : std::string("its ") + to_string(s.excitation.kind);

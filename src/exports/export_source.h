@@ -24,6 +24,7 @@ struct ExportSource {
   double encoder_floor = 0.0;            ///< [rad]; NaN: the encoder is not known
   std::string input;                     ///< in words
   std::string configuration;             ///< as resolved
+  bool commanded = false;                ///< a controller makes the input, which no format has
   std::optional<JointNumbers> own = {};  ///< of the model of the user's own, where it is known
 
   double duration() const { return dt * static_cast<double>(u.size()); }

@@ -19,9 +19,11 @@ constexpr double kManyFloors = 10.0;
 
 constexpr const char* kInTheLoop = "in your loop, before each step: `";
 
+constexpr const char* kController = "controller";
+
 /// What every format leaves to the loop is no part that it lacks.
 bool lacks(const CarriedPart& part) {
-  return part.fidelity == Fidelity::kLeftOut && part.part != "torque_constant";
+  return part.fidelity == Fidelity::kLeftOut && part.part != "torque_constant" && part.part != kController;
 }
 
 /// "+ 0.5", "- 0.5"
@@ -103,6 +105,15 @@ bool hides_the_steps(const ExportSource& source, const std::vector<CarriedPart>&
   const bool shows =
       std::isnan(source.encoder_floor) ? rms > kFarOff * travel : rms > kManyFloors * source.encoder_floor;
   return shows && std::any_of(parts.begin(), parts.end(), lacks);
+}
+
+void tell_controller(const ExportSource& source, Certificate& c) {
+  const std::string torque = source.coordinates.torque_word();
+  const std::string input = "the input of the file is u, not the goal (" + torque + " = torque_constant * u)";
+  c.parts.push_back({kController, Fidelity::kLeftOut,
+                     "yours to run, with the numbers of `controller:` in the configuration: " + input});
+  c.warnings.push_back("the controller is not in the file: " + input +
+                       "; give it what your controller makes of the goal");
 }
 
 void warn_of_left_out(const ExportSource& source, Certificate& c) {

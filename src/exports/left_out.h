@@ -24,6 +24,9 @@ void add_loop_lines(const ExportSource& source, const LoopWords& words, Certific
 bool hides_the_steps(const ExportSource& source, const std::vector<CarriedPart>& parts, double rms,
                      double travel);
 
+/// That the controller is not in the file, and what is its input then.
+void tell_controller(const ExportSource& source, Certificate& certificate);
+
 /// A warning, where the target lacks a part of the drive, or approximates one so badly that it is far off,
 /// and is off by more than the encoder's floor, by the least row of its errors: how far, what it lacks, and
 /// the lines that mend it.

@@ -93,5 +93,19 @@ TEST(LeftOut, OfOtherFormatsIsToldAlike) {
   EXPECT_THAT(export_drive(rippling(), ExportFormat::kC).certificate.warnings, ElementsAre());
 }
 
+TEST(LeftOut, OfAControllerSaysWhatTheInputIsAndIsJudgedByTheDrivesOwnTravel) {
+  Configuration c =
+      rig_configuration(", mass_ratio: 0", "", "encoder: {bits: 20}\ncontroller: {position: {gain: 2}}");
+  const Certificate told = export_drive(c, ExportFormat::kMjcf).certificate;
+  EXPECT_LT(told.travel, 1.5) << "of a goal that moves by 1.2 rad, which no longer is the torque";
+  EXPECT_EQ(told.input, "what the controller makes of its goal");
+  EXPECT_EQ(told.parts.back().part, "controller");
+  EXPECT_EQ(told.parts.back().fidelity, Fidelity::kLeftOut);
+  ASSERT_EQ(told.warnings.size(), 1u);
+  EXPECT_THAT(told.warnings[0],
+              HasSubstr("the controller is not in the file: the input of the file is u, not the "
+                        "goal (torque = torque_constant * u)"));
+}
+
 }  // namespace
 }  // namespace gapscope
