@@ -52,23 +52,31 @@ std::string named_from(const std::string& folder, const std::string& recording) 
   return stays ? recording : std::filesystem::proximate(recording, folder).generic_string();
 }
 
+/// Which is better fitted, and what is to be said of the other one.
+struct ToldOrder {
+  FittingOrder order;
+  std::string little;  ///< why the one that is held out judges little; empty: it does not
+};
+
 /// Reads both recordings as diagnose would.
-FittingOrder order_of(const RecordingConfig& config, Coordinates coordinates) {
+ToldOrder order_of(const RecordingConfig& config, Coordinates coordinates) {
   std::vector<MotionReach> reach;
   for (const RecordedFile& file : {config.files.front(), config.held_out.front()}) {
     const Recording r = read_recording(file.path, config.reading_of(file, UnevenRows::kStamped));
     const MotorTrace trace = r.motor_trace();
     reach.push_back(reach_of({&trace, 1}));
   }
-  return fitting_order(reach[0], reach[1], coordinates);
+  return {fitting_order(reach[0], reach[1], coordinates), judges_little(reach[0], reach[1])};
 }
 
-std::string order_told(const FittingOrder& order, const std::string& fitted, const std::string& held_out) {
+std::string order_told(const ToldOrder& told, const std::string& fitted, const std::string& held_out) {
   const std::string first = printable(fitted, 200), second = printable(held_out, 200);
+  const FittingOrder& order = told.order;
+  const std::string but = told.little.empty() ? "" : "; but " + second + " " + told.little;
   switch (order.fit) {
     case FittingOrder::Fit::kFirst:
-      return fmt::format("good as it is: {} is fitted, which asks more of the drive than {} ({})", first,
-                         second, order.why);
+      return fmt::format("{}: {} is fitted, which asks more of the drive than {} ({}){}",
+                         but.empty() ? "good as it is" : "good for the fit", first, second, order.why, but);
     case FittingOrder::Fit::kSecond:
       return fmt::format(
           "better the other way round: {0} asks more of the drive than {1} ({2}); a model is known only as "
@@ -77,7 +85,7 @@ std::string order_told(const FittingOrder& order, const std::string& fitted, con
     case FittingOrder::Fit::kEither:
       break;
   }
-  return fmt::format("either recording may be fitted: {}", order.why);
+  return fmt::format("either recording may be fitted: {}{}", order.why, but);
 }
 
 void write_recording(YamlWriter& out, const std::string& folder, const RecordingConfig& recording,

@@ -31,6 +31,16 @@ double speed_of(const MotorTrace& r) {
   return speeds.empty() ? 0.0 : quantile(std::move(speeds), kMost);
 }
 
+/// Share of the samples that are faster than a twentieth of the speed that few exceed: of a sine 0.97.
+double moving_of(const MotorTrace& r, double speed) {
+  constexpr double kSlow = 0.05;
+  const std::size_t apart = internal::signals::speed_window(r);
+  std::size_t moves = 0, all = 0;
+  for (std::size_t i = apart; i < r.size(); ++i, ++all)
+    moves += std::abs(r.x1[i] - r.x1[i - apart]) > kSlow * speed * (r.time(i) - r.time(i - apart)) ? 1 : 0;
+  return all == 0 ? 1.0 : static_cast<double>(moves) / static_cast<double>(all);
+}
+
 double input_of(const MotorTrace& r) {
   std::vector<double> sizes;
   for (const double u : r.u) sizes.push_back(std::abs(u));
@@ -52,7 +62,8 @@ int reversals_of(const MotorTrace& r, double travel) {
 
 MotionReach reach_of(const MotorTrace& r) {
   const auto [low, high] = std::minmax_element(r.x1.begin(), r.x1.end());
-  return {*high - *low, speed_of(r), input_of(r), reversals_of(r, *high - *low)};
+  const double speed = speed_of(r);
+  return {*high - *low, speed, input_of(r), reversals_of(r, *high - *low), moving_of(r, speed)};
 }
 
 bool clearly_more(double second, double first) { return first > 0.0 && second > kClearlyMore * first; }
@@ -93,6 +104,7 @@ std::string reason_to_fit(const MotionReach& first, const MotionReach& second, C
 
 MotionReach reach_of(std::span<const MotorTrace> recordings) {
   MotionReach farthest;
+  farthest.moving = 0.0;
   for (const MotorTrace& r : recordings) {
     if (r.size() == 0) continue;
     const MotionReach one = reach_of(r);
@@ -100,6 +112,7 @@ MotionReach reach_of(std::span<const MotorTrace> recordings) {
     farthest.speed = std::max(farthest.speed, one.speed);
     farthest.input = std::max(farthest.input, one.input);
     farthest.reversals += one.reversals;
+    farthest.moving = std::max(farthest.moving, one.moving);
   }
   return farthest;
 }
@@ -111,6 +124,19 @@ std::string goes_farther(const MotionReach& first, const MotionReach& second, Co
     if (c.farther()) farther.push_back(c.told());
   }
   return fmt::format("{}", fmt::join(farther, ", "));
+}
+
+std::string judges_little(const MotionReach& fitted, const MotionReach& held_out) {
+  if (fitted.reversals > 0 && held_out.reversals == 0)
+    return "moves in one direction only: nothing that depends on the other one can be judged by it; hold out "
+           "another recording, which goes both ways";
+  if (fitted.moving >= 0.5 && held_out.moving < 0.5)
+    return fmt::format(
+        "stands still in {:.0f} % of its rows: little of what depends on the motion can be judged by it; "
+        "hold out "
+        "another recording, which moves",
+        100.0 * (1.0 - held_out.moving));
+  return "";
 }
 
 FittingOrder fitting_order(const MotionReach& first, const MotionReach& second, Coordinates coordinates) {

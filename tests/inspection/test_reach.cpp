@@ -104,5 +104,17 @@ TEST(FittingOrder, LeavesItOpenWhereNeitherCoversTheOther) {
   EXPECT_THAT(order.why, HasSubstr("neither covers the other: speed up to 3 against 5.89 rad/s, travel 1"));
 }
 
+TEST(JudgesLittle, IsSaidOfARecordingThatGoesOneWayOrStands) {
+  const MotionReach usual = reach(swung(0.5, 6.0, 2.0));
+  EXPECT_EQ(judges_little(usual, usual), "");
+  Recording rising = swung(0.5, 0.3, 2.0);  // less than a quarter of a turn of its phase
+  EXPECT_THAT(judges_little(usual, reach(rising)),
+              HasSubstr("moves in one direction only: nothing that depends"));
+  EXPECT_EQ(judges_little(reach(rising), reach(rising)), "") << "nor was the other one fitted";
+  Recording resting = swung(0.5, 6.0, 2.0);
+  for (std::size_t i = 600; i < resting.x1.size(); ++i) resting.x1[i] = resting.x1[600];
+  EXPECT_THAT(judges_little(usual, reach(resting)), HasSubstr("stands still in 7"));
+}
+
 }  // namespace
 }  // namespace gapscope

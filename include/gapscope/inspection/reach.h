@@ -14,6 +14,7 @@ struct MotionReach {
   double speed = 0.0;   ///< that 99 % of the samples stay below, over 20 ms [rad/s]
   double input = 0.0;   ///< the same of |u| [unit of u]; 0 where u is not known
   int reversals = 0;    ///< of the motion, of all recordings together
+  double moving = 1.0;  ///< share of the samples in which it moves; of several the largest [-]
 };
 
 /// The farthest of several recordings, each quantity for itself; their reversals are added up.
@@ -23,6 +24,10 @@ MotionReach reach_of(std::span<const MotorTrace> recordings);
 /// empty where it does not, or where the first goes clearly farther in something else: then neither covers
 /// the other.
 std::string goes_farther(const MotionReach& first, const MotionReach& second, Coordinates coordinates);
+
+/// Why one that is held out judges less than the fitted one shows, with what to do: "moves in one direction
+/// only, ..." or "stands still in 83 % of its rows, ..."; empty: it judges all.
+std::string judges_little(const MotionReach& fitted, const MotionReach& held_out);
 
 /// Which of two recordings is better fitted, the other one being held out.
 struct FittingOrder {
