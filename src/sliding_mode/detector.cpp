@@ -9,6 +9,7 @@
 #include "sliding_mode/frozen_search.h"
 #include "sliding_mode/impact_method.h"
 #include "sliding_mode/kept_traces.h"
+#include "sliding_mode/loop_verdict.h"
 #include "sliding_mode/lost_motion.h"
 #include "sliding_mode/paper_method.h"
 #include "sliding_mode/pooled_reading.h"
@@ -253,6 +254,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   GapEstimate estimate = paper ? detect_paper(recordings, analyses, facts, loops, options)
                                : detect_auto(recordings, analyses, intervals, facts, loops, options);
   if (loops.estimate) estimate.lost_motion = loops.estimate->lost_motion;
+  internal::sliding_mode::hold_against_gap(estimate);
   if (paper || estimate.method == GapMethod::kLostMotion) return estimate;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
   estimate.bound_t1 =

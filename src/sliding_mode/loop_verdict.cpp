@@ -168,6 +168,14 @@ bool TorqueLevel::runs_nowhere() const {
 bool TorqueLevel::runs_free() const { return shape.sure_run >= shape.stands_out; }
 bool TorqueLevel::runs_backwards() const { return play() + kSurely * std() < 0.0; }
 
+void hold_against_gap(GapEstimate& estimate) {
+  LostMotion& m = estimate.lost_motion;
+  const bool gap = estimate.verdict == GapVerdict::kBacklash && estimate.quantity == GapQuantity::kGap;
+  if (!gap || !m.read() || !(estimate.ci95.high < kMostly * m.value)) return;
+  m.cause = LostMotionCause::kOpen;
+  m.meaning = words::holds_gap(m.value, estimate.gap);
+}
+
 GapEstimate decide_loops(Levels levels) {
   GapEstimate estimate;
   estimate.method = GapMethod::kLostMotion;

@@ -27,6 +27,10 @@ struct TorqueLevel {
   bool runs_backwards() const;  ///< friction and gaps lag behind u; only a u that is late itself leads
 };
 
+/// A lost motion of which a gap that was read otherwise is the smaller part is not mostly a gap: it is told
+/// by these two numbers.
+void hold_against_gap(GapEstimate& estimate);
+
 /// Lost motion, what it means, and the verdict on a gap.  @param levels  at least one, by rising torque
 GapEstimate decide_loops(std::span<const TorqueLevel> levels);
 

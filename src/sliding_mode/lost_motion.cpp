@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kFollowing = 0.75;      ///< least share of the travel that goes with the change of u
 constexpr double kQuasiStatic = 0.9;     ///< the same of a motion in which nothing coasts, for a verdict
+constexpr double kWholeTravel = 0.95;    ///< share of the travel from which P leaves no flank
 constexpr std::size_t kFewestRamps = 3;  ///< of a loop, to either side together
 
 /// A recording that is a loop.
@@ -104,6 +105,10 @@ std::vector<TorqueLevel> levels_of(const std::vector<Loop>& loops, double resolu
   return levels;
 }
 
+/// x1 lies at zero torque where it turns. A drive that coasts does so, and P is then its travel; one in which
+/// nothing coasts is so stiff.
+bool has_no_flank(const TorqueLevel& level) { return level.play() >= kWholeTravel * level.shape.travel; }
+
 }  // namespace
 
 LoopSearch read_lost_motion(std::span<const MotorTrace> recordings,
@@ -127,6 +132,10 @@ LoopSearch read_lost_motion(std::span<const MotorTrace> recordings,
   const std::vector<TorqueLevel> levels = levels_of(loops, resolution, least_way);
   if (levels.empty()) {
     if (search.why_not.empty()) search.why_not = words::few_torque_ramps(0);
+    return search;
+  }
+  if (!search.decides && std::ranges::any_of(levels, has_no_flank)) {
+    if (search.why_not.empty()) search.why_not = words::no_flank();
     return search;
   }
   search.estimate = decide_loops(levels);

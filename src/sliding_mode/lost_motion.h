@@ -20,6 +20,8 @@ namespace gapscope::internal::sliding_mode {
 /// there is a loop, at each torque level (loops of one amplitude, of all recordings); levels that disagree
 /// are told, not averaged.
 ///
+/// Where something coasts and P reaches the whole travel, there is no flank, and no lost motion is told.
+///
 /// What it consists of is a second statement. A gap is passed at once, at one torque: P is mostly a gap where
 /// x1 runs free, ten times as compliant as the loaded flank, for most of P, and nowhere else moves half
 /// as far. Friction and compliance alone give P = 2·Fc/k without a free run, and grow with the torque. A

@@ -190,6 +190,15 @@ Remark locked_with_bound() {
       "the output is locked, so that no impact shows, and one e_x with a given bound reads impacts alone; "
       "the lost-motion loop, which this recording has, is read with detector: bound: auto"};
 }
+Remark no_flank() {
+  return {"no_flank",
+          "x1 lies at zero torque where it turns: the loop has no loaded flank to tell lost motion by"};
+}
+Remark holds_gap(double lost_motion, double gap) {
+  return {"holds_gap",
+          "of {:.3g} [rad] lost motion the gap is {:.3g} [rad]; the rest is friction, compliance or coasting",
+          {lost_motion, gap}};
+}
 Remark lost_motion_means(LostMotionCause cause, double free_run, double alone, bool levels_differ) {
   const Remark differ =
       levels_differ

@@ -60,6 +60,8 @@ Remark loop_not_asked_for();  ///< the same
 Remark locked_without_loop(const Remark& why);
 /// Of one e_x with a bound that is given, where a loop can be read.
 Remark locked_with_bound();
+Remark no_flank();
+Remark holds_gap(double lost_motion, double gap);
 Remark lost_motion_means(LostMotionCause cause, double free_run, double alone, bool levels_differ);
 Remark hysteresis_hides(std::span<const Play> levels, double visible, double travel);
 Remark play_scatters(std::span<const Play> levels, double half_width);
