@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gapscope/base/shown.h"
@@ -40,14 +41,26 @@ std::string errors_table(const Certificate& c) {
   return text;
 }
 
+/// No listed step of that integrator goes beyond the largest that it stands.
+bool stands_all(const Certificate& c, const StepLimits& l) {
+  return std::none_of(c.errors.begin(), c.errors.end(), [&](const TargetError& e) {
+    return e.integrator == l.integrator && !(e.step <= l.largest);
+  });
+}
+
 std::string limits_list(const Certificate& c) {
   std::string text;
   for (const StepLimits& l : c.limits) {
-    text += fmt::format(
-        "- {}: the largest step that it stands is {} ({}); ", l.integrator, in_milliseconds(l.largest),
-        l.against_itself ? "beyond, it leaves its own motion at the finest step by a tenth of the travel; "
-                           "from the model it is farther than that at any step"
-                         : "beyond, the error exceeds a tenth of the travel");
+    if (stands_all(c, l))
+      text +=
+          fmt::format("- {}: the largest step that it stands is at least {}, the largest that was tried; ",
+                      l.integrator, in_milliseconds(l.largest));
+    else
+      text += fmt::format(
+          "- {}: the largest step that it stands is {} ({}); ", l.integrator, in_milliseconds(l.largest),
+          l.against_itself ? "beyond, it leaves its own motion at the finest step by a tenth of the travel; "
+                             "from the model it is farther than that at any step"
+                           : "beyond, the error exceeds a tenth of the travel");
     text += std::isnan(l.within_encoder)
                 ? "no listed step is within the encoder.\n"
                 : fmt::format("within the encoder from {} down.\n", in_milliseconds(l.within_encoder));

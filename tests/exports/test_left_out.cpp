@@ -49,6 +49,22 @@ TEST(LeftOut, ThatTakesTheFileFarOffLeavesOneRowOverTheWholeRecording) {
   EXPECT_THAT(certificate_text(c), Not(HasSubstr("the largest step that it stands")));
 }
 
+TEST(Certificate, TheEndOfTheTableIsNoLimit) {
+  Certificate c;
+  const auto row = [](double step) {
+    TargetError e;
+    e.integrator = "Euler", e.step = step, e.rms = e.max = 0.06;
+    return e;
+  };
+  c.errors = {row(0.01), row(0.02)};
+  StepLimits limits;
+  limits.integrator = "Euler", limits.largest = 0.02;
+  c.limits = {limits};
+  EXPECT_THAT(certificate_text(c), HasSubstr("stands is at least 20 ms, the largest that was tried; "));
+  c.errors.push_back(row(0.05));
+  EXPECT_THAT(certificate_text(c), HasSubstr("stands is 20 ms (beyond, the error exceeds"));
+}
+
 TEST(LeftOut, ThatDoesLittleLeavesTheStepsInTheTable) {
   const Certificate c = export_drive(rippling(1e-6, 1e-6), ExportFormat::kMjcf).certificate;
   EXPECT_GT(c.errors.size(), 8u);
