@@ -63,6 +63,7 @@ std::string reference_line(const FitSummary& f, Coordinates coordinates) {
   const std::string quality = fmt::format("{}, rmse {}", f.converged() ? "converged" : "not converged",
                                           coordinates.thousandths(f.rmse));
   const FittedParameter* gap = f.find("gap");
+  if (f.closes_gap()) return "closes the gap: none by the fitted model (" + quality + ")";
   if (f.rejected())
     return fmt::format("rejected: {}{}", f.why.text(),
                        gap == nullptr || !gap->estimated || std::isnan(gap->value)
@@ -72,7 +73,7 @@ std::string reference_line(const FitSummary& f, Coordinates coordinates) {
   if (!gap->estimated) return fmt::format("{} fixed ({})", coordinates.thousandths(gap->value), quality);
   if (!gap->identifiable)
     return fmt::format("{} not identifiable ({})", coordinates.thousandths(gap->value), quality);
-  return fmt::format("{} {}", estimate(gap->value, gap->ci95, coordinates), quality);
+  return fmt::format("{} {}", estimate(gap->value, f.shown_interval(*gap), coordinates), quality);
 }
 
 /// Every number that the fit found, but for the gap.
@@ -85,7 +86,7 @@ void print_parameters(const FitSummary& f, const InputFacts& input, Coordinates 
         p.unit == "-" ? "" : " " + with_input_unit(coordinates.shown_unit(p.unit), input);
     const std::string interval = f.rejected()      ? "model rejected"
                                  : !p.identifiable ? "not identifiable"
-                                 : std::isnan(p.ci95.low)
+                                 : std::isnan(f.shown_interval(p).low)
                                      ? "no interval"
                                      : fmt::format("[{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high);
     fmt::print("  {:<{}} {:<17} {}{}\n", p.key, width, fmt::format("{:.4g}{}", p.value, unit), interval,

@@ -11,6 +11,12 @@
 namespace gapscope {
 namespace {
 
+/// The fit ends with the gap closed, and without a model none is seen either.
+bool none_by_both(const Findings& f) {
+  return f.reference != nullptr && f.reference->closes_gap() && f.model_free != nullptr &&
+         f.model_free->verdict == GapVerdict::kNone;
+}
+
 /// The gap that the reference tells; nullptr where it tells none, or is rejected.
 const FittedParameter* told_gap(const Findings& f) {
   if (f.reference == nullptr || f.reference->rejected()) return nullptr;
@@ -51,9 +57,9 @@ Answer from_model_free(const Findings& f, AnswerTrust trust) {
 }
 
 Answer from_reference(const Findings& f, const FittedParameter& gap, AnswerTrust trust) {
-  Answer a{gap.value, gap.ci95, AnswerSource::kReference, trust, "", {}};
+  Answer a{gap.value, f.reference->shown_interval(gap), AnswerSource::kReference, trust, "", {}};
   a.sentence =
-      "The backlash gap is " + with_interval(gap.value, gap.ci95, f.coordinates) + " by the fitted model";
+      "The backlash gap is " + with_interval(gap.value, a.ci95, f.coordinates) + " by the fitted model";
   return a;
 }
 
@@ -69,9 +75,9 @@ Answer contradicted(const Findings& f, const FittedParameter& gap) {
   const bool model = is_good(f);
   Answer a =
       model ? from_reference(f, gap, AnswerTrust::kLimited) : from_model_free(f, AnswerTrust::kLimited);
-  a.sentence +=
-      model ? ", but without a model it reads " + with_interval(g.gap, g.ci95, f.coordinates) + "."
-            : ", but the fitted model says " + with_interval(gap.value, gap.ci95, f.coordinates) + ".";
+  a.sentence += model ? ", but without a model it reads " + with_interval(g.gap, g.ci95, f.coordinates) + "."
+                      : ", but the fitted model says " +
+                            with_interval(gap.value, f.reference->shown_interval(gap), f.coordinates) + ".";
   return a;
 }
 
@@ -101,11 +107,15 @@ Answer denied(const Findings& f) {
   const std::string least = least_denied(f);
   Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
   const FittedParameter* gap = told_gap(f);
-  if (gap == nullptr) {
+  if (none_by_both(f)) {
+    a.sentence =
+        "There is no backlash above " + least + ", and the fitted model closes the gap: none by both.";
+    a.trust = AnswerTrust::kGood;
+  } else if (gap == nullptr) {
     a.sentence = "There is no backlash above " + least + end_without_model(f);
   } else if (gap->ci95.low > limit) {
     a.sentence = "Without a model there is no backlash above " + least + ", but the fitted model says " +
-                 with_interval(gap->value, gap->ci95, f.coordinates) + ".";
+                 with_interval(gap->value, f.reference->shown_interval(*gap), f.coordinates) + ".";
   } else {
     a = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
     a.sentence += "; without a model none above " + least + " is seen, which agrees.";
@@ -142,10 +152,9 @@ Answer play(const Findings& f) {
       ", measured without a model; friction and compliance have a share in it, so the gap is at most that.";
   const FittedParameter* gap = told_gap(f);
   if (gap == nullptr || gap->value > f.model_free->ci95.high) return a;
-  const std::string measured = a.sentence;
-  a = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
-  a.sentence += ". " + measured;
-  return a;
+  Answer model = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
+  model.sentence += ". " + a.sentence;
+  return model;
 }
 
 /// Why the reference tells no gap.
@@ -189,6 +198,7 @@ const std::map<std::string, std::string>& remedies() {
       {"residual_patterned", diagnose},
       {"parts_disagree", diagnose},
       {"as_well_without_gap", without},
+      {"gap_bears_little", diagnose},
       {"gap_differs", without},
       {"odd_coupling", diagnose},
       {"gap_at_bound", without},
@@ -198,7 +208,11 @@ const std::map<std::string, std::string>& remedies() {
   return all;
 }
 
-bool coasts_better(const FitSummary& fit) { return fit.innovation_rmse >= fit.coasting_rmse; }
+/// Where the detector reads a gap, no remedy is a model without one.
+bool reads_gap(const Findings& f) {
+  return f.model_free != nullptr && f.model_free->verdict == GapVerdict::kBacklash &&
+         f.model_free->quantity == GapQuantity::kGap;
+}
 
 /// What a reason that says what to change has behind its colon; empty for others.
 std::string advice_in(const Remark& reason) {
@@ -246,14 +260,16 @@ std::vector<std::string> steps(const Findings& f) {
   const auto add = [&](const std::string& step) {
     if (!step.empty()) next.push_back(step);
   };
-  if (f.reference != nullptr && f.reference->rejected() && coasts_better(*f.reference))
+  if (f.reference != nullptr && f.reference->rejected() &&
+      f.reference->innovation_rmse >= f.reference->coasting_rmse)
     add("Check the sign and the unit of u (`gapscope check`): a motor without torque would predict this "
         "motion better.");
   if (f.agree && !*f.agree)
     add("Record once more at another amplitude or frequency: the estimate that stays is the one to believe.");
-  if (f.reference != nullptr) {
+  if (f.reference != nullptr && !none_by_both(f)) {
     const auto found = remedies().find(f.reference->why.code());
-    if (found != remedies().end()) add(found->second);
+    const bool denies = found != remedies().end() && found->second == remedies().at("gap_at_bound");
+    if (found != remedies().end()) add(denies && reads_gap(f) ? remedies().at("above_floor") : found->second);
   }
   if (f.model_free != nullptr) add(step_without_model(*f.model_free));
   return next;

@@ -53,12 +53,19 @@ const FittedParameter* FitSummary::find(const std::string& key) const {
   return nullptr;
 }
 
+bool FitSummary::closes_gap() const {
+  const FittedParameter* gap = find("gap");
+  const bool at_none = gap != nullptr && gap->estimated && gap->at_bound && gap->low == 0.0;
+  return at_none && gap->value < 0.5 * gap->high && why.code() == "as_well_without_gap";
+}
+
 std::string FitSummary::brief_report() const {
   std::string text = fmt::format("reference: {}", to_string(status));
   if (status == FitStatus::kNotRun || status == FitStatus::kFailed) return text + ": " + message.text();
   if (const FittedParameter* gap = find("gap"); gap != nullptr && gap->estimated) {
     text += fmt::format(", gap {}", number(gap->value));
     text += rejected()          ? " (rejected: " + why.text() + ")"
+            : !converged()      ? " (no interval)"
             : gap->identifiable ? fmt::format(" [{}, {}]", number(gap->ci95.low), number(gap->ci95.high))
                                 : " (not identifiable)";
   }

@@ -114,18 +114,22 @@ std::optional<Remark> unexplained(const FitOutcome&, const FitSummary& f) {
   return words::leaves_unexplained(share, f.innovation_rmse / f.floor);
 }
 
-/// By how much closing the gap has to raise the prediction error. At the encoder's floor by what chance does
-/// not; above it, where what is missing may look like a gap, the gap has to take most of it.
-double least_ratio(const FitOutcome& o, const FitSummary& f) {
-  if (f.innovation_rmse > kAtFloor * f.floor) return kTakesMost;
+/// By how much closing the gap may raise the prediction error by chance.
+double chance_ratio(const FitOutcome& o, const FitSummary& f) {
   double samples = 0.0;
   for (const FitTrace& t : f.traces) samples += static_cast<double>(t.x1.size());
   return std::sqrt(1.0 + kBeyondChance * o.information.inflation / std::max(samples, 1.0));
 }
 
 std::optional<Remark> no_gap_needed(const FitOutcome& o, const FitSummary& f) {
-  if (!(f.without_gap_ratio < least_ratio(o, f))) return {};
+  if (!(f.without_gap_ratio < std::min(chance_ratio(o, f), kTakesMost))) return {};
   return words::as_well_without_gap(f.without_gap_ratio);
+}
+
+/// Above the encoder's floor, where what is missing may look like a gap, the gap has to take most of it.
+std::optional<Remark> little_of_a_gap(const FitOutcome&, const FitSummary& f) {
+  if (!(f.innovation_rmse > kAtFloor * f.floor) || !(f.without_gap_ratio < kTakesMost)) return {};
+  return words::gap_bears_little(f.without_gap_ratio, f.innovation_rmse / f.floor);
 }
 
 /// A coupling that no drive has takes the place of what is missing.
@@ -176,10 +180,10 @@ std::optional<Remark> patterned(const FitOutcome& o, const FitSummary&) {
 
 constexpr std::pair<FitTrust, Judge> kJudges[] = {
     {FitTrust::kRejected, unexplained},   {FitTrust::kRejected, other_gap},
-    {FitTrust::kRejected, no_gap_needed}, {FitTrust::kRejected, odd_coupling},
-    {FitTrust::kLimited, unfinished},     {FitTrust::kLimited, gap_open},
-    {FitTrust::kLimited, above_floor},    {FitTrust::kLimited, moving},
-    {FitTrust::kLimited, patterned}};
+    {FitTrust::kRejected, no_gap_needed}, {FitTrust::kRejected, little_of_a_gap},
+    {FitTrust::kRejected, odd_coupling},  {FitTrust::kLimited, unfinished},
+    {FitTrust::kLimited, gap_open},       {FitTrust::kLimited, above_floor},
+    {FitTrust::kLimited, moving},         {FitTrust::kLimited, patterned}};
 
 /// A model that is usable is not one that does not explain its recordings, however far the encoder's floor.
 /// Of one that is rejected the warning tells the error that the reason tells.

@@ -169,6 +169,12 @@ Remark as_well_without_gap(double ratio) {
           "times that with it open).",
           {ratio}};
 }
+Remark gap_bears_little(double ratio, double floors) {
+  return {"gap_bears_little",
+          "It leaves {:.3g} encoder floors, and closing its gap makes that {:.3g} times as much: what is "
+          "missing may take the place of the gap.",
+          {floors, ratio}};
+}
 Remark gap_differs() {
   return {"gap_differs",
           "Parts of the recording ask for different gaps: what the model takes for a gap is "

@@ -42,6 +42,7 @@ Remark failed_to_fit();
 /// @param share  0 to 1, and more where a coasting motor predicts better
 Remark leaves_unexplained(double share, double floors);
 Remark as_well_without_gap(double ratio);
+Remark gap_bears_little(double ratio, double floors);
 Remark gap_differs();
 Remark odd_coupling(const std::string& key, double value, const std::string& unit);
 Remark not_settled();

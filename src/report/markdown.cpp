@@ -26,7 +26,7 @@ std::string parameter_row(const FittedParameter& p, const FitSummary& fit, const
   if (guess)
     remark = "every " + std::string(coordinates.torque_word()) +
              ", inertia, damping and stiffness here is off by its factor";
-  if (std::isfinite(p.profile_ci95.low) && !fit.rejected())
+  if (std::isfinite(p.profile_ci95.low) && std::isfinite(fit.shown_interval(p).low))
     remark += (remark.empty() ? "profile likelihood " : ", profile likelihood ") +
               interval_text(p.profile_ci95, unit);
   return fmt::format("| `{}` | {} | {} | {} | {} |\n", p.key,

@@ -66,10 +66,11 @@ std::string reference_sentence(const RunResult& run) {
   if (fit.status == FitStatus::kFailed || fit.status == FitStatus::kNotRun)
     return "The model-based reference has no result: " + fit.message.text();
   if (gap == nullptr) return "The model-based reference was told that the drive has no gap" + state + ".";
+  if (fit.closes_gap()) return "The model-based reference closes the gap: it finds none" + state + ".";
   if (fit.rejected())
     return "The model-based reference is rejected, its gap (" + quantity(gap->value, position_unit(run)) +
            ") is not to be believed: " + fit.why.text();
-  const std::string value = with_interval(gap->value, gap->ci95, position_unit(run));
+  const std::string value = with_interval(gap->value, fit.shown_interval(*gap), position_unit(run));
   if (!gap->estimated) return "The model-based reference took the gap as known, " + value + state + ".";
   if (!gap->identifiable)
     return "The model-based reference could not determine the gap (" + value + ")" + state + ".";

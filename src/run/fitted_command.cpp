@@ -20,6 +20,7 @@ enum class Standing { kStands, kUnestablished };
 std::string told(const FittedParameter& p, const FitSummary& of, Standing model) {
   const std::string interval = of.rejected()                       ? " (model rejected)"
                                : model == Standing::kUnestablished ? " (no interval: no model is established)"
+                               : !of.converged()                   ? " (no interval: not converged)"
                                : p.identifiable ? fmt::format(" [{:.4g}, {:.4g}]", p.ci95.low, p.ci95.high)
                                                 : " (not determined)";
   return fmt::format("{} {:.4g}{} {}", p.key, p.value, interval, p.unit);

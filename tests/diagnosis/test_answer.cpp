@@ -104,6 +104,44 @@ TEST(Answer, NeverTakesTheNumberOfARejectedModel) {
   }
 }
 
+TEST(Answer, WhereAGapIsReadARejectedModelLeadsToTheDiagnosisAndNotToOneWithoutAGap) {
+  const GapEstimate g = reading(0.0087, 2e-4), open = undecided();
+  for (const char* code : {"as_well_without_gap", "gap_bears_little", "gap_differs", "gap_at_bound"}) {
+    FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
+    rejected.why = Remark(code, "It says so.");
+    ASSERT_EQ(of(&g, &rejected).next.size(), 1u) << code;
+    EXPECT_THAT(of(&g, &rejected).next.front(), HasSubstr("Run `gapscope diagnose`")) << code;
+  }
+  FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
+  rejected.why = Remark("as_well_without_gap", "It says so.");
+  EXPECT_THAT(of(&open, &rejected).next.front(), HasSubstr("mass_ratio: 0"));
+}
+
+TEST(Answer, OfAFitThatClosesTheGapAgreesWithADenial) {
+  FitSummary closed = fitted(FitTrust::kRejected, 0.0, 1e-4);
+  closed.why = Remark("as_well_without_gap", "The recording is explained as well without a gap.");
+  closed.parameters[0].at_bound = true, closed.parameters[0].low = 0.0, closed.parameters[0].high = 0.3;
+  const GapEstimate none = denying(1e-3), open = undecided();
+  const Answer a = of(&none, &closed);
+  EXPECT_EQ(a.sentence,
+            "There is no backlash above 1 mrad, and the fitted model closes the gap: none by both.");
+  EXPECT_EQ(a.trust, AnswerTrust::kGood);
+  EXPECT_TRUE(a.next.empty());
+  EXPECT_THAT(of(&open, &closed).sentence, Not(HasSubstr("none by both")));
+  closed.parameters[0].value = 0.3;
+  EXPECT_THAT(of(&none, &closed).sentence, HasSubstr("rejected")) << "at the upper bound";
+}
+
+TEST(Answer, OfAFitThatDidNotConvergeHasNoInterval) {
+  FitSummary unsettled = fitted(FitTrust::kLimited, 0.00903, 1e-4);
+  unsettled.status = FitStatus::kNotConverged;
+  const GapEstimate open = undecided(), g = reading(0.019, 2e-4);
+  const Answer a = of(&open, &unsettled);
+  EXPECT_THAT(a.sentence, HasSubstr("The backlash gap is 9.03 mrad by the fitted model"));
+  EXPECT_TRUE(std::isnan(a.ci95.low));
+  EXPECT_THAT(of(&g, &unsettled, false).sentence, HasSubstr("but the fitted model says 9.03 mrad."));
+}
+
 TEST(Answer, OfAModelThatCoastingBeatsAsksForTheSignFirst) {
   FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
   rejected.innovation_rmse = 1.7;

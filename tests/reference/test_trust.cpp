@@ -9,6 +9,7 @@
 #include "gapscope/recording/recording_file.h"
 #include "independent_plant/severity.h"
 #include "reference/rigs.h"
+#include "reference/trust.h"
 #include "support/data.h"
 
 namespace gapscope {
@@ -78,6 +79,24 @@ TEST(Trust, IsRejectedWhereTheModelIsRightButForAGapThatIsNotThere) {
   expect_rejected(f);
   EXPECT_EQ(f.why.code(), "as_well_without_gap") << f.full_report();
   EXPECT_LT(f.innovation_rmse, 2.0 * f.floor) << "nothing else is missing";
+}
+
+TEST(Trust, OfAModelThatIsFarOffIsNotThatAGapIsAsGoodAsNone) {
+  FitSummary f;
+  f.status = FitStatus::kConverged;
+  f.floor = 1.0, f.innovation_rmse = 239.0;
+  f.traces.resize(1), f.traces[0].x1.resize(20000);
+  internal::reference::FitOutcome outcome;
+  outcome.information.inflation = 100.0;
+  const auto judged = [&](double ratio) {
+    internal::reference::TrustFacts facts;
+    facts.coasting_rmse = 1e4, facts.without_gap_ratio = ratio;
+    judge_trust({}, outcome, facts, f);
+    EXPECT_EQ(f.trust, FitTrust::kRejected);
+    return f.why.code();
+  };
+  EXPECT_EQ(judged(1.5), "gap_bears_little");
+  EXPECT_EQ(judged(1.01), "as_well_without_gap");
 }
 
 TEST(Trust, IsNotGoodWhereAFrictionOfAFiftiethOfTheTorqueIsMissing) {

@@ -17,6 +17,7 @@ std::vector<Remark> all_remarks() {
           words::leaves_unexplained(0.65, 31.0),
           words::leaves_unexplained(1.7, 31.0),
           words::as_well_without_gap(1.02),
+          words::gap_bears_little(1.5, 239.0),
           words::gap_differs(),
           words::odd_coupling("mass_ratio", 100.0, "-"),
           words::not_settled(),

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "report/sample_run.h"
@@ -94,6 +95,15 @@ TEST(Headline, OfARejectedModelHasNoIntervalAndSaysWhatItMisses) {
       estimates_text(run),
       "The model-based reference is rejected, its gap (18.8 mrad) is not to be believed: The model misses "
       "65 % of what the torque does to the motion.");
+}
+
+TEST(Headline, OfAFitThatDidNotConvergeHasNoInterval) {
+  RunResult run = sample_run({.samples = 6000});
+  run.model_free.reset(), run.comparison.reset();
+  run.reference->status = FitStatus::kNotConverged;
+  EXPECT_THAT(estimates_text(run), ::testing::AllOf(::testing::HasSubstr("did not converge"),
+                                                    ::testing::Not(::testing::HasSubstr("±")),
+                                                    ::testing::Not(::testing::HasSubstr("95 %"))));
 }
 
 TEST(Accuracy, OfARejectedModelSpeaksOfNoInterval) {

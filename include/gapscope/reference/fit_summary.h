@@ -100,8 +100,14 @@ struct FitSummary {
 
   bool converged() const { return status == FitStatus::kConverged; }
   bool rejected() const { return trust == FitTrust::kRejected; }
-  /// The interval of one of its parameters as it may be shown: none where the fit is rejected.
-  Interval shown_interval(const FittedParameter& p) const { return rejected() ? Interval{} : p.ci95; }
+  /// The interval of one of its parameters as it may be shown: none where the fit is rejected or did not
+  /// converge.
+  Interval shown_interval(const FittedParameter& p) const {
+    return rejected() || status == FitStatus::kNotConverged ? Interval{} : p.ci95;
+  }
+  /// The fit leaves nothing of the gap, and the recordings are explained as well: the model says that there
+  /// is none.
+  bool closes_gap() const;
   const FittedParameter* find(const std::string& key) const;  ///< nullptr if there is none of that key
   std::string brief_report() const;                           ///< one line: log, command line
   std::string full_report() const;                            ///< table: terminal, report.md
