@@ -170,10 +170,11 @@ Remark as_well_without_gap(double ratio) {
           {ratio}};
 }
 Remark gap_bears_little(double ratio, double floors) {
-  return {"gap_bears_little",
-          "It leaves {:.3g} encoder floors, and closing its gap makes that {:.3g} times as much: what is "
-          "missing may take the place of the gap.",
-          {floors, ratio}};
+  return {
+      "gap_bears_little",
+      "The model leaves {:.3g} encoder floors, and closing its gap makes that {:.3g} times as much: what is "
+      "missing may take the place of the gap.",
+      {floors, ratio}};
 }
 Remark gap_differs() {
   return {"gap_differs",

@@ -12,6 +12,7 @@ namespace gapscope {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 using testing::text_of;
 using testing::Workplace;
 
@@ -84,6 +85,16 @@ TEST(Documents, TheTutorialShowsWhatCheckAndDetectSay) {
   expect_shown(find_block(tutorial, "", "fine        time"), check.out);
   const auto detect = place.run("detect emps.yaml -o detect");
   expect_shown(find_block(tutorial, "", "report      detect"), detect.out);
+}
+
+TEST(Documents, ThePlayersOfTheMuJoCoPageFindWhatTheyLookUp) {
+  const std::string page = text_of(kRoot / "docs/my_mujoco_model_is_wrong.md");
+  const std::string arm = find_block(page, "xml", "<mujoco>\n  <worldbody>");
+  const std::string python = find_block(page, "python", "import csv"), c = find_block(page, "c", "#include");
+  EXPECT_THAT(python, HasSubstr("m.actuator(\"elbow_motor\")"));
+  EXPECT_THAT(c, HasSubstr("mj_name2id(m, mjOBJ_ACTUATOR, \"elbow_motor\")"));
+  EXPECT_THAT(arm, HasSubstr("<motor name=\"elbow_motor\" joint=\"elbow\"/>"));
+  EXPECT_THAT(c, HasSubstr("if (joint < 0 || drive < 0) return "));
 }
 
 /// Runs the commands of all sh blocks in turn. @returns what they said, the output of each after the other

@@ -68,7 +68,9 @@ TEST(RunPipeline, NotesOnceWhatThePublishedBoundIsAndWhatItIsFrom) {
   const RunResult bank = run(""), given = run("\ndetector: {bound: 40}\n");
   const RunResult taken =
       run("\ndetector: {bound: {from_model: {input_limit: 0.58, load_force_bound: 0.05}}}\n");
-  EXPECT_THAT(bank.notes, ::testing::Contains(::testing::AllOf(of_13, HasSubstr("does not use it"))));
+  EXPECT_THAT(bank.notes,
+              ::testing::Contains(::testing::AllOf(of_13, HasSubstr("the configuration's numbers"),
+                                                   HasSubstr("does not use it"))));
   EXPECT_TRUE(bank.model_free->warnings.empty()) << "another choice of L is no doubt about this one";
   EXPECT_THAT(given.notes, ::testing::Each(::testing::Not(of_13)));
   ASSERT_THAT(taken.notes, ::testing::Contains(of_13).Times(1));
