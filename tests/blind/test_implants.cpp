@@ -115,7 +115,8 @@ TEST(ImplantedCheck, IsTheSameOnAnyNumberOfThreadsAndWhenItIsMadeAgain) {
   const BlindLabels one = drive.make("made", 1);
   const std::string first = text_of(manifest);
   const BlindLabels again = drive.make("made", 2);
-  for (std::size_t i = 0; i < one.cases.size(); ++i) EXPECT_EQ(line_of(one.cases[i]), line_of(again.cases[i]));
+  for (std::size_t i = 0; i < one.cases.size(); ++i)
+    EXPECT_EQ(line_of(one.cases[i]), line_of(again.cases[i]));
   EXPECT_EQ(text_of(manifest), first);
 }
 

@@ -68,8 +68,8 @@ void expect_shown(const std::string& block, const std::string& said) {
 
 TEST(Documents, TheReadmeShowsWhatTheFirstExampleSays) {
   Workplace place;
-  place.file("02.yaml", text_of(kRoot / "configs/02_experiment.yaml"));
-  const auto run = place.run("run 02.yaml");
+  place.file("configs/02_experiment.yaml", text_of(kRoot / "configs/02_experiment.yaml"));
+  const auto run = place.run("run configs/02_experiment.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
   expect_shown(find_block(text_of(kRoot / "README.md"), "", "report      reports/02_experiment"), run.out);
 }
