@@ -66,7 +66,7 @@ Answer from_reference(const Findings& f, const FittedParameter& gap, AnswerTrust
 Answer agreed(const Findings& f, const FittedParameter& gap) {
   const bool sharper = is_good(f) && width(gap.ci95) < width(f.model_free->ci95);
   Answer a = sharper ? from_reference(f, gap, AnswerTrust::kGood) : from_model_free(f, AnswerTrust::kGood);
-  a.sentence += sharper ? ", and the reading without a model agrees." : ", and the fitted model agrees.";
+  a.sentence += sharper ? ", and the model-free reading agrees." : ", and the fitted model agrees.";
   return a;
 }
 

@@ -142,8 +142,8 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
   if (b.records >= floor)
-    return "; the recordings (or parts of one) differ among themselves by " + size +
-           ", which no single model follows";
+    return "; the recordings (or parts of one) scatter by " + size +
+           " among themselves, which no single model removes";
   return "; no model can get below " + size +
          (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
               ? ", by which the drive does not repeat itself"
@@ -160,8 +160,8 @@ std::string floor_words(const CardFacts& f, const Card& card) {
                      floor_name(m.floor_from));
 }
 
-/// " With its controller in the loop the model is 392 mrad rms off in position; with what was added it is 56
-/// mrad off."
+/// " With its controller in the loop the model is 392 mrad rms off in position; with the additions below it
+/// is 56 mrad off."
 std::string closed_loop_words(const CardFacts& f) {
   if (!f.diagnosis->closed_loop) return "";
   const ClosedLoop& c = *f.diagnosis->closed_loop;
@@ -170,12 +170,12 @@ std::string closed_loop_words(const CardFacts& f) {
     return std::isfinite(error) ? "is " + position(error) + " rms off in position" : std::string("runs away");
   };
   return fmt::format(" With its controller in the loop the model {}{}.", is(c.before),
-                     is_added(*f.diagnosis) ? "; with what was added it " + is(c.after) : "");
+                     is_added(*f.diagnosis) ? "; with the additions below it " + is(c.after) : "");
 }
 
 /// " Simulated freely from the first sample on, the model drifts up to 407 mrad from the held-out motion,
-/// whose travel is 876 mrad; with what was added, up to 41 mrad." Under its controller a drive is judged by
-/// that.
+/// whose travel is 876 mrad; with the additions below, up to 41 mrad." Under its controller a drive is judged
+/// by that.
 std::string whole_run_words(const CardFacts& f) {
   const Diagnosis& d = *f.diagnosis;
   if (!d.whole_run || d.closed_loop) return "";
@@ -187,7 +187,7 @@ std::string whole_run_words(const CardFacts& f) {
   std::string text = " Simulated freely from the first sample on, the model " +
                      (stays ? "drifts up to " + position(w.before) + of : "runs away");
   if (!is_added(d)) return text + ".";
-  text += "; with what was added, ";
+  text += "; with the additions below, ";
   if (!stays_after) return text + "it runs away.";
   return text + (stays ? "up to " + position(w.after) : "it drifts up to " + position(w.after) + of) + ".";
 }

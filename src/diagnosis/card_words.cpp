@@ -78,8 +78,9 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   switch (diagnosis->model_gap->origin) {
     case GapOrigin::kNone:
       if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
-        return "The model is a single body, without a gap; with the encoder on the load a gap does not show.";
-      return "The model is a single body, without a gap; whether the recording shows one: " +
+        return "The model is a single body, without a gap; the encoder is on the load, so that none would "
+               "show.";
+      return "The model is a single body, without a gap; to check the recording for one: " +
              told_without_model(*diagnosis);
     case GapOrigin::kGiven:
       return "The model takes it as known, " + coordinates.thousandths(diagnosis->model_gap->value) +
@@ -109,9 +110,8 @@ std::string export_words(const CardFacts& f) {
     return "`gapscope export --to " + f.carriers->front() + "` takes it to other simulators.";
   std::vector<std::string> names;
   for (const std::string& effect : f.uncarried) names.push_back(readable(effect));
-  return "no format of `gapscope export` has " +
-         (names.empty() ? "all of it" : enumerated(names) + " whole") +
-         ": the certificate of an export tells how far off it is.";
+  return "no format of `gapscope export` carries " + (names.empty() ? "all of it" : enumerated(names)) +
+         " in full; the certificate beside an export states its error.";
 }
 
 std::string without_asides(std::string text) {

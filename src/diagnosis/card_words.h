@@ -38,7 +38,7 @@ std::string enumerated(const std::vector<std::string>& items, const char* last =
 /// The same with a capital letter, and a full stop at its end.
 std::string as_sentence(std::string text);
 
-/// "The missing torque changes with the direction of motion.", "... is periodic in the motor angle."
+/// "The missing torque depends on the direction of motion.", "... is periodic in the motor angle."
 std::string where_words(const Diagnosis& diagnosis, Coordinates coordinates);
 
 /// Of a gap that a diagnosis does not estimate: who tells it. A null pointer: there is no diagnosis either.

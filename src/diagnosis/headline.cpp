@@ -35,10 +35,10 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 /// Of the one in which it is denser than the time that it takes, be it the smaller share.
 std::string direction_words(const std::vector<MapShare>& direction) {
   const auto dense = std::find_if(direction.begin(), direction.end(), denser_than_chance);
-  return "changes with the direction of motion " +
+  return "depends on the direction of motion " +
          (dense != direction.end() ? fmt::format("({:.0f} % of its square {}, in {:.0f} % of the time)",
                                                  100.0 * dense->share, dense->bin, 100.0 * dense->expected)
-                                   : "(equally large both ways)");
+                                   : "(equal size both ways)");
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {

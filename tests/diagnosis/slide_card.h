@@ -22,7 +22,7 @@ inline Diagnosis slide_diagnosis() {
              {"cogging_torque", false, {"cogging_torque", "torque_ripple"}, kNaN, {}, 0.5, {}, 2.0}};
   d.mismatch.before = 3e-3, d.mismatch.after = 1e-3, d.mismatch.floor = 1e-4;
   d.mismatch.before_torque = 10.0, d.mismatch.after_torque = 2.0, d.mismatch.input_torque = 50.0;
-  d.where.headline = "changes with the direction of motion (55 % of its square backward)";
+  d.where.headline = "depends on the direction of motion (55 % of its square backward)";
   return d;
 }
 

@@ -78,7 +78,7 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
       "The model misses 10 N rms of force on held-out data, 20 % of the 50 N rms that the input applies; the "
       "free-run error is 30 times the encoder floor.");
   EXPECT_EQ(card.place,
-            "The missing force changes with the direction of motion (55 % of its square backward).");
+            "The missing force depends on the direction of motion (55 % of its square backward).");
   EXPECT_EQ(card.cause,
             "Motor Coulomb friction (established); cogging torque helps too, but whether it is the cause is "
             "open: it may as well be "
@@ -111,8 +111,8 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   d.budget.input = 50.0, d.budget.remains = 2.0;
   ASSERT_TRUE(d.budget.exists());
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("input applies; the recordings (or parts of one) differ among themselves by 0.613 N, "
-                       "which no single model follows."));
+              EndsWith("input applies; the recordings (or parts of one) scatter by 0.613 N among themselves, "
+                       "which no single model removes."));
   d.budget.encoder = 0.7;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
               EndsWith("input applies; no model can get below 0.7 N, the noise of the encoder."));

@@ -147,8 +147,8 @@ TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {
   EXPECT_THAT(card_of(f).next, HasSubstr("`gapscope export --to c` takes it to other simulators."));
   f.carriers = std::vector<std::string>(), f.uncarried = {"load_dependent_friction"};
   EXPECT_THAT(card_of(f).next,
-              HasSubstr("no format of `gapscope export` has load-dependent friction whole: the "
-                        "certificate of an export tells how far off it is."));
+              HasSubstr("no format of `gapscope export` carries load-dependent friction in full; the "
+                        "certificate beside an export states its error."));
   EXPECT_THAT(card_of(f).next, Not(HasSubstr("takes it to other simulators")));
 }
 

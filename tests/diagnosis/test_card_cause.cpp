@@ -209,17 +209,19 @@ TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
   EXPECT_THAT(
       card_of(d).mismatch,
       HasSubstr(" Simulated freely from the first sample on, the model drifts up to 407 mrad from "
-                "the held-out motion, whose travel is 876 mrad; with what was added, up to 41.2 mrad."));
+                "the held-out motion, whose travel is 876 mrad; with the additions below, up to 41.2 mrad."));
   d.whole_run->before = 54.2;
   EXPECT_THAT(
       card_of(d).mismatch,
-      HasSubstr("up to 54.2 rad from the held-out motion, whose travel is 0.876 rad; with what was added, "
-                "up to 0.0412 rad."));
+      HasSubstr(
+          "up to 54.2 rad from the held-out motion, whose travel is 0.876 rad; with the additions below, "
+          "up to 0.0412 rad."));
   d.whole_run->before = kNaN;
   EXPECT_THAT(
       card_of(d).mismatch,
-      HasSubstr("sample on, the model runs away; with what was added, it drifts up to 41.2 mrad from the "
-                "held-out motion, whose travel is 876 mrad."));
+      HasSubstr(
+          "sample on, the model runs away; with the additions below, it drifts up to 41.2 mrad from the "
+          "held-out motion, whose travel is 876 mrad."));
   d.closed_loop = ClosedLoop{0.392, 0.0561, {}};
   EXPECT_THAT(card_of(d).mismatch, Not(HasSubstr("Simulated freely"))) << "a drive that holds a position";
 }
@@ -241,10 +243,10 @@ TEST(CardMismatch, TellsTheErrorUnderTheController) {
   d.closed_loop = ClosedLoop{0.392, 0.0561, {}};
   EXPECT_THAT(card_of(d).mismatch,
               HasSubstr(" With its controller in the loop the model is 392 mrad rms off in "
-                        "position; with what was added it is 56.1 mrad rms off in position."));
+                        "position; with the additions below it is 56.1 mrad rms off in position."));
   d.closed_loop->before = kNaN;
   EXPECT_THAT(card_of(d).mismatch,
-              HasSubstr("the model runs away; with what was added it is 56.1 mrad rms off"));
+              HasSubstr("the model runs away; with the additions below it is 56.1 mrad rms off"));
   d.closed_loop->before = 0.392, d.added.clear();
   EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model is 392 mrad rms off in position."));
 }
@@ -266,8 +268,9 @@ TEST(CardGap, OfASingleBodyWithItsEncoderOnTheLoadDoesNotShow) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.model_gap = ModelGap();
   d.model_gap->encoder = EncoderSide::kLoad;  // of one body its traces are of the motor, too
-  EXPECT_EQ(card_of(d).gap,
-            "The model is a single body, without a gap; with the encoder on the load a gap does not show.");
+  EXPECT_EQ(
+      card_of(d).gap,
+      "The model is a single body, without a gap; the encoder is on the load, so that none would show.");
 }
 
 }  // namespace
