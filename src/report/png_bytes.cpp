@@ -36,20 +36,20 @@ struct ListedColours {
   std::vector<png_byte> places, colours;  ///< (rows × cols), (entries × 3)
 };
 
-/// With kLevels of each primary colour, white and black among them.
-ListedColours listed(const cv::Mat& image) {
-  constexpr int kLevels = 16, kStep = 255 / (kLevels - 1);
+/// With so many levels of each primary colour, white and black among them.
+ListedColours listed(const cv::Mat& image, int levels) {
+  const int most = levels - 1;
   ListedColours out;
-  std::vector<int> place(kLevels * kLevels * kLevels, -1);
+  std::vector<int> place(static_cast<std::size_t>(levels * levels * levels), -1);
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) {
       const auto& pixel = image.at<cv::Vec3b>(y, x);
       int level[3], which = 0;
-      for (int i = 0; i < 3; ++i) which = which * kLevels + (level[i] = (pixel[i] + kStep / 2) / kStep);
+      for (int i = 0; i < 3; ++i) which = which * levels + (level[i] = (pixel[i] * most + 127) / 255);
       int& known = place[static_cast<std::size_t>(which)];
       if (known < 0) {
         known = static_cast<int>(out.colours.size() / 3);
-        for (const int l : level) out.colours.push_back(static_cast<png_byte>(l * kStep));
+        for (const int l : level) out.colours.push_back(static_cast<png_byte>((l * 255 + most / 2) / most));
       }
       out.places.push_back(static_cast<png_byte>(known));
     }
@@ -61,15 +61,14 @@ std::string compressed(const std::string& name, const cv::Mat& image) {
                  static_cast<png_int_32>(image.step), nullptr);
 }
 
+/// Lines that cross blend into many colours: then fewer levels, of which six cannot make too many.
 std::string packed(const std::string& name, const cv::Mat& image) {
   constexpr std::size_t kMostColours = 256;
-  const ListedColours l = listed(image);
-  const std::size_t count = l.colours.size() / 3;
-  if (count > kMostColours)
-    return written(name, header_of(image, PNG_FORMAT_BGR, 0), image.data, static_cast<png_int_32>(image.step),
-                   nullptr);
+  ListedColours l;
+  for (const int levels : {16, 12, 9, 6})
+    if (l = listed(image, levels); l.colours.size() <= 3 * kMostColours) break;
   png_image header = header_of(image, PNG_FORMAT_BGR | PNG_FORMAT_FLAG_COLORMAP, 0);
-  header.colormap_entries = static_cast<png_uint_32>(count);
+  header.colormap_entries = static_cast<png_uint_32>(l.colours.size() / 3);
   return written(name, header, l.places.data(), image.cols, l.colours.data());
 }
 

@@ -91,6 +91,7 @@ cv::Mat read_back(const std::string& bytes) {
 }
 
 /// 16 levels of each primary colour: a pixel is off by half a step of 17 at most, white and black by nothing.
+/// Where that makes more colours than a list has, six: half a step of 51.
 TEST(Png, PackedTightlyKeepsItsColoursToHalfAStep) {
   cv::Mat image(20, 60, CV_8UC3, cv::Scalar(255, 255, 255));
   for (int x = 0; x < 60; ++x) image.col(x).rowRange(5, 15) = cv::Scalar(4 * x, 200, 255 - 4 * x);
@@ -101,7 +102,9 @@ TEST(Png, PackedTightlyKeepsItsColoursToHalfAStep) {
   cv::Mat many(64, 64, CV_8UC3);  // of more colours than a list has
   for (int i = 0; i < 64 * 64; ++i)
     many.at<cv::Vec3b>(i / 64, i % 64) = cv::Vec3i(4 * (i % 64), 4 * (i / 64), i % 251);
-  EXPECT_EQ(cv::norm(read_back(png_bytes("f.png", many, 18823.5, true)), many, cv::NORM_INF), 0.0);
+  const std::string tight = png_bytes("f.png", many, 18823.5, true);
+  EXPECT_LE(cv::norm(read_back(tight), many, cv::NORM_INF), 25.0);
+  EXPECT_LT(tight.size(), png_bytes("f.png", many, 18823.5).size() / 2);
 }
 
 TEST(Png, TellsItsResolutionAndStaysReadable) {
