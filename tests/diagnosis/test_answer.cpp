@@ -59,9 +59,10 @@ TEST(Answer, OfTwoThatAgreeIsTheSharperOneThatIsGood) {
   EXPECT_EQ(a.from, AnswerSource::kReference);
   EXPECT_EQ(a.trust, AnswerTrust::kGood);
   EXPECT_EQ(a.gap, 0.0191);
-  EXPECT_EQ(a.sentence,
-            "The backlash gap is 19.100 mrad (95 %: 19.088 to 19.112) by the fitted model, and the reading "
-            "without a model agrees.");
+  EXPECT_EQ(
+      a.sentence,
+      "The backlash gap is 19.100 mrad (95 %: 19.088 to 19.112) by the fitted model, and the model-free "
+      "reading agrees.");
   EXPECT_EQ(of(&g, &blunt, true).from, AnswerSource::kModelFree);
   const FitSummary limited = fitted(FitTrust::kLimited, 0.0191, 1e-5);
   EXPECT_EQ(of(&g, &limited, true).from, AnswerSource::kModelFree)
