@@ -4,12 +4,15 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/joint_reader.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::config {
+
+inline bool is_named(const tinyxml2::XMLElement& e, std::string_view name) { return e.Name() == name; }
 
 inline bool has_attribute(const tinyxml2::XMLElement* e, const char* name, const std::string& value) {
   return e != nullptr && e->Attribute(name) != nullptr && e->Attribute(name) == value;

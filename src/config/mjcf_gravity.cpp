@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstring>
 
 #include "config/mjcf_mass.h"
 #include "config/mjcf_turn.h"
@@ -15,8 +14,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
-
-bool is_named(const XMLElement& e, const char* name) { return std::strcmp(e.Name(), name) == 0; }
 
 Vector3d gravity_in(const Mjcf& m) {
   Vector3d g(0.0, 0.0, -9.81);

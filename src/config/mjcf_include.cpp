@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
 #include <filesystem>
 #include <set>
 #include <system_error>
 
+#include "config/mjcf.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
 
@@ -33,7 +33,7 @@ class Includes {
   void follow(XMLElement& below, const std::string& file, int depth) {
     for (XMLElement* e = below.FirstChildElement(); e != nullptr;) {
       XMLElement* const next = e->NextSiblingElement();
-      if (std::strcmp(e->Name(), "include") == 0)
+      if (is_named(*e, "include"))
         take(*e, file, depth);
       else
         follow(*e, file, depth);

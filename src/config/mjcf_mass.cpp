@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
 #include "config/mjcf_turn.h"
@@ -18,12 +17,11 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 
-bool is_a(const XMLElement& e, const char* name) { return std::strcmp(e.Name(), name) == 0; }
-
 /// Whether a body, or a frame in it, has a joint.
 bool moves(const XMLElement& body) {
   for (const XMLElement* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
-    if (is_a(*e, "joint") || is_a(*e, "freejoint") || (is_a(*e, "frame") && moves(*e))) return true;
+    if (is_named(*e, "joint") || is_named(*e, "freejoint") || (is_named(*e, "frame") && moves(*e)))
+      return true;
   return false;
 }
 
@@ -142,10 +140,10 @@ class Sum {
       const auto inside = [&](const XMLElement& owner) {
         add(*in, owner, at + turn * three_of(m_, *in, "pos"), turn * turn_of(m_, *in));
       };
-      if (is_a(*in, "geom") && by_geoms) add_geom(*in, body, at, turn);
-      if (is_a(*in, "frame")) inside(body);
-      if (is_a(*in, "body") && moves(*in)) sum.moving = body_name(*in);
-      if (is_a(*in, "body") && !moves(*in)) inside(*in);
+      if (is_named(*in, "geom") && by_geoms) add_geom(*in, body, at, turn);
+      if (is_named(*in, "frame")) inside(body);
+      if (is_named(*in, "body") && moves(*in)) sum.moving = body_name(*in);
+      if (is_named(*in, "body") && !moves(*in)) inside(*in);
     }
   }
 
