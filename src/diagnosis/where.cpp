@@ -83,7 +83,7 @@ std::vector<MapShare> range_map(const std::vector<Sample>& samples, const Sample
 }
 
 /// Samples in which the drive moves.
-std::vector<Sample> moving(std::vector<Sample> samples) {
+std::vector<Sample> moving_of(std::vector<Sample> samples) {
   std::erase_if(samples, [](const Sample& s) { return s.direction == 0; });
   return samples;
 }
@@ -141,7 +141,8 @@ void normalise(std::vector<MapShare>& map) {
   }
 }
 
-void fill_maps(const std::vector<Sample>& samples, Coordinates coordinates, MismatchPlace& place) {
+void fill_maps(const std::vector<Sample>& samples, const std::vector<Sample>& moving, Coordinates coordinates,
+               MismatchPlace& place) {
   place.mode = class_map(
       samples,
       {to_string(ContactPhase::kGap), to_string(ContactPhase::kEngagement), to_string(ContactPhase::kImpact)},
@@ -150,7 +151,7 @@ void fill_maps(const std::vector<Sample>& samples, Coordinates coordinates, Mism
                                         : s.mode == Mode::kImpact ? ContactPhase::kImpact
                                                                   : ContactPhase::kEngagement);
       });
-  place.direction = class_map(moving(samples), {"backward", "forward"},
+  place.direction = class_map(moving, {"backward", "forward"},
                               [](const Sample& s) -> std::size_t { return s.direction > 0 ? 1 : 0; });
   place.speed = range_map(
       samples, [](const Sample& s) { return std::abs(s.w1); }, coordinates.unit("rad/s"));
@@ -185,19 +186,19 @@ double displaced(const std::vector<MapShare>& map) {
   return sum;
 }
 
-std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples, const MismatchPlace& place,
+std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples,
+                                         const std::vector<Sample>& moving, const MismatchPlace& place,
                                          double line_explained) {
-  return {
-      {ResidualPattern::kAngle, line_explained},
-      {ResidualPattern::kDirection, one_way_words(place.direction).empty()
-                                        ? explained(
-                                              moving(samples), [](const Sample& s) { return s.direction; }, 2)
-                                        : 0.0},
-      {ResidualPattern::kSpeed, explained(
-                                    samples, [](const Sample& s) { return s.w1; }, kMapBins)},
-      {ResidualPattern::kInput, explained(
-                                    samples, [](const Sample& s) { return s.u; }, kMapBins)},
-      {ResidualPattern::kTime, displaced(place.time)}};
+  return {{ResidualPattern::kAngle, line_explained},
+          {ResidualPattern::kDirection, one_way_words(place.direction).empty()
+                                            ? explained(
+                                                  moving, [](const Sample& s) { return s.direction; }, 2)
+                                            : 0.0},
+          {ResidualPattern::kSpeed, explained(
+                                        samples, [](const Sample& s) { return s.w1; }, kMapBins)},
+          {ResidualPattern::kInput, explained(
+                                        samples, [](const Sample& s) { return s.u; }, kMapBins)},
+          {ResidualPattern::kTime, displaced(place.time)}};
 }
 
 std::vector<Playback> within_band(std::vector<Playback> playbacks, const HeldOut& held_out, double band_hz) {
@@ -223,7 +224,8 @@ MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_
   if (played.empty()) return place;
   const std::vector<Playback> playbacks = within_band(played, held_out, band_hz);
   const std::vector<Sample> samples = samples_of(playbacks, held_out, torque_constant);
-  fill_maps(samples, coordinates, place);
+  const std::vector<Sample> moving = moving_of(samples);
+  fill_maps(samples, moving, coordinates, place);
   place.frequency = frequency_map(playbacks, held_out);
   for (auto* map : {&place.mode, &place.direction, &place.speed, &place.angle, &place.input, &place.frequency,
                     &place.time})
@@ -236,7 +238,7 @@ MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_
   if (line_explained > kTelling.strength) place.periods_per_turn = line->periods;
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.phase = densest_phase(place.mode);
-  place.follows = followed_patterns(patterns_of(samples, place, line_explained), effect);
+  place.follows = followed_patterns(patterns_of(samples, moving, place, line_explained), effect);
   place.headline = headline_of(place, coordinates);
   return place;
 }
