@@ -18,6 +18,7 @@ using StandardErrors = std::vector<std::pair<reference::ParameterId, double>>;
 /// What the fit says of its numbers.
 struct FitErrors {
   StandardErrors errors;
+  std::vector<Interval> bounds;  ///< of each of them
   std::vector<reference::ParameterId> at_bound;
 };
 
@@ -26,18 +27,26 @@ FitErrors errors_of(const Study& study, const FittedModel& fitted) {
   // A model of the torque balance brings no initial states.
   const auto starts = settled_starts(study.train, fitted.model, study.observer_hz);
   const reference::FitPoint at = fit.point_of(fitted.model, starts);
-  return {fit.standard_errors(at), fit.at_bound(at)};
+  FitErrors told{fit.standard_errors(at), {}, fit.at_bound(at)};
+  for (const auto& [id, error] : told.errors) told.bounds.push_back(fit.bounds(id));
+  return told;
+}
+
+/// No further than the fit could have gone; a bound that is NaN is none.
+Interval within(const Interval& ci95, const Interval& bounds) {
+  return {std::fmax(ci95.low, bounds.low), std::fmin(ci95.high, bounds.high)};
 }
 
 /// 95 % intervals of the numbers of a model's effects, by effect and place in its specification.
-std::vector<std::vector<Interval>> intervals_of_effects(const ReferenceModel& model,
-                                                        const StandardErrors& errors) {
+std::vector<std::vector<Interval>> intervals_of_effects(const ReferenceModel& model, const FitErrors& fit) {
   std::vector<std::vector<Interval>> all;
   for (const ModelEffect& e : model.effects) all.emplace_back(e.entry->parameters.size());
-  for (const auto& [id, error] : errors) {
+  for (std::size_t i = 0; i < fit.errors.size(); ++i) {
+    const auto& [id, error] = fit.errors[i];
     if (id.effect < 0 || std::isnan(error)) continue;
     const auto effect = static_cast<std::size_t>(id.effect), index = static_cast<std::size_t>(id.index);
-    all[effect][index] = normal_interval(model.effects[effect].parameters[index].value, error);
+    const double value = model.effects[effect].parameters[index].value;
+    all[effect][index] = within(normal_interval(value, error), fit.bounds[i]);
   }
   return all;
 }
@@ -59,7 +68,7 @@ std::vector<std::string> at_bound_of(const EffectEntry& entry, std::size_t effec
 
 void tell_added_intervals(const ReferenceModel& model, const FitErrors& fit,
                           std::vector<AddedEffect>& added) {
-  const auto intervals = intervals_of_effects(model, fit.errors);
+  const auto intervals = intervals_of_effects(model, fit);
   for (AddedEffect& a : added)
     for (std::size_t e = 0; e < intervals.size(); ++e) {
       if (!are_same(a.parameters, effect_values(model.effects[e]))) continue;

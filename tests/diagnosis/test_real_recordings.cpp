@@ -91,7 +91,11 @@ TEST(RealRecordings, TheSameOnARecordingWithForcePulses) {
   GAPSCOPE_NEEDS_DATA();
   const Recording plain = ball_screw("emps_train.csv"), pulses = ball_screw("emps_pulses.csv");
   const MotorTrace train[] = {plain.motor_trace()}, held_out[] = {pulses.motor_trace()};
-  expect_friction(diagnose(train, held_out, plain_axis(), tempting()));
+  const Diagnosis d = diagnose(train, held_out, plain_axis(), tempting());
+  expect_friction(d);
+  for (const AddedEffect& a : d.added)
+    for (const NamedValue& p : a.parameters)
+      EXPECT_FALSE(p.key == "stiction_ratio" && p.ci95.low < -1.0) << "less than no friction at rest";
 }
 
 }  // namespace
