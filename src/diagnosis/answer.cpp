@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/card_words.h"
 #include "gapscope/base/decimals.h"
 
 namespace gapscope {
@@ -48,8 +49,8 @@ std::string clause(const Remark& remark) {
 Answer from_model_free(const Findings& f, AnswerTrust trust) {
   const GapEstimate& g = *f.model_free;
   Answer a{g.gap, g.ci95, AnswerSource::kModelFree, trust, "", {}};
-  a.sentence =
-      "The backlash gap is " + with_interval(g.gap, g.ci95, f.coordinates) + ", measured without a model";
+  a.sentence = internal::diagnosis::kTheGapIs + with_interval(g.gap, g.ci95, f.coordinates) +
+               ", measured without a model";
   if (g.method == GapMethod::kPaper)
     a.sentence += fmt::format(", with the bound that was given (L = {:.3g} {})", g.bound,
                               f.coordinates.shown_unit("rad/s^2"));
@@ -58,8 +59,8 @@ Answer from_model_free(const Findings& f, AnswerTrust trust) {
 
 Answer from_reference(const Findings& f, const FittedParameter& gap, AnswerTrust trust) {
   Answer a{gap.value, f.reference->shown_interval(gap), AnswerSource::kReference, trust, "", {}};
-  a.sentence =
-      "The backlash gap is " + with_interval(gap.value, a.ci95, f.coordinates) + " by the fitted model";
+  a.sentence = internal::diagnosis::kTheGapIs + with_interval(gap.value, a.ci95, f.coordinates) +
+               " by the fitted model";
   return a;
 }
 

@@ -97,17 +97,12 @@ std::string torque_verdict(const CardFacts& f, const Card& card) {
 /// What is left of the motion that the fit follows, where nobody has diagnosed it.
 std::string fitted_line(const CardFacts& f) {
   if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
-    return "Not measured, as no model was fitted; told by `gapscope diagnose CONFIG`.";
+    return "Not measured, as no model was fitted.";
   const double percent = f.reference->fit_percent;
-  if (percent <= 0.0)
-    return fmt::format(
-        "The free run of the fitted model departs from the motion (fit {:.3g} %); the {} that it misses: "
-        "`gapscope diagnose CONFIG`.",
-        percent, f.coordinates.torque_word());
-  return fmt::format(
-      "The fitted model follows {:.4g} % of the motion (free run); the {} that it misses: `gapscope diagnose "
-      "CONFIG`.",
-      percent, f.coordinates.torque_word());
+  return percent <= 0.0
+             ? fmt::format("The free run of the fitted model departs from the motion (fit {:.3g} %).",
+                           percent)
+             : fmt::format("The fitted model follows {:.4g} % of the motion (free run).", percent);
 }
 
 /// "The model misses 9.66 N rms of force on held-out data, 17.1 % of the 56.5 N rms that the input applies"
@@ -150,14 +145,17 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
               : ", the noise of the encoder");
 }
 
+/// Of a model that nothing is missing of: that what is left is no more than the encoder's noise, or than the
+/// drive's own repetition.
 std::string floor_words(const CardFacts& f, const Card& card) {
   if (const std::string words = torque_floor(f, card); !words.empty()) return words;
   const MismatchSize& m = f.diagnosis->mismatch;
-  if (!(m.before > 0.0 && m.floor > 0.0)) return "";
-  return fmt::format("; {}the {} is {} times the {}",
-                     f.diagnosis->verdict == DiagnosisVerdict::kNone ? "that is noise: " : "",
-                     motion_error(*f.diagnosis), SharedUnit(1.0, "").number(m.before / m.floor),
-                     floor_name(m.floor_from));
+  if (f.diagnosis->verdict != DiagnosisVerdict::kNone || !(m.before > 0.0 && m.floor > 0.0)) return "";
+  return fmt::format(
+      "; that is noise: the simulated motion is as near as {} ({} is {} times {})",
+      m.floor_from == FloorSource::kRepeatability ? "the drive repeats itself" : "the encoder reads",
+      "its error", SharedUnit(1.0, "").number(m.before / m.floor),
+      m.floor_from == FloorSource::kRepeatability ? "the drive's own" : "the encoder's own");
 }
 
 /// " With its controller in the loop the model is 392 mrad rms off in position; with the additions below it
@@ -181,8 +179,7 @@ std::string whole_run_words(const CardFacts& f) {
   if (!d.whole_run || d.closed_loop) return "";
   const WholeRun& w = *d.whole_run;
   const bool stays = std::isfinite(w.before), stays_after = std::isfinite(w.after);
-  const double largest = std::max({w.travel, stays ? w.before : 0.0, stays_after ? w.after : 0.0});
-  const SharedUnit position(largest, f.coordinates.position_unit());
+  const auto position = [&](double size) { return SharedUnit(size, f.coordinates.position_unit())(size); };
   const std::string of = " from the held-out motion, whose travel is " + position(w.travel);
   std::string text = " Simulated freely from the first sample on, the model " +
                      (stays ? "drifts up to " + position(w.before) + of : "runs away");
@@ -245,7 +242,10 @@ std::string next_line(const CardFacts& f, const Card& card) {
     return "Try `fitted.yaml` on another motion (other speeds, other loads); held out, a recording of that "
            "may also tell the cause.";
   if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
-  if (is_added(d)) return "Simulate with `fitted.yaml`; " + export_words(f);
+  const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
+  if (is_added(d))
+    return std::string("Simulate with `fitted.yaml`") +
+           (open ? ", which predicts best with all of these, established or not; " : "; ") + export_words(f);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
   return step_to_establish(d);
 }

@@ -32,21 +32,11 @@ std::vector<std::string> others_of(const AddedEffect& a, const Diagnosis& d) {
   return all;
 }
 
-/// A line holds so many effects; the table of what was added holds all.
+/// So many effects are told with how much there is of each; the table of what was added holds all.
 constexpr std::size_t kToldEffects = 4;
 
-/// How many of them are told one by one: all, or one less than fit beside "and N more".
+/// How many of them are told with their numbers: all, or one less, and the rest by name.
 std::size_t told_of(std::size_t count) { return count > kToldEffects ? kToldEffects - 1 : count; }
-
-/// With the first of them and "5 more" for the rest.
-std::vector<std::string> shortened(std::vector<std::string> all) {
-  const std::size_t told = told_of(all.size());
-  if (told == all.size()) return all;
-  const std::size_t more = all.size() - told;
-  all.resize(told);
-  all.push_back(fmt::format("{} more", more));
-  return all;
-}
 
 std::vector<std::string> names(const CardFacts& f, bool established) {
   std::vector<std::string> all;
@@ -56,15 +46,18 @@ std::vector<std::string> names(const CardFacts& f, bool established) {
   return all;
 }
 
-/// "cogging torque or load unbalance: these recordings cannot tell them apart", of every group that holds a
-/// cause.
+/// "either cogging torque or load unbalance (these recordings cannot tell which; `fitted.yaml` has cogging
+/// torque)", of every group that holds a cause.
 std::vector<std::string> groups(const CardFacts& f) {
   std::vector<std::string> all;
   for (const AddedEffect& a : f.diagnosis->added) {
     std::vector<std::string> others = others_of(a, *f.diagnosis);
     if (!a.established || others.empty()) continue;
     others.insert(others.begin(), called(a, f));
-    all.push_back(enumerated(shortened(others), "or") + ": these recordings cannot tell them apart");
+    const bool two = others.size() == 2;
+    all.push_back(fmt::format("{} {} (these recordings cannot tell which; `fitted.yaml` has {})",
+                              two ? "either" : "one of", enumerated(others, two ? "or" : "and"),
+                              called(a, f)));
   }
   return all;
 }
@@ -80,37 +73,33 @@ std::vector<std::string> rivals(const Diagnosis& d) {
   return all;
 }
 
-/// "friction (established)", with which evidence does not bear it out; on top of what is open, with what else
-/// that holds.
+/// " Established: motor Coulomb friction and friction asymmetry.": causes, with which evidence does not bear
+/// them out, and what they rest on where that is open.
 std::string established_causes(const CardFacts& f) {
-  const std::vector<std::string> causes = names(f, true);
-  const std::string doubt = doubt_of_motion(*f.diagnosis);
-  std::string text;
-  if (!causes.empty()) {
-    text = enumerated(shortened(causes));
-    text = !rests_on_open_cause(*f.diagnosis) ? text + " (established" + doubt + ")"
-                                              : fmt::format("with {} in the model, {} {} established{}",
-                                                            names(f, false).size() > 1 ? "them" : "it", text,
-                                                            causes.size() > 1 ? "are" : "is", doubt);
-  }
-  for (const std::string& group : groups(f))
-    text += (text.empty() ? "" : "; ") + group +
-            (causes.empty() && !doubt.empty() ? " (established" + doubt + ")" : "");
-  return text;
+  const std::string alone = enumerated(names(f, true));
+  std::vector<std::string> causes = groups(f);
+  if (!alone.empty()) causes.insert(causes.begin(), alone);
+  if (causes.empty()) return "";
+  const bool rests = rests_on_open_cause(*f.diagnosis);
+  return fmt::format(" Established{}{}: {}.",
+                     !rests                       ? ""
+                     : names(f, false).size() > 1 ? " with them in the model"
+                                                  : " with it in the model",
+                     brief_doubt_of_motion(*f.diagnosis), fmt::join(causes, "; "));
 }
 
+/// " Not established, though it helps: input delay (it may as well be actuator lag).", of what has an open
+/// cause.
 std::string open_causes(const CardFacts& f) {
   const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
   if (open.empty()) return "";
-  const bool beside = !established_causes(f).empty() && !rests_on_open_cause(*f.diagnosis);
-  const std::string too = beside ? " too" : "";
   std::vector<std::string> why;
-  if (!others.empty()) why.push_back("it may as well be " + enumerated(shortened(others), "or"));
+  if (!others.empty())
+    why.push_back((open.size() > 1 ? "a part may as well be " : "it may as well be ") +
+                  enumerated(others, "or"));
   if (std::string words = undetermined_words(*f.diagnosis); !words.empty()) why.push_back(std::move(words));
-  return enumerated(shortened(open)) +
-         (open.size() > 1 ? " help" + too + ", but whether they are the cause"
-                          : " helps" + too + ", but whether it is the cause") +
-         " is open" + (why.empty() ? "" : fmt::format(": {}", fmt::join(why, ", and ")));
+  return fmt::format(" Not established, though {}: {}{}.", open.size() > 1 ? "they help" : "it helps",
+                     enumerated(open), why.empty() ? "" : fmt::format(" ({})", fmt::join(why, "; ")));
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -120,16 +109,15 @@ std::string outside_words(const CardFacts& f) {
   const bool learned = d.mismatch.floor_from != FloorSource::kRepeatability && !d.ranking.empty() &&
                        !d.effects.empty() && d.ranking.front().effect == d.effects.front();
   if (!established_causes(f).empty() || !learned || !(d.outside_probability > 0.5)) return "";
-  return fmt::format("; most likely ({:.0f} %) the cause is none of the catalogue's",
+  return fmt::format(" Most likely ({:.0f} %) the cause is none of the catalogue's.",
                      100.0 * d.outside_probability);
 }
 
-/// "takes it from 46.3 to 25.5 mN·m", "takes 64 % of the free-run error": on the basis that has decided.
+/// "takes it from 46.3 to 25.5 mN·m", "cuts the free-run error by 64 %": on the basis that has decided.
 std::string share_words(const AddedEffect& a, const CardFacts& f) {
   if (!std::isfinite(a.shrink)) return "";
   if (a.share_of == ShareOf::kMotion)
-    return fmt::format("takes {} % of the {}", with_decimals(100.0 * a.shrink, 0),
-                       motion_error(*f.diagnosis));
+    return fmt::format("cuts the {} by {} %", motion_error(*f.diagnosis), with_decimals(100.0 * a.shrink, 0));
   const auto& rungs = f.diagnosis->budget.rungs;
   const auto at = std::find_if(rungs.begin(), rungs.end(), [&](const BudgetRung& r) {
     return r.effect == a.effect && !(std::abs(r.after - a.after_torque) > 0.0);
@@ -139,7 +127,7 @@ std::string share_words(const AddedEffect& a, const CardFacts& f) {
   return fmt::format("takes it from {} to {}", torque.number(at->before), torque(at->after));
 }
 
-/// "cogging torque (2 N; takes 64 % of the free-run error)": what is known of it alone; an aside in its name
+/// "cogging torque (2 N; cuts the free-run error by 64 %)": what is known of it alone; an aside in its name
 /// stands under the cause.
 /// @param share  whether what it takes belongs to it, by what has decided on it: torque as the error budget
 /// has it, or a share of the motion's error above the floor; where every effect has the torque that it
@@ -152,14 +140,14 @@ std::string with_asides(const AddedEffect& a, const CardFacts& f, bool share) {
   return without_asides(called(a, f)) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
 }
 
-/// "17.1 % to 2.2 % of the input's": on the basis of the line of the model's error
+/// "17.1 % to 2.2 % of what the input applies": on the basis of the line of the model's error
 std::string percents(const Card& card) {
   const double both[] = {card.percent, card.percent_after};
   const Percents percent(both);
-  return percent(card.percent) + " to " + percent(card.percent_after) + " of the input's";
+  return percent(card.percent) + " to " + percent(card.percent_after) + " of what the input applies";
 }
 
-/// "from 9.66 to 1.22 N (17.1 % to 2.16 % of the input's)"
+/// "from 9.66 to 1.22 N (17.1 % to 2.16 % of what the input applies)"
 std::string fall(const CardFacts& f, const Card& card) {
   const MismatchSize& m = f.diagnosis->mismatch;
   if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
@@ -174,22 +162,36 @@ std::string fall(const CardFacts& f, const Card& card) {
 /// Whether the torque that is told has an effect in it.
 bool is_counted(const AddedEffect& a, const Diagnosis& d) { return !contains(d.budget.uncounted, a.effect); }
 
+/// The first of them with their numbers, the rest by name.
+std::vector<std::string> told_effects(const std::vector<const AddedEffect*>& all, const CardFacts& f) {
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    told.push_back(i < told_of(all.size()) ? with_asides(*all[i], f, f.diagnosis->added.size() > 1)
+                                           : without_asides(called(*all[i], f)));
+  return told;
+}
+
 std::string shares(const CardFacts& f, const Card& card) {
-  std::vector<std::string> all, others;
-  const auto& added = f.diagnosis->added;
-  for (const AddedEffect& a : added)
-    (is_counted(a, *f.diagnosis) ? all : others).push_back(with_asides(a, f, added.size() > 1));
+  std::vector<const AddedEffect*> counted, others;
+  for (const AddedEffect& a : f.diagnosis->added)
+    (is_counted(a, *f.diagnosis) ? counted : others).push_back(&a);
   std::string text;
-  if (!all.empty())
-    text =
-        fmt::format("{} {} the {} down {}", enumerated(shortened(all)), all.size() > 1 ? "bring" : "brings",
-                    std::isfinite(card.torque) ? "missing " + std::string(f.coordinates.torque_word())
-                                               : motion_error(*f.diagnosis),
-                    fall(f, card));
+  if (!counted.empty())
+    text = fmt::format("{} {} the {} down {}", enumerated(told_effects(counted, f)),
+                       counted.size() > 1 ? "bring" : "brings",
+                       std::isfinite(card.torque) ? "missing " + std::string(f.coordinates.torque_word())
+                                                  : motion_error(*f.diagnosis),
+                       fall(f, card));
   if (others.empty()) return text;
-  return text + (text.empty() ? "" : "; ") + enumerated(shortened(others)) +
-         (others.size() > 1 ? " help" : " helps") + " the simulated motion, and no size of " +
-         (others.size() > 1 ? "them" : "it") + " in " + f.coordinates.torque_word() + " is known";
+  const MismatchSize& m = f.diagnosis->mismatch;
+  const SharedUnit error(m.before, f.coordinates.position_unit());
+  const std::string whole =
+      counted.empty() && std::isfinite(m.before) && m.after < m.before
+          ? fmt::format("{} the {} down from {} to {}", others.size() > 1 ? "bring" : "brings",
+                        motion_error(*f.diagnosis), error.number(m.before), error(m.after))
+          : std::string(others.size() > 1 ? "help" : "helps") + " the simulated motion";
+  return fmt::format("{}{}{} {}; how much {} that takes was not counted", text, text.empty() ? "" : "; ",
+                     enumerated(told_effects(others, f)), whole, f.coordinates.torque_word());
 }
 
 /// Whether each effect has the torque that it leaves, and the last one that of the fitted model.
@@ -203,15 +205,17 @@ bool has_rungs(const Diagnosis& d) {
 }
 
 /// "The missing force falls from 9.84 N to 4.19 N with friction, then to 2.20 N with cogging torque (17.1 %
-/// to 3.8 % of the input's)"
+/// to 3.8 % of what the input applies)"
 std::string rungs(const CardFacts& f, const Card& card) {
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
   std::vector<std::string> all;
   const auto& added = f.diagnosis->added;
   for (const AddedEffect& a : std::span(added).first(told_of(added.size())))
     all.push_back(torque(a.after_torque) + " with " + with_asides(a, f, false));
-  if (const std::size_t more = added.size() - all.size(); more > 0)
-    all.push_back(torque(added.back().after_torque) + fmt::format(" with {} more", more));
+  std::vector<std::string> rest;
+  for (const AddedEffect& a : std::span(added).subspan(all.size()))
+    rest.push_back(without_asides(called(a, f)));
+  if (!rest.empty()) all.push_back(torque(added.back().after_torque) + " with " + enumerated(rest));
   return fmt::format("the missing {} falls from {} to {} ({})", f.coordinates.torque_word(),
                      torque(card.torque), fmt::join(all, ", then to "), percents(card));
 }
@@ -244,9 +248,9 @@ std::string motion_words(const MismatchSize& m, Coordinates coordinates) {
 }
 
 std::string law_words(const LastResortLaw& law, const Diagnosis& d) {
-  return fmt::format("a free curve over the {} takes {} % of the {}{} (compensation_{}.csv)", law.variable,
-                     with_decimals(100.0 * law.shrink, 0), motion_error(d),
-                     law.on_top_of.empty() ? "" : " that is left", law.law);
+  return fmt::format("a free curve over the {} cuts the {}{} by {} % (compensation_{}.csv)", law.variable,
+                     motion_error(d), law.on_top_of.empty() ? "" : " that is left",
+                     with_decimals(100.0 * law.shrink, 0), law.law);
 }
 
 }  // namespace
@@ -265,8 +269,9 @@ std::string cause_line(const CardFacts& f) {
   if (text.empty() && then.empty() && d.stopped)
     return "Not told: the search was stopped before its end." + simulator;
   if (rests_on_open_cause(d)) std::swap(text, then);
-  text += (text.empty() || then.empty() ? "" : "; ") + then + outside_words(f);
-  return as_sentence(text.empty() ? unknown_words(f) : text) + exhausted_words(d) + simulator;
+  text += then;
+  if (text.empty()) text = " " + as_sentence(unknown_words(f));
+  return text.substr(1) + outside_words(f) + exhausted_words(d) + simulator;
 }
 
 std::string helps_line(const CardFacts& f, const Card& card) {

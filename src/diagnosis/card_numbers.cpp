@@ -51,8 +51,17 @@ std::string without_interval(const AddedEffect& a, const NamedValue& n) {
 
 std::string name_of_number(const RefittedNumber& n) {
   const std::size_t dot = n.key.find('.');
+  if (n.key == "mass_ratio") return "mass ratio (load over motor)";
   if (dot == n.key.npos) return readable(n.key);
   return readable(n.key.substr(0, dot)) + " " + name_of_key(n.key.substr(dot + 1));
+}
+
+/// The first `most` with what changes, the rest by name: "and contact stiffness".
+std::string in_part(const std::vector<std::string>& names, const std::vector<std::string>& changes,
+                    std::size_t most) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < names.size(); ++i) all.push_back(names[i] + (i < most ? " " + changes[i] : ""));
+  return enumerated(all);
 }
 
 /// "0.1 → 0.04"; empty where both read alike.
@@ -92,27 +101,23 @@ std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all,
   if (amount == nullptr || !std::isfinite(amount->value)) return "";
   const std::string unit = coordinates.shown_unit(amount->unit);
   if (unit.empty()) return share_text(*amount) + without_interval(a, *amount);
-  const bool named = amount != &a.parameters.front();
-  return (named ? name_of_key(amount->key) + " " : "") +
+  const std::string name = name_of_key(amount->key);
+  const bool said = name == "level" || readable(a.effect).ends_with(name);  // an "input delay" of 3 ms
+  return (said ? "" : name + " ") +
          SharedUnit(amount->value, unit).with_interval(amount->value, amount->ci95) +
          without_interval(a, *amount);
 }
 
 std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::size_t most) {
-  std::vector<std::string> all;
+  std::vector<std::string> names, changes;
   for (const RefittedNumber& n : d.refitted) {
     const std::string change = change_of(n);
     if (change.empty()) continue;
     const bool angle = n.key.ends_with("phase_rad");  // along a slide, too
     const std::string unit = (angle ? Coordinates() : coordinates).shown_unit(n.unit);
-    all.push_back(name_of_number(n) + " " + change + (unit.empty() ? "" : " " + unit));
+    names.push_back(name_of_number(n)), changes.push_back(change + (unit.empty() ? "" : " " + unit));
   }
-  if (all.size() > most) {
-    const std::size_t more = all.size() - most;
-    all.resize(most);
-    all.push_back(fmt::format("{} more", more));
-  }
-  return enumerated(all);
+  return in_part(names, changes, most);
 }
 
 std::string other_numbers_help(const CardFacts& f) {

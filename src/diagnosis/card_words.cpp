@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "diagnosis/card_open.h"
 #include "gapscope/base/decimals.h"
 #include "gapscope/base/text.h"
 
@@ -95,7 +96,7 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
 std::string where_words(const Diagnosis& d, Coordinates coordinates) {
   if (d.verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no pattern.";
   const std::string& what = d.where.headline;
-  const bool has_verb = std::ranges::any_of(std::array{"changes", "depends", "arises"},
+  const bool has_verb = std::ranges::any_of(std::array{"changes", "depends", "arises", "reverses"},
                                             [&](const char* verb) { return what.starts_with(verb); });
   return fmt::format("The missing {} {}{}.", coordinates.torque_word(),
                      has_verb                  ? ""
@@ -105,9 +106,11 @@ std::string where_words(const Diagnosis& d, Coordinates coordinates) {
 }
 
 std::string export_words(const CardFacts& f) {
-  if (!f.carriers) return "`gapscope export` takes it to other simulators.";
-  if (!f.carriers->empty())
-    return "`gapscope export --to " + f.carriers->front() + "` takes it to other simulators.";
+  const bool goals = f.diagnosis != nullptr && (f.diagnosis->closed_loop || input_is_made(*f.diagnosis));
+  const std::string takes = goals ? " takes the drive, without its controller, to other simulators."
+                                  : " takes it to other simulators.";
+  if (!f.carriers) return "`gapscope export`" + takes;
+  if (!f.carriers->empty()) return "`gapscope export --to " + f.carriers->front() + "`" + takes;
   std::vector<std::string> names;
   for (const std::string& effect : f.uncarried) names.push_back(readable(effect));
   return "no format of `gapscope export` carries " + (names.empty() ? "all of it" : enumerated(names)) +

@@ -29,6 +29,9 @@ class SharedUnit {
   std::string unit_;
 };
 
+/// 2β, as every sentence that tells it begins.
+inline constexpr const char* kTheGapIs = "The backlash gap 2β (full width, motor side) is ";
+
 /// "17.1 %", "0.21 %"
 std::string percent_text(double percent);
 

@@ -32,13 +32,14 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
                      100.0 * place.mode[phase].expected);
 }
 
-/// Of the one in which it is denser than the time that it takes, be it the smaller share.
+/// Of the one in which it is denser than the time that it takes, be it the smaller share; where neither is,
+/// what depends on the direction can differ by its sign only.
 std::string direction_words(const std::vector<MapShare>& direction) {
   const auto dense = std::find_if(direction.begin(), direction.end(), denser_than_chance);
-  return "depends on the direction of motion " +
-         (dense != direction.end() ? fmt::format("({:.0f} % of its square {}, in {:.0f} % of the time)",
-                                                 100.0 * dense->share, dense->bin, 100.0 * dense->expected)
-                                   : "(equal size both ways)");
+  if (dense == direction.end()) return "reverses with the direction of motion";
+  return fmt::format(
+      "depends on the direction of motion ({:.0f} % of its square {}, in {:.0f} % of the time)",
+      100.0 * dense->share, dense->bin, 100.0 * dense->expected);
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {

@@ -210,6 +210,14 @@ std::string doubt_of_motion(const Diagnosis& d) {
                      percent(m.shrink), percent(m.shrink_ci95.low), percent(m.shrink_ci95.high));
 }
 
+std::string brief_doubt_of_motion(const Diagnosis& d) {
+  if (doubt_of_motion(d).empty()) return "";
+  const std::string what = d.mismatch.measure.starts_with("prediction") ? "prediction" : "free run";
+  return d.added.front().share_of == ShareOf::kTorque
+             ? " by the balance of torque alone (the " + what + " cannot tell)"
+             : " on these recordings (the " + what + " of another may not show it)";
+}
+
 bool rests_on_open_cause(const Diagnosis& d) {
   return !d.added.empty() && !d.added.front().established &&
          std::any_of(d.added.begin(), d.added.end(), [](const AddedEffect& a) { return a.established; });

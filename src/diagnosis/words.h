@@ -11,6 +11,9 @@ namespace gapscope::internal::diagnosis {
 /// does, or nothing was added.
 std::string doubt_of_motion(const Diagnosis& diagnosis);
 
+/// The same in brief and without its numbers: " by the balance of torque alone (the free run cannot tell)".
+std::string brief_doubt_of_motion(const Diagnosis& diagnosis);
+
 /// "free-run error" or "prediction error": what the motion is judged by.
 std::string motion_error(const Diagnosis& diagnosis);
 

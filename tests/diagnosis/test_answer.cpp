@@ -59,10 +59,10 @@ TEST(Answer, OfTwoThatAgreeIsTheSharperOneThatIsGood) {
   EXPECT_EQ(a.from, AnswerSource::kReference);
   EXPECT_EQ(a.trust, AnswerTrust::kGood);
   EXPECT_EQ(a.gap, 0.0191);
-  EXPECT_EQ(
-      a.sentence,
-      "The backlash gap is 19.100 mrad (95 %: 19.088 to 19.112) by the fitted model, and the model-free "
-      "reading agrees.");
+  EXPECT_EQ(a.sentence,
+            "The backlash gap 2β (full width, motor side) is 19.100 mrad (95 %: 19.088 to 19.112) by the "
+            "fitted model, and the model-free "
+            "reading agrees.");
   EXPECT_EQ(of(&g, &blunt, true).from, AnswerSource::kModelFree);
   const FitSummary limited = fitted(FitTrust::kLimited, 0.0191, 1e-5);
   EXPECT_EQ(of(&g, &limited, true).from, AnswerSource::kModelFree)
@@ -138,7 +138,8 @@ TEST(Answer, OfAFitThatDidNotConvergeHasNoInterval) {
   unsettled.status = FitStatus::kNotConverged;
   const GapEstimate open = undecided(), g = reading(0.019, 2e-4);
   const Answer a = of(&open, &unsettled);
-  EXPECT_THAT(a.sentence, HasSubstr("The backlash gap is 9.03 mrad by the fitted model"));
+  EXPECT_THAT(a.sentence,
+              HasSubstr("The backlash gap 2β (full width, motor side) is 9.03 mrad by the fitted model"));
   EXPECT_TRUE(std::isnan(a.ci95.low));
   EXPECT_THAT(of(&g, &unsettled, false).sentence, HasSubstr("but the fitted model says 9.03 mrad."));
 }
@@ -257,7 +258,9 @@ TEST(Answer, HasAtMostThreeStepsAndMillimetresOnASlide) {
   const GapEstimate open = undecided(), g = reading(0.0019, 2e-5);
   EXPECT_LE(of(&open, &rejected).next.size(), 3u);
   const Answer slide = answer_of({&g, nullptr, {}, Coordinates::kTranslation});
-  EXPECT_EQ(slide.sentence, "The backlash gap is 1.900 mm (95 %: 1.880 to 1.920), measured without a model.");
+  EXPECT_EQ(slide.sentence,
+            "The backlash gap 2β (full width, motor side) is 1.900 mm (95 %: 1.880 to 1.920), measured "
+            "without a model.");
 }
 
 }  // namespace

@@ -60,17 +60,18 @@ TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
   d.added.erase(d.added.begin());
   d.added.front().established = true;
   d.added.front().parameters = {{"amplitude_nm", "N m", 2.054}, {"periods_per_turn", "1/rev", 2513.3}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Cogging torque (2.05 N) brings the missing force down from 10 to 2 N (20.0 % to "
-                         "4.0 % of the input's)"));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      StartsWith("Cogging torque (amplitude 2.05 N) brings the missing force down from 10 to 2 N (20.0 % to "
+                 "4.0 % of what the input applies)"));
   d.added.front().parameters.clear();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
               StartsWith("Cogging torque brings the missing force down from 10 to 2 N"));
   d = slide_diagnosis();
   d.added[0].after_torque = kNaN, d.added[0].parameters = {{"level_nm", "N m", 20.54}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Motor Coulomb friction (20.5 N; takes 60 % of the free-run error) and cogging "
-                         "torque (takes 50 % of the free-run error) bring the missing force down "
+              StartsWith("Motor Coulomb friction (20.5 N; cuts the free-run error by 60 %) and cogging "
+                         "torque (cuts the free-run error by 50 %) bring the missing force down "
                          "from 10"));
 }
 
@@ -80,16 +81,15 @@ TEST(Card, TellsTheTorqueOfTheModelThatFittedYamlHas) {
   d.budget.band_hz = 8.0;
   d.mismatch.after_torque = 3.0;  // the last line, 2.0, has a law beside both that nobody can add
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Motor Coulomb friction (takes 60 % of the free-run error) and cogging torque "
-                         "(takes 50 % of the free-run error) bring the missing force down from 10 "
-                         "to 3 N (20.0 % to 6.0 % of the input's)"));
+              StartsWith("Motor Coulomb friction (cuts the free-run error by 60 %) and cogging torque "
+                         "(cuts the free-run error by 50 %) bring the missing force down from 10 "
+                         "to 3 N (20.0 % to 6.0 % of what the input applies)"));
   d.budget.uncounted = {"cogging_torque"};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Motor Coulomb friction (takes 60 % of the free-run error) brings the missing force "
-                         "down from 10 to 3 N (20.0 % to 6.0 % of the input's); cogging "
-                         "torque (takes 50 % of the free-run error) helps the simulated motion, and no size "
-                         "of it in force is known; "
-                         "`fitted.yaml` has them"));
+              StartsWith("Motor Coulomb friction (cuts the free-run error by 60 %) brings the missing force "
+                         "down from 10 to 3 N (20.0 % to 6.0 % of what the input applies); cogging "
+                         "torque (cuts the free-run error by 50 %) helps the simulated motion; how much "
+                         "force that takes was not counted; `fitted.yaml` has them"));
 }
 
 TEST(Card, TellsAnAmountWithItsInterval) {
@@ -103,7 +103,7 @@ TEST(Card, TellsAnAmountWithItsInterval) {
       StartsWith("Motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98) brings the missing force down"));
 }
 
-TEST(Card, OfManyEffectsTellsTheFirstAndCountsTheRest) {
+TEST(Card, OfManyEffectsTellsTheFirstWithTheirNumbersAndNamesTheRest) {
   Diagnosis d = slide_diagnosis();
   d.added.resize(1);
   for (const char* more : {"cogging_torque", "viscous_friction", "torque_ripple", "load_friction"})
@@ -113,10 +113,10 @@ TEST(Card, OfManyEffectsTellsTheFirstAndCountsTheRest) {
       card.helps,
       StartsWith(
           "The missing force falls from 10 N to 4 N with motor Coulomb friction, then to 3.5 N with cogging "
-          "torque, then to 3 N with viscous friction, then to 2 N with 2 more ("));
-  EXPECT_EQ(card.cause, "Motor Coulomb friction, cogging torque, viscous friction and 2 more (established).");
-  d.added.pop_back();
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, HasSubstr("viscous friction and torque ripple (est"));
+          "torque, then to 3 N with viscous friction, then to 2 N with torque ripple and load friction ("));
+  EXPECT_EQ(card.cause,
+            "Established: motor Coulomb friction, cogging torque, viscous friction, torque ripple and load "
+            "friction.");
 }
 
 TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
@@ -127,15 +127,14 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
   d.added[0].parameters = {{"amplitude_nm", "N m", 5.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 2.5e-3}};
   d.added[1].parameters = {{"amplitude_nm", "N m", 1.0}, {"periods_per_turn", "1/rev", 2.0 * kPi / 0.01}};
   CardFacts f = facts_of(nullptr, &d);
-  EXPECT_EQ(card_of(f).cause, "Cogging torque every 2.5 mm and cogging torque every 10 mm (established).");
+  EXPECT_EQ(card_of(f).cause, "Established: cogging torque every 2.5 mm and cogging torque every 10 mm.");
   EXPECT_THAT(card_of(f).helps, StartsWith("The missing force falls from 10 N to 4 N with cogging torque "
-                                           "every 2.5 mm (5 N), then to 2 N with cogging "
-                                           "torque every 10 mm (1 N) ("));
+                                           "every 2.5 mm (amplitude 5 N), then to 2 N with cogging "
+                                           "torque every 10 mm (amplitude 1 N) ("));
   f.coordinates = Coordinates::kRotation;
   d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
   EXPECT_EQ(card_of(f).cause,
-            "Cogging torque at 24 cycles per turn and cogging torque at 7.25 cycles per turn "
-            "(established).");
+            "Established: cogging torque at 24 cycles per turn and cogging torque at 7.25 cycles per turn.");
 }
 
 TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {
@@ -145,6 +144,11 @@ TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {
   EXPECT_THAT(card_of(f).next, HasSubstr("`gapscope export` takes it to other simulators."));
   f.carriers = {"c"};
   EXPECT_THAT(card_of(f).next, HasSubstr("`gapscope export --to c` takes it to other simulators."));
+  d.closed_loop = ClosedLoop{0.4, 0.05, {}};
+  EXPECT_THAT(
+      card_of(f).next,
+      HasSubstr("`gapscope export --to c` takes the drive, without its controller, to other simulators."));
+  d.closed_loop.reset();
   f.carriers = std::vector<std::string>(), f.uncarried = {"load_dependent_friction"};
   EXPECT_THAT(card_of(f).next,
               HasSubstr("no format of `gapscope export` carries load-dependent friction in full; the "

@@ -43,23 +43,30 @@ TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
   const Diagnosis d = by_balance(0.46, {-2.57, 0.83});
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).cause,
-      StartsWith("Motor Coulomb friction (established by the balance of torque alone; the free run cannot "
-                 "tell: its error shrinks by 46 % (95 %: -257 to 83))"));
+      StartsWith("Established by the balance of torque alone (the free run cannot tell): motor Coulomb "
+                 "friction. "));
   EXPECT_THAT(
       internal::diagnosis::sentence_of(d, Coordinates()),
       StartsWith("The model lacks motor Coulomb friction (established by the balance of torque alone; "));
   const Diagnosis shown = by_balance(0.9, {0.59, 1.0});
-  EXPECT_THAT(card_of(facts_of(nullptr, &shown)).cause, StartsWith("Motor Coulomb friction (established); "));
+  EXPECT_THAT(card_of(facts_of(nullptr, &shown)).cause, StartsWith("Established: motor Coulomb friction. "));
   const Diagnosis at_floor = by_balance(kNaN, {});
   EXPECT_THAT(
       card_of(facts_of(nullptr, &at_floor)).cause,
+      StartsWith("Established by the balance of torque alone (the free run cannot tell): motor Coulomb "));
+  EXPECT_THAT(
+      internal::diagnosis::sentence_of(at_floor, Coordinates()),
       HasSubstr("(established by the balance of torque alone; the free run, near its floor, cannot tell)"));
   Diagnosis by_motion = d;
   for (AddedEffect& a : by_motion.added) a.share_of = ShareOf::kMotion;
   EXPECT_THAT(
       card_of(facts_of(nullptr, &by_motion)).cause,
-      StartsWith("Motor Coulomb friction (established; the free run of another recording may not show it: "
-                 "its error shrinks by 46 % (95 %: -257 to 83))"));
+      StartsWith(
+          "Established on these recordings (the free run of another may not show it): motor Coulomb "));
+  EXPECT_THAT(
+      internal::diagnosis::sentence_of(by_motion, Coordinates()),
+      HasSubstr("friction (established; the free run of another recording may not show it: its error shrinks "
+                "by 46 % (95 %: -257 to 83))"));
 }
 
 /// Of the balance a share is a fall of torque, as its table has it; of the motion one of its error.
@@ -72,16 +79,17 @@ TEST(CardBasis, AShareSaysWhatItIsOf) {
   d.mismatch.after_torque = 3.0;  // the fitted model is another one than that of the last line
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("Motor Coulomb friction (takes it from 10 to 4 N) and cogging torque (takes it from 4 to "
-                 "2 N) bring the missing force down from 10 to 3 N (20.0 % to 6.0 % of the input's)"));
+      StartsWith(
+          "Motor Coulomb friction (takes it from 10 to 4 N) and cogging torque (takes it from 4 to "
+          "2 N) bring the missing force down from 10 to 3 N (20.0 % to 6.0 % of what the input applies)"));
   for (AddedEffect& a : d.added) a.share_of = ShareOf::kMotion;
   d.mismatch.measure = "prediction of an observer at 3 Hz, median over windows of the rms";
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              StartsWith("Motor Coulomb friction (takes 60 % of the prediction error) and "));
+              StartsWith("Motor Coulomb friction (cuts the prediction error by 60 %) and "));
   d.laws.push_back({});
   d.laws.front().variable = "speed", d.laws.front().shrink = -0.001;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("A free curve over the speed takes 0 % of the prediction error ("));
+              HasSubstr("A free curve over the speed cuts the prediction error by 0 % ("));
 }
 
 TEST(CardBasis, TheLineOfThePlaceIsASentence) {

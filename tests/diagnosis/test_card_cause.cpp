@@ -39,23 +39,24 @@ Card card_of(const Diagnosis& d) {
 
 TEST(CardCause, ALaterOneIsEstablishedWithAnOpenFirstOneInTheModel) {
   EXPECT_EQ(card_of(of_friction_and_delay(false, true)).cause,
-            "Motor Coulomb friction helps, but whether it is the cause is open: it may as well be quadratic "
-            "drag; with it in the "
-            "model, input delay is established.");
+            "Not established, though it helps: motor Coulomb friction (it may as well be quadratic drag). "
+            "Established with it in the model: input delay.");
 }
 
 TEST(CardCause, OneOfAGroupIsNotCalledEstablished) {
   Diagnosis d = of_friction_and_delay(true, true);
   EXPECT_EQ(
       card_of(d).cause,
-      "Input delay (established); motor Coulomb friction or quadratic drag: these recordings cannot tell "
-      "them apart.");
-  d.added[0].group.pop_back();
-  EXPECT_EQ(card_of(d).cause, "Motor Coulomb friction and input delay (established).");
+      "Established: input delay; either motor Coulomb friction or quadratic drag (these recordings cannot "
+      "tell which; `fitted.yaml` has motor Coulomb friction).");
+  d.added[0].group.push_back("load_friction");
+  EXPECT_THAT(card_of(d).cause,
+              HasSubstr("; one of motor Coulomb friction, quadratic drag and load friction (these"));
+  d.added[0].group.resize(1);
+  EXPECT_EQ(card_of(d).cause, "Established: motor Coulomb friction and input delay.");
   d.added[1].established = false;
-  EXPECT_EQ(
-      card_of(d).cause,
-      "Motor Coulomb friction (established); input delay helps too, but whether it is the cause is open.");
+  EXPECT_EQ(card_of(d).cause,
+            "Established: motor Coulomb friction. Not established, though it helps: input delay.");
 }
 
 TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
@@ -63,16 +64,15 @@ TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
   d.added[0].parameters = {{"level_nm", "N m", 274.0}};
   d.added[0].at_bound = {"level_nm"};
   d.added[1].parameters = {{"delay_s", "s", 0.003, {0.002, 0.004}}};
-  EXPECT_EQ(card_of(d).cause,
-            "Motor Coulomb friction and input delay help, but whether they are the cause is open: it may as "
-            "well be quadratic "
-            "drag, and these recordings do not determine how much motor Coulomb friction there is.");
+  EXPECT_EQ(
+      card_of(d).cause,
+      "Not established, though they help: motor Coulomb friction and input delay (a part may as well be "
+      "quadratic drag; these recordings do not determine how much motor Coulomb friction there is).");
   EXPECT_THAT(card_of(d).helps, HasSubstr("motor Coulomb friction (274 N·m, at the bound of its search)"));
   d.added[0].group.pop_back(), d.added[0].at_bound.clear(), d.added.pop_back();
   EXPECT_EQ(card_of(d).cause,
-            "Motor Coulomb friction helps, but whether it is the cause is open: these recordings do not "
-            "determine how much "
-            "there is of it.");
+            "Not established, though it helps: motor Coulomb friction (these recordings do not determine how "
+            "much there is of it).");
   EXPECT_THAT(card_of(d).helps, HasSubstr("friction (274 N·m, which the recordings do not determine)"));
 }
 
@@ -102,7 +102,7 @@ TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTh
       << "the phase reads the same";
   EXPECT_THAT(card.next, HasSubstr("Simulate with the numbers of `fitted.yaml`"));
   d.refitted.insert(d.refitted.begin(), {"gap", "rad", 0.02, 0.03, {0.029, 0.031}});
-  EXPECT_THAT(card_of(d).helps, HasSubstr("0.00781 kg m² and 1 more; `fitted.yaml`"));
+  EXPECT_THAT(card_of(d).helps, HasSubstr("0.00781 kg m² and load unbalance amplitude; `fitted.yaml`"));
   d.refitted = {of_other_numbers().refitted.back()};
   EXPECT_EQ(card_of(d).helps, "Nothing has to: the model is as good as the recording.");
   EXPECT_EQ(card_of(d).next, "None.");
@@ -112,7 +112,10 @@ TEST(CardCause, OfAnotherVerdictTellsTheNumbersBrieflyBehindTheNextStep) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.refitted = of_other_numbers().refitted;
   EXPECT_THAT(card_of(d).next, HasSubstr(" `fitted.yaml` also changes motor damping 0.1 → 0.04 N·m s/rad, "
-                                         "motor inertia 0.00532 → 0.00781 kg m² and 1 more."));
+                                         "motor inertia 0.00532 → 0.00781 kg m² and load unbalance "
+                                         "amplitude."));
+  d.refitted = {{"mass_ratio", "-", 1.2, 1.0, {0.99, 1.01}}};
+  EXPECT_THAT(card_of(d).next, HasSubstr("`fitted.yaml` also changes mass ratio (load over motor) 1.2 → 1."));
   d.refitted.clear();
   EXPECT_THAT(card_of(d).next, Not(HasSubstr("also changes")));
 }
@@ -214,8 +217,8 @@ TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
   EXPECT_THAT(
       card_of(d).mismatch,
       HasSubstr(
-          "up to 54.2 rad from the held-out motion, whose travel is 0.876 rad; with the additions below, "
-          "up to 0.0412 rad."));
+          "up to 54.2 rad from the held-out motion, whose travel is 876 mrad; with the additions below, "
+          "up to 41.2 mrad."));
   d.whole_run->before = kNaN;
   EXPECT_THAT(
       card_of(d).mismatch,
