@@ -15,6 +15,7 @@ void write_text(const std::string& path, const std::string& text, const Replacea
 
 std::vector<Setting> ConfigArguments::settings() const {
   std::vector<Setting> all;
+  if (!model_from.empty()) all = gapscope::model_from(model_from);
   for (const std::string& text : set) all.push_back(read_setting(text));
   return all;
 }
@@ -28,6 +29,11 @@ void add_config_arguments(CommandLine& command, ConfigArguments& arguments, cons
                   "(model.effects.NAME.KEY: of an effect)")
       .value("KEY=VALUE")
       .one_value_each();
+  command
+      .add_option("--model-from", arguments.model_from,
+                  "another configuration whose model: (and anchor:) stands in place of this one's, e.g. the "
+                  "fitted.yaml of a report")
+      .value("FILE");
 }
 
 namespace {

@@ -54,6 +54,7 @@ std::string require_file_name(const std::string& file, const std::vector<std::st
 struct ConfigArguments {
   std::string file;
   std::vector<std::string> set = {};  ///< "KEY=VALUE"
+  std::string model_from = "";        ///< another configuration, whose model stands in place of this one's
 
   std::vector<Setting> settings() const;  ///< @throws ConfigError
 };

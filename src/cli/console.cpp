@@ -117,15 +117,23 @@ bool is_plain_word(const std::string& path) {
   });
 }
 
+/// The command that goes on from what was found, with the names of its files.
+std::string told_of_folder(const std::string& text, const std::string& configuration,
+                           const std::string& folder) {
+  if (!is_plain_word(configuration) || !is_plain_word(folder)) return text;
+  return replaced(text, "CONFIG --model-from DIR/", configuration + " --model-from " + folder + "/");
+}
+
 /// What everybody wants to know, last: it is what stays in view.
-void print_card(const Card& card, const std::string& configuration) {
+/// @param folder  of the report
+void print_card(const Card& card, const std::string& configuration, const std::string& folder) {
   const std::string to = is_plain_word(configuration) ? configuration + "`" : "CONFIG`";
   for (const CardLine& l : card.lines()) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool all = !card.diagnosed && &l.text == &card.place;
-    line(all ? "diagnosis" : l.name,
-         replaced(all ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.text, "CONFIG`",
-                  to));
+    const std::string text = all ? "Where, cause and what helps: run `gapscope diagnose CONFIG`."
+                                 : told_of_folder(l.text, configuration, folder);
+    line(all ? "diagnosis" : l.name, replaced(text, "CONFIG`", to));
   }
 }
 
@@ -167,7 +175,7 @@ void print_headline(const std::string& folder, const RunResult& r, const std::st
          fmt::format("{:<17} width of the x1-x2 map", r.coordinates.thousandths(r.comparison->map_width)));
   if (r.second_encoder && !std::isnan(r.second_encoder->rmse)) line("validation", validation_line(r));
   if (!std::isnan(r.simulated_gap)) line("simulated", r.coordinates.thousandths(r.simulated_gap));
-  if (r.answer) print_card(r.answer->card, configuration);
+  if (r.answer) print_card(r.answer->card, configuration, folder);
 }
 
 void print_diagnosis(const std::string& folder, const DiagnosisResult& r, const std::string& configuration) {
@@ -176,7 +184,7 @@ void print_diagnosis(const std::string& folder, const DiagnosisResult& r, const 
   line("verdict", to_string(d.verdict));
   for (const std::string& effect : d.effects) line("effect", effect);
   if (r.simulated) line("simulator", r.simulated->sentence);
-  if (r.answer) print_card(r.answer->card, configuration);
+  if (r.answer) print_card(r.answer->card, configuration, folder);
 }
 
 }  // namespace gapscope::cli

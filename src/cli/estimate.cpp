@@ -92,6 +92,7 @@ void add_streaming(CommandLine& detect, const std::shared_ptr<EstimateArguments>
   stream.excludes(config)
       .excludes(detect.option("--output"))
       .excludes(detect.option("--set"))
+      .excludes(detect.option("--model-from"))
       .excludes(detect.option("--axis"))
       .excludes(detect.option("--svg"));
   const auto column = [&](const char* name, std::string& place, const char* what) {

@@ -90,7 +90,8 @@ void add_drive_export(CommandLine& app) {
       "DIR may be empty, new, or hold an earlier export that was not changed since.\n\n"
       "Example: gapscope export reports/drive --to mjcf -o drive_mjcf");
   command.action([arguments] {
-    const ConfigArguments source{exported_configuration(arguments->source.file), arguments->source.set};
+    const ConfigArguments source{exported_configuration(arguments->source.file), arguments->source.set,
+                                 arguments->source.model_from};
     with_configuration(source, [&](const Configuration& c) {
       warn_of_idle_settings(source, c);
       export_configuration(*arguments, c);

@@ -14,7 +14,9 @@ namespace {
 
 constexpr std::size_t kLongestKey = 200;
 
-std::string setting_place(const Setting& setting) { return "--set " + setting.key; }
+std::string setting_place(const Setting& setting) {
+  return setting.place.empty() ? "--set " + setting.key : setting.place;
+}
 
 std::vector<std::string> keys_of(const Setting& setting) {
   std::vector<std::string> keys(1);
@@ -158,7 +160,7 @@ Value overlaid(const Value& document, std::span<const Setting> settings) {
   YAML::Node root = document.node();
   for (const Setting& setting : settings) {
     const std::size_t number = source.settings.size();
-    source.settings.push_back(setting.key);
+    source.settings.push_back(setting_place(setting));
     root = Overlay(setting, number, source).over(root);
   }
   return {root, document.path(), std::make_shared<const Source>(std::move(source)), document.line()};
@@ -172,6 +174,18 @@ Setting read_setting(const std::string& text) {
     throw ConfigError(fmt::format(
         "gapscope: --set is {}, expected KEY=VALUE, e.g. --set model.parameters.gap=0.02", shown(text)));
   return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::vector<Setting> model_from(const std::string& file) {
+  using internal::config::parse_tree;
+  const YAML::Node root = parse_tree(internal::config::read_text(file), file);
+  std::vector<Setting> all;
+  for (const char* key : {"model", "anchor"})
+    if (root.IsMap() && root[key].IsDefined())
+      all.push_back({key, YAML::Dump(root[key]), fmt::format("--model-from {}: {}", file, key)});
+  if (all.empty() || all.front().key != "model")
+    throw ConfigError(file, "has no model:, expected a configuration, such as the fitted.yaml of a report");
+  return all;
 }
 
 void telling_settings(std::span<const Setting> settings, const std::function<void()>& work) {

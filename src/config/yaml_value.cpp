@@ -112,7 +112,7 @@ std::string Value::text() const {
 }
 
 std::string Value::place_of(int line) const {
-  return line < 0 ? "--set " + source_->settings[static_cast<std::size_t>(-1 - line)]
+  return line < 0 ? source_->settings[static_cast<std::size_t>(-1 - line)]
                   : fmt::format("line {}", line);
 }
 

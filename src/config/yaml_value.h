@@ -27,7 +27,7 @@ std::string to_string(const Range& range);
 /// What the values of a document come from.
 struct Source {
   std::string file;
-  std::vector<std::string> settings = {};             ///< keys of what was laid over it
+  std::vector<std::string> settings = {};             ///< places of what was laid over it
   std::map<std::string, std::size_t> laid_over = {};  ///< path of a value to the setting that it comes from
 };
 

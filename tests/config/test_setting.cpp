@@ -6,6 +6,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/config/setting.h"
+#include "support/temporary_file.h"
 
 namespace gapscope {
 namespace {
@@ -161,6 +162,25 @@ TEST(Setting, IsToldOfWhereAnErrorShowsLater) {
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), ::testing::StartsWith("--set next_experiment.duration: "));
+  }
+}
+
+/// A diagnosis goes on from what another has found: the model of its fitted.yaml, and all else as it stands.
+TEST(Setting, TakesTheModelOfAnotherConfiguration) {
+  const testing::TemporaryFile other("name: other\n" + kWithEffect.substr(kWithEffect.find("model:")),
+                                     "c.yaml");
+  const auto resolved = [](const std::string& text, const std::vector<Setting>& settings) {
+    return resolved_yaml(parse_configuration(text, "c.yaml", settings));
+  };
+  EXPECT_EQ(resolved(kRecorded, model_from(other.path())), resolved(kWithEffect, {}));
+  const testing::TemporaryFile bad("model: {parameters: {gapp: 1}}", "c.yaml"),
+      none("name: other\n", "c.yaml");
+  EXPECT_THROW(model_from(none.path()), ConfigError);
+  try {
+    resolved(kRecorded, model_from(bad.path()));
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), ::testing::StartsWith("--model-from " + bad.path() + ": model: "));
   }
 }
 
