@@ -22,9 +22,11 @@ namespace {
 using internal::diagnosis::also_refitted;
 using internal::diagnosis::as_sentence;
 using internal::diagnosis::cause_line;
+using internal::diagnosis::exhausted_words;
 using internal::diagnosis::export_words;
 using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
+using internal::diagnosis::input_is_made;
 using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
@@ -112,10 +114,11 @@ std::string torque_size(const CardFacts& f, const Card& card) {
   std::string text = fmt::format("The model misses {} rms of {} on held-out data", torque(card.torque),
                                  f.coordinates.torque_word());
   if (std::isfinite(card.percent))
-    text += fmt::format(", {} the {} rms that the input applies",
+    text += fmt::format(", {} the {} rms that the {} applies",
                         card.torque < 2.0 * m.input_torque ? percent_text(card.percent) + " of"
                                                            : fmt::format("{:.2g} times", 0.01 * card.percent),
-                        SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque));
+                        SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque),
+                        input_is_made(*f.diagnosis) ? "model's controller" : "input");
   return text;
 }
 
@@ -210,20 +213,21 @@ std::string step_of_the_answer(const CardFacts& f) {
   return "";
 }
 
-/// What remains far above the floor once all that was added is in the model; empty: nothing does, or the
-/// budget has no size of something that was added.
+/// What remains once all that was added is in the model, where that is most of it or far above the floor;
+/// empty: it is neither, or the budget has no size of something that was added.
 std::string unexplained(const CardFacts& f, const Card& card) {
   const ErrorBudget& b = f.diagnosis->budget;
   const double floor = b.exists() ? b.floor() : 0.0;
   const std::vector<AddedEffect>& added = f.diagnosis->added;
   const bool sized = std::all_of(added.begin(), added.end(),
                                  [&](const AddedEffect& a) { return a.after_torque < card.torque; });
-  if (!(sized && floor > 0.0 && card.torque_after > kRule.far * floor)) return "";
+  const bool most =
+      card.torque_after > card.torque - card.torque_after && card.torque_after > kRule.floor_ratio * floor;
+  if (!(sized && floor > 0.0 && (most || card.torque_after > kRule.far * floor))) return "";
   return fmt::format(
-      "{} of the input's {} is still unexplained ({:.0f} times the floor): diagnose the other way round, "
-      "with "
-      "what is fitted held out and what is held out fitted, or record another motion; `fitted.yaml` has what "
-      "was found.",
+      "{} of the input's {} is still unexplained ({:.2g} times the least that a model could reach): diagnose "
+      "the other way round, with what is fitted held out and what is held out fitted, or record another "
+      "motion; `fitted.yaml` has what was found.",
       percent_text(card.percent_after), f.coordinates.torque_word(), card.torque_after / floor);
 }
 
@@ -237,6 +241,8 @@ std::string next_line(const CardFacts& f, const Card& card) {
   if (d.stopped) return "Run `gapscope diagnose CONFIG` to its end.";
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   if (unknown && d.better_swapped) return kSwapStep;  // which takes no new recording
+  if (is_added(d) && !exhausted_words(d).empty())
+    return "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml`.";
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
   if (is_added(d) && d.verdict == DiagnosisVerdict::kHelps)
     return "Try `fitted.yaml` on another motion (other speeds, other loads); held out, a recording of that "

@@ -62,17 +62,6 @@ std::vector<std::string> groups(const CardFacts& f) {
   return all;
 }
 
-/// Rivals of what was added with an open cause.
-std::vector<std::string> rivals(const Diagnosis& d) {
-  std::vector<std::string> all;
-  for (const AddedEffect& a : d.added)
-    for (const std::string& rival : a.group)
-      if (!a.established && rival != a.effect && !contains(d.effects, rival) &&
-          !contains(all, readable(rival)))
-        all.push_back(readable(rival));
-  return all;
-}
-
 /// " Established: motor Coulomb friction and friction asymmetry.": causes, with which evidence does not bear
 /// them out, and what they rest on where that is open.
 std::string established_causes(const CardFacts& f) {
@@ -89,17 +78,21 @@ std::string established_causes(const CardFacts& f) {
 }
 
 /// " Not established, though it helps: input delay (it may as well be actuator lag).", of what has an open
-/// cause.
+/// cause, with why it is, told once where that is the same of all.
 std::string open_causes(const CardFacts& f) {
-  const std::vector<std::string> open = names(f, false), others = rivals(*f.diagnosis);
+  std::vector<std::string> open, why;
+  for (const AddedEffect& a : f.diagnosis->added) {
+    if (a.established) continue;
+    open.push_back(called(a, f));
+    why.push_back(why_open(a, *f.diagnosis));
+  }
   if (open.empty()) return "";
-  std::vector<std::string> why;
-  if (!others.empty())
-    why.push_back((open.size() > 1 ? "a part may as well be " : "it may as well be ") +
-                  enumerated(others, "or"));
-  if (std::string words = undetermined_words(*f.diagnosis); !words.empty()) why.push_back(std::move(words));
+  const bool alike = std::ranges::all_of(why, [&](const std::string& w) { return w == why.front(); });
+  const auto aside = [](const std::string& w) { return w.empty() ? "" : " (" + w + ")"; };
+  for (std::size_t i = 0; i < open.size() && !alike; ++i) open[i] += aside(why[i]);
   return fmt::format(" Not established, though {}: {}{}.", open.size() > 1 ? "they help" : "it helps",
-                     enumerated(open), why.empty() ? "" : fmt::format(" ({})", fmt::join(why, "; ")));
+                     enumerated(open),
+                     alike ? (open.size() > 1 ? aside("of each: " + why.front()) : aside(why.front())) : "");
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -134,10 +127,12 @@ std::string share_words(const AddedEffect& a, const CardFacts& f) {
 /// leaves, or is the only one, the fall beside it says that
 std::string with_asides(const AddedEffect& a, const CardFacts& f, bool share) {
   std::vector<std::string> asides;
+  const std::string name = without_asides(called(a, f)), period = period_words(a, f.coordinates);
+  if (!period.empty() && !name.ends_with(period)) asides.push_back(period.substr(1));
   if (const std::string amount = amount_of(a, f.diagnosis->added, f.coordinates); !amount.empty())
     asides.push_back(amount);
   if (const std::string taken = share ? share_words(a, f) : ""; !taken.empty()) asides.push_back(taken);
-  return without_asides(called(a, f)) + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
+  return name + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
 }
 
 /// "17.1 % to 2.2 % of what the input applies": on the basis of the line of the model's error
@@ -190,8 +185,9 @@ std::string shares(const CardFacts& f, const Card& card) {
           ? fmt::format("{} the {} down from {} to {}", others.size() > 1 ? "bring" : "brings",
                         motion_error(*f.diagnosis), error.number(m.before), error(m.after))
           : std::string(others.size() > 1 ? "help" : "helps") + " the simulated motion";
-  return fmt::format("{}{}{} {}; how much {} that takes was not counted", text, text.empty() ? "" : "; ",
-                     enumerated(told_effects(others, f)), whole, f.coordinates.torque_word());
+  return fmt::format("{}{}{} {}; the missing {} with {} was not computed", text, text.empty() ? "" : "; ",
+                     enumerated(told_effects(others, f)), whole, f.coordinates.torque_word(),
+                     others.size() > 1 ? "them" : "it");
 }
 
 /// Whether each effect has the torque that it leaves, and the last one that of the fitted model.
@@ -285,7 +281,8 @@ std::string helps_line(const CardFacts& f, const Card& card) {
   if (!d.added.empty()) parts.back() += motion_words(d.mismatch, f.coordinates);
   for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law, d));
   if (parts.empty() && d.stopped) return "Not told: the search was stopped before its end.";
-  if (parts.empty() && unestablished_rung(d) != nullptr) return "Nothing that these recordings establish.";
+  if (parts.empty() && unestablished_rung(d) != nullptr)
+    return "Nothing that these recordings establish; `fitted.yaml` has no addition.";
   if (parts.empty()) return "Nothing of the catalogue does.";
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : " ") + as_sentence(part);

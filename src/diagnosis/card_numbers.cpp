@@ -37,10 +37,16 @@ const NamedValue* own_number(const AddedEffect& a, const std::vector<AddedEffect
   return most;
 }
 
-/// "ratio 3.12 %, 95 %: 3.05 to 3.19"
-std::string share_text(const NamedValue& n) {
+/// "3.12 % of the torque, 95 %: 3.05 to 3.19"; with its sign where it may have either.
+std::string share_text(const AddedEffect& a, const NamedValue& n) {
   const Interval percent = {100.0 * n.ci95.low, 100.0 * n.ci95.high};
-  return name_of_key(n.key) + " " + SharedUnit(1.0, "%").with_interval(100.0 * n.value, percent);
+  std::string name = name_of_key(n.key) + " ", unit = "%";
+  for (const EffectParameterSpec& p : find_effect(a.effect)->parameters) {
+    if (n.key != p.key || *p.of == '\0') continue;
+    name = p.low < 0.0 && n.value > 0.0 ? "+" : "";
+    unit += std::string(" ") + p.of;
+  }
+  return name + SharedUnit(1.0, unit).with_interval(100.0 * n.value, percent);
 }
 
 std::string without_interval(const AddedEffect& a, const NamedValue& n) {
@@ -49,25 +55,34 @@ std::string without_interval(const AddedEffect& a, const NamedValue& n) {
   return a.established ? "" : ", which the recordings do not determine";
 }
 
-std::string name_of_number(const RefittedNumber& n) {
+std::string name_of_number(const RefittedNumber& n, const Diagnosis& d) {
   const std::size_t dot = n.key.find('.');
+  const bool one_body = d.model_gap && d.model_gap->origin == GapOrigin::kNone;
+  if (n.key == "motor_inertia" && one_body) return "motor inertia (of all that moves)";
   if (n.key == "mass_ratio") return "mass ratio (load over motor)";
   if (dot == n.key.npos) return readable(n.key);
   return readable(n.key.substr(0, dot)) + " " + name_of_key(n.key.substr(dot + 1));
 }
 
-/// The first `most` with what changes, the rest by name: "and contact stiffness".
+/// The first `most` with what changes, the rest by name: "and, by less, contact stiffness".
 std::string in_part(const std::vector<std::string>& names, const std::vector<std::string>& changes,
                     std::size_t most) {
-  std::vector<std::string> all;
-  for (std::size_t i = 0; i < names.size(); ++i) all.push_back(names[i] + (i < most ? " " + changes[i] : ""));
-  return enumerated(all);
+  std::vector<std::string> all, rest;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (i < most)
+      all.push_back(names[i] + " " + changes[i]);
+    else
+      rest.push_back(names[i]);
+  return rest.empty() ? enumerated(all)
+                      : fmt::format("{} and, by less, {}", fmt::join(all, ", "), enumerated(rest));
 }
 
-/// "0.1 → 0.04"; empty where both read alike.
-std::string change_of(const RefittedNumber& n) {
-  const std::string from = fmt::format("{:.3g}", n.configured), to = fmt::format("{:.3g}", n.fitted);
-  return from == to ? "" : from + " → " + to;
+/// "0.1 → 0.0400 N·m s/rad (95 %: 0.0399 to 0.0401)"; empty where both read alike.
+std::string change_of(const RefittedNumber& n, const std::string& unit) {
+  const std::string from = fmt::format("{:.3g}", n.configured);
+  if (from == fmt::format("{:.3g}", n.fitted)) return "";
+  const std::string to = SharedUnit(1.0, unit).with_interval_aside(n.fitted, n.ci95);
+  return from + " → " + (unit.empty() ? replaced(to, "  ", " ") : to);
 }
 
 std::size_t differing_rows(const SimulatorComparison* c) {
@@ -100,7 +115,7 @@ std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all,
   const NamedValue* amount = own_number(a, all);
   if (amount == nullptr || !std::isfinite(amount->value)) return "";
   const std::string unit = coordinates.shown_unit(amount->unit);
-  if (unit.empty()) return share_text(*amount) + without_interval(a, *amount);
+  if (unit.empty()) return share_text(a, *amount) + without_interval(a, *amount);
   const std::string name = name_of_key(amount->key);
   const bool said = name == "level" || readable(a.effect).ends_with(name);  // an "input delay" of 3 ms
   return (said ? "" : name + " ") +
@@ -111,11 +126,10 @@ std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all,
 std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::size_t most) {
   std::vector<std::string> names, changes;
   for (const RefittedNumber& n : d.refitted) {
-    const std::string change = change_of(n);
-    if (change.empty()) continue;
     const bool angle = n.key.ends_with("phase_rad");  // along a slide, too
-    const std::string unit = (angle ? Coordinates() : coordinates).shown_unit(n.unit);
-    names.push_back(name_of_number(n)), changes.push_back(change + (unit.empty() ? "" : " " + unit));
+    const std::string change = change_of(n, (angle ? Coordinates() : coordinates).shown_unit(n.unit));
+    if (change.empty()) continue;
+    names.push_back(name_of_number(n, d)), changes.push_back(change);
   }
   return in_part(names, changes, most);
 }
@@ -146,7 +160,9 @@ std::string also_refitted(const CardFacts& f) {
   constexpr std::size_t kMost = kToldNumbers - 1;
   if (f.diagnosis == nullptr || f.diagnosis->added.empty() || f.diagnosis->stopped) return "";
   const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kMost);
-  return numbers.empty() ? "" : " `fitted.yaml` also changes " + numbers + ".";
+  return numbers.empty()
+             ? ""
+             : " In all figures here your estimated numbers are refitted; `fitted.yaml` has " + numbers + ".";
 }
 
 }  // namespace gapscope::internal::diagnosis

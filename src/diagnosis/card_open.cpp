@@ -7,21 +7,40 @@
 #include "diagnosis/verdict.h"
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "torque_view/options.h"
 
 namespace gapscope::internal::diagnosis {
 
-std::string undetermined_words(const Diagnosis& d) {
-  std::vector<std::string> names;
-  std::size_t open = 0;
-  for (const AddedEffect& a : d.added) {
-    if (a.established) continue;
-    ++open;
-    if (may_be_absent(a, d)) names.push_back(readable(a.effect));
+namespace {
+
+/// What else the torque of an effect may be.
+std::vector<std::string> rivals_of(const AddedEffect& a, const Diagnosis& d) {
+  std::vector<std::string> all;
+  for (const std::string& rival : a.group)
+    if (rival != a.effect && !contains(d.effects, rival)) all.push_back(readable(rival));
+  return all;
+}
+
+/// Where the balance of torque has chosen it: by which of its conditions it is no cause.
+std::string doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
+  const torque_view::TorqueViewOptions conditions;
+  for (const BudgetRung& r : d.budget.rungs) {
+    if (!r.added || r.effect != a.effect) continue;
+    if (r.share < conditions.least_share || r.share_ci95.low < conditions.least_low)
+      return "it takes too little of what was left to be sure";
+    return r.last < conditions.least_share ? "what was added after it says most of the same"
+                                           : "another torque would take nearly as much";
   }
-  if (names.empty()) return "";
-  const std::string what = names.size() < open ? enumerated(names) + " there is"
-                                               : std::string("there is of ") + (open > 1 ? "them" : "it");
-  return "these recordings do not determine how much " + what;
+  return "";
+}
+
+}  // namespace
+
+std::string why_open(const AddedEffect& a, const Diagnosis& d) {
+  if (const std::vector<std::string> rivals = rivals_of(a, d); !rivals.empty())
+    return "it may as well be " + enumerated(rivals, "or");
+  if (may_be_absent(a, d)) return "these recordings do not determine its amount";
+  return doubt_of_balance(a, d);
 }
 
 const BudgetRung* unestablished_rung(const Diagnosis& d) {
@@ -35,35 +54,32 @@ std::string unknown_words(const CardFacts& f) {
   const BudgetRung* rung = unestablished_rung(d);
   if (rung == nullptr) return "unknown: no effect of the catalogue explains it";
   const SharedUnit torque(rung->before, f.coordinates.shown_unit("N m"));
-  return fmt::format("unknown: in the error budget {} brings the missing {} down from {} to {}, but {}",
-                     readable(rung->effect.empty() ? rung->law : rung->effect), f.coordinates.torque_word(),
-                     torque.number(rung->before), torque(rung->after),
-                     d.better_swapped
-                         ? "the recording that was fitted moves too little to establish a cause"
-                         : "no model with it follows the recordings well enough to establish it") +
-         (input_is_made(d) ? std::string("; the ") + f.coordinates.torque_word() +
-                                 " here is what the model's controller makes of the goal: with the recorded "
-                                 "input the same effect may be established"
-                           : "");
+  return fmt::format(
+             "unknown; suspected is {}, with which the error budget brings the missing {} down from {} "
+             "to {}, but {}",
+             readable(rung->effect.empty() ? rung->law : rung->effect), f.coordinates.torque_word(),
+             torque.number(rung->before), torque(rung->after),
+             d.better_swapped ? "the recording that was fitted moves too little to establish a cause"
+                              : "no simulation with it follows the recordings well enough to establish it") +
+         (input_is_made(d)
+              ? std::string(". The ") + f.coordinates.torque_word() +
+                    " here was not recorded but computed from the goal by the model's controller, "
+                    "which hides a part of what is missing"
+              : "");
 }
 
 bool input_is_made(const Diagnosis& d) { return !d.traces.empty() && !d.traces.front().target.empty(); }
 
 std::string step_to_establish(const Diagnosis& d) {
   return input_is_made(d)
-             ? "Record the motor's input as well (duty, current or torque) and diagnose by that: made of the "
-               "goal "
-               "by a controller's numbers, it takes up a part of what the model lacks."
+             ? "Record the motor's input as well (duty, current or torque), and diagnose by that."
              : "Record the drive in another motion (other speeds, other loads) and diagnose that.";
 }
 
 std::string exhausted_words(const Diagnosis& d) {
   const bool at_floor = d.mismatch.remains < kRule.floor_ratio;
   if (!d.exhausted || d.stopped || at_floor || d.verdict == DiagnosisVerdict::kNone) return "";
-  return std::string(" The search ended at its limit of work, so that further causes may have been missed") +
-         (d.added.empty() ? "."
-                          : "; a diagnosis goes on from here with the `model:` of `fitted.yaml` in the place "
-                            "of the configuration's (and its `anchor:`).");
+  return " The search ended at its limit of work, so that further causes may have been missed.";
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -8,9 +8,9 @@
 /// What a card says of causes that are not told.
 namespace gapscope::internal::diagnosis {
 
-/// "these recordings do not determine how much load unbalance there is", of what was added with an open
-/// cause; empty: they do.
-std::string undetermined_words(const Diagnosis& diagnosis);
+/// Why the cause of what was added is open: "it may as well be actuator lag"; empty: no condition of its own
+/// says it.
+std::string why_open(const AddedEffect& added, const Diagnosis& diagnosis);
 
 /// Of the verdict "unknown": "unknown: no effect of the catalogue explains it", or that one takes much of it
 /// in the error budget and is not established.

@@ -79,15 +79,16 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   switch (diagnosis->model_gap->origin) {
     case GapOrigin::kNone:
       if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
-        return "The model is a single body, without a gap; the encoder is on the load, so that none would "
+        return "Backlash is not modelled (a single body); the encoder is on the load, so that none would "
                "show.";
-      return "The model is a single body, without a gap; to check the recording for one: " +
+      return "Backlash is not modelled (a single body); to check the recording for it: " +
              told_without_model(*diagnosis);
     case GapOrigin::kGiven:
-      return "The model takes it as known, " + coordinates.thousandths(diagnosis->model_gap->value) +
+      return "The model takes the gap as known, " + coordinates.thousandths(diagnosis->model_gap->value) +
              "; an estimate: " + told_without_model(*diagnosis);
     case GapOrigin::kEstimated:
-      return "The fitted model does not follow the recordings well enough to tell it; without a model: " +
+      return "The fitted model does not follow the recordings well enough to tell the gap; without a "
+             "model: " +
              told_without_model(*diagnosis);
   }
   return kElsewhere;
@@ -96,7 +97,7 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
 std::string where_words(const Diagnosis& d, Coordinates coordinates) {
   if (d.verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no pattern.";
   const std::string& what = d.where.headline;
-  const bool has_verb = std::ranges::any_of(std::array{"changes", "depends", "arises", "reverses"},
+  const bool has_verb = std::ranges::any_of(std::array{"varies", "depends", "arises", "reverses"},
                                             [&](const char* verb) { return what.starts_with(verb); });
   return fmt::format("The missing {} {}{}.", coordinates.torque_word(),
                      has_verb                  ? ""

@@ -38,8 +38,8 @@ std::string direction_words(const std::vector<MapShare>& direction) {
   const auto dense = std::find_if(direction.begin(), direction.end(), denser_than_chance);
   if (dense == direction.end()) return "reverses with the direction of motion";
   return fmt::format(
-      "depends on the direction of motion ({:.0f} % of its square {}, in {:.0f} % of the time)",
-      100.0 * dense->share, dense->bin, 100.0 * dense->expected);
+      "depends on the direction of motion, larger {} ({:.0f} % of its square in {:.0f} % of the time)",
+      dense->bin, 100.0 * dense->share, 100.0 * dense->expected);
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
@@ -64,7 +64,7 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coord
     case ResidualPattern::kInput:
       return fmt::format("depends on the input level (largest at {})", range_words(largest(p.input).bin));
     case ResidualPattern::kTime:
-      return fmt::format("changes over time (largest at {})", range_words(largest(p.time).bin));
+      return fmt::format("varies over the recording (largest at {})", range_words(largest(p.time).bin));
     case ResidualPattern::kInputSteps:
       return fmt::format("arises where the {} changes (largest at {})", coordinates.torque_word(),
                          range_words(largest(p.frequency).bin));

@@ -25,17 +25,6 @@ struct Turned {
 constexpr Turned kTurned[] = {{"stribeck_friction", "stiction_ratio",
                                "friction that is lower at low speed (Stribeck friction, negative ratio)"}};
 
-/// " at 24 cycles per turn", " every 2.5 mm": tells lines of one law apart.
-std::string period_words(const AddedEffect& added, Coordinates coordinates) {
-  for (const NamedValue& p : added.parameters) {
-    if (p.key != "periods_per_turn" || !(p.value > 0.0)) continue;
-    if (coordinates.rotational()) return fmt::format(" at {:.4g} cycles per turn", p.value);
-    const double period = 2.0 * kPi / p.value;
-    return " every " + SharedUnit(period, coordinates.position_unit())(period);
-  }
-  return "";
-}
-
 /// Where a recording cannot tell an effect from others.
 std::string likeness(std::vector<std::string> group) {
   if (group.size() < 2) return "";
@@ -191,6 +180,16 @@ std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
 }
 
 }  // namespace
+
+std::string period_words(const AddedEffect& added, Coordinates coordinates) {
+  for (const NamedValue& p : added.parameters) {
+    if (p.key != "periods_per_turn" || !(p.value > 0.0)) continue;
+    if (coordinates.rotational()) return fmt::format(" at {:.4g} cycles per turn", p.value);
+    const double period = 2.0 * kPi / p.value;
+    return " every " + SharedUnit(period, coordinates.position_unit())(period);
+  }
+  return "";
+}
 
 std::string motion_error(const Diagnosis& d) {
   return d.mismatch.measure.starts_with("prediction") ? "prediction error" : "free-run error";

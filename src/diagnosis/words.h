@@ -20,6 +20,9 @@ std::string motion_error(const Diagnosis& diagnosis);
 /// The answer in a sentence or two.
 std::string sentence_of(const Diagnosis& diagnosis, Coordinates coordinates);
 
+/// " at 24 cycles per turn", " every 2.5 mm": tells lines of one law apart. Empty for what has no period.
+std::string period_words(const AddedEffect& added, Coordinates coordinates);
+
 /// Whether the first cause is open and a later one established: that one holds with the first in the model.
 bool rests_on_open_cause(const Diagnosis& diagnosis);
 

@@ -29,7 +29,7 @@ TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
   d.model_gap = ModelGap();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, HasSubstr("single body"));
   d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The model takes it as known, 20 mm"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The model takes the gap as known, 20 mm"));
   d.model_gap = ModelGap{GapOrigin::kEstimated, 0.02, {0.018, 0.022}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The fitted model does not follow"));
 }
@@ -95,14 +95,17 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
 TEST(Card, TellsWhatIsStillUnexplained) {
   Diagnosis d = slide_diagnosis();
   d.budget.nominal = 10.0, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).next,
-      HasSubstr(
-          " of the input's force is still unexplained (20 times the floor): diagnose the other way round"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).next,
+              HasSubstr(" of the input's force is still unexplained (20 times the least that a model could "
+                        "reach): diagnose"));
   d.added.back().after_torque = kNaN;  // the budget has no size of it: it may take all of that
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `fitted.yaml`"));
   d.added.back().after_torque = 2.0, d.budget.encoder = 0.3;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `fitted.yaml`"));
+  d.added.back().after_torque = 6.0, d.mismatch.after_torque = 6.0, d.budget.encoder = 1.5;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).next,
+              HasSubstr(" of the input's force is still unexplained (4 times"))
+      << "most of it";
 }
 
 TEST(Card, TellsTheFloorInTheUnitOfTheSize) {

@@ -34,14 +34,15 @@ TEST(Card, TellsAnAmountWithoutAUnitAsAShareAndALawByWhatItAddsToASimplerOne) {
   Diagnosis d = slide_diagnosis();
   d.added[0].parameters = {{"level_nm", "N m", 20.54}};
   d.added[1].effect = "torque_ripple", d.added[1].parameters = {{"ratio", "-", 0.0312, {0.0305, 0.0319}}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("(20.5 N), then to 2 N with torque ripple (ratio 3.120 %, 95 %: 3.050 to 3.190) ("));
-  d.added[1].effect = "load_dependent_friction";
-  d.added[1].parameters = {{"level_nm", "N m", 20.54}, {"ratio", "-", 0.1, {0.09, 0.11}}};
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).helps,
-      HasSubstr("with motor Coulomb friction, then to 2 N with load-dependent friction (ratio 10.0 %, "
-                "95 %: 9.0 to 11.0) ("));
+      HasSubstr("(20.5 N), then to 2 N with torque ripple (3.120 % of the torque, 95 %: 3.050 to 3.190) ("));
+  d.added[1].effect = "load_dependent_friction";
+  d.added[1].parameters = {{"level_nm", "N m", 20.54}, {"ratio", "-", 0.1, {0.09, 0.11}}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              HasSubstr("with motor Coulomb friction, then to 2 N with load-dependent friction (10.0 % of "
+                        "the load's torque, "
+                        "95 %: 9.0 to 11.0) ("));
 }
 
 TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
@@ -52,7 +53,8 @@ TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
                            {"viscous_ratio", "-", -0.2, {-0.22, -0.18}}};
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).helps,
-      HasSubstr("then to 2 N with friction asymmetry (viscous ratio -20.0 %, 95 %: -22.0 to -18.0) ("));
+      HasSubstr(
+          "then to 2 N with friction asymmetry (-20.0 % of the damping, forward, 95 %: -22.0 to -18.0) ("));
 }
 
 TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
@@ -60,10 +62,10 @@ TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
   d.added.erase(d.added.begin());
   d.added.front().established = true;
   d.added.front().parameters = {{"amplitude_nm", "N m", 2.054}, {"periods_per_turn", "1/rev", 2513.3}};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      StartsWith("Cogging torque (amplitude 2.05 N) brings the missing force down from 10 to 2 N (20.0 % to "
-                 "4.0 % of what the input applies)"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              StartsWith("Cogging torque (every 2.5 mm; amplitude 2.05 N) brings the missing force down from "
+                         "10 to 2 N (20.0 % to "
+                         "4.0 % of what the input applies)"));
   d.added.front().parameters.clear();
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
               StartsWith("Cogging torque brings the missing force down from 10 to 2 N"));
@@ -88,8 +90,8 @@ TEST(Card, TellsTheTorqueOfTheModelThatFittedYamlHas) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
               StartsWith("Motor Coulomb friction (cuts the free-run error by 60 %) brings the missing force "
                          "down from 10 to 3 N (20.0 % to 6.0 % of what the input applies); cogging "
-                         "torque (cuts the free-run error by 50 %) helps the simulated motion; how much "
-                         "force that takes was not counted; `fitted.yaml` has them"));
+                         "torque (cuts the free-run error by 50 %) helps the simulated motion; the missing "
+                         "force with it was not computed; `fitted.yaml` has them"));
 }
 
 TEST(Card, TellsAnAmountWithItsInterval) {

@@ -64,15 +64,14 @@ TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
   d.added[0].parameters = {{"level_nm", "N m", 274.0}};
   d.added[0].at_bound = {"level_nm"};
   d.added[1].parameters = {{"delay_s", "s", 0.003, {0.002, 0.004}}};
-  EXPECT_EQ(
-      card_of(d).cause,
-      "Not established, though they help: motor Coulomb friction and input delay (a part may as well be "
-      "quadratic drag; these recordings do not determine how much motor Coulomb friction there is).");
+  EXPECT_EQ(card_of(d).cause,
+            "Not established, though they help: motor Coulomb friction (it may as well be quadratic "
+            "drag) and input delay.");
   EXPECT_THAT(card_of(d).helps, HasSubstr("motor Coulomb friction (274 N·m, at the bound of its search)"));
   d.added[0].group.pop_back(), d.added[0].at_bound.clear(), d.added.pop_back();
   EXPECT_EQ(card_of(d).cause,
-            "Not established, though it helps: motor Coulomb friction (these recordings do not determine how "
-            "much there is of it).");
+            "Not established, though it helps: motor Coulomb friction (these recordings do not determine its "
+            "amount).");
   EXPECT_THAT(card_of(d).helps, HasSubstr("friction (274 N·m, which the recordings do not determine)"));
 }
 
@@ -81,9 +80,9 @@ Diagnosis of_other_numbers() {
   Diagnosis d;
   d.verdict = DiagnosisVerdict::kNone;
   d.mismatch.before = 1e-4, d.mismatch.after = 1e-4, d.mismatch.floor = 1.2e-4;
-  d.refitted = {{"motor_damping", "N m s/rad", 0.1, 0.04, {0.0399, 0.0401}},
-                {"motor_inertia", "kg m^2", 0.00532, 0.00781, {0.0078, 0.00782}},
-                {"load_unbalance.amplitude_nm", "N m", 0.353, 0.377, {0.376, 0.378}},
+  d.refitted = {{"motor_damping", "N m s/rad", 0.1, 0.04, {0.0397, 0.0403}},
+                {"motor_inertia", "kg m^2", 0.00532, 0.00781, {0.00779, 0.00783}},
+                {"load_unbalance.amplitude_nm", "N m", 0.353, 0.377, {0.3758, 0.3782}},
                 {"load_unbalance.phase_rad", "rad", 0.5236, 0.5237, {0.52365, 0.52375}}};
   return d;
 }
@@ -96,13 +95,15 @@ TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTh
             "configuration starts at.");
   EXPECT_EQ(
       card.helps,
-      "Nothing has to be added; other numbers than the configuration starts at: motor damping 0.1 → 0.04 "
-      "N·m s/rad, motor inertia 0.00532 → 0.00781 kg m² and load unbalance amplitude 0.353 → 0.377 N·m; "
-      "`fitted.yaml` has them and is as good as the recording.")
+      "Nothing has to be added; other numbers than the configuration starts at: motor damping 0.1 → "
+      "0.04000 N·m s/rad (95 %: 0.03970 to 0.04030), motor inertia 0.00532 → 0.007810 kg m² (95 %: 0.007790 "
+      "to 0.007830) and load unbalance amplitude 0.353 → 0.3770 N·m (95 %: 0.3758 to 0.3782); `fitted.yaml` "
+      "has "
+      "them and is as good as the recording.")
       << "the phase reads the same";
   EXPECT_THAT(card.next, HasSubstr("Simulate with the numbers of `fitted.yaml`"));
   d.refitted.insert(d.refitted.begin(), {"gap", "rad", 0.02, 0.03, {0.029, 0.031}});
-  EXPECT_THAT(card_of(d).helps, HasSubstr("0.00781 kg m² and load unbalance amplitude; `fitted.yaml`"));
+  EXPECT_THAT(card_of(d).helps, HasSubstr("0.007830) and, by less, load unbalance amplitude; `fitted.yaml`"));
   d.refitted = {of_other_numbers().refitted.back()};
   EXPECT_EQ(card_of(d).helps, "Nothing has to: the model is as good as the recording.");
   EXPECT_EQ(card_of(d).next, "None.");
@@ -111,13 +112,17 @@ TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTh
 TEST(CardCause, OfAnotherVerdictTellsTheNumbersBrieflyBehindTheNextStep) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.refitted = of_other_numbers().refitted;
-  EXPECT_THAT(card_of(d).next, HasSubstr(" `fitted.yaml` also changes motor damping 0.1 → 0.04 N·m s/rad, "
-                                         "motor inertia 0.00532 → 0.00781 kg m² and load unbalance "
-                                         "amplitude."));
+  EXPECT_THAT(
+      card_of(d).next,
+      HasSubstr(" In all figures here your estimated numbers are refitted; `fitted.yaml` has motor "
+                "damping 0.1 → 0.04000 N·m s/rad (95 %: 0.03970 to 0.04030), motor inertia 0.00532 → "
+                "0.007810 kg m² (95 %: 0.007790 to 0.007830) and, by less, load unbalance amplitude."));
+  d.model_gap = ModelGap();
+  EXPECT_THAT(card_of(d).next, HasSubstr(", motor inertia (of all that moves) 0.00532 → "));
   d.refitted = {{"mass_ratio", "-", 1.2, 1.0, {0.99, 1.01}}};
-  EXPECT_THAT(card_of(d).next, HasSubstr("`fitted.yaml` also changes mass ratio (load over motor) 1.2 → 1."));
+  EXPECT_THAT(card_of(d).next, HasSubstr("`fitted.yaml` has mass ratio (load over motor) 1.2 → 1.000 (95 %"));
   d.refitted.clear();
-  EXPECT_THAT(card_of(d).next, Not(HasSubstr("also changes")));
+  EXPECT_THAT(card_of(d).next, Not(HasSubstr("refitted")));
 }
 
 TEST(CardCause, WhereOnlyTheSimulatorDiffersHelpsAndNextAgreeWithItsLine) {
@@ -145,16 +150,30 @@ TEST(CardCause, WhereOnlyTheSimulatorDiffersHelpsAndNextAgreeWithItsLine) {
   EXPECT_EQ(gapscope::card_of(f).next, "None.");
 }
 
+/// Of what the balance of torque has chosen: by which of its conditions the cause is open.
+TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
+  Diagnosis d = of_friction_and_delay(true, false);
+  d.added[0].group = {"motor_coulomb_friction"},
+  d.added[1].parameters = {{"delay_s", "s", 0.003, {2e-3, 4e-3}}};
+  d.budget.rungs = {{"input_delay", "input_delay", true, 0.04, 0.037, 0.14, {0.11, 0.2}, 0.2, 0.3}};
+  BudgetRung& rung = d.budget.rungs.front();
+  const auto cause = [&] { return card_of(d).cause; };
+  EXPECT_THAT(cause(), HasSubstr("helps: input delay (it takes too little of what was left to be sure)."));
+  rung.share = 0.4, rung.share_ci95 = {0.3, 0.5};
+  EXPECT_THAT(cause(), HasSubstr("input delay (another torque would take nearly as much)."));
+  rung.last = 0.1;
+  EXPECT_THAT(cause(), HasSubstr("input delay (what was added after it says most of the same)."));
+}
+
 TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.mismatch.remains = 10.0;
   EXPECT_THAT(card_of(d).cause, Not(HasSubstr("limit of work")));
   d.exhausted = true;
-  EXPECT_THAT(
-      card_of(d).cause,
-      HasSubstr(" The search ended at its limit of work, so that further causes may have been missed; a "
-                "diagnosis goes on from here with the `model:` of `fitted.yaml` in the place of the "
-                "configuration's (and its `anchor:`)."));
+  EXPECT_THAT(card_of(d).cause, HasSubstr(" The search ended at its limit of work, so that further causes "
+                                          "may have been missed."));
+  EXPECT_EQ(card_of(d).next,
+            "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml`.");
   d.mismatch.remains = 1.1;
   EXPECT_THAT(card_of(d).cause, Not(HasSubstr("limit of work"))) << "nothing is left to be found";
 }
@@ -172,17 +191,17 @@ Diagnosis unknown_beside_a_budget() {
 TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   Diagnosis d = unknown_beside_a_budget();
   EXPECT_EQ(card_of(d).cause,
-            "Unknown: in the error budget load unbalance brings the missing torque down from 12.6 to 2.43 "
-            "N·m, but no model "
-            "with it follows the recordings well enough to establish it.");
-  EXPECT_EQ(card_of(d).helps, "Nothing that these recordings establish.");
+            "Unknown; suspected is load unbalance, with which the error budget brings the missing torque "
+            "down from 12.6 to 2.43 N·m, but no simulation with it follows the recordings well enough to "
+            "establish it.");
+  EXPECT_EQ(card_of(d).helps, "Nothing that these recordings establish; `fitted.yaml` has no addition.");
   EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"))
       << "swapped they would send back: what is fitted asks as much";
   d.better_swapped = true;
-  EXPECT_EQ(card_of(d).cause,
-            "Unknown: in the error budget load unbalance brings the missing torque down from 12.6 to 2.43 "
-            "N·m, but the "
-            "recording that was fitted moves too little to establish a cause.");
+  EXPECT_EQ(
+      card_of(d).cause,
+      "Unknown; suspected is load unbalance, with which the error budget brings the missing torque "
+      "down from 12.6 to 2.43 N·m, but the recording that was fitted moves too little to establish a cause.");
   d.next_experiment.sentence = "Record a sine.";
   EXPECT_THAT(card_of(d).next, HasSubstr("Swap the recordings")) << "takes no new one";
   d.next_experiment = {};
@@ -200,8 +219,8 @@ TEST(CardCause, OfAnInputThatTheControllerMakesSaysWhatWouldEstablishIt) {
   d.traces.front().target = {0.0, 0.1};
   EXPECT_THAT(
       card_of(d).cause,
-      HasSubstr("to establish it; the torque here is what the model's controller makes of the goal: with the "
-                "recorded input the same effect may be established."));
+      HasSubstr("to establish it. The torque here was not recorded but computed from the goal by the model's "
+                "controller, which hides a part of what is missing."));
   EXPECT_THAT(card_of(d).next,
               ::testing::StartsWith("Record the motor's input as well (duty, current or torque)"));
 }
@@ -271,9 +290,8 @@ TEST(CardGap, OfASingleBodyWithItsEncoderOnTheLoadDoesNotShow) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.model_gap = ModelGap();
   d.model_gap->encoder = EncoderSide::kLoad;  // of one body its traces are of the motor, too
-  EXPECT_EQ(
-      card_of(d).gap,
-      "The model is a single body, without a gap; the encoder is on the load, so that none would show.");
+  EXPECT_EQ(card_of(d).gap,
+            "Backlash is not modelled (a single body); the encoder is on the load, so that none would show.");
 }
 
 }  // namespace

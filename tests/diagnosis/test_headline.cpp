@@ -26,10 +26,10 @@ TEST(Headline, SaysInWhichDirectionTheErrorIsOrThatItIsInBoth) {
   place.mode = {{"gap", 0.0, 0.0}, {"engagement", 1.0, 1.0}, {"impact", 0.0, 0.0}};
   place.follows = {ResidualPattern::kDirection};
   place.direction = {{"backward", 0.5, 0.5}, {"forward", 0.5, 0.5}};
-  EXPECT_EQ(headline_of(place, {}), "depends on the direction of motion (equal size both ways)");
+  EXPECT_EQ(headline_of(place, {}), "reverses with the direction of motion");
   place.direction = {{"backward", 0.9, 0.5}, {"forward", 0.1, 0.5}};
   EXPECT_EQ(headline_of(place, {}),
-            "depends on the direction of motion (90 % of its square backward, in 50 % of the time)");
+            "depends on the direction of motion, larger backward (90 % of its square in 50 % of the time)");
 }
 
 TEST(Headline, SaysNothingOfADirectionWithoutTheOther) {
@@ -48,7 +48,7 @@ TEST(Headline, SaysNothingOfADirectionWithoutTheOther) {
             "no place that these recordings tell; hardly any backward motion was recorded");
   place.direction = {{"backward", 0.26, 0.06}, {"forward", 0.74, 0.94}};
   EXPECT_EQ(headline_of(place, {}),
-            "depends on the direction of motion (26 % of its square backward, in 6 % of the time)");
+            "depends on the direction of motion, larger backward (26 % of its square in 6 % of the time)");
 }
 
 TEST(Headline, CallsOneCycleOncePerTurn) {

@@ -14,7 +14,7 @@ struct ContactHardening {
       "where it is small, at most 1 + r as stiff as the nominal one";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
-      {"ratio", "-", 0.0, 0.0, 30.0, Scale::kOne},
+      {"ratio", "-", 0.0, 0.0, 30.0, Scale::kOne, false, "of the contact's stiffness"},
       {"length_rad", "rad", 1.0, 0.03, 5.0, Scale::kPenetration}};
   static constexpr std::array<const char*, 1> look_alikes = {"shaft_compliance"};
   static constexpr ResidualPattern follows = ResidualPattern::kMode;

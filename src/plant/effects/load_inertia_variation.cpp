@@ -12,7 +12,7 @@ struct LoadInertiaVariation {
   static constexpr const char* law = "m2 (1 + ratio S((t - time)/duration)), S a smooth step from 0 to 1";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
-      {"ratio", "-", 0.0, -0.95, 10.0, Scale::kOne},
+      {"ratio", "-", 0.0, -0.95, 10.0, Scale::kOne, false, "of the load's inertia"},
       {"time_s", "s", 0.5, 0.0, 1.0, Scale::kRecord},
       {"duration_s", "s", 0.1, 0.0, 1.0, Scale::kRecord}};
   static constexpr std::array<const char*, 1> look_alikes = {"viscous_drift"};

@@ -14,7 +14,7 @@ struct LoadResonance {
       "load torque m3 (w0^2 (x3 - x2) + 2 D w0 (w3 - w2)), which moves m3 = ratio m2 back; w0 = 2 pi f";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
-      {"inertia_ratio", "-", 0.0, 0.0, 5.0, Scale::kOne},
+      {"inertia_ratio", "-", 0.0, 0.0, 5.0, Scale::kOne, false, "of the load's inertia"},
       {"frequency_hz", "Hz", 30.0, 1.0, 5000.0, Scale::kPerRecord},
       {"damping_ratio", "-", 0.05, 0.0, 1.0, Scale::kOne}};
   static constexpr std::array<const char*, 2> look_alikes = {"shaft_compliance", "input_delay"};

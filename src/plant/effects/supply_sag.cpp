@@ -14,7 +14,7 @@ struct SupplySag {
       "Km u (1 - r P/(P + P0)), P = Km u w1 the power drawn, none while the motor brakes";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
-      {"ratio", "-", 0.0, 0.0, 1.0, Scale::kOne},
+      {"ratio", "-", 0.0, 0.0, 1.0, Scale::kOne, false, "of the supply"},
       {"power_w", "W", 1.0, 0.05, 5.0, Scale::kPeakPower}};
   static constexpr std::array<const char*, 2> look_alikes = {"torque_saturation", "quadratic_drag"};
   static constexpr ResidualPattern follows = ResidualPattern::kInput;

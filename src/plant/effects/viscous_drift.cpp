@@ -12,7 +12,7 @@ struct ViscousDrift {
   static constexpr const char* law = "d1 (1 + ratio (1 - exp(-t/tau)))";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
-      {"ratio", "-", 0.0, -0.98, 5.0, Scale::kOne},
+      {"ratio", "-", 0.0, -0.98, 5.0, Scale::kOne, false, "of the damping"},
       {"time_constant_s", "s", 0.3, 0.01, 10.0, Scale::kRecord}};
   static constexpr std::array<const char*, 1> look_alikes = {"load_inertia_variation"};
   static constexpr ResidualPattern follows = ResidualPattern::kTime;
