@@ -142,16 +142,22 @@ std::string percents(const Card& card) {
   return percent(card.percent) + " to " + percent(card.percent_after) + " of what the input applies";
 }
 
+/// "from 371 to 0.427 µm (free run restarted every 0.5 s, median of windows)"
+std::string fall_of_motion(const CardFacts& f) {
+  const MismatchSize& m = f.diagnosis->mismatch;
+  const SharedUnit error(m.before, f.coordinates.position_unit());
+  return fmt::format("from {} to {}{}", error.number(m.before), error(m.after),
+                     m.measure.empty() ? "" : " (" + m.measure + ")");
+}
+
 /// "from 9.66 to 1.22 N (17.1 % to 2.16 % of what the input applies)"
 std::string fall(const CardFacts& f, const Card& card) {
-  const MismatchSize& m = f.diagnosis->mismatch;
   if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
     const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
     return fmt::format("from {} to {} ({})", torque.number(card.torque), torque(card.torque_after),
                        percents(card));
   }
-  const SharedUnit error(m.before, f.coordinates.position_unit());
-  return fmt::format("from {} to {}", error.number(m.before), error(m.after));
+  return fall_of_motion(f);
 }
 
 /// Whether the torque that is told has an effect in it.
@@ -179,12 +185,10 @@ std::string shares(const CardFacts& f, const Card& card) {
                        fall(f, card));
   if (others.empty()) return text;
   const MismatchSize& m = f.diagnosis->mismatch;
-  const SharedUnit error(m.before, f.coordinates.position_unit());
-  const std::string whole =
-      counted.empty() && std::isfinite(m.before) && m.after < m.before
-          ? fmt::format("{} the {} down from {} to {}", others.size() > 1 ? "bring" : "brings",
-                        motion_error(*f.diagnosis), error.number(m.before), error(m.after))
-          : std::string(others.size() > 1 ? "help" : "helps") + " the simulated motion";
+  const std::string whole = counted.empty() && std::isfinite(m.before) && m.after < m.before
+                                ? fmt::format("{} the {} down {}", others.size() > 1 ? "bring" : "brings",
+                                              motion_error(*f.diagnosis), fall_of_motion(f))
+                                : std::string(others.size() > 1 ? "help" : "helps") + " the simulated motion";
   return fmt::format("{}{}{} {}; the missing {} with {} was not computed", text, text.empty() ? "" : "; ",
                      enumerated(told_effects(others, f)), whole, f.coordinates.torque_word(),
                      others.size() > 1 ? "them" : "it");

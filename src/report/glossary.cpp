@@ -85,12 +85,14 @@ constexpr Word kWords[] = {
     {"holds there", "holds there", "improves more held-out windows than chance would let, at 1 %"},
     {"biased by", "bias", "what the nominal model reads too high or too low to make up for what it lacks"},
     {"in engagement", "in engagement", "the contact is closed on either side: motor and load move as one"},
-    {"(established", "established",
+    {"stablished", "established",
      "of a cause: no other effect, and no free curve over another quantity, explains these recordings nearly "
      "as well; its amount is more than none, and the simulated motion comes nearer. *Established with* "
      "another: "
      "as long as that one, whose own cause is open, is in the model"},
-    {"(cause open)", "cause open", "it takes its share of the error, but another cause may do so as well"},
+    {"(cause open)", "cause open",
+     "not established: it takes its share of the error, but another cause may do so as well; the interval of "
+     "its amount holds if it is there"},
     {" σ |", "σ", "rms of the encoder's noise"},
     {"if spread evenly", "if spread evenly",
      "the share that an error alike at all times would have: that of the time spent there"}};

@@ -53,7 +53,7 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   make_recordings(place);
   const auto run = place.run("run right.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap is 18.999"));
+  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, motor side) is 18.999"));
   EXPECT_THAT(run.out, HasSubstr(" Trust: good.\nmodel error The fitted model follows 99.9"));
   const auto result = result_of(place, "reports/right");
   EXPECT_EQ(result["reference"]["trust"], "good");
