@@ -31,9 +31,8 @@ ModelEffect gravity_of(const AnchorConfig& anchor) {
 
 /// An inertia of which the mass is a part.
 void at_least(double mass, ParameterSetting& inertia) {
-  if (std::isnan(inertia.value) && !inertia.estimate) inertia = ParameterSetting::sought(kBeginsAt * mass);
+  if (std::isnan(inertia.value)) inertia.value = kBeginsAt * mass, inertia.estimate = inertia.begun = true;
   if (!inertia.estimate) return;
-  if (std::isnan(inertia.value)) inertia.value = kBeginsAt * mass;
   if (std::isnan(inertia.low)) inertia.low = mass, inertia.high = kMostTimes * mass;
 }
 
@@ -85,8 +84,8 @@ ParameterSetting about_zero() {
 void require_without(const Configuration& c, const Value& place, const char* effect) {
   for (const EffectConfig& e : c.model.effects)
     if (std::string(e.effect.entry->name) == effect)
-      place.fail(fmt::format("stands beside the effect {} of the model (line {}), expected one of both",
-                             effect, e.line));
+      place.fail(fmt::format("stands beside the effect {} of the model ({}), expected one of both", effect,
+                             place.place_of(e.line)));
 }
 
 void read_mass(const Section& section, const Value& mass, Configuration& c, AnchorConfig& anchor) {

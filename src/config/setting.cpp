@@ -62,7 +62,7 @@ class Overlay {
         number_(number),
         source_(source),
         keys_(keys_of(setting)),
-        value_(node_of(setting)) {}
+        value_(setting.removed ? YAML::Node() : node_of(setting)) {}
 
   YAML::Node over(const YAML::Node& root) { return laid(root, 0, ""); }
 
@@ -85,9 +85,10 @@ class Overlay {
     for (const auto& entry : node) {
       const bool is_it = !found && entry.first.IsScalar() && entry.first.Scalar() == key;
       found = found || is_it;
+      if (is_it && setting_.removed && depth + 1 == keys_.size()) continue;
       out.force_insert(entry.first, is_it ? laid(entry.second, depth + 1, below) : entry.second);
     }
-    if (!found) {
+    if (!found && !setting_.removed) {
       source_.laid_over[below] = number_;
       const auto kind = key == "effects" ? YAML::NodeType::Sequence : YAML::NodeType::Null;
       out.force_insert(key, laid(YAML::Node(kind), depth + 1, below));
@@ -181,9 +182,10 @@ std::vector<Setting> model_from(const std::string& file) {
   const YAML::Node root = parse_tree(internal::config::read_text(file), file);
   std::vector<Setting> all;
   for (const char* key : {"model", "anchor"})
-    if (root.IsMap() && root[key].IsDefined())
-      all.push_back({key, YAML::Dump(root[key]), fmt::format("--model-from {}: {}", file, key)});
-  if (all.empty() || all.front().key != "model")
+    all.push_back({key, "", fmt::format("--model-from {}: {}", file, key), true});
+  for (Setting& s : all)
+    if (root.IsMap() && root[s.key].IsDefined()) s.yaml = YAML::Dump(root[s.key]), s.removed = false;
+  if (all.front().removed)
     throw ConfigError(file, "has no model:, expected a configuration, such as the fitted.yaml of a report");
   return all;
 }

@@ -224,6 +224,15 @@ std::string head(bool guesses, Coordinates coordinates) {
   return out.text();
 }
 
+/// Of notes that are worth a warning, of what is fitted and what is held out alike.
+void warn_of_notes(const RecordingConfig& config, const RecordedFile& file, Coordinates coordinates,
+                   Starter& starter) {
+  for (const Finding& f :
+       inspect(file.path, config.reading_of(file, UnevenRows::kStamped), coordinates).findings)
+    if (f.warned)
+      starter.spoiling.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
+}
+
 }  // namespace
 
 Starter starter_configuration(RecordingConfig config, const EncoderConfig& encoder, Coordinates coordinates,
@@ -245,6 +254,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   starter.model = choice.why;
   if (!config.held_out.empty())
     starter.order = order_told(order_of(config, coordinates), recording, config.held_out.front().path);
+  for (const auto* files : {&config.files, &config.held_out})
+    for (const RecordedFile& file : *files) warn_of_notes(config, file, coordinates, starter);
   YamlWriter out(coordinates);
   for (const Finding& f : seen.findings) {
     const bool settled = f.rule == kTimeRule && irregular;

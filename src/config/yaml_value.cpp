@@ -112,8 +112,7 @@ std::string Value::text() const {
 }
 
 std::string Value::place_of(int line) const {
-  return line < 0 ? source_->settings[static_cast<std::size_t>(-1 - line)]
-                  : fmt::format("line {}", line);
+  return line < 0 ? source_->settings[static_cast<std::size_t>(-1 - line)] : fmt::format("line {}", line);
 }
 
 /// A value within this one: of the setting that laid it over the file, else of that of this one, else of the

@@ -42,6 +42,7 @@ class Value {
 
   int line() const { return line_; }                     ///< in the file, or line_of_setting()
   std::string place() const { return place_of(line_); }  ///< "line 7", "--set model.load"
+  std::string place_of(int line) const;                  ///< the same of another line of this document
   const std::string& path() const { return path_; }      ///< "model.parameters.gap"
   const std::string& file() const { return source_->file; }
 
@@ -72,7 +73,6 @@ class Value {
   std::string kind() const;
   const std::string& plain(const std::string& expected) const;
   Value below(const YAML::Node& node, const std::string& path, const YAML::Node& marked) const;
-  std::string place_of(int line) const;
 
   YAML::Node node_;
   std::string path_;

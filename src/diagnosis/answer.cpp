@@ -160,10 +160,10 @@ Answer play(const Findings& f) {
 /// Why the reference tells no gap.
 std::string no_number(const FitSummary& fit) {
   const FittedParameter* gap = fit.find("gap");
-  if (fit.rejected()) return "The fitted model is rejected: " + fit.why.text();
-  if (gap == nullptr) return "The model has no gap. " + fit.why.text();
-  if (!gap->estimated) return "The model took the gap as known. " + fit.why.text();
-  return fit.why.text();
+  const std::string why = (fit.rejected() ? "The fitted model is rejected: " : "") + fit.why.text();
+  if (gap == nullptr) return "Backlash is not modelled (a single body). " + why;
+  if (fit.rejected()) return why;
+  return gap->estimated ? why : "The model took the gap as known. " + why;
 }
 
 Answer by_model_alone(const Findings& f) {
@@ -179,7 +179,7 @@ Answer by_model_alone(const Findings& f) {
   else if (f.model_free != nullptr)
     a.sentence = "The gap is not known: without a model the recording is inconclusive (" +
                  clause(f.model_free->reason) + ").";
-  else if (f.reference != nullptr && f.reference->rejected())
+  else if (f.reference != nullptr && f.reference->rejected() && f.reference->find("gap") != nullptr)
     a.sentence = "The gap is not known.";
   if (f.reference != nullptr) a.sentence += (a.sentence.empty() ? "" : " ") + no_number(*f.reference);
   if (a.sentence.empty()) a.sentence = "Nothing was estimated.";
@@ -228,7 +228,7 @@ std::string step_without_model(const GapEstimate& g) {
   if (open && g.reason.code() == "locked_with_bound")
     return "Set detector: bound to auto: it reads the lost-motion loop, a given bound reads impacts alone.";
   if (g.reason.code() == "encoder_on_load")
-    return "For a reading without a model, record the motor's position as well.";
+    return "For a gap by a model alone: `gapscope init` with --model gap, then `gapscope fit`.";
   const auto says = [&](const char* code) { return g.reason.codes().find(code) != std::string::npos; };
   if (open && (says("bounds_to_try") || says("bound_to_try")))
     return "Set detector: bound as the reason says, or to auto, which reads with a bank of bounds.";

@@ -258,7 +258,8 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   if (!left.empty()) added = {};
   Diagnosis diagnosis = verdict_on(study, found, added, ladder, left.empty());
   open_undetermined(options.coordinates, diagnosis);
-  if (!left.empty()) diagnosis.warnings.push_back("no effect is named: with it, too, " + left + ".");
+  if (!left.empty())
+    diagnosis.warnings.push_back("no effect is named: with effects added, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);
   if (finish_requested()) tell_stopped(study, added, !ladder.added.empty(), diagnosis);

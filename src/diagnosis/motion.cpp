@@ -49,7 +49,8 @@ double unexplained_motion(const HeldOut& held_out, const ScoredModel& model) {
 std::string motion_left(const HeldOut& held_out, const ScoredModel& model) {
   const double left = unexplained_motion(held_out, model);
   if (!(left > kTelling.most_left)) return "";
-  return fmt::format("the best model leaves {:.0f} % of the motion unexplained", 100.0 * left);
+  return fmt::format("the simulated motion of the best model is off by {:.0f} % of the motion itself",
+                     100.0 * left);
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -155,11 +155,12 @@ std::string proposal_of(const TriedInput& best, double duration) {
 std::string refusal_of(const std::vector<TriedInput>& tried, const std::vector<Rival>& rivals) {
   std::string names;
   for (const Rival& r : rivals) names += (names.empty() ? "" : " from ") + r.effect;
-  return readable(
-      fmt::format("None of the {} inputs that were tried within the limits would separate {} by one σ of the "
-                  "encoder; the best, {}, {}. Wider limits (`next_experiment:`), another load or a finer "
-                  "encoder may.",
-                  tried.size(), names, describe(tried.front().excitation), separations_of(tried.front())));
+  return readable(fmt::format("No input within the limits would tell {} by one σ of the encoder ({} were "
+                              "tried; the best, {}, {}).",
+                              names, tried.size(), describe(tried.front().excitation),
+                              separations_of(tried.front()))) +
+         " Widen the limits where the drive may move farther (`next_experiment:` of the configuration), or "
+         "take another load or a finer encoder.";
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ std::optional<RefittedNumber> as_configured(const ReferenceModel& sheet, const R
   if (id.effect == reference::ParameterId::kDrive)
     return RefittedNumber{kDriveParameters[id.index].key,
                           kDriveParameters[id.index].unit,
-                          sheet.parameters[index].value,
+                          sheet.parameters[index].begun ? kNaN : sheet.parameters[index].value,
                           model.parameters[index].value,
                           {}};
   const auto effect = static_cast<std::size_t>(std::max(0, id.effect));

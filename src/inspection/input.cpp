@@ -223,7 +223,8 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
                                 m.rows.t[off.to - 1]),
             "was the drive switched off there? Its windings are open then and brake no more, which no one "
             "model says "
-            "with the rest: cut it off (--window, recording: window)"};
+            "with the rest: cut it off (--window, recording: window), or take another recording",
+            true};
   if (facts.input_peak > kLeastOfCounts && whole_numbers(u))
     return {kInputRule, Severity::kNote, found + ", whole numbers: counts or percent?",
             "torque_constant has to be N m (N) per one such unit"};

@@ -26,7 +26,7 @@ std::vector<std::string> spoiling(const Configuration& c, const std::vector<Reco
   for (const RecordedFile& file : files)
     for (const Finding& f :
          inspect(file.path, c.recording->reading_of(file, UnevenRows::kStamped), c.coordinates).findings)
-      if (f.severity == Severity::kSpoils && f.rule != kReversalsRule)
+      if ((f.severity == Severity::kSpoils || f.warned) && f.rule != kReversalsRule)
         warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
   return warnings;
 }

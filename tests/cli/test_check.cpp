@@ -96,5 +96,17 @@ TEST(Check, JudgesForTheQuestionAndSeveralFilesTogether) {
               HasSubstr("expected one file and one axis beside them instead of 2"));
 }
 
+/// A note for the estimates, but no one model has both: whoever fits or holds it out is told.
+TEST(Check, InitWarnsOfADriveThatIsSwitchedOffInAHeldOutRecording) {
+  Workplace place;
+  testing::Rows rows = testing::rig();
+  place.file("on.csv", rows.csv());
+  for (std::size_t i = rows.u.size() / 2; i < rows.u.size(); ++i) rows.u[i] = 0.0;
+  place.file("off.csv", rows.csv());
+  EXPECT_THAT(place.run("init on.csv --held-out off.csv --model gap").err,
+              AllOf(HasSubstr("warning: off.csv: input: "), HasSubstr("was the drive switched off there?")));
+  EXPECT_EQ(place.run("init on.csv --model gap -o on.yaml").err, "");
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -29,6 +29,7 @@ TEST(Anchor, PutsTheGravityOfAKnownMassIntoTheModel) {
   EXPECT_TRUE(model.parameters[place::kTorqueConstant].estimate);
   EXPECT_TRUE(model.parameters[place::kMotorInertia].estimate);
   EXPECT_NEAR(model.parameters[place::kMotorInertia].low, 4.9e-3, 1e-12);  // of the mass alone
+  EXPECT_TRUE(model.parameters[place::kMotorInertia].begun) << "no number that the user has stated";
   EXPECT_NO_THROW(require_reference_model(c));
   EXPECT_TRUE(c.model.effects.empty());
 }

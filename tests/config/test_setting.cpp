@@ -173,6 +173,14 @@ TEST(Setting, TakesTheModelOfAnotherConfiguration) {
     return resolved_yaml(parse_configuration(text, "c.yaml", settings));
   };
   EXPECT_EQ(resolved(kRecorded, model_from(other.path())), resolved(kWithEffect, {}));
+  const std::string hung = with(kRecorded, "effects: []", "effects: []\nanchor: {mass: 0.5, arm: 0.1}");
+  const testing::TemporaryFile fitted(
+      "model: {parameters: {motor_inertia: 0.01, torque_constant: 1, mass_ratio: 0, motor_damping: 0}, "
+      "effects: "
+      "[{load_unbalance: {amplitude_nm: 0.49, phase_rad: 0}}]}",
+      "c.yaml");
+  EXPECT_FALSE(parse_configuration(hung, "c.yaml", model_from(fitted.path())).anchor)
+      << "the fitted model has what is known of the drive in it";
   const testing::TemporaryFile bad("model: {parameters: {gapp: 1}}", "c.yaml"),
       none("name: other\n", "c.yaml");
   EXPECT_THROW(model_from(none.path()), ConfigError);

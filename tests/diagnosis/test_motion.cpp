@@ -66,7 +66,8 @@ TEST(Motion, AModelLeavesOfItWhatItsFreeRunsMiss) {
   ScoredModel still;
   still.windows.free = still_windows(held_out);
   EXPECT_DOUBLE_EQ(unexplained_motion(held_out, still), 1.0);
-  EXPECT_EQ(motion_left(held_out, still), "the best model leaves 100 % of the motion unexplained");
+  EXPECT_EQ(motion_left(held_out, still),
+            "the simulated motion of the best model is off by 100 % of the motion itself");
   EXPECT_EQ(motion_left(held_out, leaving(held_out, 1.0)), "");
 }
 

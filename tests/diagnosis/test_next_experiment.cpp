@@ -71,8 +71,8 @@ TEST(NextExperiment, ProposesNothingThatWouldNotSeparate) {
   const NextExperiment next = next_experiment(pair.rivals, pair.recording.motor_trace(), weak, 3.0);
   ASSERT_FALSE(next.separates());
   EXPECT_EQ(next.sentence.find("Record"), std::string::npos) << next.sentence;
-  EXPECT_EQ(next.sentence.find("None of the "), 0u) << next.sentence;
-  EXPECT_NE(next.sentence.find("would separate input delay from actuator lag by one σ"), std::string::npos)
+  EXPECT_EQ(next.sentence.find("No input within the limits "), 0u) << next.sentence;
+  EXPECT_NE(next.sentence.find("would tell input delay from actuator lag by one σ"), std::string::npos)
       << next.sentence;
 }
 

@@ -25,6 +25,7 @@ struct Finding {
   Severity severity = Severity::kFine;
   std::string found;   ///< what there is, with figures
   std::string advice;  ///< what to do; empty where nothing is
+  bool warned = false;  ///< a note that `init` and `diagnose` warn of as well
 };
 
 /// The figures behind the findings; NaN where one could not be had. On a translational axis rad reads m.

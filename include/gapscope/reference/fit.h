@@ -37,6 +37,7 @@ struct ParameterSetting {
   double low = kNaN;
   double high = kNaN;
   std::optional<Prior> prior;
+  bool begun = false;  ///< the value is where a search begins, and nobody's statement
 
   static ParameterSetting known(double value);          ///< fixed
   static ParameterSetting sought(double start = kNaN);  ///< estimated; NaN: the recordings suggest a start
