@@ -10,6 +10,7 @@
 #include "diagnosis/harmonics.h"
 #include "diagnosis/headline.h"
 #include "gapscope/base/decimals.h"
+#include "signals/encoder.h"
 #include "signals/local_motion.h"
 #include "torque_view/low_pass.h"
 #include "torque_view/options.h"
@@ -31,8 +32,7 @@ struct Sample {
 int direction_at(const MotorTrace& t, std::size_t i, double floor) {
   const std::size_t reach = std::max<std::size_t>(signals::speed_window(t) / 2, 1);
   const double moved = t.x1[std::min(i + reach, t.size() - 1)] - t.x1[i - std::min(i, reach)];
-  const double count = 1.5 * std::sqrt(12.0) * floor;  // more than one count, whose rounding is the floor
-  return std::abs(moved) <= count ? 0 : moved > 0.0 ? 1 : -1;
+  return !signals::exceeds_a_count(moved, floor) ? 0 : moved > 0.0 ? 1 : -1;
 }
 
 std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const HeldOut& held_out, double km) {

@@ -38,6 +38,10 @@ double encoder_floor(const MotorTrace& trace) {
                    kLeastFloor * (*high - *low), 1e-15});
 }
 
+bool exceeds_a_count(double way, double floor) {
+  return std::round(std::abs(way) * rounding_noise(1.0) / floor) > 1.0;
+}
+
 HeldSamples held_samples(const MotorTrace& trace) {
   const std::span<const double> x = trace.x1;
   const double least = kFastStep * trace.quantum;

@@ -28,6 +28,10 @@ double quantum_or_least_step(std::span<const double> x1);
 /// [rad]. Never 0.
 double encoder_floor(const MotorTrace& trace);
 
+/// Whether a way is more than one count, to the nearest: the last count of a drive that stands flickers, too.
+/// @param floor  encoder_floor(), of which one count is √12 [rad]
+bool exceeds_a_count(double way, double floor);
+
 /// Whether x1 is read anew for every row: the share of the samples of fast motion (three quanta a sample) in
 /// which it stands still, and how many rows come to one that moves. None stands still without fast motion.
 struct HeldSamples {
