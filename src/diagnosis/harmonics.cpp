@@ -89,14 +89,8 @@ Harmonic line_at(std::span<const std::vector<double>> torque, std::span<const Mo
 double one_cycle(std::span<const MotorTrace> traces) { return 2.0 * kPi / empty_sums(traces).travel(); }
 
 bool is_of_encoder(double periods, std::span<const MotorTrace> traces) {
-  const auto near = [&](double counts) { return std::abs(periods - counts) < 0.01 * counts; };
-  return std::any_of(traces.begin(), traces.end(), [&](const MotorTrace& t) {
-    if (!(t.quantum > 0.0)) return false;
-    const double counts = 2.0 * kPi / t.quantum;
-    for (const double times : {1.0, 2.0, 3.0, 4.0})
-      if (near(times * counts) || near(counts / times)) return true;
-    return false;
-  });
+  return std::any_of(traces.begin(), traces.end(),
+                     [&](const MotorTrace& t) { return periods * t.quantum > kPi; });
 }
 
 std::vector<Harmonic> strongest_lines(const std::vector<Playback>& playbacks,

@@ -43,8 +43,9 @@ Harmonic line_at(std::span<const std::vector<double>> torque, std::span<const Mo
 /// One cycle over the travel of all recordings, in units of N.
 double one_cycle(std::span<const MotorTrace> traces);
 
-/// Whether a line is the encoder's: within a hundredth of as many cycles as it has counts, or of a small
-/// multiple or part of them. Its rounding makes a correcting torque of it, whatever the drive does.
+/// Whether a line may be the encoder's: it has less than two counts to a cycle (Nyquist). At whole counts
+/// such a line is the alias of a slower one, and the rounding has its cycle and harmonics there, whatever the
+/// drive does.
 bool is_of_encoder(double periods, std::span<const MotorTrace> traces);
 
 /// The strongest lines of that spectrum, best first, none beside a stronger one.

@@ -165,8 +165,12 @@ TEST(CardBasis, ACycleOfTheEncodersCountsIsNoFinding) {
   HeldOut held;
   held.traces = {trace}, held.scored_from = {0}, held.floors = {1e-6}, held.periods = {0.0};
   EXPECT_NEAR(place_of({p}, held, 1.0, {}, nullptr).periods_per_turn, kCounts, 0.01 * kCounts);
-  held.traces[0].quantum = 2.0 * kPi / kCounts;
-  EXPECT_TRUE(std::isnan(place_of({p}, held, 1.0, {}, nullptr).periods_per_turn));
+  for (const double counts_in_cycle : {1.0, 0.3, 1.9}) {
+    held.traces[0].quantum = 2.0 * kPi / kCounts / counts_in_cycle;
+    EXPECT_TRUE(std::isnan(place_of({p}, held, 1.0, {}, nullptr).periods_per_turn)) << counts_in_cycle;
+  }
+  held.traces[0].quantum = 2.0 * kPi / kCounts / 2.1;
+  EXPECT_NEAR(place_of({p}, held, 1.0, {}, nullptr).periods_per_turn, kCounts, 0.01 * kCounts);
 }
 
 }  // namespace
