@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/numbers.h"
+#include "diagnosis/rule.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/base/text.h"
 
@@ -109,8 +110,7 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
 
 std::string one_way_words(const std::vector<MapShare>& direction) {
   for (const MapShare& way : direction) {
-    if (way.expected >= 0.05)
-      continue;  // less than a twentieth of the time in motion: nothing to compare with
+    if (way.expected >= kRule.part) continue;  // of the time in motion: nothing to compare with
     return way.expected > 0.0
                ? fmt::format("hardly any {} motion was recorded", way.bin)
                : fmt::format("only {} motion was recorded", way.bin == "forward" ? "backward" : "forward");

@@ -13,7 +13,8 @@ struct DecisionRule {
   double least_way = 0.3;    ///< share of the way in S to the floor that a step must go
   double asked_for = 0.99;   ///< of the fitted mean square that a step leaves at most: luck is no finding
   /// Of an error: less is not worth having, and an effect that leaves less is all of the cause;
-  /// of the windows: those in which a free-form law holds best
+  /// of the windows: those in which a free-form law holds best; of the time in motion: less is hardly any of
+  /// a direction
   double part = 0.1;
   double least_windows =
       0.6;             ///< of the held-out windows that a step improves where the floor is out of reach
