@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "signals/encoder.h"
 #include "signals/local_motion.h"
 
 namespace gapscope {
@@ -19,9 +20,10 @@ constexpr double kMost = 0.99;  ///< of the samples: a spike is no motion
 /// 21 of 30 pairs of real recordings of one drive (a slide, a gear, eight preloads of a rig) have one that
 /// goes farther, with this one 25.
 constexpr double kClearlyMore = 1.25;
-/// Share of the travel [-] that makes a way back a reversal; less is noise or a ripple. With half and with
-/// double of it 17 and 16 of 21 real recordings count the same.
-constexpr double kStroke = 0.05;
+/// A motion, as a share of the travel (a way back that is a reversal) and of the speed that few exceed; less
+/// is noise or a ripple [-]. With half and with double of it 17 and 16 of 21 real recordings count the same
+/// reversals, and 19 of 20 each stand still in most of their rows or not, as with this one.
+constexpr double kMotion = 0.05;
 
 double speed_of(const MotorTrace& r) {
   const std::size_t apart = internal::signals::speed_window(r);
@@ -31,13 +33,18 @@ double speed_of(const MotorTrace& r) {
   return speeds.empty() ? 0.0 : quantile(std::move(speeds), kMost);
 }
 
-/// Share of the samples that are faster than a twentieth of the speed that few exceed: of a sine 0.97.
+/// Share of the samples that are faster than kMotion of the speed that few exceed, and by more than the count
+/// that flickers at rest: of a sine 0.97.
 double moving_of(const MotorTrace& r, double speed) {
-  constexpr double kSlow = 0.05;
   const std::size_t apart = internal::signals::speed_window(r);
+  const double floor = std::max(internal::signals::encoder_floor(r),
+                                internal::signals::rounding_noise(internal::signals::encoder_quantum(r)));
   std::size_t moves = 0, all = 0;
-  for (std::size_t i = apart; i < r.size(); ++i, ++all)
-    moves += std::abs(r.x1[i] - r.x1[i - apart]) > kSlow * speed * (r.time(i) - r.time(i - apart)) ? 1 : 0;
+  for (std::size_t i = apart; i < r.size(); ++i, ++all) {
+    const double way = std::abs(r.x1[i] - r.x1[i - apart]);
+    moves += way > kMotion * speed * (r.time(i) - r.time(i - apart)) &&
+             internal::signals::exceeds_a_count(way, floor);
+  }
   return all == 0 ? 1.0 : static_cast<double>(moves) / static_cast<double>(all);
 }
 
@@ -47,13 +54,13 @@ double input_of(const MotorTrace& r) {
   return sizes.empty() ? 0.0 : quantile(std::move(sizes), kMost);
 }
 
-/// Changes of direction, each of at least kStroke of the travel.
+/// Changes of direction, each of at least kMotion of the travel.
 int reversals_of(const MotorTrace& r, double travel) {
   int count = 0, direction = 0;
   double turn = r.x1[0];  // the farthest position in the present direction
   for (const double x : r.x1) {
     if (direction * (x - turn) > 0.0) turn = x;
-    if (std::abs(x - turn) <= kStroke * travel) continue;
+    if (std::abs(x - turn) <= kMotion * travel) continue;
     count += direction != 0;
     direction = x > turn ? 1 : -1, turn = x;
   }
@@ -65,6 +72,9 @@ MotionReach reach_of(const MotorTrace& r) {
   const double speed = speed_of(r);
   return {*high - *low, speed, input_of(r), reversals_of(r, *high - *low), moving_of(r, speed)};
 }
+
+/// In more rows than it moves.
+bool stands(const MotionReach& r) { return r.moving < 1.0 - r.moving; }
 
 bool clearly_more(double second, double first) { return first > 0.0 && second > kClearlyMore * first; }
 
@@ -130,7 +140,7 @@ std::string judges_little(const MotionReach& fitted, const MotionReach& held_out
   if (fitted.reversals > 0 && held_out.reversals == 0)
     return "moves in one direction only: nothing that depends on the other one can be judged by it; hold out "
            "another recording, which goes both ways";
-  if (fitted.moving >= 0.5 && held_out.moving < 0.5)
+  if (!stands(fitted) && stands(held_out))
     return fmt::format(
         "stands still in {:.0f} % of its rows: little of what depends on the motion can be judged by it; "
         "hold out "
