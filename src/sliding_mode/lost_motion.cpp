@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kFollowing = 0.75;      ///< least share of the travel that goes with the change of u
 constexpr double kQuasiStatic = 0.9;     ///< the same of a motion in which nothing coasts, for a verdict
-constexpr double kWholeTravel = 0.95;    ///< share of the travel from which P leaves no flank
 constexpr std::size_t kFewestRamps = 3;  ///< of a loop, to either side together
 
 /// A recording that is a loop.
@@ -105,9 +104,11 @@ std::vector<TorqueLevel> levels_of(const std::vector<Loop>& loops, double resolu
   return levels;
 }
 
-/// x1 lies at zero torque where it turns. A drive that coasts does so, and P is then its travel; one in which
-/// nothing coasts is so stiff.
-bool has_no_flank(const TorqueLevel& level) { return level.play() >= kWholeTravel * level.shape.travel; }
+/// x1 lies at zero torque where it turns: what P leaves of the travel may be its error, noise and counting. A
+/// drive that coasts and then stands does so; one in which nothing coasts is so stiff.
+bool has_no_flank(const TorqueLevel& level, double least_way) {
+  return level.shape.travel - level.play() <= level.reading.half_width + least_way;
+}
 
 }  // namespace
 
@@ -134,7 +135,8 @@ LoopSearch read_lost_motion(std::span<const MotorTrace> recordings,
     if (search.why_not.empty()) search.why_not = words::few_torque_ramps(0);
     return search;
   }
-  if (!search.decides && std::ranges::any_of(levels, has_no_flank)) {
+  const auto flankless = [&](const TorqueLevel& level) { return has_no_flank(level, least_way); };
+  if (!search.decides && std::ranges::any_of(levels, flankless)) {
     if (search.why_not.empty()) search.why_not = words::no_flank();
     return search;
   }
