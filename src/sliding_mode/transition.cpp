@@ -79,7 +79,6 @@ namespace {
 
 constexpr double kWidestTravel = 0.15;   ///< of the gap: uncertainty of the load's travel
 constexpr double kContradiction = 0.06;  ///< of the gap: between the states just before and just after t1
-constexpr double kSurelyOn = 4.0;        ///< of the way that is no noise: a motor that goes on
 constexpr double kReach = 0.8;           ///< of a half period: nothing before it belongs to the flight
 
 /// Where x1 turned round before the impact, against the direction of the passage.
@@ -98,13 +97,13 @@ Reversal find_reversal(const TransitionContext& context, int direction, std::siz
   return r;
 }
 
-/// The motor goes the other way all the time, far enough to be sure of it: a load that overtakes it has
-/// crossed the gap.
+/// The motor goes the other way all the time, farther than noise and counting feign: a load that overtakes it
+/// has crossed the gap.
 bool goes_on(const TransitionContext& context, int direction, std::size_t from, std::size_t to) {
   const auto& y = context.trace.x1;
   const double most = *std::max_element(y.begin() + from, y.begin() + to + 1,
                                         [&](double a, double b) { return direction * a < direction * b; });
-  return direction * (most - y[to]) > kSurelyOn * context.facts.least_way();
+  return direction * (most - y[to]) > context.facts.least_way();
 }
 
 FlightWindow flight_window(const TransitionContext& context, const BankEvent& impact, const Reversal& r) {
