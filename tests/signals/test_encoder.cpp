@@ -32,6 +32,16 @@ TEST(Encoder, TheQuantumIsThatOfTheSheetElseTheOneThatShows) {
   EXPECT_EQ(encoder_quantum(trace), 2e-3);
 }
 
+TEST(Encoder, AWayOfOneCountIsNotMoreThanThatAndOneOfTwoIsEitherWay) {
+  constexpr double kQuantum = 3.7e-4;
+  const double floor = rounding_noise(kQuantum);
+  EXPECT_FALSE(exceeds_a_count(0.0, floor));
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_FALSE(exceeds_a_count(sign * kQuantum, floor));
+    EXPECT_TRUE(exceeds_a_count(sign * 2.0 * kQuantum, floor));
+  }
+}
+
 TEST(Encoder, OfAPositionThatHardlyMovesTheSmallestStepIsTheQuantum) {
   std::vector<double> x1(2000, 0.0);
   for (std::size_t i = 0; i < x1.size(); ++i)  // twenty places, each at a distance of its own from the last
