@@ -16,6 +16,12 @@ namespace {
 
 const std::string& name_of(const DriveStory& s) { return s.run ? s.run->name : s.diagnosis->name; }
 
+/// Where that file lies is nothing that a report knows: it has the same bytes wherever it is made, and goes
+/// on by mail.
+constexpr const char* kWhatConfigIs =
+    "\nCONFIG is the YAML that this report was made from. `resolved.yaml`, beside this report, does the same "
+    "where it is laid into the folder of that YAML, as paths in it begin there.\n";
+
 /// Of both, each once.
 std::vector<std::string> all_warnings(const DriveStory& s) {
   std::vector<std::string> all;
@@ -47,6 +53,7 @@ std::string story_text(const DriveStory& s) {
   for (const std::string& line : s.run ? s.run->simulated_data : s.diagnosis->simulated_data)
     text += "\n> " + line + "\n";
   text += card_text(drive_card(s.run, s.diagnosis));
+  if (text.find(" CONFIG") != text.npos) text += kWhatConfigIs;
   std::string detail = bullet_section("Warnings", all_warnings(s));
   if (s.run) detail += estimate_text(*s.run, s.timing);
   if (s.diagnosis) detail += diagnosis_text(*s.diagnosis);

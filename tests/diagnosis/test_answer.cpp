@@ -111,7 +111,7 @@ TEST(Answer, WhereAGapIsReadARejectedModelLeadsToTheDiagnosisAndNotToOneWithoutA
     FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
     rejected.why = Remark(code, "It says so.");
     ASSERT_EQ(of(&g, &rejected).next.size(), 1u) << code;
-    EXPECT_THAT(of(&g, &rejected).next.front(), HasSubstr("Run `gapscope diagnose`")) << code;
+    EXPECT_THAT(of(&g, &rejected).next.front(), HasSubstr("Run `gapscope diagnose CONFIG`")) << code;
   }
   FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
   rejected.why = Remark("as_well_without_gap", "It says so.");

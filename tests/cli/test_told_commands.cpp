@@ -1,0 +1,39 @@
+// Commands that terminal, report and help tell: they can be pasted, and what they promise is there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/executable.h"
+#include "support/paper_model.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::text_of;
+using testing::Workplace;
+
+// The paper's rig for two seconds, and a friction that its model lacks.
+const std::string kRigWithFriction =
+    "name: drive\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 2, seed: 3, "
+    "excitation: {sine: {amplitude: 0.58, frequency: 1}}, "
+    "model: {effects: [{motor_coulomb_friction: {level_nm: 0.02}}]}}\n"
+    "model: " +
+    testing::kPaperModel;
+
+TEST(ToldCommands, TheReportSaysWhichFileIsTheConfigurationOfItsCommands) {
+  Workplace place;
+  place.file("c.yaml", kRigWithFriction);
+  ASSERT_EQ(place.run("run c.yaml").status, 0);
+  const std::string told = "CONFIG is the YAML that this report was made from";
+  const std::string report = text_of(place.folder() / "reports/drive/report.md");
+  EXPECT_THAT(report,
+              AllOf(HasSubstr("gapscope diagnose CONFIG`"), HasSubstr(told), HasSubstr("`resolved.yaml`")));
+  EXPECT_THAT(text_of(place.folder() / "reports/drive/report.html"), HasSubstr(told));
+}
+
+}  // namespace
+}  // namespace gapscope
