@@ -35,5 +35,11 @@ TEST(ToldCommands, TheReportSaysWhichFileIsTheConfigurationOfItsCommands) {
   EXPECT_THAT(text_of(place.folder() / "reports/drive/report.html"), HasSubstr(told));
 }
 
+TEST(ToldCommands, TheHelpPromisesANextExperimentOnlyWhereThereIsOne) {
+  const std::string help = Workplace().run("diagnose --help").out;
+  EXPECT_THAT(help, Not(HasSubstr("hold the input that would")));
+  EXPECT_THAT(help, HasSubstr("Where two explanations come close"));
+}
+
 }  // namespace
 }  // namespace gapscope
