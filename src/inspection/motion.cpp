@@ -59,8 +59,8 @@ Finding check_travel(const Material& m, RecordingFacts& facts) {
   const std::string found = fmt::format("{} peak to peak, {} {}", m.length(facts.travel), figure(quanta),
                                         q > 0.0 ? "steps of the encoder" : "times the noise");
   const char* advice =
-      "raise the excitation or lower its frequency: the travel has to be at least 1.5 gaps, a gap at least "
-      "40 steps";
+      "raise the excitation or lower its frequency: the travel has to be at least 1.5 gaps, and few gaps "
+      "below 40 steps are read";
   if (quanta < kFewestQuanta) return {"travel", Severity::kSpoils, found, advice};
   if (quanta < kFewQuanta) return {"travel", Severity::kNote, found, advice};
   return {"travel", Severity::kFine, found, ""};

@@ -128,9 +128,11 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
             "declare it, recording: units: {position: ...}"};
   return {"encoder", Severity::kFine,
           fmt::format(
-              "x1 steps by {}{}, noise {:.2g} steps; the detector needs 40 steps and reads gaps from {} on",
+              "x1 steps by {}{}, noise {:.2g} steps; no gap below {:.0f} steps, {}, is told, and few below "
+              "{:.0f}, {}",
               m.length(q), m.coordinates.rotational() ? fmt::format(" ({:.0f} per turn)", per_turn) : "",
-              noise / q, m.length(signals::kFewestGapQuanta * q)),
+              noise / q, signals::kFewestToldQuanta, m.length(signals::kFewestToldQuanta * q),
+              signals::kFewestGapQuanta, m.length(signals::kFewestGapQuanta * q)),
           ""};
 }
 
