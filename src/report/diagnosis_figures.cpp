@@ -184,7 +184,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   Panel panel;
   const std::size_t shown = std::min(kShownCandidates, ranking.size());
   panel.title = "Each alone, free run, first step";
-  if (shown < ranking.size()) panel.title += fmt::format(": first {} of {}", shown, ranking.size());
+  if (shown < ranking.size()) panel.title += fmt::format(": {} of {}", shown, ranking.size());
   const double reach = ranked_reach(ranking, shown);
   panel.x = {"share of the way to the " + std::string(floor_name(r.diagnosis.mismatch.floor_from)),
              "",
