@@ -73,8 +73,7 @@ Remark not_explained(double floors, double observer_hz) {
       "not_explained",
       "the model does not explain the recordings: its prediction error is {:.3g} times the encoder floor. "
       "Values are those of an observer at {:.3g} Hz; intervals hold their scatter over windows, gains and "
-      "parts of the recordings, not what the missing physics may bias. `gapscope diagnose` asks what is "
-      "missing.",
+      "parts of the recordings, not what the missing physics may bias.",
       {floors, observer_hz}};
 }
 Remark leaves_some(double unexplained_percent, double observer_hz) {
@@ -83,7 +82,7 @@ Remark leaves_some(double unexplained_percent, double observer_hz) {
       "{:.2g} % of what the [torque] does to the motion is left unexplained: values are those of an observer "
       "at "
       "{:.3g} Hz; intervals hold their scatter over windows, gains and parts of the recordings, not what the "
-      "missing physics may bias. `gapscope diagnose` asks what is missing.",
+      "missing physics may bias.",
       {unexplained_percent, observer_hz}};
 }
 Remark free_run_departs(double observer_hz) {

@@ -24,6 +24,12 @@ const std::string kRigWithFriction =
     "model: " +
     testing::kPaperModel;
 
+std::size_t times(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + part.size())) ++n;
+  return n;
+}
+
 TEST(ToldCommands, TheReportSaysWhichFileIsTheConfigurationOfItsCommands) {
   Workplace place;
   place.file("c.yaml", kRigWithFriction);
@@ -33,6 +39,15 @@ TEST(ToldCommands, TheReportSaysWhichFileIsTheConfigurationOfItsCommands) {
   EXPECT_THAT(report,
               AllOf(HasSubstr("gapscope diagnose CONFIG`"), HasSubstr(told), HasSubstr("`resolved.yaml`")));
   EXPECT_THAT(text_of(place.folder() / "reports/drive/report.html"), HasSubstr(told));
+}
+
+TEST(ToldCommands, ARunSendsToTheDiagnosisInItsCardAlone) {
+  Workplace place;
+  place.file("c.yaml", kRigWithFriction);
+  const auto run = place.run("run c.yaml");
+  ASSERT_EQ(run.status, 0);
+  EXPECT_THAT(run.err, Not(HasSubstr("gapscope diagnose")));
+  EXPECT_EQ(times(run.out, "gapscope diagnose"), times(run.out, "`gapscope diagnose c.yaml`")) << run.out;
 }
 
 TEST(ToldCommands, TheHelpPromisesANextExperimentOnlyWhereThereIsOne) {
