@@ -2,7 +2,30 @@
 
 #include "gapscope/base/normal.h"
 
-namespace gapscope::internal::diagnosis {
+namespace gapscope {
+namespace {
+
+/// Of what says how much there is of the row's effect; nullptr: it says something else.
+const EffectParameterSpec* spec_of_amount(const SimulatorRow& row, const std::string& key) {
+  const EffectEntry* entry = row.is_effect ? find_effect(row.name) : nullptr;
+  if (entry == nullptr) return nullptr;
+  for (const std::size_t i : internal::diagnosis::sizes_of(*entry))
+    if (key == entry->parameters[i].key) return &entry->parameters[i];
+  return nullptr;
+}
+
+}  // namespace
+
+bool says_how_much(const SimulatorRow& row, const ComparedNumber& number) {
+  return spec_of_amount(row, number.key) != nullptr;
+}
+
+bool says_none(const SimulatorRow& row, const ComparedNumber& number, double value) {
+  const EffectParameterSpec* amount = spec_of_amount(row, number.key);
+  return amount != nullptr && value == amount->absent;
+}
+
+namespace internal::diagnosis {
 namespace {
 
 using reference::ParameterId;
@@ -77,27 +100,18 @@ void fill_numbers(const RowInstrument& of, const JointFit& fit, PlannedRow& plan
   }
 }
 
-/// Whether a number says how much there is of an effect, and that there is none.
-bool says_none(double number, const std::string& key, const SimulatorRow& row) {
-  if (!row.is_effect) return false;
-  const EffectEntry& entry = *find_effect(row.name);
-  for (const std::size_t i : sizes_of(entry))
-    if (key == entry.parameters[i].key) return number == entry.parameters[i].absent;
-  return false;
-}
-
 /// Where a side's interval ends, from its number on; an amount of an effect that is not there is exactly
 /// that.
-double reach(double number, const Interval& ci95, const std::string& key, const SimulatorRow& row) {
-  return says_none(number, key, row) ? 0.0 : (ci95.high - ci95.low) / 2.0;
+double reach(const SimulatorRow& row, const ComparedNumber& n, double number, const Interval& ci95) {
+  return says_none(row, n, number) ? 0.0 : (ci95.high - ci95.low) / 2.0;
 }
 
 /// Whether the intervals of any number are apart; where there are none, nothing speaks against it.
 bool intervals_apart(const SimulatorRow& row) {
   bool asked = false;
   for (const ComparedNumber& n : row.numbers) {
-    const double d = reach(n.drive, n.drive_ci95, n.key, row);
-    const double s = reach(n.simulator, n.simulator_ci95, n.key, row);
+    const double d = reach(row, n, n.drive, n.drive_ci95);
+    const double s = reach(row, n, n.simulator, n.simulator_ci95);
     if (std::isnan(d) || std::isnan(s)) continue;
     asked = true;
     if (std::abs(n.drive - n.simulator) > std::hypot(d, s)) return true;
@@ -144,4 +158,5 @@ void measure(const RowInstrument& of, const JointFit& fit, PlannedRow& planned) 
   if (row.is_effect) row.found_in = found_in(of, fit, planned);
 }
 
-}  // namespace gapscope::internal::diagnosis
+}  // namespace internal::diagnosis
+}  // namespace gapscope

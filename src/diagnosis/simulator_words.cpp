@@ -42,11 +42,17 @@ bool is_size(const ComparedNumber& n) {
   return false;
 }
 
+/// The amounts that there are, and the shape: where there is no level, a ratio stands for itself.
 std::string of_side(const SimulatorRow& row, bool drive, Coordinates coordinates) {
+  const auto value_of = [drive](const ComparedNumber& n) { return drive ? n.drive : n.simulator; };
+  const auto is_there = [&](const ComparedNumber& n) {
+    return says_how_much(row, n) && !says_none(row, n, value_of(n));
+  };
+  const bool any = std::any_of(row.numbers.begin(), row.numbers.end(), is_there);
   std::vector<std::string> parts;
   for (const ComparedNumber& n : row.numbers) {
-    if (is_detail(n)) continue;
-    const double value = drive ? n.drive : n.simulator;
+    const double value = value_of(n);
+    if (is_detail(n) || (any && says_none(row, n, value))) continue;
     parts.push_back(parts.empty() && is_size(n) ? amount(value, n.unit, coordinates)
                                                 : with_name(n, value, coordinates));
   }

@@ -30,14 +30,20 @@ std::string side_number(const DiagnosisResult& r, const ComparedNumber& n, bool 
   return named ? name_of_key(n.key) + " " + value : value;
 }
 
+/// Of an effect that a side has not: whether the number says how much there may be of it.
+bool leaves_some(const SimulatorRow& row, const ComparedNumber& n, bool drive) {
+  const bool exact = says_none(row, n, drive ? n.drive : n.simulator);
+  return says_how_much(row, n) && !(exact && std::isnan((drive ? n.drive_ci95 : n.simulator_ci95).low));
+}
+
 std::string side_text(const DiagnosisResult& r, const SimulatorRow& row, bool drive) {
   const bool absent =
       row.found_in == FoundIn::kNeither || row.found_in == (drive ? FoundIn::kSimulator : FoundIn::kDrive);
   std::vector<std::string> parts;
   for (const ComparedNumber& n : row.numbers)
-    parts.push_back(side_number(r, n, drive, row.numbers.size() > 1));
-  if (absent) parts.resize(std::min<std::size_t>(1, parts.size()));
-  return fmt::format("{}{}", absent ? "none: " : "", fmt::join(parts, ", "));
+    if (!absent || leaves_some(row, n, drive))
+      parts.push_back(side_number(r, n, drive, row.numbers.size() > 1));
+  return (absent ? parts.empty() ? "none" : "none: " : "") + fmt::format("{}", fmt::join(parts, ", "));
 }
 
 /// Whether the interval of what says how much there is of it leaves zero out.

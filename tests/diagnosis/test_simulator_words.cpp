@@ -57,6 +57,15 @@ TEST(SimulatorWords, WriteAmountsAsPeopleReadThem) {
   EXPECT_EQ(said(row), "its motor damping is 1200 N·m s/rad where the drive's is 2 mN·m s/rad");
 }
 
+TEST(SimulatorWords, SayWhatThereIsOfAnEffectAndNotWhatIsNone) {
+  SimulatorRow row;
+  row.name = "load_dependent_friction", row.is_effect = row.differs = true, row.found_in = FoundIn::kDrive;
+  row.numbers = {{"level_nm", "N m", 0.0, 0.0, {}, {}}, {"ratio", "-", 0.3, 0.0, {}, {}}};
+  EXPECT_THAT(said(row), HasSubstr("the drive has (ratio 0.3)"));
+  row.numbers[0].drive = 0.02;
+  EXPECT_THAT(said(row), HasSubstr("the drive has (20 mN·m, ratio 0.3)"));
+}
+
 /// Nothing that would have to show differs; but where the model itself misses a side by far, nobody knows.
 TEST(SimulatorWords, SayThatSomethingMayHideWhereTheModelMissesASide) {
   SimulatorComparison c;

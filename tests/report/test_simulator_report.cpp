@@ -40,8 +40,24 @@ TEST(SimulatorReport, TellsInWhichOfBothAnEffectIs) {
                         "amounts | 400 µrad | 75 % |"));
   EXPECT_THAT(both, HasSubstr("| not told apart | – | – |"));
   const std::string drive = internal::report::simulator_table(beside(friction(FoundIn::kDrive, 0.05, 0.0)));
-  EXPECT_THAT(drive, HasSubstr("| 50.0 ± 1.0 mN·m | none: 0 N·m | only in the drive |"));
+  EXPECT_THAT(drive, HasSubstr("| 50.0 ± 1.0 mN·m | none | only in the drive |"));
   EXPECT_THAT(drive, HasSubstr("misses your simulator by 10.0 µrad"));
+}
+
+TEST(SimulatorReport, ShowsOfWhatASideHasNotEveryAmountThatItsIntervalHolds) {
+  SimulatorRow row = friction(FoundIn::kDrive, 0.05, 1e-4);
+  row.numbers[0].simulator_ci95 = {-3e-4, 5e-4};
+  EXPECT_THAT(internal::report::simulator_table(beside(row)), HasSubstr("| none: 100 ± 400 µN·m |"));
+  row.name = "load_dependent_friction";
+  row.numbers = {{"level_nm", "N m", 0.0, 0.0, {}, {}},
+                 {"ratio", "-", 0.3, 0.01, {0.28, 0.32}, {-0.01, 0.03}}};
+  EXPECT_THAT(internal::report::simulator_table(beside(row)),
+              HasSubstr("| level 0 N·m, ratio 0.300 ± 0.020 | none: ratio 0.010 ± 0.020 |"));
+  row.name = "cogging_torque";  // where a wave that is none begins says nothing
+  row.numbers = {{"amplitude_nm", "N m", 0.05, 1e-4, {0.049, 0.051}, {-3e-4, 5e-4}},
+                 {"phase_rad", "rad", 0.3, 1.0, {0.2, 0.4}, {-2.0, 4.0}}};
+  EXPECT_THAT(internal::report::simulator_table(beside(row)),
+              HasSubstr("| none: amplitude 100 ± 400 µN·m |"));
 }
 
 TEST(SimulatorReport, HasTheRowsInTheOrderOfItsSentenceAndNoMinusBeforeAZero) {

@@ -40,6 +40,12 @@ struct SimulatorRow {
   std::string sentence;         ///< empty unless it differs
 };
 
+/// Whether a number says how much there is of the row's effect, not of what shape it is.
+bool says_how_much(const SimulatorRow& row, const ComparedNumber& number);
+
+/// Whether it says so, and that there is none. @param value  the number's, on either side
+bool says_none(const SimulatorRow& row, const ComparedNumber& number, double value);
+
 /// Drive, simulator and what stands for them, beside one recording. Columns of equal length.
 struct SimulatorTrace {
   std::string file;       ///< of the drive's recording
