@@ -4,13 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
 
 #include "gapscope/base/decimals.h"
+#include "gapscope/base/shell_word.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::cli {
@@ -96,8 +96,9 @@ void print_parameters(const FitSummary& f, const InputFacts& input, Coordinates 
 
 std::string comparison_line(const Comparison& c, Coordinates coordinates) {
   if (std::isnan(c.difference)) return "-";
-  const char* word = !c.agree ? "not comparable" : *c.agree ? "agree" : "disagree";
-  return fmt::format("{:<17} {} (joint standard error {})", coordinates.thousandths(c.difference), word,
+  const std::string difference = coordinates.thousandths(c.difference);
+  if (!c.agree) return fmt::format("{:<17} not comparable: an interval is missing", difference);
+  return fmt::format("{:<17} {} (joint standard error {})", difference, *c.agree ? "agree" : "disagree",
                      coordinates.thousandths(c.joint_std));
 }
 
@@ -109,25 +110,18 @@ std::string validation_line(const RunResult& r) {
                      r.coordinates.thousandths(s.floor));
 }
 
-/// Whether a shell takes it as one word, as it stands.
-bool is_plain_word(const std::string& path) {
-  return !path.empty() && std::ranges::all_of(path, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("._-/").find(c) != std::string_view::npos;
-  });
-}
-
 /// The command that goes on from what was found, with the names of its files.
 std::string told_of_folder(const std::string& text, const std::string& configuration,
                            const std::string& folder) {
-  if (!is_plain_word(configuration) || !is_plain_word(folder)) return text;
-  return replaced(text, "CONFIG --model-from DIR/", configuration + " --model-from " + folder + "/");
+  if (configuration.empty()) return text;
+  return replaced(text, "CONFIG --model-from DIR/fitted.yaml",
+                  shell_word(configuration) + " --model-from " + shell_word(folder + "/fitted.yaml"));
 }
 
 /// What everybody wants to know, last: it is what stays in view.
 /// @param folder  of the report
 void print_card(const Card& card, const std::string& configuration, const std::string& folder) {
-  const std::string to = is_plain_word(configuration) ? configuration + "`" : "CONFIG`";
+  const std::string to = configuration.empty() ? "CONFIG`" : shell_word(configuration) + "`";
   for (const CardLine& l : card.lines()) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool all = !card.diagnosed && &l.text == &card.place;

@@ -10,6 +10,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/input_facts.h"
 #include "gapscope/base/plain_name.h"
+#include "gapscope/base/shell_word.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/config/starter.h"
@@ -92,7 +93,7 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
     fmt::print("{:<12}{}\n", "order", with_input_unit(starter.order, read.input_facts()));
   fmt::print("{:<12}{}gapscope {} {} (or {})\n", "next",
              starter.guesses ? "fill in what is marked GUESS, then " : "",
-             a.held_out.empty() ? "run" : "diagnose", output,
+             a.held_out.empty() ? "run" : "diagnose", shell_word(output),
              a.held_out.empty() ? "detect, fit, diagnose" : "run, detect, fit");
 }
 

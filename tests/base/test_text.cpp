@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "gapscope/base/shell_word.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope {
@@ -40,6 +41,14 @@ TEST(Text, TheEditDistanceCountsLettersPutInLeftOutAndReplaced) {
   EXPECT_EQ(edit_distance("gap", "cap"), 1u);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
   EXPECT_EQ(edit_distance("", "gap"), 3u);
+}
+
+TEST(Text, APathIsOneWordForAShell) {
+  EXPECT_EQ(shell_word("rigs/left-arm_2.yaml"), "rigs/left-arm_2.yaml");
+  EXPECT_EQ(shell_word("my drive.yaml"), "'my drive.yaml'");
+  EXPECT_EQ(shell_word("the drive's $1.yaml"), R"('the drive'\''s $1.yaml')");
+  EXPECT_EQ(shell_word("-o.yaml"), "./-o.yaml") << "no option";
+  EXPECT_EQ(shell_word(""), "''");
 }
 
 }  // namespace

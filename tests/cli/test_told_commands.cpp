@@ -50,6 +50,19 @@ TEST(ToldCommands, ARunSendsToTheDiagnosisInItsCardAlone) {
   EXPECT_EQ(times(run.out, "gapscope diagnose"), times(run.out, "`gapscope diagnose c.yaml`")) << run.out;
 }
 
+TEST(ToldCommands, AShellTakesANameWithBlanksAsItIsTold) {
+  Workplace place;
+  place.file("c.yaml", kRigWithFriction);
+  ASSERT_EQ(place.run("simulate c.yaml -o \"my drive's 7.csv\"").status, 0);
+  const std::string quoted = "'my drive'\\''s 7.yaml'";
+  const auto init = place.run("init \"my drive's 7.csv\"");
+  ASSERT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(init.out, HasSubstr("gapscope run " + quoted + " (or "));
+  const auto run = place.run("detect " + quoted);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("`gapscope diagnose " + quoted + "`"));
+}
+
 TEST(ToldCommands, TheHelpPromisesANextExperimentOnlyWhereThereIsOne) {
   const std::string help = Workplace().run("diagnose --help").out;
   EXPECT_THAT(help, Not(HasSubstr("hold the input that would")));
