@@ -101,6 +101,11 @@ void report_failure(const FitProblem& problem, FitSummary& summary) {
   }
 }
 
+/// Where a search was stopped, its curvature says nothing of how far the minimum is.
+void drop_intervals(FitSummary& summary) {
+  for (FittedParameter& p : summary.parameters) p.std = kNaN, p.ci95 = p.profile_ci95 = {};
+}
+
 }  // namespace
 }  // namespace internal::reference
 
@@ -126,6 +131,7 @@ FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& mod
     simulations += kSimulationsPerTrace * static_cast<double>(summary.traces.size());
     const TrustFacts facts = trust_facts(problem, found);
     judge_trust(problem, outcome, facts, summary);
+    if (!summary.converged()) drop_intervals(summary);
     simulations += facts.simulations;
   }
   summary.simulations = static_cast<int>(std::lround(simulations));

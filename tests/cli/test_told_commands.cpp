@@ -50,6 +50,17 @@ TEST(ToldCommands, ARunSendsToTheDiagnosisInItsCardAlone) {
   EXPECT_EQ(times(run.out, "gapscope diagnose"), times(run.out, "`gapscope diagnose c.yaml`")) << run.out;
 }
 
+TEST(ToldCommands, NoStandardErrorIsToldOfADifferenceThatHasNone) {
+  Workplace place;
+  place.file("c.yaml",
+             "name: rig\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 6, noise: 1.0e-5, seed: 5, "
+             "excitation: {sine: {amplitude: 0.58, frequency: 1}}}\nmodel: " +
+                 testing::kPaperModel);
+  const auto run = place.run("run c.yaml --set fit.max_iterations=1 --set fit.starts=1");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(" not comparable: an interval is missing\n"));
+}
+
 TEST(ToldCommands, AShellTakesANameWithBlanksAsItIsTold) {
   Workplace place;
   place.file("c.yaml", kRigWithFriction);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "gapscope/base/errors.h"
@@ -54,6 +55,21 @@ TEST(Fit, RecoversGapDampingAndMassRatioOfWhichNothingWasSaid) {
   ReferenceModel model = known_model({});
   for (const int n : {kGap, kMotorDamping, kMassRatio}) estimate(model, n);
   expect_truth(fit_one(paper_recording(), model));
+}
+
+/// Where the search was stopped its curvature says nothing of how far the minimum is.
+TEST(Fit, WhereTheIterationsRanOutNoNumberHasAnInterval) {
+  ReferenceModel model = known_model({});
+  estimate(model, kGap, 0.03);
+  estimate(model, kMotorDamping, 0.03);
+  FitOptions options;
+  options.max_iterations = 1, options.starts = 1;
+  const FitSummary summary = fit_one(paper_recording(), model, options);
+  ASSERT_EQ(summary.status, FitStatus::kNotConverged) << summary.full_report();
+  for (const FittedParameter& p : summary.parameters) {
+    EXPECT_TRUE(std::isfinite(p.value)) << p.key;
+    EXPECT_TRUE(std::isnan(p.std) && std::isnan(p.ci95.low) && std::isnan(p.ci95.high)) << p.key;
+  }
 }
 
 TEST(Fit, RecoversAllButInertiaAndTorqueConstantFromASheetTwentyPercentOff) {
