@@ -233,7 +233,7 @@ void keep_events(const PooledRecording& s, const GapCandidate& c, GapEstimate& e
     GapEvent event;
     event.file = s.trace.file;
     event.direction = stretch.turn.direction;
-    event.t1 = s.trace.time(stretch.turn.zero);
+    event.t1 = s.trace.time(stretch.turn.quiet);  // a contact without torque is lost, however long that stays
     event.t2 = s.trace.start + s.trace.dt * flights.crossing(stretch, c.gap);
     event.x1_t1 = stretch.rest - stretch.turn.direction * stretch.beyond;
     event.x1_t2 = stretch.rest + stretch.turn.direction * c.gap;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gapscope/sliding_mode/detector.h"
@@ -98,6 +99,25 @@ TEST(PooledFlights, TheFrictionOfALightLoadIsToldFromItsImpact) {
   const auto estimate = s.read();
   ASSERT_TRUE(estimate);
   EXPECT_NEAR(estimate->gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
+}
+
+/// Of a sine, and of a trapezoid whose torque stays at zero for most of the flight.
+TEST(PooledFlights, APassageBeginsWhereTheContactTorqueVanishesAndEndsAtTheImpact) {
+  for (const auto& [seed, waveform] : {std::pair(700250, Waveform::kSine), {3387020, Waveform::kTrapezoid}}) {
+    const PooledSubject s(independent_plant::random_drive(static_cast<std::uint64_t>(seed), waveform));
+    const auto estimate = s.read();
+    ASSERT_TRUE(estimate);
+    for (const GapEvent& told : estimate->events) {
+      const auto ends_nearer = [&](const auto& a, const auto& b) {
+        return std::abs(a.t2 - told.t2) < std::abs(b.t2 - told.t2);
+      };
+      const auto& truth = *std::ranges::min_element(s.run.truth.passages, ends_nearer);
+      const double flight = truth.t2 - truth.t1;
+      EXPECT_NEAR(told.t1, truth.t1, 0.02 * flight) << seed;
+      EXPECT_NEAR(told.t2, truth.t2, 0.02 * flight) << seed;
+      EXPECT_NEAR(told.x1_t1, truth.x1_t1, 0.01 * s.c.drive.gap) << seed;
+    }
+  }
 }
 
 TEST(PooledFlights, WithoutAGapNoKinkStandsOut) {
