@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "diagnosis/effect_starts.h"
+#include "diagnosis/joint_effects.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -100,10 +101,7 @@ ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
 }
 
 bool has_vanished(const ModelEffect& effect) {
-  if (effect.entry->parameters[0].absent != 0.0 || effect.parameters[0].value != 0.0) return false;
-  const bool has_another_size =  // beside the level of what it contains
-      contained_effect(*effect.entry) != nullptr && effect.entry->parameters[1].scale == Scale::kOne;
-  return !has_another_size || effect.parameters[1].value == 0.0;
+  return effect.entry->parameters[0].absent == 0.0 && is_absent(effect);
 }
 
 ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {

@@ -34,5 +34,22 @@ TEST(TorqueModel, FrictionAtRestDoesNotDriveTheMotor) {
   }
 }
 
+/// Viscous friction that differs with direction acts without any Coulomb friction.
+TEST(TorqueModel, AnEffectWithAnyAmountLeftHasNotVanished) {
+  using internal::diagnosis::has_vanished;
+  const auto effect = [](const char* name, const std::vector<double>& values) {
+    ModelEffect e;
+    e.entry = find_effect(name);
+    for (std::size_t i = 0; i < values.size(); ++i) e.parameters[i].value = values[i];
+    return e;
+  };
+  EXPECT_TRUE(has_vanished(effect("friction_asymmetry", {0.0, 0.3, 0.0}))) << "a ratio of no level";
+  EXPECT_FALSE(has_vanished(effect("friction_asymmetry", {0.0, 0.0, 0.2})));
+  EXPECT_FALSE(has_vanished(effect("load_dependent_friction", {0.0, 0.2})));
+  EXPECT_TRUE(has_vanished(effect("load_dependent_friction", {0.0, 0.0})));
+  EXPECT_TRUE(has_vanished(effect("stribeck_friction", {0.0, 0.5, 0.1, 2.0})));
+  EXPECT_FALSE(has_vanished(effect("shaft_compliance", {1.0}))) << "its first number is no amount";
+}
+
 }  // namespace
 }  // namespace gapscope
