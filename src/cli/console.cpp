@@ -110,24 +110,33 @@ std::string validation_line(const RunResult& r) {
                      r.coordinates.thousandths(s.floor));
 }
 
-/// The command that goes on from what was found, with the names of its files.
-std::string told_of_folder(const std::string& text, const std::string& configuration,
-                           const std::string& folder) {
-  if (configuration.empty()) return text;
-  return replaced(text, "CONFIG --model-from DIR/fitted.yaml",
-                  shell_word(configuration) + " --model-from " + shell_word(folder + "/fitted.yaml"));
+/// "`DIR/fitted.yaml`" of the folder that DIR stands for, as a shell takes it.
+std::string told_of_folder(const std::string& text, const std::string& folder) {
+  static constexpr std::string_view kFolder = "DIR";
+  std::string told;
+  for (std::size_t at = 0; at < text.size();) {
+    const bool begins = at > 0 && (text[at - 1] == ' ' || text[at - 1] == '`');
+    if (!begins || text.compare(at, kFolder.size(), kFolder) != 0) {
+      told += text[at++];
+      continue;
+    }
+    const std::size_t end = std::min(text.find_first_of(" `", at), text.size());
+    told += shell_word(folder + text.substr(at + kFolder.size(), end - at - kFolder.size()));
+    at = end;
+  }
+  return told;
 }
 
 /// What everybody wants to know, last: it is what stays in view.
 /// @param folder  of the report
 void print_card(const Card& card, const std::string& configuration, const std::string& folder) {
-  const std::string to = configuration.empty() ? "CONFIG`" : shell_word(configuration) + "`";
+  const std::string to = configuration.empty() ? "CONFIG" : shell_word(configuration);
   for (const CardLine& l : card.lines()) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool all = !card.diagnosed && &l.text == &card.place;
-    const std::string text = all ? "Where, cause and what helps: run `gapscope diagnose CONFIG`."
-                                 : told_of_folder(l.text, configuration, folder);
-    line(all ? "diagnosis" : l.name, replaced(text, "CONFIG`", to));
+    const std::string text =
+        all ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : told_of_folder(l.text, folder);
+    line(all ? "diagnosis" : l.name, replaced(replaced(text, "CONFIG`", to + "`"), "CONFIG ", to + " "));
   }
 }
 

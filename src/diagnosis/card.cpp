@@ -35,6 +35,7 @@ using internal::diagnosis::next_of_numbers;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
 using internal::diagnosis::step_to_establish;
+using internal::diagnosis::unexplained;
 using internal::diagnosis::where_words;
 using internal::diagnosis::without_asides;
 
@@ -80,9 +81,13 @@ std::string gap_verdict(const CardFacts& f) {
 std::string gap_line(const CardFacts& f) {
   if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
   const bool known = f.answer->trust != AnswerTrust::kNone, measured = !known && f.lost_motion;
+  const bool beside = known && f.answer->from == AnswerSource::kModelFree && f.reference != nullptr &&
+                      f.reference->rejected();  // whose reason stands between the reading and the trust
   return as_sentence(known || measured ? f.answer->sentence : without_asides(f.answer->sentence)) +
-         (measured ? " Trust in a gap: " : " Trust: ") + to_string(f.answer->trust) +
-         (measured ? "; the lost motion is measured." : ".") + gap_verdict(f);
+         (measured ? " Trust in a gap: "
+          : beside ? " Trust in that reading: "
+                   : " Trust: ") +
+         to_string(f.answer->trust) + (measured ? "; the lost motion is measured." : ".") + gap_verdict(f);
 }
 
 std::string torque_verdict(const CardFacts& f, const Card& card) {
@@ -213,24 +218,6 @@ std::string step_of_the_answer(const CardFacts& f) {
   return "";
 }
 
-/// What remains once all that was added is in the model, where that is most of it or far above the floor;
-/// empty: it is neither, or the budget has no size of something that was added.
-std::string unexplained(const CardFacts& f, const Card& card) {
-  const ErrorBudget& b = f.diagnosis->budget;
-  const double floor = b.exists() ? b.floor() : 0.0;
-  const std::vector<AddedEffect>& added = f.diagnosis->added;
-  const bool sized = std::all_of(added.begin(), added.end(),
-                                 [&](const AddedEffect& a) { return a.after_torque < card.torque; });
-  const bool most =
-      card.torque_after > card.torque - card.torque_after && card.torque_after > kRule.floor_ratio * floor;
-  if (!(sized && floor > 0.0 && (most || card.torque_after > kRule.far * floor))) return "";
-  return fmt::format(
-      "{} of the input's {} is still unexplained ({:.2g} times the least that a model could reach): diagnose "
-      "the other way round, with what is fitted held out and what is held out fitted, or record another "
-      "motion; `fitted.yaml` has what was found.",
-      percent_text(card.percent_after), f.coordinates.torque_word(), card.torque_after / floor);
-}
-
 std::string next_line(const CardFacts& f, const Card& card) {
   if (card.good_enough && *card.good_enough) return "None: this is within your tolerance.";
   const std::string step = step_of_the_answer(f);
@@ -245,12 +232,13 @@ std::string next_line(const CardFacts& f, const Card& card) {
     return "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml`.";
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
   if (is_added(d) && d.verdict == DiagnosisVerdict::kHelps)
-    return "Try `fitted.yaml` on another motion (other speeds, other loads); held out, a recording of that "
+    return "Try `DIR/fitted.yaml` on another motion (other speeds, other loads); held out, a recording of "
+           "that "
            "may also tell the cause.";
   if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
   if (is_added(d))
-    return std::string("Simulate with `fitted.yaml`") +
+    return std::string("Simulate with `DIR/fitted.yaml`") +
            (open ? ", which predicts best with all of these, established or not; " : "; ") + export_words(f);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
   return step_to_establish(d);

@@ -153,7 +153,7 @@ std::string next_of_numbers(const CardFacts& f) {
   if (!rows.empty())
     return "Mend your simulator: " + enumerated(rows) +
            ", as the table of drive and simulator has it; `fitted.yaml` has the drive's numbers.";
-  return numbers ? "Simulate with the numbers of `fitted.yaml`; " + export_words(f) : "None.";
+  return numbers ? "Simulate with the numbers of `DIR/fitted.yaml`; " + export_words(f) : "None.";
 }
 
 std::string also_refitted(const CardFacts& f) {

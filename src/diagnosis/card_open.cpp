@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
 #include "diagnosis/verdict.h"
@@ -80,6 +82,22 @@ std::string exhausted_words(const Diagnosis& d) {
   const bool at_floor = d.mismatch.remains < kRule.floor_ratio;
   if (!d.exhausted || d.stopped || at_floor || d.verdict == DiagnosisVerdict::kNone) return "";
   return " The search ended at its limit of work, so that further causes may have been missed.";
+}
+
+std::string unexplained(const CardFacts& f, const Card& card) {
+  const ErrorBudget& b = f.diagnosis->budget;
+  const double floor = b.exists() ? b.floor() : 0.0;
+  const std::vector<AddedEffect>& added = f.diagnosis->added;
+  const bool sized = std::all_of(added.begin(), added.end(),
+                                 [&](const AddedEffect& a) { return a.after_torque < card.torque; });
+  const bool most =
+      card.torque_after > card.torque - card.torque_after && card.torque_after > kRule.floor_ratio * floor;
+  if (!(sized && floor > 0.0 && (most || card.torque_after > kRule.far * floor))) return "";
+  return fmt::format(
+      "{} of the input's {} is still unexplained ({:.2g} times the least that a model could reach): diagnose "
+      "the other way round, with what is fitted held out and what is held out fitted, or record another "
+      "motion; `fitted.yaml` has what was found.",
+      percent_text(card.percent_after), f.coordinates.torque_word(), card.torque_after / floor);
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -29,6 +29,10 @@ std::string step_to_establish(const Diagnosis& diagnosis);
 /// " The search ended at its limit of work: ..." where that may have left something unfound; else empty.
 std::string exhausted_words(const Diagnosis& diagnosis);
 
+/// What remains once all that was added is in the model, where that is most of it or far above the floor;
+/// empty: it is neither, or the budget has no size of something that was added.
+std::string unexplained(const CardFacts& facts, const Card& card);
+
 /// The step to the same recordings the other way round.
 inline constexpr const char* kSwapStep =
     "Swap the recordings: fit the one that is held out now, and hold out the one that is fitted now. That "

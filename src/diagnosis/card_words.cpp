@@ -111,7 +111,8 @@ std::string export_words(const CardFacts& f) {
   const std::string takes = goals ? " takes the drive, without its controller, to other simulators."
                                   : " takes it to other simulators.";
   if (!f.carriers) return "`gapscope export`" + takes;
-  if (!f.carriers->empty()) return "`gapscope export --to " + f.carriers->front() + "`" + takes;
+  if (!f.carriers->empty())
+    return fmt::format("`gapscope export DIR --to {0} -o DIR_{0}`{1}", f.carriers->front(), takes);
   std::vector<std::string> names;
   for (const std::string& effect : f.uncarried) names.push_back(readable(effect));
   return "no format of `gapscope export` carries " + (names.empty() ? "all of it" : enumerated(names)) +

@@ -149,11 +149,12 @@ bool is_held(const FittedModel& fitted, const ReferenceModel& nominal, reference
 std::vector<RefittedNumber> refitted_of(const Study& study, const FittedModel& fitted,
                                         const ReferenceModel& nominal, const FitErrors& fit) {
   std::vector<RefittedNumber> all;
-  for (const auto& [id, error] : fit.errors) {
+  for (std::size_t i = 0; i < fit.errors.size(); ++i) {
+    const auto& [id, error] = fit.errors[i];
     if (!std::isfinite(error) || is_at_bound(fit, id) || is_held(fitted, nominal, id)) continue;
     std::optional<RefittedNumber> n = as_configured(study.sheet, fitted.model, id);
     if (!n || !std::isfinite(n->configured)) continue;
-    n->ci95 = normal_interval(n->fitted, error);
+    n->ci95 = within(normal_interval(n->fitted, error), fit.bounds[i]);
     const double turn = n->key.ends_with("phase_rad") ? 2.0 * kPi : 0.0;
     const double off =
         turn > 0.0 ? std::remainder(n->configured - n->fitted, turn) : n->configured - n->fitted;

@@ -54,6 +54,7 @@ std::string story_text(const DriveStory& s) {
     text += "\n> " + line + "\n";
   text += card_text(drive_card(s.run, s.diagnosis));
   if (text.find(" CONFIG") != text.npos) text += kWhatConfigIs;
+  if (text.find("DIR") != text.npos) text += "\nDIR is the folder of this report.\n";
   std::string detail = bullet_section("Warnings", all_warnings(s));
   if (s.run) detail += estimate_text(*s.run, s.timing);
   if (s.diagnosis) detail += diagnosis_text(*s.diagnosis);

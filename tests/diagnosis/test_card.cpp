@@ -99,9 +99,9 @@ TEST(Card, TellsWhatIsStillUnexplained) {
               HasSubstr(" of the input's force is still unexplained (20 times the least that a model could "
                         "reach): diagnose"));
   d.added.back().after_torque = kNaN;  // the budget has no size of it: it may take all of that
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `fitted.yaml`"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `DIR/fitted.yaml`"));
   d.added.back().after_torque = 2.0, d.budget.encoder = 0.3;
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `fitted.yaml`"));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `DIR/fitted.yaml`"));
   d.added.back().after_torque = 6.0, d.mismatch.after_torque = 6.0, d.budget.encoder = 1.5;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).next,
               HasSubstr(" of the input's force is still unexplained (4 times"))
@@ -143,7 +143,7 @@ TEST(Card, SaysWhereMostLikelyNothingOfTheCatalogueIsTheCause) {
   const Card card = card_of(facts_of(nullptr, &d));
   EXPECT_THAT(card.cause, StartsWith("Not established, though they help: "));
   EXPECT_THAT(card.cause, EndsWith(" Most likely (88 %) the cause is none of the catalogue's."));
-  EXPECT_THAT(card.next, StartsWith("Try `fitted.yaml` on another motion ("));
+  EXPECT_THAT(card.next, StartsWith("Try `DIR/fitted.yaml` on another motion ("));
   d.added.back().established = true;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, Not(HasSubstr("ost likely")));
   d.added.back().established = false;

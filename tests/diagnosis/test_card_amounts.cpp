@@ -145,11 +145,11 @@ TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {
   CardFacts f = facts_of(nullptr, &d);
   EXPECT_THAT(card_of(f).next, HasSubstr("`gapscope export` takes it to other simulators."));
   f.carriers = {"c"};
-  EXPECT_THAT(card_of(f).next, HasSubstr("`gapscope export --to c` takes it to other simulators."));
+  EXPECT_THAT(card_of(f).next,
+              HasSubstr("`gapscope export DIR --to c -o DIR_c` takes it to other simulators."));
   d.closed_loop = ClosedLoop{0.4, 0.05, {}};
-  EXPECT_THAT(
-      card_of(f).next,
-      HasSubstr("`gapscope export --to c` takes the drive, without its controller, to other simulators."));
+  EXPECT_THAT(card_of(f).next, HasSubstr("`gapscope export DIR --to c -o DIR_c` takes the drive, without its "
+                                         "controller, to other simulators."));
   d.closed_loop.reset();
   f.carriers = std::vector<std::string>(), f.uncarried = {"load_dependent_friction"};
   EXPECT_THAT(card_of(f).next,

@@ -101,7 +101,7 @@ TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTh
       "has "
       "them and is as good as the recording.")
       << "the phase reads the same";
-  EXPECT_THAT(card.next, HasSubstr("Simulate with the numbers of `fitted.yaml`"));
+  EXPECT_THAT(card.next, HasSubstr("Simulate with the numbers of `DIR/fitted.yaml`"));
   d.refitted.insert(d.refitted.begin(), {"gap", "rad", 0.02, 0.03, {0.029, 0.031}});
   EXPECT_THAT(card_of(d).helps, HasSubstr("0.007830) and, by less, load unbalance amplitude; `fitted.yaml`"));
   d.refitted = {of_other_numbers().refitted.back()};
