@@ -105,7 +105,7 @@ TEST(Check, InitWarnsOfADriveThatIsSwitchedOffInAHeldOutRecording) {
   place.file("off.csv", rows.csv());
   EXPECT_THAT(place.run("init on.csv --held-out off.csv --model gap").err,
               AllOf(HasSubstr("warning: off.csv: input: "), HasSubstr("was the drive switched off there?")));
-  EXPECT_EQ(place.run("init on.csv --model gap -o on.yaml").err, "");
+  EXPECT_EQ(place.run("init on.csv --model gap -o alone.yaml").err, "");
 }
 
 }  // namespace
