@@ -1,8 +1,11 @@
 #include "diagnosis/last_resort.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/counted.h"
 #include "diagnosis/law_variants.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/step.h"
@@ -53,6 +56,10 @@ class LawFit {
       : study_(&study), variant_(variant), fitted_(variant.levels.size()) {
     origin_ = before.fitted;
     origin_.model = with_law(origin_.model, variant);
+  }
+
+  void tell(Counted& counted) const {
+    counted.begin(fmt::format("laying free-form laws over what remains: {}", variant_.entry->name));
   }
 
   /// The level that leaves least of what was fitted.
@@ -159,7 +166,11 @@ std::vector<LawFit> laws_over(const Study& study, const ScoredModel& before) {
 /// On a drive that is known each law climbs by itself, and the best is refined to the end.
 FittedLaws laws_of_known_drive(const Study& study, const ScoredModel& before) {
   std::vector<LawFit> laws = laws_over(study, before);
-  parallel_for(laws.size(), study.options.threads, [&](std::size_t i) { laws[i].climb(); });
+  Counted counted(study.options.progress, laws.size());
+  parallel_for(laws.size(), study.options.threads, [&](std::size_t i) {
+    laws[i].tell(counted);
+    laws[i].climb();
+  });
   FittedLaws found{ranked(laws), {}};
   if (found.judged.empty()) return found;
   ScoredModel& best = found.judged.front();
@@ -177,17 +188,21 @@ FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
                        const std::vector<ReferenceModel>& other_drives) {
   std::vector<LawFit> laws = laws_over(study, before);
   if (laws.empty()) return {};
+  Counted counted(study.options.progress, 2 * laws.size());
   parallel_for(laws.size(), study.options.threads, [&](std::size_t i) {
+    laws[i].tell(counted);
     laws[i].race_on(before.fitted.model);
     for (const ReferenceModel& drive : other_drives) laws[i].race_on(drive);
   });
   std::stable_sort(laws.begin(), laws.end(),
                    [](const LawFit& a, const LawFit& b) { return costs_less(a.closest(), b.closest()); });
   if (!(laws.front().closest().mean_cost < kInfinity)) return {};
+  laws.front().tell(counted);
   laws.front().refine();
   FittedLaws found{{}, laws.front().closest()};
   const bool explained = found.closest.mean_cost < kExplained;
   parallel_for(laws.size() - 1, study.options.threads, [&](std::size_t i) {
+    laws[i + 1].tell(counted);
     laws[i + 1].race_on(found.closest.model);
     if (!explained) laws[i + 1].refine();
   });
@@ -265,7 +280,6 @@ std::optional<LawSearch> search_last_resort(const Study& study, const ScoredMode
   if (at_floor(model) || !(model.fitted.mean_cost < kInfinity) || finish_requested()) return {};
   LawSearch found;
   found.before = as_base(model);
-  study.options.progress("laying free-form laws over what remains");
   FittedLaws laws = drive_known ? laws_of_known_drive(study, found.before)
                                 : fitted_laws(study, found.before, {study.sheet});
   if (!drive_known && asks_far_too_little(study, laws) && !widen(study, found, laws)) return {};

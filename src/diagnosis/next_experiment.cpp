@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/counted.h"
 #include "diagnosis/experiment_library.h"
 #include "diagnosis/held_out.h"
 #include "gapscope/base/interrupt.h"
@@ -171,7 +172,8 @@ bool NextExperiment::separates() const {
 }
 
 NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& like,
-                               const ExperimentLimits& limits, double observer_hz, int threads) {
+                               const ExperimentLimits& limits, double observer_hz, int threads,
+                               const std::function<void(const std::string&)>& progress) {
   using namespace internal::diagnosis;
   GAPSCOPE_REQUIRE(rivals.size() >= 2);
   const double floor = internal::signals::encoder_floor(like),
@@ -184,7 +186,10 @@ NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& 
   NextExperiment next;
   next.rate = 1.0 / like.dt, next.duration = limits.duration;
   next.tried.resize(library.size());
+  Counted counted(progress, library.size() + std::min(kConfirmed, library.size()));
+  const auto tell = [&] { counted.begin("looking for the experiment that would tell"); };
   parallel_for(library.size(), threads, [&](std::size_t i) {
+    tell();
     if (excitation_problem(library[i], next.rate, next.duration).empty())
       next.tried[i] = bench.attempt(library[i], most_travel, false);
     else
@@ -192,6 +197,7 @@ NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& 
   });
   sort_by_worst(next.tried);
   parallel_for(std::min(kConfirmed, next.tried.size()), threads, [&](std::size_t i) {
+    tell();
     if (!std::isnan(next.tried[i].worst))
       next.tried[i] = bench.attempt(next.tried[i].excitation, most_travel, true);
   });

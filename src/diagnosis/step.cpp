@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <set>
 
+#include "diagnosis/counted.h"
 #include "diagnosis/periodic_torque.h"
 #include "diagnosis/ranking.h"
 #include "gapscope/base/interrupt.h"
@@ -74,26 +74,11 @@ bool related(const EffectEntry& a, const EffectEntry& b) {
   return look_alike(a, b) || contains_law_of(a, b) || contains_law_of(b, a);
 }
 
-/// Tells of each of many pieces of work that it begins, and how many have begun of how many.
-class Counted {
- public:
-  Counted(const Study& study, std::size_t all) : study_(study), all_(all) {}
-  void begin(const std::string& what) {
-    const std::lock_guard lock(saying_);
-    study_.options.progress(fmt::format("{}, {} of {}", what, ++begun_, all_));
-  }
-
- private:
-  const Study& study_;
-  std::mutex saying_;
-  std::size_t begun_ = 0, all_;
-};
-
 /// Candidates that are not at the floor are fitted once more.
 template <class Fit>
 void once_more(const Study& study, const char* why, const std::vector<std::size_t>& places,
                std::vector<ScoredModel>& ranked, const Fit& fit) {
-  Counted counted(study, places.size());
+  Counted counted(study.options.progress, places.size());
   parallel_for(places.size(), study.options.threads, [&](std::size_t k) {
     ScoredModel& candidate = ranked[places[k]];
     counted.begin(fmt::format("{}: {}", why, candidate.entry->name));
@@ -146,7 +131,7 @@ class Field {
         starts_(starts),
         raced_(entries.size()),
         fitted_(entries.size()),
-        races_(study, entries.size()) {}
+        races_(study.options.progress, entries.size()) {}
 
   std::vector<ScoredModel> judged() {
     race_all(false);
@@ -199,7 +184,7 @@ class Field {
     std::erase_if(places, [&](std::size_t i) { return fitted_[i].has_value(); });
     const bool explained = std::any_of(fitted_.begin(), fitted_.end(),
                                        [](const auto& f) { return f && f->mean_cost < kExplained; });
-    Counted counted(study_, places.size());
+    Counted counted(study_.options.progress, places.size());
     parallel_for(places.size(), study_.options.threads, [&](std::size_t k) {
       counted.begin(fmt::format("refining {}", entries_[places[k]]->name));
       fitted_[places[k]] = raced_[places[k]]->refined(!explained);

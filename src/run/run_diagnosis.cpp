@@ -87,8 +87,8 @@ void ask_further(const Configuration& c, const MotorTrace& like, const Diagnosis
     d.next_experiment.sentence = other_goal(d.rivals);
     return;
   }
-  options.progress("looking for the experiment that would tell");
-  d.next_experiment = next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads);
+  d.next_experiment =
+      next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads, options.progress);
   const InputFacts input = c.input_facts();
   d.next_experiment.sentence = with_input_unit(d.next_experiment.sentence, input);
   if (d.next_experiment.separates())

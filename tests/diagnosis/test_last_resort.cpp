@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "diagnosis/fitted_model.h"
 #include "diagnosis/last_resort.h"
@@ -18,10 +20,12 @@ struct Searched {
   DiagnosisOptions options;
   std::optional<Study> study;
   std::optional<LawSearch> law;
+  std::set<std::string> progress = {};  ///< what it said of itself
 
   explicit Searched(const independent_plant::OutsideEffects& outside)
       : Searched(test::one_inertia({}, 5, outside)) {}
   explicit Searched(blind::BlindPair drawn) : pair(std::move(drawn)) {
+    options.progress = [this](const std::string& what) { progress.insert(what); };
     const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
     study.emplace(make_study(train, held, pair.sheet, options));
     law = search_last_resort(
@@ -35,6 +39,7 @@ TEST(LastResort, AFrictionWithAMaximumIsAFunctionOfSpeed) {
   ASSERT_TRUE(s.law);
   const LastResortLaw law = told(*s.study, *s.law);
   EXPECT_EQ(law.law, "friction_curve");
+  EXPECT_GE(s.progress.size(), 6u) << "of each of three laws it tells at least twice";
   EXPECT_EQ(law.variable, "speed");
   EXPECT_GT(law.shrink, 0.7);
   EXPECT_LT(law.after_torque, law.before_torque);

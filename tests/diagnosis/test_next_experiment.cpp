@@ -1,8 +1,11 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "diagnosis/look_alikes.h"
 
@@ -20,12 +23,14 @@ ExperimentLimits short_limits() {
 struct Asked {
   test::LookAlikes pair;
   NextExperiment next;
+  std::vector<std::string> progress = {};
 };
 
 const Asked& of_a_delay() {
   static const Asked asked = [] {
     Asked a{test::look_alikes("input_delay", "actuator_lag", 510001), {}};
-    a.next = next_experiment(a.pair.rivals, a.pair.recording.motor_trace(), short_limits(), 3.0);
+    a.next = next_experiment(a.pair.rivals, a.pair.recording.motor_trace(), short_limits(), 3.0, 0,
+                             [&](const std::string& what) { a.progress.push_back(what); });
     return a;
   }();
   return asked;
@@ -36,6 +41,12 @@ TEST(NextExperiment, SeparatesADelayFromALagOnTheIndependentPlant) {
   ASSERT_TRUE(a.next.separates()) << a.next.sentence;
   EXPECT_LT(test::seen_excess(a.pair, a.pair.recording), 0.5);  // why one asks
   EXPECT_GE(test::seen_excess(a.pair, test::played(a.pair, a.next)), 1.0) << a.next.sentence;
+}
+
+TEST(NextExperiment, TellsOfEveryInputThatItTries) {
+  const std::vector<std::string>& said = of_a_delay().progress;
+  ASSERT_GE(said.size(), of_a_delay().next.tried.size());
+  EXPECT_EQ(said.front(), fmt::format("looking for the experiment that would tell, 1 of {}", said.size()));
 }
 
 TEST(NextExperiment, StaysWithinItsLimits) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,9 +63,11 @@ struct NextExperiment {
 /// what it cannot follow then, in units of the encoder's noise, and of both directions the worse one. The
 /// difference without a refit says nothing, since the drive's numbers take most of it up.
 /// @param like a recording of the drive: sampling, encoder, and what absent limits are taken from
+/// @param progress is told of every input that is tried
 /// @throws std::logic_error for fewer than two rivals; Interrupted.
-NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& like,
-                               const ExperimentLimits& limits, double observer_hz, int threads = 0);
+NextExperiment next_experiment(
+    std::span<const Rival> rivals, const MotorTrace& like, const ExperimentLimits& limits, double observer_hz,
+    int threads = 0, const std::function<void(const std::string&)>& progress = [](const std::string&) {});
 
 /// An input in words: "a sine of 0.5 units of u at 0.3 Hz".
 std::string describe(const Excitation& excitation);
