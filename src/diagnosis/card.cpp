@@ -35,6 +35,7 @@ using internal::diagnosis::next_of_numbers;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
 using internal::diagnosis::step_to_establish;
+using internal::diagnosis::step_to_estimate;
 using internal::diagnosis::unexplained;
 using internal::diagnosis::where_words;
 using internal::diagnosis::without_asides;
@@ -227,6 +228,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
   const Diagnosis& d = *f.diagnosis;
   if (d.stopped) return "Run `gapscope diagnose CONFIG` to its end.";
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
+  if (!d.held.empty() && (unknown || d.verdict == DiagnosisVerdict::kHelps)) return step_to_estimate(d);
   if (unknown && d.better_swapped) return kSwapStep;  // which takes no new recording
   if (is_added(d) && !exhausted_words(d).empty())
     return "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml`.";

@@ -1,6 +1,7 @@
 #include "diagnosis/card_open.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -71,6 +72,13 @@ std::string unknown_words(const CardFacts& f) {
 }
 
 bool input_is_made(const Diagnosis& d) { return !d.traces.empty() && !d.traces.front().target.empty(); }
+
+std::string step_to_estimate(const Diagnosis& d) {
+  return fmt::format(
+      "Estimate what the configuration holds ({}: {{estimate: true}}), and diagnose again: where "
+      "such a number is wrong, effects take its place.",
+      fmt::join(d.held, ", "));
+}
 
 std::string step_to_establish(const Diagnosis& d) {
   return input_is_made(d)

@@ -23,6 +23,9 @@ const BudgetRung* unestablished_rung(const Diagnosis& diagnosis);
 /// Whether the input was not recorded: the model's controller makes it of the goal.
 bool input_is_made(const Diagnosis& diagnosis);
 
+/// The step where dampings or frictions are held at what nobody has measured: it takes no new recording.
+std::string step_to_estimate(const Diagnosis& diagnosis);
+
 /// The step where the recordings show a mismatch and establish nothing, and the other way round is no better.
 std::string step_to_establish(const Diagnosis& diagnosis);
 

@@ -167,6 +167,15 @@ std::vector<RefittedNumber> refitted_of(const Study& study, const FittedModel& f
   return all;
 }
 
+/// Dampings and frictions that the drive has and no fit moves.
+std::vector<std::string> held_of(const ReferenceModel& sheet) {
+  std::vector<std::string> held;
+  for (const int i : {place::kMotorDamping, place::kLoadDamping, place::kLoadCoulombFriction})
+    if (has_parameter(sheet.structure, i) && !sheet.parameters[static_cast<std::size_t>(i)].estimate)
+      held.emplace_back(kDriveParameters[i].key);
+  return held;
+}
+
 bool has_estimates(const ReferenceModel& model) {
   const auto estimated = [](const ParameterSetting& p) { return p.estimate; };
   return std::ranges::any_of(model.parameters, estimated) ||
@@ -181,6 +190,7 @@ void tell_intervals(const Study& study, const FittedModel& fitted, const Referen
                     Diagnosis& d) {
   d.model_gap = gap_of(fitted.model, d.added);
   d.model_gap->encoder = fitted.model.structure.encoder;
+  d.held = held_of(study.sheet);
   const bool known = d.verdict != DiagnosisVerdict::kUnknown;
   const bool asked = !d.added.empty() || d.model_gap->origin == GapOrigin::kEstimated ||
                      (known && has_estimates(study.sheet));

@@ -135,5 +135,20 @@ TEST(OpenCauses, EffectsThatBringTheMotionNoNearerAreNone) {
   EXPECT_THAT(d.sentence, HasSubstr("the cause is open"));
 }
 
+/// The commonest thing that a configuration leaves out: a friction that it holds at 0.
+TEST(OpenCauses, SendFirstToWhatTheConfigurationHolds) {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kUnknown, d.better_swapped = true;
+  d.held = {"load_damping", "load_coulomb_friction"};
+  CardFacts f;
+  f.diagnosis = &d;
+  EXPECT_THAT(card_of(f).next,
+              ::testing::StartsWith("Estimate what the configuration holds (load_damping, "
+                                    "load_coulomb_friction: {estimate: true}), and diagnose again"));
+  d.verdict = DiagnosisVerdict::kEffect;
+  d.added = {{"input_delay", true, {"input_delay"}, kNaN, {}, 0.5, {}, 0.02}};
+  EXPECT_THAT(card_of(f).next, ::testing::Not(::testing::HasSubstr("holds"))) << "its cause is established";
+}
+
 }  // namespace
 }  // namespace gapscope
