@@ -11,7 +11,7 @@
 
 namespace gapscope {
 namespace {
-using internal::diagnosis::kTheGapIs;
+using internal::diagnosis::the_gap_is;
 
 /// The fit ends with the gap closed, and without a model none is seen either.
 bool none_by_both(const Findings& f) {
@@ -50,7 +50,7 @@ std::string clause(const Remark& remark) {
 Answer from_model_free(const Findings& f, AnswerTrust trust) {
   const GapEstimate& g = *f.model_free;
   Answer a{g.gap, g.ci95, AnswerSource::kModelFree, trust, "", {}};
-  a.sentence = kTheGapIs + with_interval(g.gap, g.ci95, f.coordinates) + ", measured without a model";
+  a.sentence = the_gap_is() + with_interval(g.gap, g.ci95, f.coordinates) + ", measured without a model";
   if (g.method == GapMethod::kPaper)
     a.sentence += fmt::format(", with the bound that was given (L = {:.3g} {})", g.bound,
                               f.coordinates.shown_unit("rad/s^2"));
@@ -59,7 +59,7 @@ Answer from_model_free(const Findings& f, AnswerTrust trust) {
 
 Answer from_reference(const Findings& f, const FittedParameter& gap, AnswerTrust trust) {
   Answer a{gap.value, f.reference->shown_interval(gap), AnswerSource::kReference, trust, "", {}};
-  a.sentence = kTheGapIs + with_interval(gap.value, a.ci95, f.coordinates) + " by the fitted model";
+  a.sentence = the_gap_is() + with_interval(gap.value, a.ci95, f.coordinates) + " by the fitted model";
   return a;
 }
 

@@ -28,7 +28,7 @@ std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, Coordinates coordi
   if (trust == AnswerTrust::kNone || !(gap.ci95.low > 0.0)) return {};
   Answer a{gap.value, gap.ci95, AnswerSource::kDiagnosis, trust, "", {}};
   a.sentence = fmt::format(
-      "{}{} by the model that the diagnosis has fitted.", internal::diagnosis::kTheGapIs,
+      "{}{} by the model that the diagnosis has fitted.", internal::diagnosis::the_gap_is(),
       SharedUnit(gap.value, coordinates.position_unit()).with_interval_aside(gap.value, gap.ci95));
   return a;
 }

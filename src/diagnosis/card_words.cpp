@@ -10,6 +10,7 @@
 #include "diagnosis/card_open.h"
 #include "gapscope/base/decimals.h"
 #include "gapscope/base/text.h"
+#include "gapscope/diagnosis/answer.h"
 
 namespace gapscope::internal::diagnosis {
 
@@ -44,6 +45,8 @@ std::string SharedUnit::with_interval(double value, const Interval& ci95) const 
 std::string SharedUnit::with_interval_aside(double value, const Interval& ci95) const {
   return interval_after(value, ci95, " (", ")");
 }
+
+std::string the_gap_is() { return std::string("The backlash gap 2β") + kWhichGap + " is "; }
 
 std::string percent_text(double percent) { return fmt::format("{} %", SharedUnit(1.0, "").number(percent)); }
 

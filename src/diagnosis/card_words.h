@@ -29,8 +29,8 @@ class SharedUnit {
   std::string unit_;
 };
 
-/// 2β, as every sentence that tells it begins.
-inline constexpr const char* kTheGapIs = "The backlash gap 2β (full width, motor side) is ";
+/// "The backlash gap 2β (full width, motor side) is "
+std::string the_gap_is();
 
 /// "17.1 %", "0.21 %"
 std::string percent_text(double percent);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/parallel.h"
+#include "gapscope/base/text.h"
 #include "report/figures.h"
 #include "report/rich_text.h"
 #include "report/wording.h"
@@ -44,7 +45,8 @@ bool has_something_to_compare(const ReportView& view) {
 
 /// What the card says of the gap, without the asides that a heading has no room for.
 std::string first_line(const RunResult& run) {
-  return run.answer && !run.answer->card.gap.empty() ? run.answer->card.gap : headline(run);
+  const bool card = run.answer && !run.answer->card.gap.empty();
+  return replaced(card ? run.answer->card.gap : headline(run), kWhichGap, "");
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ namespace gapscope {
 
 struct Diagnosis;
 
+/// Which gap a sentence tells; a title, whose figure has it, does without.
+inline constexpr const char* kWhichGap = " (full width, motor side)";
+
 /// kDiagnosis: the model with all that a diagnosis has added.
 enum class AnswerSource { kModelFree, kReference, kDiagnosis, kNone };
 enum class AnswerTrust { kGood, kLimited, kNone };
