@@ -22,8 +22,7 @@ inline constexpr const char* kDiagnosisSchema = "gapscope.diagnosis/2";
 /// A trace without its columns, which are in the trace file.
 struct StoredMismatch {
   std::string trace;
-  int samples = 0;
-  int scored_from = 0;
+  int samples = 0, scored_from = 0;
   MismatchTrace mismatch;
 };
 

@@ -9,8 +9,8 @@ namespace gapscope {
 
 /// A value that is laid over a configuration before it is read: `--set model.parameters.gap=0.02`.
 struct Setting {
-  std::string key;   ///< keys from the outermost on with dots between them; in a list the place, from 0
-  std::string yaml;  ///< the value, as it would stand in the file: a number, a word, a list, a map
+  std::string key;         ///< keys from the outermost on with dots between them; in a list the place, from 0
+  std::string yaml;        ///< the value, as it would stand in the file: a number, a word, a list, a map
   std::string place = "";  ///< as messages name it; empty: "--set KEY"
   bool removed = false;    ///< the key is not to be there
 };
@@ -18,7 +18,8 @@ struct Setting {
 /// From "KEY=VALUE".  @throws ConfigError "gapscope: --set ..." for any other text
 Setting read_setting(const std::string& text);
 
-/// `model:` and `anchor:`, which goes where there is none, of another configuration, such as the `fitted.yaml` of a report.
+/// `model:` and `anchor:`, which goes where there is none, of another configuration, such as the
+/// `fitted.yaml` of a report.
 /// @throws ConfigError where the file is none, or has no model
 std::vector<Setting> model_from(const std::string& file);
 
