@@ -89,10 +89,11 @@ std::string open_causes(const CardFacts& f) {
   if (open.empty()) return "";
   const bool alike = std::ranges::all_of(why, [&](const std::string& w) { return w == why.front(); });
   const auto aside = [](const std::string& w) { return w.empty() ? "" : " (" + w + ")"; };
+  const std::string& first = why.front();
+  const bool each = open.size() > 1 && first.starts_with("it ");
   for (std::size_t i = 0; i < open.size() && !alike; ++i) open[i] += aside(why[i]);
   return fmt::format(" Not established, though {}: {}{}.", open.size() > 1 ? "they help" : "it helps",
-                     enumerated(open),
-                     alike ? (open.size() > 1 ? aside("of each: " + why.front()) : aside(why.front())) : "");
+                     enumerated(open), alike ? aside(each ? "each" + first.substr(2) : first) : "");
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were

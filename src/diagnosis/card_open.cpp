@@ -58,8 +58,8 @@ std::string unknown_words(const CardFacts& f) {
   if (rung == nullptr) return "unknown: no effect of the catalogue explains it";
   const SharedUnit torque(rung->before, f.coordinates.shown_unit("N m"));
   return fmt::format(
-             "unknown; suspected is {}, with which the error budget brings the missing {} down from {} "
-             "to {}, but {}",
+             "unknown; suspected is {}: in the error budget it brings the missing {} down from {} to {}, but "
+             "{}",
              readable(rung->effect.empty() ? rung->law : rung->effect), f.coordinates.torque_word(),
              torque.number(rung->before), torque(rung->after),
              d.better_swapped ? "the recording that was fitted moves too little to establish a cause"

@@ -100,7 +100,7 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
 std::string where_words(const Diagnosis& d, Coordinates coordinates) {
   if (d.verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no pattern.";
   const std::string& what = d.where.headline;
-  const bool has_verb = std::ranges::any_of(std::array{"varies", "depends", "arises", "reverses"},
+  const bool has_verb = std::ranges::any_of(std::array{"varies", "changes", "depends", "arises", "reverses"},
                                             [&](const char* verb) { return what.starts_with(verb); });
   return fmt::format("The missing {} {}{}.", coordinates.torque_word(),
                      has_verb                  ? ""

@@ -67,7 +67,7 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coord
     case ResidualPattern::kTime:
       return fmt::format("varies over the recording (largest at {})", range_words(largest(p.time).bin));
     case ResidualPattern::kInputSteps:
-      return fmt::format("arises where the {} changes (largest at {})", coordinates.torque_word(),
+      return fmt::format("arises where the input {} changes (most of it at {})", coordinates.torque_word(),
                          range_words(largest(p.frequency).bin));
     case ResidualPattern::kCounts:
       return "within the count of a coarser encoder";

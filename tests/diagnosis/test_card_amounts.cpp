@@ -34,9 +34,9 @@ TEST(Card, TellsAnAmountWithoutAUnitAsAShareAndALawByWhatItAddsToASimplerOne) {
   Diagnosis d = slide_diagnosis();
   d.added[0].parameters = {{"level_nm", "N m", 20.54}};
   d.added[1].effect = "torque_ripple", d.added[1].parameters = {{"ratio", "-", 0.0312, {0.0305, 0.0319}}};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      HasSubstr("(20.5 N), then to 2 N with torque ripple (3.120 % of the torque, 95 %: 3.050 to 3.190) ("));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              HasSubstr("(20.5 N), then to 2 N with torque ripple (3.120 % of the torque (amplitude), 95 %: "
+                        "3.050 to 3.190) ("));
   d.added[1].effect = "load_dependent_friction";
   d.added[1].parameters = {{"level_nm", "N m", 20.54}, {"ratio", "-", 0.1, {0.09, 0.11}}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
@@ -51,10 +51,9 @@ TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
   d.added[1].parameters = {{"level_nm", "N m", 20.54},
                            {"coulomb_ratio", "-", -0.0052},
                            {"viscous_ratio", "-", -0.2, {-0.22, -0.18}}};
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).helps,
-      HasSubstr(
-          "then to 2 N with friction asymmetry (-20.0 % of the damping, forward, 95 %: -22.0 to -18.0) ("));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
+              HasSubstr("then to 2 N with friction asymmetry (-20.0 % of the mean damping, forward, 95 %: "
+                        "-22.0 to -18.0) ("));
 }
 
 TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {

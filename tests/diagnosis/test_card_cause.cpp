@@ -163,6 +163,10 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   EXPECT_THAT(cause(), HasSubstr("input delay (another torque would take nearly as much)."));
   rung.last = 0.1;
   EXPECT_THAT(cause(), HasSubstr("input delay (what was added after it says most of the same)."));
+  rung.share = 0.14, d.added[0].established = false;
+  d.budget.rungs.push_back(
+      {"motor_coulomb_friction", "motor_coulomb_friction", true, 0.1, 0.09, 0.1, {}, 0.1, 0.3});
+  EXPECT_THAT(cause(), HasSubstr(" and input delay (each takes too little of what was left to be sure)."));
 }
 
 TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {
@@ -191,7 +195,7 @@ Diagnosis unknown_beside_a_budget() {
 TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   Diagnosis d = unknown_beside_a_budget();
   EXPECT_EQ(card_of(d).cause,
-            "Unknown; suspected is load unbalance, with which the error budget brings the missing torque "
+            "Unknown; suspected is load unbalance: in the error budget it brings the missing torque "
             "down from 12.6 to 2.43 N·m, but no simulation with it follows the recordings well enough to "
             "establish it.");
   EXPECT_EQ(card_of(d).helps, "Nothing that these recordings establish; `fitted.yaml` has no addition.");

@@ -1,16 +1,18 @@
 // Random drives of the independent plant for the detector: how often it answers, how well, and how honest its
 // intervals are.  study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]
-// [wide] [frozen]: wide: other contacts, torques and lengths; frozen: as a stream, which learns from the
-// first two periods
+// [wide] [frozen] [rubs]: wide: other contacts, torques and lengths; frozen: as a stream, which learns from the
+// first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of the torque's amplitude
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
+#include "gapscope/base/random.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/random_drive.h"
@@ -42,11 +44,14 @@ double median_coasting(const independent_plant::BlindTruth& truth) {
 }
 
 Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform waveform,
-            independent_plant::DriveLaws laws, const DetectorOptions& options) {
+            independent_plant::DriveLaws laws, bool rubs, const DetectorOptions& options) {
   independent_plant::BlindCase c =
       with_gap ? independent_plant::random_drive(seed, waveform, laws)
                : independent_plant::random_gap_free_drive(
                      seed, static_cast<int>(seed % independent_plant::kGapFreeKinds), waveform, laws);
+  if (std::mt19937_64 g = random_stream(seed, "dry friction of the motor"); rubs)
+    c.drive.effects.motor.friction.level_nm =
+        c.drive.torque_constant * c.excitation.amplitude * std::uniform_real_distribution(0.02, 0.3)(g);
   c.options.tolerance = independent_plant::kFastTolerance;
   const independent_plant::BlindRun r = independent_plant::simulate_blind(c);
   MotorTrace trace = r.recording.motor_trace();
@@ -135,7 +140,7 @@ int main_study(int argc, char** argv) {
       asked("wide") ? independent_plant::DriveLaws::kWide : independent_plant::DriveLaws::kStated;
   std::map<std::string, Tally> tallies;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    const Outcome o = run(seed, with_gap, waveform, laws, {.frozen = asked("frozen")});
+    const Outcome o = run(seed, with_gap, waveform, laws, asked("rubs"), {.frozen = asked("frozen")});
     if (asked("each")) print_case(o);
     for (const std::string& name : classes(o)) tallies[name].add(o);
   }

@@ -225,8 +225,8 @@ struct Diagnosis {
   std::vector<BlameShift> blame;
   /// Those that moved farthest first; none of a model that something unknown is missing from
   std::vector<RefittedNumber> refitted;
-  /// Dampings and frictions of the drive that the model holds, by key: no sheet tells them well, and where one
-  /// is wrong an effect takes its place
+  /// Dampings and frictions of the drive that the model holds, by key: no sheet tells them well, and where
+  /// one is wrong an effect takes its place
   std::vector<std::string> held;
   std::vector<std::string> warnings;
   std::vector<MismatchTrace> traces;

@@ -23,8 +23,8 @@ const char* to_string(Severity severity);  ///< "fine", "note", "spoils"
 struct Finding {
   std::string rule;  ///< what was looked at: "time", "sign", ...; always all of them, in the same order
   Severity severity = Severity::kFine;
-  std::string found;   ///< what there is, with figures
-  std::string advice;  ///< what to do; empty where nothing is
+  std::string found;    ///< what there is, with figures
+  std::string advice;   ///< what to do; empty where nothing is
   bool warned = false;  ///< a note that `init` and `diagnose` warn of as well
 };
 

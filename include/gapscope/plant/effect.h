@@ -57,7 +57,7 @@ struct EffectParameterSpec {
   double low;     ///< bounds, in units of the scale
   double high;
   Scale scale;
-  bool held = false;  ///< a search leaves it at its neutral value where nothing else is known of it
+  bool held = false;    ///< a search leaves it at its neutral value where nothing else is known of it
   const char* of = "";  ///< of a ratio that says how much there is of the effect: "of the damping, forward"
 };
 
