@@ -76,7 +76,7 @@ Arrivals arrivals(const MotorTrace& trace, std::span<const RestBeforeFlight> pas
       a.whole.push_back({p.begin, p.core});
       continue;
     }
-    a.stretches.push_back({from, from, p.rest.first, -p.rest.direction});
+    a.stretches.push_back({from, static_cast<double>(from), p.rest.first, -p.rest.direction});
     a.whole.push_back({from, p.core});
     a.rows += static_cast<double>(p.rest.first - from) - 1.0;
     a.resting += static_cast<double>(p.begin - p.rest.first);
@@ -115,7 +115,8 @@ bool may_rest_alone(const MotorTrace& trace, const signals::SignalFacts& facts,
   std::ranges::copy_if(passages, std::back_inserter(at_rest), rests);
   if (2 * at_rest.size() < passages.size() || at_rest.empty()) return false;
   std::vector<LawStretch> flights;
-  for (const auto& p : at_rest) flights.push_back({p.begin, p.begin, p.core, p.rest.direction});
+  for (const auto& p : at_rest)
+    flights.push_back({p.begin, static_cast<double>(p.begin), p.core, p.rest.direction});
   const SharedLaw alone(trace, flights, SharedLaw::Friction::kPassive);
   std::vector<double> held;
   for (const auto& p : at_rest) held.push_back(held_back(trace, p.rest, alone.drive()));

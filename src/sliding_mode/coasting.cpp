@@ -7,6 +7,7 @@
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/release.h"
 #include "sliding_mode/shared_law.h"
+#include "sliding_mode/turn.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -36,14 +37,6 @@ struct Coasting {
 
 double sample_of(const MotorTrace& trace, double time) { return (time - trace.start) / trace.dt; }
 
-/// Index of the largest side·x1 in [first, last], the latest of equal ones.
-std::size_t farthest(const MotorTrace& trace, std::size_t first, std::size_t last, int side) {
-  std::size_t found = first;
-  for (std::size_t k = first; k <= last; ++k)
-    if (side * trace.x1[k] >= side * trace.x1[found]) found = k;
-  return found;
-}
-
 /// From where x1 moves steadily against the passage, once the bounces of the impact at t2 [s] have faded, to
 /// t1.
 std::optional<LawStretch> in_contact(const MotorTrace& trace, double t2, const Transition& t,
@@ -55,7 +48,7 @@ std::optional<LawStretch> in_contact(const MotorTrace& trace, double t2, const T
       static_cast<double>(farthest(trace, static_cast<std::size_t>(since), last, t.event.direction));
   const auto first = static_cast<std::size_t>(turn + skipped * (end - turn));
   if (last < first + SharedLaw::kFewestRows) return {};
-  return LawStretch{first, first, last, -t.event.direction};
+  return LawStretch{first, static_cast<double>(first), last, -t.event.direction};
 }
 
 std::optional<LawStretch> in_flight(const MotorTrace& trace, const Transition& t) {
@@ -63,7 +56,8 @@ std::optional<LawStretch> in_flight(const MotorTrace& trace, const Transition& t
   const double end = t2 - std::max(2.0, kBeforeImpact * (t2 - t1));
   if (!(t1 > 0.0) || !(end > t1 + SharedLaw::kFewestRows + 2.0)) return {};
   const std::size_t first = static_cast<std::size_t>(t1) + 2, last = static_cast<std::size_t>(end);
-  return LawStretch{first, farthest(trace, first, last, -t.event.direction), last, t.event.direction};
+  const std::size_t latest = farthest(trace, first, last, -t.event.direction);
+  return LawStretch{first, turn_within(trace, first, latest, last), last, t.event.direction};
 }
 
 /// Both ends of the flight are known, and only what the load did meanwhile was in doubt.

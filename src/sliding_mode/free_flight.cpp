@@ -28,7 +28,7 @@ FlightLaw::FlightLaw(const MotorTrace& trace, const FlightWindow& window, double
   for (std::size_t k = 1; k < n; ++k) {
     const std::size_t i = window.first + k;
     const double u = trace.u[i - 1];
-    const double sign = i <= window.reversal ? -1.0 : 1.0;
+    const double sign = std::clamp(2.0 * (static_cast<double>(i) - window.reversal) - 1.0, -1.0, 1.0);
     input_[k] = input_[k - 1] + u * dt;
     input2_[k] = input2_[k - 1] + (input_[k - 1] + 0.5 * u * dt) * dt;
     friction_[k] = friction_[k - 1] + sign * dt;
@@ -120,7 +120,7 @@ std::size_t FlightLaw::grow_back(std::size_t first, std::size_t last) const {
 
 bool FlightLaw::fit_before(std::size_t core, Fit& result) const {
   if (core < window_.first + 2 * kFewestSamples) return false;
-  const std::size_t turn = std::clamp(window_.reversal, window_.first, core);
+  const std::size_t turn = std::clamp(static_cast<std::size_t>(window_.reversal), window_.first, core);
   for (std::size_t length = (core - turn) / 2;; length /= 2) {
     const std::size_t seed = core - std::max(kFewestSamples, length);
     if (holds(fit(seed, core))) {
@@ -140,7 +140,7 @@ MotorState FlightLaw::state(const Fit& f, double time) const {
     s.position += f.coefficients[static_cast<std::size_t>(c)] * row(i, c);
     s.speed += f.coefficients[static_cast<std::size_t>(c)] * rate(i, c);
   }
-  const double sign = i <= window_.reversal ? -1.0 : 1.0;
+  const double sign = static_cast<double>(i) <= window_.reversal ? -1.0 : 1.0;
   s.acceleration = f.coefficients[2] * trace_.u[i] + f.coefficients[3] * s.speed + f.coefficients[4] * sign;
   s.position += s.speed * late;
   s.speed += s.acceleration * late;

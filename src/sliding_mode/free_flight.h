@@ -11,10 +11,10 @@ namespace gapscope::internal::sliding_mode {
 
 /// A stretch of the recording in which the motor crosses the gap.
 struct FlightWindow {
-  std::size_t first = 0;     ///< earliest sample that may belong to the flight
-  std::size_t reversal = 0;  ///< where x1 turns round (the sign of the motor's own dry friction changes)
-  std::size_t last = 0;      ///< latest sample to look at: somewhat after the impact
-  int direction = 0;         ///< of the passage
+  std::size_t first = 0;  ///< earliest sample that may belong to the flight
+  double reversal = 0.0;  ///< where x1 turns round: the motor's own dry friction changes its sign [samples]
+  std::size_t last = 0;   ///< latest sample to look at: somewhat after the impact
+  int direction = 0;      ///< of the passage
 };
 
 struct MotorState {

@@ -18,7 +18,10 @@ Eigen::Vector3d solve_columns(const Eigen::MatrixXd& A, const Eigen::VectorXd& y
   return some.colPivHouseholderQr().solve(y);
 }
 
-double sign_at(const LawStretch& s, std::size_t i) { return i < s.reversal ? -s.direction : s.direction; }
+/// Of the motion from sample i to the next, in the mean.
+double sign_from(const LawStretch& s, std::size_t i) {
+  return s.direction * std::clamp(2.0 * (static_cast<double>(i) + 1.0 - s.reversal) - 1.0, -1.0, 1.0);
+}
 
 }  // namespace
 
@@ -39,7 +42,7 @@ SharedLaw SharedLaw::without(std::size_t group, std::size_t groups) const {
 
 /// From sample i to the next.
 void SharedLaw::advance(const LawStretch& s, std::size_t i, Integrals& at) const {
-  const double dt = trace_->dt, u = trace_->u[i], sign = sign_at(s, i);
+  const double dt = trace_->dt, u = trace_->u[i], sign = sign_from(s, i);
   at.u2 += (at.u1 + 0.5 * u * dt) * dt, at.u1 += u * dt;
   at.s2 += (at.s1 + 0.5 * sign * dt) * dt, at.s1 += sign * dt;
   at.x += (0.5 * (trace_->x1[i] + trace_->x1[i + 1]) - trace_->x1[s.first]) * dt;
@@ -110,7 +113,7 @@ SharedLaw::State SharedLaw::state(std::size_t stretch, double time) const {
   const double moved = place + speed * since + shared_.dot(Eigen::Vector3d(at.u2, at.x, at.s2));
   state.speed = speed + shared_.dot(Eigen::Vector3d(at.u1, moved, at.s1));
   const double late = (time - static_cast<double>(end)) * dt;
-  const double acceleration = shared_.dot(Eigen::Vector3d(trace_->u[end], state.speed, sign_at(s, end)));
+  const double acceleration = shared_.dot(Eigen::Vector3d(trace_->u[end], state.speed, sign_from(s, end)));
   state.position = trace_->x1[s.first] + moved + (state.speed + 0.5 * acceleration * late) * late;
   state.speed += acceleration * late;
   return state;

@@ -11,7 +11,7 @@ namespace gapscope::internal::sliding_mode {
 /// A stretch of a recording in which x1 turns round at most once.
 struct LawStretch {
   std::size_t first = 0;
-  std::size_t reversal = 0;  ///< before it the motor moves against `direction`
+  double reversal = 0.0;  ///< before it the motor moves against `direction` [samples]
   std::size_t last = 0;
   int direction = 0;  ///< of the motion at the end
 };

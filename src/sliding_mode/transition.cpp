@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/arrival.h"
 #include "sliding_mode/free_flight.h"
 #include "sliding_mode/impact_time.h"
 #include "sliding_mode/release.h"
+#include "sliding_mode/shared_law.h"
+#include "sliding_mode/turn.h"
 #include "sliding_mode/words.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -106,12 +110,42 @@ bool goes_on(const TransitionContext& context, int direction, std::size_t from, 
   return direction * (most - y[to]) > context.facts.least_way();
 }
 
-FlightWindow flight_window(const TransitionContext& context, const BankEvent& impact, const Reversal& r) {
+/// @param turn  when the speed was zero [samples]
+FlightWindow flight_window(const TransitionContext& context, const BankEvent& impact, const Reversal& r,
+                           double turn) {
   const auto reach = static_cast<std::size_t>(kReach * context.facts.half_period / context.trace.dt);
   const std::size_t first = impact.start - std::min(impact.start, reach);
   const std::size_t after = (impact.start - r.last) / 4 + 3 * impact.latency + 2;
   const std::size_t last = std::min(impact.start + after, context.trace.size() - 1);
-  return {first, std::max(r.last, first), last, r.direction};
+  return {first, std::max(turn, static_cast<double>(first)), last, r.direction};
+}
+
+/// The law of a flight, and the impact that ends it. A motor whose flight began before it turned round obeys
+/// one law on both sides of the turn, in which its dry friction changes its sign at an instant that has to be
+/// known to a fraction of a sample. One that left the load at rest has nothing before the turn to tell it by:
+/// its last sample at the extremum will do.
+struct Flight {
+  std::unique_ptr<const FlightLaw> law;
+  ImpactTime impact;
+};
+
+Flight flight_of(const TransitionContext& context, const BankEvent& event, const Reversal& r) {
+  const double noise = std::hypot(context.facts.noise, context.facts.rounding);
+  const auto with = [&](double turn) {
+    Flight flight{
+        std::make_unique<const FlightLaw>(context.trace, flight_window(context, event, r, turn), noise), {}};
+    flight.impact = refine_impact(context, event, r, *flight.law);
+    return flight;
+  };
+  Flight from_rest = with(static_cast<double>(r.last));
+  if (!from_rest.impact.found) return from_rest;
+  const double way = std::max(kTurnWay * r.rise, context.facts.least_way());
+  const double turn = turn_time(context.trace, r.first, r.last, way);
+  Flight through = with(turn);
+  FlightLaw::Fit law;
+  const bool holds = through.impact.found && through.law->fit_before(through.impact.core, law) &&
+                     static_cast<double>(law.first + SharedLaw::kFewestRows) < turn;
+  return holds ? std::move(through) : std::move(from_rest);
 }
 
 void fill_event(Transition& t, const TransitionContext& context, const ImpactTime& impact,
@@ -171,9 +205,9 @@ Transition read_transition(const TransitionContext& context, const BankEvent& im
     t.refusal = Refusal::kSmallRise;
     return t;
   }
-  const double noise = std::hypot(context.facts.noise, context.facts.rounding);
-  const FlightLaw law(trace, flight_window(context, impact, reversal), noise);
-  const ImpactTime time = refine_impact(context, impact, reversal, law);
+  const Flight flight = flight_of(context, impact, reversal);
+  const FlightLaw& law = *flight.law;
+  const ImpactTime& time = flight.impact;
   if (!time.found) {
     t.refusal = Refusal::kNoImpactFit;
     return t;

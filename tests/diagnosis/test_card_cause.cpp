@@ -150,7 +150,6 @@ TEST(CardCause, WhereOnlyTheSimulatorDiffersHelpsAndNextAgreeWithItsLine) {
   EXPECT_EQ(gapscope::card_of(f).next, "None.");
 }
 
-/// Of what the balance of torque has chosen: by which of its conditions the cause is open.
 TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   Diagnosis d = of_friction_and_delay(true, false);
   d.added[0].group = {"motor_coulomb_friction"},
@@ -204,7 +203,7 @@ TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   d.better_swapped = true;
   EXPECT_EQ(
       card_of(d).cause,
-      "Unknown; suspected is load unbalance, with which the error budget brings the missing torque "
+      "Unknown; suspected is load unbalance: in the error budget it brings the missing torque "
       "down from 12.6 to 2.43 N·m, but the recording that was fitted moves too little to establish a cause.");
   d.next_experiment.sentence = "Record a sine.";
   EXPECT_THAT(card_of(d).next, HasSubstr("Swap the recordings")) << "takes no new one";
@@ -216,7 +215,6 @@ TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"));
 }
 
-/// Of a servo that logs goal and position alone, what a recorded input establishes may stay unknown.
 TEST(CardCause, OfAnInputThatTheControllerMakesSaysWhatWouldEstablishIt) {
   Diagnosis d = unknown_beside_a_budget();
   d.traces.resize(1);

@@ -1,7 +1,7 @@
 // Random drives of the independent plant for the detector: how often it answers, how well, and how honest its
 // intervals are.  study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]
-// [wide] [frozen] [rubs]: wide: other contacts, torques and lengths; frozen: as a stream, which learns from the
-// first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of the torque's amplitude
+// [wide] [frozen] [rubs]: wide: other contacts, torques and lengths; frozen: as a stream, which learns from
+// the first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of the torque's amplitude
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -58,8 +58,8 @@ TEST(SharedLaw, FindsTheLawThatStretchesShareAndTheStateInEach) {
   const KnownMotion motion;
   const MotorTrace trace{"known", 0.0, 1e-3, motion.u, motion.x1};
   const std::size_t turn = turn_after(trace, 400), next = turn_after(trace, turn + 5);
-  const std::vector<LawStretch> stretches{{turn - 200, turn + 1, turn + 200, -1},
-                                          {turn + 210, turn + 210, next - 20, -1}};
+  const std::vector<LawStretch> stretches{{turn - 200, static_cast<double>(turn) + 1.0, turn + 200, -1},
+                                          {turn + 210, static_cast<double>(turn) + 210.0, next - 20, -1}};
   const SharedLaw law(trace, stretches);
   EXPECT_NEAR(law.drive(), 3.0, 0.01);
   EXPECT_NEAR(law.viscous(), 2.0, 0.05);

@@ -40,9 +40,10 @@ const GapPassage& late_passage(const BlindRun& run) {
 FlightWindow window_of(const MotorTrace& trace, const GapPassage& p) {
   const auto at = [&](double t) { return static_cast<std::size_t>(t / trace.dt); };
   FlightWindow w{at(p.t1 - 0.2), 0, at(p.t2) + 5, p.to_flank};
-  w.reversal = w.first;
+  std::size_t turn = w.first;
   for (std::size_t i = w.first; i <= at(p.t2); ++i)
-    if (w.direction * trace.x1[i] <= w.direction * trace.x1[w.reversal]) w.reversal = i;
+    if (w.direction * trace.x1[i] <= w.direction * trace.x1[turn]) turn = i;
+  w.reversal = static_cast<double>(turn);
   return w;
 }
 

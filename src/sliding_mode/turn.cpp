@@ -1,0 +1,61 @@
+#include "sliding_mode/turn.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace gapscope::internal::sliding_mode {
+namespace {
+
+constexpr int kSteps = 20;  ///< of the search; each ends within a fraction of what was left
+
+/// The sample in one direction from which on x1 is that far from its extremum, or the last one there is.
+std::size_t away(const MotorTrace& trace, std::size_t from, int step, double way) {
+  std::size_t i = from;
+  while ((step > 0 ? i + 1 < trace.size() : i > 0) && std::abs(trace.x1[i] - trace.x1[from]) < way)
+    i = step > 0 ? i + 1 : i - 1;
+  return i;
+}
+
+}  // namespace
+
+double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, double way) {
+  const double middle = 0.5 * (static_cast<double>(first) + static_cast<double>(last));
+  const std::size_t begin = away(trace, first, -1, way), end = away(trace, last, 1, way);
+  const auto rows = static_cast<Eigen::Index>(end - begin + 1);
+  Eigen::Matrix<double, Eigen::Dynamic, 5> A(rows, 5);
+  if (rows < 3 * A.cols()) return middle;
+  const double half = 0.5 * static_cast<double>(end - begin);  // columns of like size
+  double turn = middle;
+  for (int k = 0; k < kSteps; ++k) {
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const double t = (static_cast<double>(begin) + static_cast<double>(r) - turn) / half;
+      A.row(r) << 1.0, t, t * t, t * std::abs(t), t * t * t;
+    }
+    const Eigen::Matrix<double, 5, 1> c =
+        A.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(&trace.x1[begin], rows));
+    const double step = -c(1) / (2.0 * c(2)) * half;
+    if (!std::isfinite(step)) return middle;
+    turn += std::clamp(step, -0.5 * half, 0.5 * half);
+    if (turn < static_cast<double>(begin) || turn > static_cast<double>(end)) return middle;
+    if (std::abs(step) < 1e-3) break;
+  }
+  const double stay = static_cast<double>(last - first) + 1.0;
+  return std::abs(turn - middle) <= stay ? turn : middle;
+}
+
+std::size_t farthest(const MotorTrace& trace, std::size_t first, std::size_t last, int side) {
+  std::size_t found = first;
+  for (std::size_t k = first; k <= last; ++k)
+    if (side * trace.x1[k] >= side * trace.x1[found]) found = k;
+  return found;
+}
+
+double turn_within(const MotorTrace& trace, std::size_t first, std::size_t latest, std::size_t last) {
+  if (latest == first || latest == last) return static_cast<double>(latest);
+  std::size_t earliest = latest;
+  while (earliest > first && !(std::abs(trace.x1[earliest - 1] - trace.x1[latest]) > 0.0)) --earliest;
+  return turn_time(trace, earliest, latest, kTurnWay * std::abs(trace.x1[last] - trace.x1[latest]));
+}
+
+}  // namespace gapscope::internal::sliding_mode

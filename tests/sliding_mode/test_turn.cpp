@@ -1,0 +1,54 @@
+// A motor with dry friction that has left the load before it turns round.
+#include <gtest/gtest.h>
+
+#include "gapscope/sliding_mode/detector.h"
+#include "sliding_mode/test_drive.h"
+#include "sliding_mode/turn.h"
+
+namespace gapscope {
+namespace {
+
+/// x1 = ½ a t² about `turn`, a different one on either side, as an encoder of that quantum reads it.
+MotorTrace kinked_parabola(double turn, double quantum, std::vector<double>& x1) {
+  for (int i = 0; i < 400; ++i) {
+    const double t = 1e-3 * (i - turn);
+    x1.push_back(quantum * std::round(0.5 * (t < 0.0 ? 38.0 : 21.0) * t * t / quantum));
+  }
+  return {"turn", 0.0, 1e-3, x1, x1, quantum};
+}
+
+TEST(TurnTime, IsToldToAFractionOfASampleThoughTheAccelerationSteps) {
+  for (const double turn : {200.0, 200.3, 200.8}) {
+    std::vector<double> x1;
+    const MotorTrace trace = kinked_parabola(turn, 1e-4, x1);
+    std::size_t first = 399, last = 0;
+    for (std::size_t i = 0; i < x1.size(); ++i)
+      if (!(x1[i] > 0.0)) first = std::min(first, i), last = i;
+    EXPECT_NEAR(internal::sliding_mode::turn_time(trace, first, last, 5e-3), turn, 0.25);
+    EXPECT_GT(static_cast<double>(last) - turn, 1.0) << "the last sample at the extremum is late";
+  }
+}
+
+/// The load coasts on while the motor turns, whose friction steps: that step was taken for the loss of
+/// contact.
+TEST(TurnTime, TheStepOfTheMotorsFrictionIsNoLossOfContact) {
+  struct {
+    double gap, friction;
+    int bits;
+  } constexpr kRigs[] = {{0.06, 0.01, 16}, {0.02, 0.02, 18}, {0.06, 0.02, 18}};
+  for (const auto& rig : kRigs) {
+    TestDrive drive{.m1 = 1.2e-3, .m2 = 1.5e-3, .Km = 1.0, .d1 = 0.012, .d2 = 0.01};
+    drive.Fc2 = 0.03, drive.k = 900.0, drive.c = 0.3, drive.gap = rig.gap, drive.Fc1 = rig.friction;
+    TestEncoder encoder;
+    encoder.rate = 1000.0, encoder.duration = 8.0, encoder.bits = rig.bits, encoder.step = 1e-5;
+    const TestRecording recording = record(drive, sine(0.15, 1.0), encoder);
+    const MotorTrace trace = recording.trace();
+    const GapEstimate g = detect_gap({&trace, 1});
+    ASSERT_EQ(g.verdict, GapVerdict::kBacklash) << rig.gap << " " << g.reason.text();
+    EXPECT_LE(g.ci95.low, rig.gap);
+    EXPECT_GE(g.ci95.high, rig.gap);
+  }
+}
+
+}  // namespace
+}  // namespace gapscope
