@@ -58,8 +58,7 @@ TEST(Detectable, IsToldOfAnEffectOnRequestAndTheSameForAnyNumberOfThreads) {
   const blind::BlindPair pair = test::one_inertia(friction, 500031);
   const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
   const auto asked = [&](int threads) {
-    DiagnosisOptions options =
-        test::among({"motor_coulomb_friction", "quadratic_drag", "cogging_torque", "input_delay"});
+    DiagnosisOptions options = test::among({"motor_coulomb_friction", "quadratic_drag", "input_delay"});
     options.known.detectable = true, options.threads = threads;
     return diagnose(train, held_out, pair.sheet, options);
   };
