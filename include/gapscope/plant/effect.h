@@ -58,7 +58,7 @@ struct EffectParameterSpec {
   double high;
   Scale scale;
   bool held = false;    ///< a search leaves it at its neutral value where nothing else is known of it
-  const char* of = "";  ///< of a ratio that says how much there is of the effect: "of the damping, forward"
+  const char* of = "";  ///< of a ratio that says how much there is of the effect: "of the load's torque"
 };
 
 /// Parameters of an effect in units of their scales; NaN: not known beforehand.
