@@ -67,7 +67,54 @@ void bound_static_friction(ReferenceModel& model) {
   }
 }
 
+void add_once(view::Model& model, const view::Law& law, double shape) {
+  if (view::find_term(model, law.name) == nullptr)
+    model.push_back({&law, shape, Eigen::VectorXd::Zero(law.columns)});
+}
+
+/// The contact of a locked output.
+view::Term contact_of(const ReferenceModel& model, const view::SplitRecordings& data) {
+  const view::Law& spring = view::law("spring_to_ground");
+  if (!has_play(model)) return {&spring, kNaN, Eigen::VectorXd::Zero(spring.columns)};
+  double low = kInfinity, high = -kInfinity;
+  for (const auto* traces : {&data.fit, &data.judge})
+    for (const view::StampedTrace& t : *traces)
+      for (const double x : t.x) low = std::min(low, x), high = std::max(high, x);
+  return view::contact_term(low, high);
+}
+
 }  // namespace
+
+bool has_play(const ReferenceModel& model) {
+  const ParameterSetting& gap = model.parameters[place::kGap];
+  return gap.estimate || !(gap.value == 0.0);
+}
+
+const view::Law* law_of(const EffectEntry& entry) {
+  for (const view::Law& l : view::laws())
+    if (l.values != nullptr && entry.name == std::string_view(l.effect)) return &l;
+  return nullptr;
+}
+
+view::Model known_terms(const ReferenceModel& model, const view::SplitRecordings& data,
+                        const view::Scales& scales) {
+  view::Model known;
+  if (model.structure.has_load) known.push_back(contact_of(model, data));
+  for (const ModelEffect& e : model.effects) {
+    const view::Law* law = law_of(*e.entry);
+    if (law == nullptr) continue;
+    const std::vector<double> shapes = law->shapes(scales);
+    if (law->shape_at < 0 && shapes.empty()) continue;
+    if (law->simpler != nullptr) add_once(known, view::law(law->simpler), kNaN);
+    const EffectEntry* contained = contained_effect(*e.entry);
+    if (contained != nullptr && law->kind == view::Kind::kOnTorque)  // of which the law says nothing
+      add_once(known, view::law(contained->name), kNaN);
+    const double shape =
+        law->shape_at < 0 ? shapes.front() : e.parameters[static_cast<std::size_t>(law->shape_at)].value;
+    known.push_back({law, shape, Eigen::VectorXd::Zero(law->columns)});
+  }
+  return known;
+}
 
 view::Drive drive_of(const view::Model& terms, const view::Budget& budget, const ReferenceModel& model) {
   view::Drive drive;

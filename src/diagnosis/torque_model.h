@@ -5,6 +5,17 @@
 
 namespace gapscope::internal::diagnosis {
 
+/// Whether a model has a gap, or estimates one.
+bool has_play(const ReferenceModel& model);
+
+/// The law of the torque balance that an effect follows; nullptr: it has none.
+const torque_view::Law* law_of(const EffectEntry& entry);
+
+/// What the model has beside inertia and viscous damping, at its shapes: its contact, where the output is
+/// locked, and its effects.
+torque_view::Model known_terms(const ReferenceModel& model, const torque_view::SplitRecordings& data,
+                               const torque_view::Scales& scales);
+
 /// What the coefficients of the terms of a budget are told relative to.
 torque_view::Drive drive_of(const torque_view::Model& terms, const torque_view::Budget& budget,
                             const ReferenceModel& model);

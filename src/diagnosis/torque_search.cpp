@@ -11,11 +11,6 @@ namespace {
 
 namespace view = torque_view;
 
-bool has_play(const ReferenceModel& model) {
-  const ParameterSetting& gap = model.parameters[place::kGap];
-  return gap.estimate || !(gap.value == 0.0);
-}
-
 /// One body, or a locked output: no contact opens and closes unseen. Where such an output has play, each
 /// recording would have its own place in it.
 bool has_one_balance(const Study& study, const ReferenceModel& model) {
@@ -35,49 +30,6 @@ view::StampedTrace in_torque(const MotorTrace& trace, std::size_t from, double t
   return t;
 }
 
-const view::Law* law_of(const EffectEntry& entry) {
-  for (const view::Law& l : view::laws())
-    if (l.values != nullptr && entry.name == std::string_view(l.effect)) return &l;
-  return nullptr;
-}
-
-void add_once(view::Model& model, const view::Law& law, double shape) {
-  if (view::find_term(model, law.name) == nullptr)
-    model.push_back({&law, shape, Eigen::VectorXd::Zero(law.columns)});
-}
-
-/// The contact of a locked output.
-view::Term contact_of(const ReferenceModel& model, const view::SplitRecordings& data) {
-  const view::Law& spring = view::law("spring_to_ground");
-  if (!has_play(model)) return {&spring, kNaN, Eigen::VectorXd::Zero(spring.columns)};
-  double low = kInfinity, high = -kInfinity;
-  for (const auto* traces : {&data.fit, &data.judge})
-    for (const view::StampedTrace& t : *traces)
-      for (const double x : t.x) low = std::min(low, x), high = std::max(high, x);
-  return view::contact_term(low, high);
-}
-
-/// What the model has beside inertia and viscous damping, at its shapes.
-view::Model known_terms(const ReferenceModel& model, const view::SplitRecordings& data,
-                        const view::Scales& scales) {
-  view::Model known;
-  if (model.structure.has_load) known.push_back(contact_of(model, data));
-  for (const ModelEffect& e : model.effects) {
-    const view::Law* law = law_of(*e.entry);
-    if (law == nullptr) continue;
-    const std::vector<double> shapes = law->shapes(scales);
-    if (law->shape_at < 0 && shapes.empty()) continue;
-    if (law->simpler != nullptr) add_once(known, view::law(law->simpler), kNaN);
-    const EffectEntry* contained = contained_effect(*e.entry);
-    if (contained != nullptr && law->kind == view::Kind::kOnTorque)  // of which the law says nothing
-      add_once(known, view::law(contained->name), kNaN);
-    const double shape =
-        law->shape_at < 0 ? shapes.front() : e.parameters[static_cast<std::size_t>(law->shape_at)].value;
-    known.push_back({law, shape, Eigen::VectorXd::Zero(law->columns)});
-  }
-  return known;
-}
-
 bool is_named(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -87,12 +39,13 @@ bool follows_speed(const EffectEntry& entry) {
   return entry.follows == ResidualPattern::kDirection || entry.follows == ResidualPattern::kSpeed;
 }
 
-/// Whether a torque that follows another variable freely takes nearly as much.
-bool free_law_as_good(const view::Rung& rung, const EffectEntry& entry) {
+/// A torque that follows another variable freely and takes nearly as much; nullptr: none does.
+const view::Candidate* free_rival(const view::Rung& rung, const EffectEntry& entry) {
   const double enough = (1.0 - view::TorqueViewOptions{}.least_margin) * rung.choice().evidence.share;
-  return std::any_of(rung.ranking.begin(), rung.ranking.end(), [&](const view::Candidate& c) {
+  const auto at = std::find_if(rung.ranking.begin(), rung.ranking.end(), [&](const view::Candidate& c) {
     return follows_another(*c.law, entry) && c.evidence.share >= enough;
   });
+  return at == rung.ranking.end() ? nullptr : &*at;
 }
 
 /// The rung that has brought a term; nothing for a simpler law that came with it.
@@ -199,6 +152,13 @@ const ModelEffect* effect_of(const TorqueSearch& search, std::size_t addition) {
   return nullptr;
 }
 
+std::string rival_of(const view::Rung& rung) {
+  if (!rung.named && view::is_clear(rung.choice().evidence, view::TorqueViewOptions{})) return rung.rival;
+  const EffectEntry* entry = find_effect(rung.choice().law->effect);
+  const view::Candidate* free = entry == nullptr ? nullptr : free_rival(rung, *entry);
+  return free == nullptr ? "" : free->law->name;
+}
+
 bool is_of(const view::Share& share, const view::Term& term) {
   return share.law == term.law && !(std::abs(share.shape - term.shape) > 0.0);  // NaN: a law without a shape
 }
@@ -278,7 +238,7 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
                                     [&](const view::Share& s) { return is_of(s, budget.addable[i]); });
     const bool needed = share == budget.shares.end() || share->last.share >= options.least_share;
     search.added.push_back(
-        {*at, rung.named && needed && shows_simpler(budget, rung, law) && !free_law_as_good(rung, entry),
+        {*at, rung.named && needed && shows_simpler(budget, rung, law) && free_rival(rung, entry) == nullptr,
          group_of(budget, rung, entry, options)});
     if (law.name == std::string_view("input_delay"))
       std::copy_if(study.catalogue.begin(), study.catalogue.end(),

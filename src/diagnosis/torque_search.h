@@ -26,6 +26,10 @@ std::vector<const EffectEntry*> worth_refitting(const Study& study, const torque
 /// of the model, says most of the input and knows a law that helps.
 bool rests_on_balance(const torque_view::Budget& budget, const ReferenceModel& nominal);
 
+/// The law that a rung does not lead by enough to be the cause: another one of the budget, or a torque that
+/// follows another variable freely; empty: none keeps it back.
+std::string rival_of(const torque_view::Rung& rung);
+
 /// Whether a share is that of a term: a law that comes more than once does so with lines of its own.
 bool is_of(const torque_view::Share& share, const torque_view::Term& term);
 
