@@ -35,12 +35,15 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 
 /// Of the one in which it is denser than the time that it takes, be it the smaller share; where neither is,
 /// what depends on the direction can differ by its sign only.
-std::string direction_words(const std::vector<MapShare>& direction) {
+std::string direction_words(const std::vector<MapShare>& direction, bool reverses) {
   const auto dense = std::find_if(direction.begin(), direction.end(), denser_than_chance);
-  if (dense == direction.end()) return "reverses with the direction of motion";
-  return fmt::format(
-      "depends on the direction of motion, larger {} ({:.0f} % of its square in {:.0f} % of the time)",
-      dense->bin, 100.0 * dense->share, 100.0 * dense->expected);
+  const bool alike = dense == direction.end();
+  const std::string words =
+      alike || reverses ? "reverses with the direction of motion" : "depends on the direction of motion";
+  if (alike) return words;
+  if (!(dense->share < 1.0)) return words + ", all of it " + dense->bin;
+  const double here = dense->share / dense->expected, there = (1.0 - dense->share) / (1.0 - dense->expected);
+  return fmt::format("{}, {:.2g} times as large {} (rms)", words, std::sqrt(here / there), dense->bin);
 }
 
 std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
@@ -54,12 +57,13 @@ std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
          (cycles == "1" ? ", once per turn" : " with " + cycles + " cycles per turn");
 }
 
-std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coordinates coordinates) {
+std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coordinates coordinates,
+                          bool reverses) {
   switch (pattern) {
     case ResidualPattern::kAngle:
       return angle_words(p, coordinates);
     case ResidualPattern::kDirection:
-      return direction_words(p.direction);
+      return direction_words(p.direction, reverses);
     case ResidualPattern::kSpeed:
       return fmt::format("depends on the speed (largest at {})", range_words(largest(p.speed).bin));
     case ResidualPattern::kInput:
@@ -67,8 +71,7 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coord
     case ResidualPattern::kTime:
       return fmt::format("varies over the recording (largest at {})", range_words(largest(p.time).bin));
     case ResidualPattern::kInputSteps:
-      return fmt::format("arises where the input {} changes (most of it at {})", coordinates.torque_word(),
-                         range_words(largest(p.frequency).bin));
+      return fmt::format("arises where the input {} changes", coordinates.torque_word());
     case ResidualPattern::kCounts:
       return "within the count of a coarser encoder";
     case ResidualPattern::kMode:
@@ -99,10 +102,13 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
                                                const ModelEffect* effect) {
   std::vector<ResidualPattern> followed;
   if (effect != nullptr) followed.push_back(effect->entry->follows);
+  const auto counts = [&](const PatternStrength& p) {
+    return effect == nullptr || p.pattern != ResidualPattern::kTime ? p.strength : 0.0;
+  };
   const auto strongest = std::max_element(
       patterns.begin(), patterns.end(),
-      [](const PatternStrength& a, const PatternStrength& b) { return a.strength < b.strength; });
-  if (strongest != patterns.end() && strongest->strength > kTelling.strength &&
+      [&](const PatternStrength& a, const PatternStrength& b) { return counts(a) < counts(b); });
+  if (strongest != patterns.end() && counts(*strongest) > kTelling.strength &&
       std::find(followed.begin(), followed.end(), strongest->pattern) == followed.end())
     followed.push_back(strongest->pattern);
   return followed;
@@ -118,12 +124,12 @@ std::string one_way_words(const std::vector<MapShare>& direction) {
   return "";
 }
 
-std::string headline_of(const MismatchPlace& place, Coordinates coordinates) {
+std::string headline_of(const MismatchPlace& place, Coordinates coordinates, bool reverses) {
   std::string patterns;
   const std::string one_way = one_way_words(place.direction);
   for (const ResidualPattern pattern : place.follows) {
     if (pattern == ResidualPattern::kDirection && !one_way.empty()) continue;  // nothing to compare with
-    const std::string words = pattern_words(pattern, place, coordinates);
+    const std::string words = pattern_words(pattern, place, coordinates, reverses);
     const char* const joint = patterns.find(',') == patterns.npos ? " and " : ", and ";
     patterns += patterns.empty() || words.empty() ? words : joint + words;
   }

@@ -24,6 +24,7 @@ double cycles_of(const ModelEffect& effect);
 std::optional<ContactPhase> densest_phase(const std::vector<MapShare>& mode);
 
 /// What the correcting torque follows: that of an effect that was found, always, then the strongest pattern.
+/// Where an effect explains it, what is uneven over time is the motion that brings it about.
 std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength>& patterns,
                                                const ModelEffect* effect);
 
@@ -31,6 +32,7 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
 std::string one_way_words(const std::vector<MapShare>& direction);
 
 /// The place of a mismatch in words.
-std::string headline_of(const MismatchPlace& place, Coordinates coordinates);
+/// @param reverses  whether its means forward and backward have opposite signs
+std::string headline_of(const MismatchPlace& place, Coordinates coordinates, bool reverses = true);
 
 }  // namespace gapscope::internal::diagnosis

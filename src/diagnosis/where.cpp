@@ -201,6 +201,13 @@ std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples,
           {ResidualPattern::kTime, displaced(place.time)}};
 }
 
+/// Whether the means forward and backward have opposite signs.
+bool reverses(const std::vector<Sample>& moving) {
+  double forward = 0.0, backward = 0.0;
+  for (const Sample& s : moving) (s.direction > 0 ? forward : backward) += s.torque;
+  return forward * backward < 0.0;
+}
+
 std::vector<Playback> within_band(std::vector<Playback> playbacks, const HeldOut& held_out, double band_hz) {
   if (!(band_hz > 0.0)) return playbacks;
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
@@ -239,7 +246,7 @@ MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.phase = densest_phase(place.mode);
   place.follows = followed_patterns(patterns_of(samples, moving, place, line_explained), effect);
-  place.headline = headline_of(place, coordinates);
+  place.headline = headline_of(place, coordinates, reverses(moving));
   return place;
 }
 

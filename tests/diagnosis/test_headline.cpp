@@ -28,8 +28,11 @@ TEST(Headline, SaysInWhichDirectionTheErrorIsOrThatItIsInBoth) {
   place.direction = {{"backward", 0.5, 0.5}, {"forward", 0.5, 0.5}};
   EXPECT_EQ(headline_of(place, {}), "reverses with the direction of motion");
   place.direction = {{"backward", 0.9, 0.5}, {"forward", 0.1, 0.5}};
-  EXPECT_EQ(headline_of(place, {}),
-            "depends on the direction of motion, larger backward (90 % of its square in 50 % of the time)");
+  EXPECT_EQ(headline_of(place, {}), "reverses with the direction of motion, 3 times as large backward (rms)");
+  EXPECT_EQ(headline_of(place, {}, false),
+            "depends on the direction of motion, 3 times as large backward (rms)");
+  place.direction = {{"backward", 1.0, 0.5}, {"forward", 0.0, 0.5}};
+  EXPECT_EQ(headline_of(place, {}, false), "depends on the direction of motion, all of it backward");
 }
 
 TEST(Headline, SaysNothingOfADirectionWithoutTheOther) {
@@ -48,7 +51,15 @@ TEST(Headline, SaysNothingOfADirectionWithoutTheOther) {
             "no place that these recordings tell; hardly any backward motion was recorded");
   place.direction = {{"backward", 0.26, 0.11}, {"forward", 0.74, 0.89}};
   EXPECT_EQ(headline_of(place, {}),
-            "depends on the direction of motion, larger backward (26 % of its square in 11 % of the time)");
+            "reverses with the direction of motion, 1.7 times as large backward (rms)");
+}
+
+TEST(Headline, LeavesTheTimeToWhatNoEffectExplains) {
+  const std::vector<PatternStrength> patterns = {{ResidualPattern::kSpeed, 0.2},
+                                                 {ResidualPattern::kTime, 0.9}};
+  EXPECT_EQ(followed_patterns(patterns, nullptr), std::vector{ResidualPattern::kTime});
+  const ModelEffect cogging{find_effect("cogging_torque"), {}};
+  EXPECT_EQ(followed_patterns(patterns, &cogging), std::vector{ResidualPattern::kAngle});
 }
 
 TEST(Headline, CallsOneCycleOncePerTurn) {
