@@ -26,7 +26,6 @@ using internal::diagnosis::exhausted_words;
 using internal::diagnosis::export_words;
 using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
-using internal::diagnosis::input_is_made;
 using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
@@ -37,6 +36,7 @@ using internal::diagnosis::SharedUnit;
 using internal::diagnosis::step_to_establish;
 using internal::diagnosis::step_to_estimate;
 using internal::diagnosis::unexplained;
+using internal::diagnosis::what_applies;
 using internal::diagnosis::where_words;
 using internal::diagnosis::without_asides;
 
@@ -106,11 +106,8 @@ std::string torque_verdict(const CardFacts& f, const Card& card) {
 std::string fitted_line(const CardFacts& f) {
   if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
     return "Not measured, as no model was fitted.";
-  const double percent = f.reference->fit_percent;
-  return percent <= 0.0
-             ? fmt::format("The free run of the fitted model departs from the motion (fit {:.3g} %).",
-                           percent)
-             : fmt::format("The fitted model follows {:.4g} % of the motion (free run).", percent);
+  return fmt::format("A free run of the fitted model fits the motion to {:.4g} % (100 % is exact){}.",
+                     f.reference->fit_percent, f.reference->rejected() ? "; the model is rejected" : "");
 }
 
 /// "The model misses 9.66 N rms of force on held-out data, 17.1 % of the 56.5 N rms that the input applies"
@@ -124,7 +121,7 @@ std::string torque_size(const CardFacts& f, const Card& card) {
                         card.torque < 2.0 * m.input_torque ? percent_text(card.percent) + " of"
                                                            : fmt::format("{:.2g} times", 0.01 * card.percent),
                         SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque),
-                        input_is_made(*f.diagnosis) ? "model's controller" : "input");
+                        what_applies(*f.diagnosis));
   return text;
 }
 
@@ -146,12 +143,11 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
   if (b.records >= floor)
-    return "; the recordings (or parts of one) scatter by " + size +
-           " among themselves, which no single model removes";
+    return "; " + size + " of this differs between the recordings (or parts of one), so no model removes it";
   return "; no model can get below " + size +
          (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
               ? ", by which the drive does not repeat itself"
-              : ", the noise of the encoder");
+              : ", the encoder's noise");
 }
 
 /// Of a model that nothing is missing of: that what is left is no more than the encoder's noise, or than the
@@ -160,14 +156,17 @@ std::string floor_words(const CardFacts& f, const Card& card) {
   if (const std::string words = torque_floor(f, card); !words.empty()) return words;
   const MismatchSize& m = f.diagnosis->mismatch;
   if (f.diagnosis->verdict != DiagnosisVerdict::kNone || !(m.before > 0.0 && m.floor > 0.0)) return "";
-  return fmt::format(
-      "; that is noise: the simulated motion is as near as {} ({} is {} times {})",
-      m.floor_from == FloorSource::kRepeatability ? "the drive repeats itself" : "the encoder reads",
-      "its error", SharedUnit(1.0, "").number(m.before / m.floor),
-      m.floor_from == FloorSource::kRepeatability ? "the drive's own" : "the encoder's own");
+  return fmt::format("; that is noise: the error of the simulated motion is {} times {}",
+                     SharedUnit(1.0, "").number(m.before / m.floor),
+                     m.floor_from == FloorSource::kRepeatability ? "that by which the drive repeats itself"
+                                                                 : "the encoder's own");
 }
 
-/// " With its controller in the loop the model is 392 mrad rms off in position; with the additions below it
+std::string additions_below(const CardFacts& f) {
+  return f.diagnosis->added.size() > 1 ? "; with the additions below, " : "; with the addition below, ";
+}
+
+/// " With its controller in the loop the model is 392 mrad rms off in position; with the additions below, it
 /// is 56 mrad off."
 std::string closed_loop_words(const CardFacts& f) {
   if (!f.diagnosis->closed_loop) return "";
@@ -177,7 +176,7 @@ std::string closed_loop_words(const CardFacts& f) {
     return std::isfinite(error) ? "is " + position(error) + " rms off in position" : std::string("runs away");
   };
   return fmt::format(" With its controller in the loop the model {}{}.", is(c.before),
-                     is_added(*f.diagnosis) ? "; with the additions below it " + is(c.after) : "");
+                     is_added(*f.diagnosis) ? additions_below(f) + "it " + is(c.after) : "");
 }
 
 /// " Simulated freely from the first sample on, the model drifts up to 407 mrad from the held-out motion,
@@ -193,7 +192,7 @@ std::string whole_run_words(const CardFacts& f) {
   std::string text = " Simulated freely from the first sample on, the model " +
                      (stays ? "drifts up to " + position(w.before) + of : "runs away");
   if (!is_added(d)) return text + ".";
-  text += "; with the additions below, ";
+  text += additions_below(f);
   if (!stays_after) return text + "it runs away.";
   return text + (stays ? "up to " + position(w.after) : "it drifts up to " + position(w.after) + of) + ".";
 }
@@ -219,6 +218,21 @@ std::string step_of_the_answer(const CardFacts& f) {
   return "";
 }
 
+/// Where effects were added: to use them, unless too much is left.
+std::string step_of_the_model(const CardFacts& f, const Card& card) {
+  if (std::string left = unexplained(f, card); !left.empty()) return left;
+  const Diagnosis& d = *f.diagnosis;
+  const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
+  return std::string("Simulate with `DIR/fitted.yaml`") +
+         (!open                ? ""
+          : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
+                               : ", which predicts better with it, established or not") +
+         "; " + export_words(f) +
+         (d.verdict == DiagnosisVerdict::kHelps
+              ? " To settle the cause, record another motion (other speeds, other loads) and hold that out."
+              : "");
+}
+
 std::string next_line(const CardFacts& f, const Card& card) {
   if (card.good_enough && *card.good_enough) return "None: this is within your tolerance.";
   const std::string step = step_of_the_answer(f);
@@ -233,15 +247,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
   if (is_added(d) && !exhausted_words(d).empty())
     return "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml`.";
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
-  if (is_added(d) && d.verdict == DiagnosisVerdict::kHelps)
-    return "Try `DIR/fitted.yaml` on another motion (other speeds, other loads); held out, a recording of "
-           "that "
-           "may also tell the cause.";
-  if (const std::string left = unexplained(f, card); is_added(d) && !left.empty()) return left;
-  const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
-  if (is_added(d))
-    return std::string("Simulate with `DIR/fitted.yaml`") +
-           (open ? ", which predicts best with all of these, established or not; " : "; ") + export_words(f);
+  if (is_added(d)) return step_of_the_model(f, card);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
   return step_to_establish(d);
 }

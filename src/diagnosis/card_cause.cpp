@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "diagnosis/card_numbers.h"
 #include "diagnosis/card_open.h"
@@ -31,12 +30,6 @@ std::vector<std::string> others_of(const AddedEffect& a, const Diagnosis& d) {
     if (other != a.effect && !contains(d.effects, other)) all.push_back(readable(other));
   return all;
 }
-
-/// So many effects are told with how much there is of each; the table of what was added holds all.
-constexpr std::size_t kToldEffects = 4;
-
-/// How many of them are told with their numbers: all, or one less, and the rest by name.
-std::size_t told_of(std::size_t count) { return count > kToldEffects ? kToldEffects - 1 : count; }
 
 std::vector<std::string> names(const CardFacts& f, bool established) {
   std::vector<std::string> all;
@@ -77,6 +70,14 @@ std::string established_causes(const CardFacts& f) {
                      brief_doubt_of_motion(*f.diagnosis), fmt::join(causes, "; "));
 }
 
+/// "cogging torque (why)"; an aside that ends the words goes on with it.
+std::string with_aside(std::string words, const std::string& aside) {
+  if (aside.empty()) return words;
+  if (!words.ends_with(')')) return words + " (" + aside + ")";
+  words.pop_back();
+  return words + "; " + aside + ")";
+}
+
 /// " Not established, though it helps: input delay (it may as well be actuator lag).", of what has an open
 /// cause, with why it is, told once where that is the same of all.
 std::string open_causes(const CardFacts& f) {
@@ -88,12 +89,14 @@ std::string open_causes(const CardFacts& f) {
   }
   if (open.empty()) return "";
   const bool alike = std::ranges::all_of(why, [&](const std::string& w) { return w == why.front(); });
-  const auto aside = [](const std::string& w) { return w.empty() ? "" : " (" + w + ")"; };
   const std::string& first = why.front();
   const bool each = open.size() > 1 && first.starts_with("it ");
-  for (std::size_t i = 0; i < open.size() && !alike; ++i) open[i] += aside(why[i]);
-  return fmt::format(" Not established, though {}: {}{}.", open.size() > 1 ? "they help" : "it helps",
-                     enumerated(open), alike ? aside(each ? "each" + first.substr(2) : first) : "");
+  if (alike)
+    open.back() = with_aside(open.back(), each ? "each" + first.substr(2) : first);
+  else
+    for (std::size_t i = 0; i < open.size(); ++i) open[i] = with_aside(open[i], why[i]);
+  return fmt::format(" Not established, though {}: {}.{}", open.size() > 1 ? "they help" : "it helps",
+                     enumerated(open), least_of_a_cause(why));
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -107,7 +110,7 @@ std::string outside_words(const CardFacts& f) {
                      100.0 * d.outside_probability);
 }
 
-/// "takes it from 46.3 to 25.5 mN·m", "cuts the free-run error by 64 %": on the basis that has decided.
+/// "brings it from 46.3 to 25.5 mN·m", "cuts the free-run error by 64 %": on the basis that has decided.
 std::string share_words(const AddedEffect& a, const CardFacts& f) {
   if (!std::isfinite(a.shrink)) return "";
   if (a.share_of == ShareOf::kMotion)
@@ -118,7 +121,7 @@ std::string share_words(const AddedEffect& a, const CardFacts& f) {
   });
   if (at == rungs.end()) return "";
   const SharedUnit torque(at->before, f.coordinates.shown_unit("N m"));
-  return fmt::format("takes it from {} to {}", torque.number(at->before), torque(at->after));
+  return fmt::format("brings it from {} to {}", torque.number(at->before), torque(at->after));
 }
 
 /// "cogging torque (2 N; cuts the free-run error by 64 %)": what is known of it alone; an aside in its name
@@ -137,10 +140,11 @@ std::string with_asides(const AddedEffect& a, const CardFacts& f, bool share) {
 }
 
 /// "17.1 % to 2.2 % of what the input applies": on the basis of the line of the model's error
-std::string percents(const Card& card) {
+std::string percents(const CardFacts& f, const Card& card) {
   const double both[] = {card.percent, card.percent_after};
   const Percents percent(both);
-  return percent(card.percent) + " to " + percent(card.percent_after) + " of what the input applies";
+  return percent(card.percent) + " to " + percent(card.percent_after) + " of what the " +
+         what_applies(*f.diagnosis) + " applies";
 }
 
 /// "from 371 to 0.427 µm (free run restarted every 0.5 s, median of windows)"
@@ -156,7 +160,7 @@ std::string fall(const CardFacts& f, const Card& card) {
   if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
     const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
     return fmt::format("from {} to {} ({})", torque.number(card.torque), torque(card.torque_after),
-                       percents(card));
+                       percents(f, card));
   }
   return fall_of_motion(f);
 }
@@ -164,12 +168,9 @@ std::string fall(const CardFacts& f, const Card& card) {
 /// Whether the torque that is told has an effect in it.
 bool is_counted(const AddedEffect& a, const Diagnosis& d) { return !contains(d.budget.uncounted, a.effect); }
 
-/// The first of them with their numbers, the rest by name.
 std::vector<std::string> told_effects(const std::vector<const AddedEffect*>& all, const CardFacts& f) {
   std::vector<std::string> told;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    told.push_back(i < told_of(all.size()) ? with_asides(*all[i], f, f.diagnosis->added.size() > 1)
-                                           : without_asides(called(*all[i], f)));
+  for (const AddedEffect* a : all) told.push_back(with_asides(*a, f, f.diagnosis->added.size() > 1));
   return told;
 }
 
@@ -190,9 +191,10 @@ std::string shares(const CardFacts& f, const Card& card) {
                                 ? fmt::format("{} the {} down {}", others.size() > 1 ? "bring" : "brings",
                                               motion_error(*f.diagnosis), fall_of_motion(f))
                                 : std::string(others.size() > 1 ? "help" : "helps") + " the simulated motion";
-  return fmt::format("{}{}{} {}; the missing {} with {} was not computed", text, text.empty() ? "" : "; ",
-                     enumerated(told_effects(others, f)), whole, f.coordinates.torque_word(),
-                     others.size() > 1 ? "them" : "it");
+  const bool several = others.size() > 1;
+  return fmt::format("{}{}{} {}; the torque balance, which ends at {:.3g} Hz, does not show {}", text,
+                     text.empty() ? "" : "; ", enumerated(told_effects(others, f)), whole,
+                     f.diagnosis->budget.band_hz, several ? "them" : "it");
 }
 
 /// Whether each effect has the torque that it leaves, and the last one that of the fitted model.
@@ -205,20 +207,15 @@ bool has_rungs(const Diagnosis& d) {
                      [](const AddedEffect& a) { return std::isfinite(a.after_torque); });
 }
 
-/// "The missing force falls from 9.84 N to 4.19 N with friction, then to 2.20 N with cogging torque (17.1 %
-/// to 3.8 % of what the input applies)"
+/// "The missing force falls from 9.84 N to 4.19 N with friction, then to 2.20 N with cogging torque; in all
+/// from 17.1 % to 3.8 % of what the input applies"
 std::string rungs(const CardFacts& f, const Card& card) {
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
   std::vector<std::string> all;
-  const auto& added = f.diagnosis->added;
-  for (const AddedEffect& a : std::span(added).first(told_of(added.size())))
+  for (const AddedEffect& a : f.diagnosis->added)
     all.push_back(torque(a.after_torque) + " with " + with_asides(a, f, false));
-  std::vector<std::string> rest;
-  for (const AddedEffect& a : std::span(added).subspan(all.size()))
-    rest.push_back(without_asides(called(a, f)));
-  if (!rest.empty()) all.push_back(torque(added.back().after_torque) + " with " + enumerated(rest));
-  return fmt::format("the missing {} falls from {} to {} ({})", f.coordinates.torque_word(),
-                     torque(card.torque), fmt::join(all, ", then to "), percents(card));
+  return fmt::format("the missing {} falls from {} to {}; in all from {}", f.coordinates.torque_word(),
+                     torque(card.torque), fmt::join(all, ", then to "), percents(f, card));
 }
 
 /// "Your simulator has no cogging torque, the drive has (8 mN·m)" of "it has no ...".

@@ -64,7 +64,7 @@ std::string name_of_number(const RefittedNumber& n, const Diagnosis& d) {
   return readable(n.key.substr(0, dot)) + " " + name_of_key(n.key.substr(dot + 1));
 }
 
-/// The first `most` with what changes, the rest by name: "and, by less, contact stiffness".
+/// The first `most` with what changes, the rest by name: "and smaller changes in contact stiffness".
 std::string in_part(const std::vector<std::string>& names, const std::vector<std::string>& changes,
                     std::size_t most) {
   std::vector<std::string> all, rest;
@@ -74,7 +74,7 @@ std::string in_part(const std::vector<std::string>& names, const std::vector<std
     else
       rest.push_back(names[i]);
   return rest.empty() ? enumerated(all)
-                      : fmt::format("{} and, by less, {}", fmt::join(all, ", "), enumerated(rest));
+                      : fmt::format("{}, and smaller changes in {}", fmt::join(all, ", "), enumerated(rest));
 }
 
 /// "0.1 → 0.0400 N·m s/rad (95 %: 0.0399 to 0.0401)"; empty where both read alike.
@@ -137,10 +137,10 @@ std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::siz
 std::string other_numbers_help(const CardFacts& f) {
   const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kToldNumbers);
   if (numbers.empty() && differing_rows(f.simulated) == 0)
-    return "Nothing has to: the model is as good as the recording.";
+    return "Nothing needed: the model is as good as the recording.";
   if (numbers.empty())
-    return "Nothing has to be added to the model, which is as good as the recording." + simulator_helps(f);
-  return "Nothing has to be added; other numbers than the configuration starts at: " + numbers +
+    return "Nothing need be added to the model, which is as good as the recording." + simulator_helps(f);
+  return "Nothing need be added; other numbers than the configuration starts at: " + numbers +
          "; `fitted.yaml` has them and is as good as the recording." + simulator_helps(f);
 }
 
@@ -160,9 +160,10 @@ std::string also_refitted(const CardFacts& f) {
   constexpr std::size_t kMost = kToldNumbers - 1;
   if (f.diagnosis == nullptr || f.diagnosis->added.empty() || f.diagnosis->stopped) return "";
   const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kMost);
-  return numbers.empty()
-             ? ""
-             : " In all figures here your estimated numbers are refitted; `fitted.yaml` has " + numbers + ".";
+  return numbers.empty() ? ""
+                         : " All figures, also those before an addition, have your estimated numbers "
+                           "refitted; `fitted.yaml` has " +
+                               numbers + ".";
 }
 
 }  // namespace gapscope::internal::diagnosis

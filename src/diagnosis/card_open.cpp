@@ -24,15 +24,32 @@ std::vector<std::string> rivals_of(const AddedEffect& a, const Diagnosis& d) {
   return all;
 }
 
-/// Where the balance of torque has chosen it: by which of its conditions it is no cause.
+constexpr const char* kRemoves = "it removes ";
+
+std::string percent_of_share(double share) { return fmt::format("{:.0f}", 100.0 * share); }
+
+/// "torque ripple", "a free curve over the speed"
+std::string rival_words(const std::string& law) {
+  constexpr std::string_view kFree = "free_", kCurve = "_curve";
+  if (law.empty()) return "another torque";
+  if (!law.starts_with(kFree) || !law.ends_with(kCurve)) return readable(law);
+  return "a free curve over the " + law.substr(kFree.size(), law.size() - kFree.size() - kCurve.size());
+}
+
+/// Where the torque balance has chosen it: by which of its conditions it is no cause.
 std::string doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
   const torque_view::TorqueViewOptions conditions;
   for (const BudgetRung& r : d.budget.rungs) {
     if (!r.added || r.effect != a.effect) continue;
-    if (r.share < conditions.least_share || r.share_ci95.low < conditions.least_low)
-      return "it takes too little of what was left to be sure";
-    return r.last < conditions.least_share ? "what was added after it says most of the same"
-                                           : "another torque would take nearly as much";
+    if (r.share < conditions.least_share)
+      return kRemoves + percent_of_share(r.share) + " % of the mean square that was left";
+    if (r.share_ci95.low < conditions.least_low)
+      return fmt::format("how much of the mean square that was left it removes is uncertain, {} to {} %",
+                         percent_of_share(std::max(0.0, r.share_ci95.low)),
+                         percent_of_share(r.share_ci95.high));
+    return r.last < conditions.least_share
+               ? "what was added after it removes most of the same"
+               : rival_words(r.rival) + " would remove nearly as much in its place";
   }
   return "";
 }
@@ -44,6 +61,12 @@ std::string why_open(const AddedEffect& a, const Diagnosis& d) {
     return "it may as well be " + enumerated(rivals, "or");
   if (may_be_absent(a, d)) return "these recordings do not determine its amount";
   return doubt_of_balance(a, d);
+}
+
+std::string least_of_a_cause(const std::vector<std::string>& why) {
+  if (std::ranges::none_of(why, [](const std::string& w) { return w.starts_with(kRemoves); })) return "";
+  return fmt::format(" A cause has to remove {} %.",
+                     percent_of_share(torque_view::TorqueViewOptions{}.least_share));
 }
 
 const BudgetRung* unestablished_rung(const Diagnosis& d) {
@@ -58,8 +81,9 @@ std::string unknown_words(const CardFacts& f) {
   if (rung == nullptr) return "unknown: no effect of the catalogue explains it";
   const SharedUnit torque(rung->before, f.coordinates.shown_unit("N m"));
   return fmt::format(
-             "unknown; suspected is {}: in the error budget it brings the missing {} down from {} to {}, but "
-             "{}",
+             "unknown; suspected is {}: as a term of the torque balance it brings the missing {} down from "
+             "{} "
+             "to {}, but {}",
              readable(rung->effect.empty() ? rung->law : rung->effect), f.coordinates.torque_word(),
              torque.number(rung->before), torque(rung->after),
              d.better_swapped ? "the recording that was fitted moves too little to establish a cause"
@@ -73,6 +97,8 @@ std::string unknown_words(const CardFacts& f) {
 
 bool input_is_made(const Diagnosis& d) { return !d.traces.empty() && !d.traces.front().target.empty(); }
 
+const char* what_applies(const Diagnosis& d) { return input_is_made(d) ? "model's controller" : "input"; }
+
 std::string step_to_estimate(const Diagnosis& d) {
   return fmt::format(
       "Estimate what the configuration holds ({}: {{estimate: true}}), and diagnose again: where "
@@ -82,7 +108,7 @@ std::string step_to_estimate(const Diagnosis& d) {
 
 std::string step_to_establish(const Diagnosis& d) {
   return input_is_made(d)
-             ? "Record the motor's input as well (duty, current or torque), and diagnose by that."
+             ? "Record the motor's input as well (duty, current or torque), and diagnose from that."
              : "Record the drive in another motion (other speeds, other loads) and diagnose that.";
 }
 
@@ -102,9 +128,9 @@ std::string unexplained(const CardFacts& f, const Card& card) {
       card.torque_after > card.torque - card.torque_after && card.torque_after > kRule.floor_ratio * floor;
   if (!(sized && floor > 0.0 && (most || card.torque_after > kRule.far * floor))) return "";
   return fmt::format(
-      "{} of the input's {} is still unexplained ({:.2g} times the least that a model could reach): diagnose "
-      "the other way round, with what is fitted held out and what is held out fitted, or record another "
-      "motion; `fitted.yaml` has what was found.",
+      "Do not rely on `DIR/fitted.yaml` yet: {} of the input's {} is unexplained with all that was found "
+      "({:.2g} times the least that a model could reach). Record another motion (other speeds, other loads), "
+      "or swap `file` and `held_out` where there are two recordings, and diagnose again.",
       percent_text(card.percent_after), f.coordinates.torque_word(), card.torque_after / floor);
 }
 

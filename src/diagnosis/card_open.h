@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/error_budget.h"
@@ -12,6 +13,9 @@ namespace gapscope::internal::diagnosis {
 /// says it.
 std::string why_open(const AddedEffect& added, const Diagnosis& diagnosis);
 
+/// " A cause has to remove 20 %.", where one of these is that an effect removes less; else empty.
+std::string least_of_a_cause(const std::vector<std::string>& why);
+
 /// Of the verdict "unknown": "unknown: no effect of the catalogue explains it", or that one takes much of it
 /// in the error budget and is not established.
 std::string unknown_words(const CardFacts& facts);
@@ -22,6 +26,9 @@ const BudgetRung* unestablished_rung(const Diagnosis& diagnosis);
 
 /// Whether the input was not recorded: the model's controller makes it of the goal.
 bool input_is_made(const Diagnosis& diagnosis);
+
+/// "input", or "model's controller": what applies the torque that sizes are a share of.
+const char* what_applies(const Diagnosis& diagnosis);
 
 /// The step where dampings or frictions are held at what nobody has measured: it takes no new recording.
 std::string step_to_estimate(const Diagnosis& diagnosis);
@@ -38,8 +45,7 @@ std::string unexplained(const CardFacts& facts, const Card& card);
 
 /// The step to the same recordings the other way round.
 inline constexpr const char* kSwapStep =
-    "Swap the recordings: fit the one that is held out now, and hold out the one that is fitted now. That "
-    "may "
-    "tell more.";
+    "Swap `file` and `held_out` and diagnose again: the recording that is held out now moves more, and tells "
+    "more where it is fitted.";
 
 }  // namespace gapscope::internal::diagnosis

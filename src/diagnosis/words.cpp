@@ -22,8 +22,8 @@ namespace {
 struct Turned {
   const char *effect, *parameter, *words;
 };
-constexpr Turned kTurned[] = {{"stribeck_friction", "stiction_ratio",
-                               "friction that is lower at low speed (Stribeck friction, negative ratio)"}};
+constexpr Turned kTurned[] = {
+    {"stribeck_friction", "stiction_ratio", "inverse Stribeck friction (lower at low speed)"}};
 
 /// Where a recording cannot tell an effect from others.
 std::string likeness(std::vector<std::string> group) {
@@ -84,6 +84,8 @@ std::string torque_fall(const Diagnosis& d, Coordinates coordinates) {
 
 /// The same by the measure of a drive whose torque balance depends on its contact.
 std::string error_fall(const Diagnosis& d) {
+  if (!std::isfinite(d.mismatch.shrink))
+    return "the held-out " + std::string(motion_error(d)) + " stays near its floor";
   return fmt::format("the held-out {} shrinks by {} % of what is above the floor, to {}", motion_error(d),
                      with_decimals(100.0 * d.mismatch.shrink, 0), ratio(d.mismatch.remains, d));
 }
@@ -184,7 +186,8 @@ std::string verdict_sentence(const Diagnosis& d, Coordinates coordinates) {
 std::string period_words(const AddedEffect& added, Coordinates coordinates) {
   for (const NamedValue& p : added.parameters) {
     if (p.key != "periods_per_turn" || !(p.value > 0.0)) continue;
-    if (coordinates.rotational()) return fmt::format(" at {:.4g} cycles per turn", p.value);
+    if (const std::string cycles = fmt::format("{:.4g}", p.value); coordinates.rotational())
+      return cycles == "1" ? " once per turn" : " at " + cycles + " cycles per turn";
     const double period = 2.0 * kPi / p.value;
     return " every " + SharedUnit(period, coordinates.position_unit())(period);
   }
@@ -201,10 +204,10 @@ std::string doubt_of_motion(const Diagnosis& d) {
   const bool balance = d.added.front().share_of == ShareOf::kTorque;
   const std::string what = m.measure.starts_with("prediction") ? "prediction" : "free run";
   if (!std::isfinite(m.shrink_ci95.low))
-    return !balance ? "" : " by the balance of torque alone; the " + what + ", near its floor, cannot tell";
+    return !balance ? "" : " by the torque balance alone; the " + what + ", near its floor, cannot tell";
   const auto percent = [](double share) { return with_decimals(100.0 * share, 0); };
   return fmt::format("{} its error shrinks by {} % (95 %: {} to {})",
-                     balance ? " by the balance of torque alone; the " + what + " cannot tell:"
+                     balance ? " by the torque balance alone; the " + what + " cannot tell:"
                              : "; the " + what + " of another recording may not show it:",
                      percent(m.shrink), percent(m.shrink_ci95.low), percent(m.shrink_ci95.high));
 }
@@ -213,7 +216,7 @@ std::string brief_doubt_of_motion(const Diagnosis& d) {
   if (doubt_of_motion(d).empty()) return "";
   const std::string what = d.mismatch.measure.starts_with("prediction") ? "prediction" : "free run";
   return d.added.front().share_of == ShareOf::kTorque
-             ? " by the balance of torque alone (the " + what + " cannot tell)"
+             ? " by the torque balance alone (the " + what + " cannot tell)"
              : " on these recordings (the " + what + " of another may not show it)";
 }
 

@@ -43,7 +43,7 @@ const char* established_word(const DiagnosisResult& r) {
   const Diagnosis& d = r.diagnosis;
   if (d.added.empty() || d.added.front().share_of == ShareOf::kMotion || d.is_shown_by_motion())
     return "established";
-  return r.coordinates.rotational() ? "established by the balance of torque alone"
+  return r.coordinates.rotational() ? "established by the torque balance alone"
                                     : "established by the balance of force alone";
 }
 

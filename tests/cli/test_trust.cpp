@@ -54,7 +54,8 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   const auto run = place.run("run right.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, motor side) is 18.999"));
-  EXPECT_THAT(run.out, HasSubstr(" Trust: good.\nmodel error The fitted model follows 99.9"));
+  EXPECT_THAT(run.out,
+              HasSubstr(" Trust: good.\nmodel error A free run of the fitted model fits the motion to 99.9"));
   const auto result = result_of(place, "reports/right");
   EXPECT_EQ(result["reference"]["trust"], "good");
   EXPECT_GT(result["reference"]["fit_percent"].get<double>(), 99.0);

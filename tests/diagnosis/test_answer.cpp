@@ -248,7 +248,7 @@ TEST(Answer, CallsPlayAtZeroTorqueALimitOfTheGapAndNotTheGap) {
   const Answer a = of(&play, nullptr);
   EXPECT_TRUE(std::isnan(a.gap));
   EXPECT_EQ(a.trust, AnswerTrust::kLimited);
-  EXPECT_THAT(a.sentence, HasSubstr("play at zero torque is 34.00 mrad"));
+  EXPECT_THAT(a.sentence, HasSubstr("play at zero torque (full width, motor side) is 34.00 mrad"));
   EXPECT_THAT(a.sentence, HasSubstr("at most that"));
 }
 

@@ -36,13 +36,13 @@ TEST(Card, TellsAnAmountWithoutAUnitAsAShareAndALawByWhatItAddsToASimplerOne) {
   d.added[1].effect = "torque_ripple", d.added[1].parameters = {{"ratio", "-", 0.0312, {0.0305, 0.0319}}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
               HasSubstr("(20.5 N), then to 2 N with torque ripple (3.120 % of the torque (amplitude), 95 %: "
-                        "3.050 to 3.190) ("));
+                        "3.050 to 3.190); in all"));
   d.added[1].effect = "load_dependent_friction";
   d.added[1].parameters = {{"level_nm", "N m", 20.54}, {"ratio", "-", 0.1, {0.09, 0.11}}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
               HasSubstr("with motor Coulomb friction, then to 2 N with load-dependent friction (10.0 % of "
                         "the load's torque, "
-                        "95 %: 9.0 to 11.0) ("));
+                        "95 %: 9.0 to 11.0); in all"));
 }
 
 TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
@@ -52,8 +52,8 @@ TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
                            {"coulomb_ratio", "-", -0.0052},
                            {"viscous_ratio", "-", -0.2, {-0.22, -0.18}}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("then to 2 N with friction asymmetry (-20.0 % of the mean damping, forward, 95 %: "
-                        "-22.0 to -18.0) ("));
+              HasSubstr("then to 2 N with friction asymmetry (-20.0 % of the mean damping, moving forward, "
+                        "95 %: -22.0 to -18.0); in all"));
 }
 
 TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
@@ -89,8 +89,8 @@ TEST(Card, TellsTheTorqueOfTheModelThatFittedYamlHas) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
               StartsWith("Motor Coulomb friction (cuts the free-run error by 60 %) brings the missing force "
                          "down from 10 to 3 N (20.0 % to 6.0 % of what the input applies); cogging "
-                         "torque (cuts the free-run error by 50 %) helps the simulated motion; the missing "
-                         "force with it was not computed; `fitted.yaml` has them"));
+                         "torque (cuts the free-run error by 50 %) helps the simulated motion; the torque "
+                         "balance, which ends at 8 Hz, does not show it; `fitted.yaml` has them"));
 }
 
 TEST(Card, TellsAnAmountWithItsInterval) {
@@ -104,7 +104,7 @@ TEST(Card, TellsAnAmountWithItsInterval) {
       StartsWith("Motor Coulomb friction (20.54 N, 95 %: 20.10 to 20.98) brings the missing force down"));
 }
 
-TEST(Card, OfManyEffectsTellsTheFirstWithTheirNumbersAndNamesTheRest) {
+TEST(Card, OfManyEffectsTellsWhatEachLeaves) {
   Diagnosis d = slide_diagnosis();
   d.added.resize(1);
   for (const char* more : {"cogging_torque", "viscous_friction", "torque_ripple", "load_friction"})
@@ -114,7 +114,8 @@ TEST(Card, OfManyEffectsTellsTheFirstWithTheirNumbersAndNamesTheRest) {
       card.helps,
       StartsWith(
           "The missing force falls from 10 N to 4 N with motor Coulomb friction, then to 3.5 N with cogging "
-          "torque, then to 3 N with viscous friction, then to 2 N with torque ripple and load friction ("));
+          "torque, then to 3 N with viscous friction, then to 2.5 N with torque ripple, then to 2 N "
+          "with load friction; in all"));
   EXPECT_EQ(card.cause,
             "Established: motor Coulomb friction, cogging torque, viscous friction, torque ripple and load "
             "friction.");
@@ -131,7 +132,7 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
   EXPECT_EQ(card_of(f).cause, "Established: cogging torque every 2.5 mm and cogging torque every 10 mm.");
   EXPECT_THAT(card_of(f).helps, StartsWith("The missing force falls from 10 N to 4 N with cogging torque "
                                            "every 2.5 mm (amplitude 5 N), then to 2 N with cogging "
-                                           "torque every 10 mm (amplitude 1 N) ("));
+                                           "torque every 10 mm (amplitude 1 N); in all"));
   f.coordinates = Coordinates::kRotation;
   d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
   EXPECT_EQ(card_of(f).cause,

@@ -41,22 +41,21 @@ TEST(CardBasis, WhatRoundsToZeroHasNoSign) {
 
 TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
   const Diagnosis d = by_balance(0.46, {-2.57, 0.83});
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &d)).cause,
-      StartsWith("Established by the balance of torque alone (the free run cannot tell): motor Coulomb "
-                 "friction. "));
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause,
+              StartsWith("Established by the torque balance alone (the free run cannot tell): motor Coulomb "
+                         "friction. "));
   EXPECT_THAT(
       internal::diagnosis::sentence_of(d, Coordinates()),
-      StartsWith("The model lacks motor Coulomb friction (established by the balance of torque alone; "));
+      StartsWith("The model lacks motor Coulomb friction (established by the torque balance alone; "));
   const Diagnosis shown = by_balance(0.9, {0.59, 1.0});
   EXPECT_THAT(card_of(facts_of(nullptr, &shown)).cause, StartsWith("Established: motor Coulomb friction. "));
   const Diagnosis at_floor = by_balance(kNaN, {});
   EXPECT_THAT(
       card_of(facts_of(nullptr, &at_floor)).cause,
-      StartsWith("Established by the balance of torque alone (the free run cannot tell): motor Coulomb "));
+      StartsWith("Established by the torque balance alone (the free run cannot tell): motor Coulomb "));
   EXPECT_THAT(
       internal::diagnosis::sentence_of(at_floor, Coordinates()),
-      HasSubstr("(established by the balance of torque alone; the free run, near its floor, cannot tell)"));
+      HasSubstr("(established by the torque balance alone; the free run, near its floor, cannot tell)"));
   Diagnosis by_motion = d;
   for (AddedEffect& a : by_motion.added) a.share_of = ShareOf::kMotion;
   EXPECT_THAT(
@@ -80,7 +79,7 @@ TEST(CardBasis, AShareSaysWhatItIsOf) {
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).helps,
       StartsWith(
-          "Motor Coulomb friction (takes it from 10 to 4 N) and cogging torque (takes it from 4 to "
+          "Motor Coulomb friction (brings it from 10 to 4 N) and cogging torque (brings it from 4 to "
           "2 N) bring the missing force down from 10 to 3 N (20.0 % to 6.0 % of what the input applies)"));
   for (AddedEffect& a : d.added) a.share_of = ShareOf::kMotion;
   d.mismatch.measure = "prediction of an observer at 3 Hz, median over windows of the rms";

@@ -42,7 +42,7 @@ TEST(Words, AStribeckFrictionOfNegativeRatioIsFrictionThatIsLowerAtLowSpeed) {
     added.established = verdict == DiagnosisVerdict::kEffect;
     added.parameters[1].value = -0.5, d.added = {added};
     EXPECT_THAT(internal::diagnosis::sentence_of(d, Coordinates::kRotation),
-                HasSubstr("friction that is lower at low speed"));
+                HasSubstr("inverse Stribeck friction (lower at low speed)"));
     added.parameters[1].value = 0.5, d.added = {added};
     EXPECT_THAT(internal::diagnosis::sentence_of(d, Coordinates::kRotation), Not(HasSubstr("lower")));
   }

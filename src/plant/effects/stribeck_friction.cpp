@@ -17,7 +17,7 @@ struct StribeckFriction {
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
-      {"stiction_ratio", "-", 0.0, -0.9, 5.0, Scale::kLevel, false, "of the friction, at standstill"},
+      {"stiction_ratio", "-", 0.0, -0.9, 5.0, Scale::kLevel, false, "of the Coulomb friction, at standstill"},
       {"stribeck_speed_rad_s", "rad/s", 0.05, 1e-3, 1.0, Scale::kPeakSpeed},
       {"exponent", "-", 2.0, 0.5, 3.0, Scale::kOne}};
   static constexpr std::array<const char*, 3> look_alikes = {"motor_coulomb_friction", "presliding_friction",
