@@ -48,6 +48,17 @@ ReferenceModel without(ReferenceModel model, const EffectEntry* entry) {
   return model;
 }
 
+/// An effect's place taken by the simpler one that it contains, whose parameters are its first ones.
+ReferenceModel with_simpler(ReferenceModel model, const EffectEntry& entry, const EffectEntry& simpler) {
+  for (ModelEffect& e : model.effects) {
+    if (e.entry != &entry) continue;
+    e.entry = &simpler;
+    std::fill(e.parameters.begin() + static_cast<std::ptrdiff_t>(simpler.parameters.size()),
+              e.parameters.end(), ParameterSetting());
+  }
+  return model;
+}
+
 ScoredModel refitted(const Study& study, const ReferenceModel& model) {
   return judge(nullptr, fit_near(study.train, model, study.options.fit, study.observer_hz), study.held_out,
                study.observer_hz);
@@ -82,6 +93,22 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
     a.steps.back().dropped.push_back(effect.entry);
     effect = {ranked.front().entry, {ranked.front().entry}};
     a.after = std::move(ranked.front());
+  }
+}
+
+/// Where an effect was chosen while later ones were still missing, the simpler one within it may do as well
+/// now: what it has more stood for them.
+void take_simpler(const Study& study, Additions& a) {
+  for (Addition& effect : a.effects) {
+    const EffectEntry* const simpler = contained_effect(*effect.entry);
+    if (simpler == nullptr || effect.entry == a.effects.back().entry || study.is_exhausted() ||
+        !has_effect(a.after.fitted.model, effect.entry) || has_effect(a.after.fitted.model, simpler))
+      continue;
+    const ScoredModel less = refitted(study, with_simpler(a.after.fitted.model, *effect.entry, *simpler));
+    if (!(less.score < log_score(a.after.windows) + kRule.indistinct)) continue;
+    a.steps.back().dropped.push_back(effect.entry);
+    effect = {simpler, {simpler}};
+    a.after = less;
   }
 }
 
@@ -144,6 +171,7 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
     a.effects.push_back({a.after.entry, step.decision.group});
     drop_stand_ins(study, a);
     choose_among_look_alikes(study, a);
+    take_simpler(study, a);
   }
   if (!narrow) return a;
   if (a.steps.size() > steps_before && a.steps[steps_before].decision.accepted)

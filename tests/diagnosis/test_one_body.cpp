@@ -52,6 +52,36 @@ TEST(OneBody, IsToldWhatLeavesItsEncoderNothingRatherThanWhatTheBalanceSees) {
   for (const RankedEffect& e : found.ranking) EXPECT_TRUE(std::isnan(e.probability)) << e.effect;
 }
 
+// Where an arm is held level gravity is nearly a constant torque: with friction it looks as friction that
+// differs with the direction, until the unbalance is in the model.
+TEST(OneBody, OfALevelArmFrictionIsNotToldAsAsymmetricOnceItsGravityIsKnown) {
+  independent_plant::BlindDrive d;
+  d.load = independent_plant::BlindLoad::kNone;
+  d.torque_constant = 1.0;
+  d.motor_inertia = 0.13, d.motor_damping = 0.9;
+  d.effects.motor.friction.level_nm = 1.3;
+  d.effects.load.unbalance_nm = 2.12, d.effects.load.unbalance_phase_rad = 0.5 * kPi;
+  const Recording train = under(
+      d, [](double t) { return 2.12 + 3.0 * std::sin(1.1 * t) * (0.7 + 0.3 * std::sin(0.37 * t)); }, 1);
+  const Recording held_out = under(
+      d, [](double t) { return 2.12 + 2.0 * std::sin(0.8 * t) + 1.5 * std::sin(2.7 * t); }, 2);
+  ReferenceModel sheet;
+  sheet.structure.has_load = false;
+  sheet.set("torque_constant", ParameterSetting::known(1.0));
+  sheet.set("motor_inertia", ParameterSetting::sought(0.12));
+  sheet.set("motor_damping", ParameterSetting::sought(0.8));
+  const MotorTrace fitted[] = {train.motor_trace()}, judging[] = {held_out.motor_trace()};
+  const Diagnosis found = diagnose(fitted, judging, sheet,
+                                   test::among({"motor_coulomb_friction", "friction_asymmetry",
+                                                "load_unbalance", "constant_load_torque", "quadratic_drag"}));
+  EXPECT_EQ(found.effects, (std::vector<std::string>{"motor_coulomb_friction", "load_unbalance"}))
+      << found.sentence;
+  ASSERT_EQ(found.added.size(), 2u);
+  const NamedValue& level = found.added.front().parameters.front();
+  EXPECT_LT(level.ci95.low, 1.3 + 1e-3);
+  EXPECT_GT(level.ci95.high, 1.3 - 1e-3);
+}
+
 // A model whose numbers are estimated takes any that its configuration has: it would seem to be right.
 TEST(OneBody, OfAModelThatLacksNothingButHasWrongNumbersTellsWhichAreWrong) {
   independent_plant::BlindDrive d;
