@@ -141,6 +141,7 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   const double floor = b.exists() ? b.floor() : kNaN;
   if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
+  if (b.records >= floor && !b.uncounted.empty()) return "";  // what the balance lacks makes them disagree
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
   if (b.records >= floor)
     return "; " + size + " of this differs between the recordings (or parts of one), so no model removes it";
@@ -194,7 +195,9 @@ std::string whole_run_words(const CardFacts& f) {
   if (!is_added(d)) return text + ".";
   text += additions_below(f);
   if (!stays_after) return text + "it runs away.";
-  return text + (stays ? "up to " + position(w.after) : "it drifts up to " + position(w.after) + of) + ".";
+  const bool grows = w.after > w.before && d.mismatch.after < d.mismatch.before;
+  return text + (stays ? "up to " + position(w.after) : "it drifts up to " + position(w.after) + of) +
+         (grows ? ": over so long a run the smallest errors grow." : ".");
 }
 
 std::string mismatch_line(const CardFacts& f, const Card& card) {

@@ -48,9 +48,8 @@ std::vector<std::string> groups(const CardFacts& f) {
     if (!a.established || others.empty()) continue;
     others.insert(others.begin(), called(a, f));
     const bool two = others.size() == 2;
-    all.push_back(fmt::format("{} {} (these recordings cannot tell which; `fitted.yaml` has {})",
-                              two ? "either" : "one of", enumerated(others, two ? "or" : "and"),
-                              called(a, f)));
+    all.push_back(fmt::format("{} {} ({}; `fitted.yaml` has {})", two ? "either" : "one of",
+                              enumerated(others, two ? "or" : "and"), which_is_open(a.group), called(a, f)));
   }
   return all;
 }
@@ -114,7 +113,7 @@ std::string outside_words(const CardFacts& f) {
 std::string share_words(const AddedEffect& a, const CardFacts& f) {
   if (!std::isfinite(a.shrink)) return "";
   if (a.share_of == ShareOf::kMotion)
-    return fmt::format("cuts the {} by {} %", motion_error(*f.diagnosis), with_decimals(100.0 * a.shrink, 0));
+    return fmt::format("cuts the {} by {} %", motion_error(*f.diagnosis), percent_of_shrink(a.shrink));
   const auto& rungs = f.diagnosis->budget.rungs;
   const auto at = std::find_if(rungs.begin(), rungs.end(), [&](const BudgetRung& r) {
     return r.effect == a.effect && !(std::abs(r.after - a.after_torque) > 0.0);
@@ -248,7 +247,7 @@ std::string motion_words(const MismatchSize& m, Coordinates coordinates) {
 std::string law_words(const LastResortLaw& law, const Diagnosis& d) {
   return fmt::format("a free curve over the {} cuts the {}{} by {} % (compensation_{}.csv)", law.variable,
                      motion_error(d), law.on_top_of.empty() ? "" : " that is left",
-                     with_decimals(100.0 * law.shrink, 0), law.law);
+                     percent_of_shrink(law.shrink), law.law);
 }
 
 }  // namespace

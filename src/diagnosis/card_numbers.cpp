@@ -109,6 +109,36 @@ std::string simulator_helps(const CardFacts& f) {
                      enumerated(falls));
 }
 
+/// By how much a number has to be multiplied, with its interval.
+Interval factor_of(const RefittedNumber& n) {
+  return {n.ci95.low / n.configured, n.ci95.high / n.configured};
+}
+
+const RefittedNumber* refitted_number(const Diagnosis& d, const char* key) {
+  const auto at = std::find_if(d.refitted.begin(), d.refitted.end(),
+                               [&](const RefittedNumber& n) { return n.key == key; });
+  return at == d.refitted.end() || !(at->configured > 0.0) ? nullptr : &*at;
+}
+
+/// " Inertia and damping are both 1.136 times those of the configuration: a torque constant 12 % smaller
+/// would say the same ...", where both intervals leave 1 out and agree, and the torque constant is fixed.
+std::string scale_words(const Diagnosis& d) {
+  const RefittedNumber* inertia = refitted_number(d, "motor_inertia");
+  const RefittedNumber* damping = refitted_number(d, "motor_damping");
+  if (inertia == nullptr || damping == nullptr || refitted_number(d, "torque_constant") != nullptr) return "";
+  const Interval a = factor_of(*inertia), b = factor_of(*damping);
+  const bool alike = a.low <= b.high && b.low <= a.high;
+  const bool above = a.low > 1.0 && b.low > 1.0, below = a.high < 1.0 && b.high < 1.0;
+  if (!alike || !(above || below)) return "";
+  const double factor = inertia->fitted / inertia->configured;
+  return fmt::format(
+      " Inertia and damping are both {:.4g} times those of the configuration: a torque constant (or gear "
+      "ratio) "
+      "{} {} would say the same; where the inertia is certain, fix it and set torque_constant: "
+      "{{estimate: true}}.",
+      factor, percent_text(100.0 * std::abs(1.0 / factor - 1.0)), factor > 1.0 ? "smaller" : "larger");
+}
+
 }  // namespace
 
 std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all, Coordinates coordinates) {
@@ -141,7 +171,8 @@ std::string other_numbers_help(const CardFacts& f) {
   if (numbers.empty())
     return "Nothing need be added to the model, which is as good as the recording." + simulator_helps(f);
   return "Nothing need be added; other numbers than the configuration starts at: " + numbers +
-         "; `fitted.yaml` has them and is as good as the recording." + simulator_helps(f);
+         "; `fitted.yaml` has them and is as good as the recording." + scale_words(*f.diagnosis) +
+         simulator_helps(f);
 }
 
 std::string next_of_numbers(const CardFacts& f) {
@@ -160,10 +191,10 @@ std::string also_refitted(const CardFacts& f) {
   constexpr std::size_t kMost = kToldNumbers - 1;
   if (f.diagnosis == nullptr || f.diagnosis->added.empty() || f.diagnosis->stopped) return "";
   const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kMost);
-  return numbers.empty() ? ""
-                         : " All figures, also those before an addition, have your estimated numbers "
-                           "refitted; `fitted.yaml` has " +
-                               numbers + ".";
+  if (numbers.empty()) return "";
+  return " All figures, also those before an addition, have your estimated numbers refitted; `fitted.yaml` "
+         "has " +
+         numbers + "." + scale_words(*f.diagnosis);
 }
 
 }  // namespace gapscope::internal::diagnosis

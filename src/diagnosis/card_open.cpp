@@ -63,6 +63,15 @@ std::string why_open(const AddedEffect& a, const Diagnosis& d) {
   return doubt_of_balance(a, d);
 }
 
+std::string which_is_open(const std::vector<std::string>& group) {
+  const bool one_law =
+      group.size() == 2 && contains(group, "constant_load_torque") && contains(group, "friction_asymmetry");
+  return one_law
+             ? "no recording can tell which: dry friction that differs with the direction is one that does "
+               "not, beside a constant torque"
+             : "these recordings cannot tell which";
+}
+
 std::string least_of_a_cause(const std::vector<std::string>& why) {
   if (std::ranges::none_of(why, [](const std::string& w) { return w.starts_with(kRemoves); })) return "";
   return fmt::format(" A cause has to remove {} %.",

@@ -13,6 +13,9 @@ namespace gapscope::internal::diagnosis {
 /// says it.
 std::string why_open(const AddedEffect& added, const Diagnosis& diagnosis);
 
+/// "these recordings cannot tell which" of a group is the cause, or that none could.
+std::string which_is_open(const std::vector<std::string>& group);
+
 /// " A cause has to remove 20 %.", where one of these is that an effect removes less; else empty.
 std::string least_of_a_cause(const std::vector<std::string>& why);
 

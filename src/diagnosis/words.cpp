@@ -87,7 +87,7 @@ std::string error_fall(const Diagnosis& d) {
   if (!std::isfinite(d.mismatch.shrink))
     return "the held-out " + std::string(motion_error(d)) + " stays near its floor";
   return fmt::format("the held-out {} shrinks by {} % of what is above the floor, to {}", motion_error(d),
-                     with_decimals(100.0 * d.mismatch.shrink, 0), ratio(d.mismatch.remains, d));
+                     percent_of_shrink(d.mismatch.shrink), ratio(d.mismatch.remains, d));
 }
 
 /// " (established by the balance of torque alone; ...)", where the motion does not bear it out.
@@ -193,6 +193,8 @@ std::string period_words(const AddedEffect& added, Coordinates coordinates) {
   }
   return "";
 }
+
+std::string percent_of_shrink(double shrink) { return with_decimals(100.0 * std::min(shrink, 1.0), 0); }
 
 std::string motion_error(const Diagnosis& d) {
   return d.mismatch.measure.starts_with("prediction") ? "prediction error" : "free-run error";

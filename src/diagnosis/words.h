@@ -11,8 +11,11 @@ namespace gapscope::internal::diagnosis {
 /// does, or nothing was added.
 std::string doubt_of_motion(const Diagnosis& diagnosis);
 
-/// The same in brief and without its numbers: " by the balance of torque alone (the free run cannot tell)".
+/// The same in brief and without its numbers: " by the torque balance alone (the free run cannot tell)".
 std::string brief_doubt_of_motion(const Diagnosis& diagnosis);
+
+/// A share of the error above the floor in per cent: below the floor nothing more can shrink.
+std::string percent_of_shrink(double shrink);
 
 /// "free-run error" or "prediction error": what the motion is judged by.
 std::string motion_error(const Diagnosis& diagnosis);

@@ -32,6 +32,15 @@ TEST(CardCause, OneOfAGroupIsNotCalledEstablished) {
             "Established: motor Coulomb friction. Not established, though it helps: input delay.");
 }
 
+TEST(CardCause, OfOneLawUnderTwoNamesSaysThatNoRecordingTells) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.added[0].effect = "constant_load_torque";
+  d.added[0].group = {"constant_load_torque", "friction_asymmetry"};
+  EXPECT_THAT(card_of(d).cause,
+              HasSubstr("either constant load torque or friction asymmetry (no recording can "
+                        "tell which: dry friction that differs with the direction is one"));
+}
+
 TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
   Diagnosis d = of_friction_and_delay(false, false);
   d.added[0].parameters = {{"level_nm", "N m", 274.0}};
@@ -99,6 +108,25 @@ TEST(CardCause, OfAnotherVerdictTellsTheNumbersBrieflyBehindTheNextStep) {
   EXPECT_THAT(card_of(d).next, HasSubstr("`fitted.yaml` has mass ratio (load over motor) 1.2 → 1.000 (95 %"));
   d.refitted.clear();
   EXPECT_THAT(card_of(d).next, Not(HasSubstr("refitted")));
+}
+
+// The input's scale, inertia and damping are one number too many: recordings alone know their ratios.
+TEST(CardCause, WhereInertiaAndDampingGrowAlikeTheTorqueConstantMayBeWrong) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.refitted = {{"motor_inertia", "kg m^2", 0.0635, 0.07215, {0.07210, 0.07220}},
+                {"motor_damping", "N m s/rad", 0.3, 0.341, {0.3405, 0.3415}}};
+  EXPECT_THAT(
+      card_of(d).next,
+      HasSubstr(" Inertia and damping are both 1.136 times those of the configuration: a torque constant "
+                "(or gear ratio) 12 % smaller would say the same; where the inertia is certain, fix it "
+                "and set torque_constant: {estimate: true}."));
+  d.refitted[1].ci95 = {0.345, 0.347};
+  EXPECT_THAT(card_of(d).next, Not(HasSubstr("torque constant"))) << "they grow by different factors";
+  d.refitted[1].ci95 = {0.29, 0.39};
+  EXPECT_THAT(card_of(d).next, Not(HasSubstr("torque constant"))) << "the damping may not have grown";
+  d = of_other_numbers();
+  d.refitted[1].configured = 0.01953, d.refitted[1].fitted = 0.00781;
+  EXPECT_THAT(card_of(d).helps, HasSubstr("a torque constant (or gear ratio) 150 % larger"));
 }
 
 TEST(CardCause, WhereOnlyTheSimulatorDiffersHelpsAndNextAgreeWithItsLine) {

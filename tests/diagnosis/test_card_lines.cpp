@@ -17,6 +17,11 @@ TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
       card_of(d).mismatch,
       HasSubstr(" Simulated freely from the first sample on, the model drifts up to 407 mrad from "
                 "the held-out motion, whose travel is 876 mrad; with the additions below, up to 41.2 mrad."));
+  d.whole_run->after = 0.9;
+  EXPECT_THAT(
+      card_of(d).mismatch,
+      HasSubstr("with the additions below, up to 900 mrad: over so long a run the smallest errors grow."));
+  d.whole_run->after = 0.0412;
   d.whole_run->before = 54.2;
   EXPECT_THAT(
       card_of(d).mismatch,
