@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/card_words.h"
+#include "diagnosis/rule.h"
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/simulator.h"
 
@@ -120,16 +121,21 @@ const RefittedNumber* refitted_number(const Diagnosis& d, const char* key) {
   return at == d.refitted.end() || !(at->configured > 0.0) ? nullptr : &*at;
 }
 
+/// Whether a number changes by far more than its interval is wide.
+bool clearly_changes(const Interval& factor) {
+  const double half = 0.5 * (factor.high - factor.low), centre = 0.5 * (factor.high + factor.low);
+  return half < kRule.part * std::abs(centre - 1.0);
+}
+
 /// " Inertia and damping are both 1.136 times those of the configuration: a torque constant 12 % smaller
-/// would say the same ...", where both intervals leave 1 out and agree, and the torque constant is fixed.
+/// would say the same ...", where both clearly change by one factor, and the torque constant is fixed.
 std::string scale_words(const Diagnosis& d) {
   const RefittedNumber* inertia = refitted_number(d, "motor_inertia");
   const RefittedNumber* damping = refitted_number(d, "motor_damping");
   if (inertia == nullptr || damping == nullptr || refitted_number(d, "torque_constant") != nullptr) return "";
   const Interval a = factor_of(*inertia), b = factor_of(*damping);
   const bool alike = a.low <= b.high && b.low <= a.high;
-  const bool above = a.low > 1.0 && b.low > 1.0, below = a.high < 1.0 && b.high < 1.0;
-  if (!alike || !(above || below)) return "";
+  if (!alike || !clearly_changes(a) || !clearly_changes(b)) return "";
   const double factor = inertia->fitted / inertia->configured;
   return fmt::format(
       " Inertia and damping are both {:.4g} times those of the configuration: a torque constant (or gear "
