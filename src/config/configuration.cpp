@@ -12,6 +12,7 @@
 #include "config/data_reader.h"
 #include "config/detector_reader.h"
 #include "config/field_reader.h"
+#include "config/going_on.h"
 #include "config/model_reader.h"
 #include "config/setting.h"
 #include "config/yaml_document.h"
@@ -213,8 +214,17 @@ Configuration parse_configuration(const std::string& text, const std::string& fi
                                   std::span<const Setting> settings) {
   Configuration c;
   telling_settings(settings, [&] {
-    c = internal::config::read_configuration(
-        internal::config::overlaid(internal::config::parse_document(text, file), settings));
+    const auto read = [&](std::span<const Setting> over) {
+      return internal::config::read_configuration(
+          internal::config::overlaid(internal::config::parse_document(text, file), over));
+    };
+    c = read(settings);
+    std::vector<Setting> own;
+    for (const Setting& s : settings)
+      if (!s.taken && !s.key.starts_with("model.effects"))
+        own.push_back(s);  // of effects that it may not have
+    if (std::any_of(settings.begin(), settings.end(), [](const Setting& s) { return s.taken; }))
+      internal::config::estimate_as(read(own), c.model);
   });
   return c;
 }

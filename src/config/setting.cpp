@@ -182,7 +182,7 @@ std::vector<Setting> model_from(const std::string& file) {
   const YAML::Node root = parse_tree(internal::config::read_text(file), file);
   std::vector<Setting> all;
   for (const char* key : {"model", "anchor"})
-    all.push_back({key, "", fmt::format("--model-from {}: {}", file, key), true});
+    all.push_back({key, "", fmt::format("--model-from {}: {}", file, key), true, true});
   for (Setting& s : all)
     if (root.IsMap() && root[s.key].IsDefined()) s.yaml = YAML::Dump(root[s.key]), s.removed = false;
   if (all.front().removed)

@@ -172,7 +172,9 @@ TEST(Setting, TakesTheModelOfAnotherConfiguration) {
   const auto resolved = [](const std::string& text, const std::vector<Setting>& settings) {
     return resolved_yaml(parse_configuration(text, "c.yaml", settings));
   };
-  EXPECT_EQ(resolved(kRecorded, model_from(other.path())), resolved(kWithEffect, {}));
+  EXPECT_EQ(resolved(kRecorded, model_from(other.path())),
+            resolved(with(kWithEffect, "level_nm: 0.02", "level_nm: {value: 0.02, estimate: true}"), {}))
+      << "of an effect that the own model does not have the numbers are estimated";
   const std::string hung = with(kRecorded, "effects: []", "effects: []\nanchor: {mass: 0.5, arm: 0.1}");
   const testing::TemporaryFile fitted(
       "model: {parameters: {motor_inertia: 0.01, torque_constant: 1, mass_ratio: 0, motor_damping: 0}, "
@@ -181,6 +183,29 @@ TEST(Setting, TakesTheModelOfAnotherConfiguration) {
       "c.yaml");
   EXPECT_FALSE(parse_configuration(hung, "c.yaml", model_from(fitted.path())).anchor)
       << "the fitted model has what is known of the drive in it";
+  const testing::TemporaryFile found(
+      "model: {parameters: {motor_inertia: 0.01, torque_constant: 0.9, mass_ratio: 0, motor_damping: 0.2}, "
+      "effects: [{load_unbalance: {amplitude_nm: 0.49, phase_rad: 0}}, {motor_coulomb_friction: {level_nm: "
+      "0.02}}]}",
+      "c.yaml");
+  const std::string estimating =
+      "name: c\nrecording: {file: a.csv}\nmodel: {parameters: {motor_damping: {estimate: true}, mass_ratio: "
+      "0}}\n"
+      "anchor: {mass: 0.5, arm: 0.1}\n";
+  const ReferenceModel going_on =
+      parse_configuration(estimating, "c.yaml", model_from(found.path())).reference_model();
+  for (const int place : {place::kMotorDamping, place::kTorqueConstant, place::kMotorInertia})
+    EXPECT_TRUE(going_on.parameters[static_cast<std::size_t>(place)].estimate) << place;
+  EXPECT_EQ(going_on.parameters[place::kMotorDamping].value, 0.2);
+  ASSERT_EQ(going_on.effects.size(), 2u);
+  EXPECT_FALSE(going_on.effects[0].parameters[0].estimate) << "known of the drive";
+  EXPECT_TRUE(going_on.effects[1].parameters[0].estimate) << "found by a diagnosis";
+  EXPECT_EQ(going_on.effects[1].parameters[0].value, 0.02);
+  std::vector<Setting> held = model_from(found.path());
+  held.push_back(read_setting("model.parameters.motor_damping=0.3"));
+  const ReferenceModel set = parse_configuration(estimating, "c.yaml", held).reference_model();
+  EXPECT_FALSE(set.parameters[place::kMotorDamping].estimate);
+  EXPECT_EQ(set.parameters[place::kMotorDamping].value, 0.3);
   const testing::TemporaryFile bad("model: {parameters: {gapp: 1}}", "c.yaml"),
       none("name: other\n", "c.yaml");
   EXPECT_THROW(model_from(none.path()), ConfigError);

@@ -13,13 +13,15 @@ struct Setting {
   std::string yaml;        ///< the value, as it would stand in the file: a number, a word, a list, a map
   std::string place = "";  ///< as messages name it; empty: "--set KEY"
   bool removed = false;    ///< the key is not to be there
+  bool taken = false;      ///< of another configuration: what the own one estimates, it estimates from there
 };
 
 /// From "KEY=VALUE".  @throws ConfigError "gapscope: --set ..." for any other text
 Setting read_setting(const std::string& text);
 
 /// `model:` and `anchor:`, which goes where there is none, of another configuration, such as the
-/// `fitted.yaml` of a report.
+/// `fitted.yaml` of a report. What the configuration that they are laid over estimates is estimated from their
+/// numbers on, and so are the effects that it does not have.
 /// @throws ConfigError where the file is none, or has no model
 std::vector<Setting> model_from(const std::string& file);
 
