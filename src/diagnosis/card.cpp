@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/card_cause.h"
+#include "diagnosis/card_mismatch.h"
 #include "diagnosis/card_numbers.h"
 #include "diagnosis/card_open.h"
 #include "diagnosis/card_words.h"
@@ -29,14 +30,13 @@ using internal::diagnosis::helps_line;
 using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
-using internal::diagnosis::motion_error;
+using internal::diagnosis::mismatch_words;
 using internal::diagnosis::next_of_numbers;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
 using internal::diagnosis::step_to_establish;
 using internal::diagnosis::step_to_estimate;
 using internal::diagnosis::unexplained;
-using internal::diagnosis::what_applies;
 using internal::diagnosis::where_words;
 using internal::diagnosis::without_asides;
 
@@ -102,112 +102,6 @@ std::string torque_verdict(const CardFacts& f, const Card& card) {
   return fmt::format(" Outside your tolerance of {}{}.", limit, then ? ", within it with what helps" : "");
 }
 
-/// What is left of the motion that the fit follows, where nobody has diagnosed it.
-std::string fitted_line(const CardFacts& f) {
-  if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
-    return "Not measured, as no model was fitted.";
-  return fmt::format("A free run of the fitted model fits the motion to {:.4g} % (100 % is exact){}.",
-                     f.reference->fit_percent, f.reference->rejected() ? "; the model is rejected" : "");
-}
-
-/// "The model misses 9.66 N rms of force on held-out data, 17.1 % of the 56.5 N rms that the input applies"
-std::string torque_size(const CardFacts& f, const Card& card) {
-  const MismatchSize& m = f.diagnosis->mismatch;
-  const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
-  std::string text = fmt::format("The model misses {} rms of {} on held-out data", torque(card.torque),
-                                 f.coordinates.torque_word());
-  if (std::isfinite(card.percent))
-    text += fmt::format(", {} the {} rms that the {} applies",
-                        card.torque < 2.0 * m.input_torque ? percent_text(card.percent) + " of"
-                                                           : fmt::format("{:.2g} times", 0.01 * card.percent),
-                        SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque),
-                        what_applies(*f.diagnosis));
-  return text;
-}
-
-std::string error_size(const CardFacts& f) {
-  const MismatchSize& m = f.diagnosis->mismatch;
-  if (!std::isfinite(m.before)) return "The model misses the held-out motion altogether";
-  return "The model misses " + SharedUnit(m.before, f.coordinates.position_unit())(m.before) +
-         " of the held-out motion (" + m.measure + ")";
-}
-
-/// "; no model gets below 0.61 N, which is the encoder's noise": in the unit of the size, so that a diagnosis
-/// that goes on from another is measured by the same. Empty where no floor in torque is known. Recordings may
-/// disagree by more than a model leaves of those held out: that is no bound. What does not come back holds
-/// the encoder's noise: it is the drive's where it is clearly more.
-std::string torque_floor(const CardFacts& f, const Card& card) {
-  const ErrorBudget& b = f.diagnosis->budget;
-  const double floor = b.exists() ? b.floor() : kNaN;
-  if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
-  if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
-  if (b.records >= floor && !b.uncounted.empty()) return "";  // what the balance lacks makes them disagree
-  const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
-  if (b.records >= floor)
-    return "; " + size + " of this differs between the recordings (or parts of one), so no model removes it";
-  return "; no model can get below " + size +
-         (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
-              ? ", by which the drive does not repeat itself"
-              : ", the encoder's noise");
-}
-
-/// Of a model that nothing is missing of: that what is left is no more than the encoder's noise, or than the
-/// drive's own repetition.
-std::string floor_words(const CardFacts& f, const Card& card) {
-  if (const std::string words = torque_floor(f, card); !words.empty()) return words;
-  const MismatchSize& m = f.diagnosis->mismatch;
-  if (f.diagnosis->verdict != DiagnosisVerdict::kNone || !(m.before > 0.0 && m.floor > 0.0)) return "";
-  return fmt::format("; that is noise: the error of the simulated motion is {} times {}",
-                     SharedUnit(1.0, "").number(m.before / m.floor),
-                     m.floor_from == FloorSource::kRepeatability ? "that by which the drive repeats itself"
-                                                                 : "the encoder's own");
-}
-
-std::string additions_below(const CardFacts& f) {
-  return f.diagnosis->added.size() > 1 ? "; with the additions below, " : "; with the addition below, ";
-}
-
-/// " With its controller in the loop the model is 392 mrad rms off in position; with the additions below, it
-/// is 56 mrad off."
-std::string closed_loop_words(const CardFacts& f) {
-  if (!f.diagnosis->closed_loop) return "";
-  const ClosedLoop& c = *f.diagnosis->closed_loop;
-  const SharedUnit position(std::isfinite(c.before) ? c.before : c.after, f.coordinates.position_unit());
-  const auto is = [&](double error) {
-    return std::isfinite(error) ? "is " + position(error) + " rms off in position" : std::string("runs away");
-  };
-  return fmt::format(" With its controller in the loop the model {}{}.", is(c.before),
-                     is_added(*f.diagnosis) ? additions_below(f) + "it " + is(c.after) : "");
-}
-
-/// " Simulated freely from the first sample on, the model drifts up to 407 mrad from the held-out motion,
-/// whose travel is 876 mrad; with the additions below, up to 41 mrad." Under its controller a drive is judged
-/// by that.
-std::string whole_run_words(const CardFacts& f) {
-  const Diagnosis& d = *f.diagnosis;
-  if (!d.whole_run || d.closed_loop) return "";
-  const WholeRun& w = *d.whole_run;
-  const bool stays = std::isfinite(w.before), stays_after = std::isfinite(w.after);
-  const auto position = [&](double size) { return SharedUnit(size, f.coordinates.position_unit())(size); };
-  const std::string of = " from the held-out motion, whose travel is " + position(w.travel);
-  std::string text = " Simulated freely from the first sample on, the model " +
-                     (stays ? "drifts up to " + position(w.before) + of : "runs away");
-  if (!is_added(d)) return text + ".";
-  text += additions_below(f);
-  if (!stays_after) return text + "it runs away.";
-  const bool grows = w.after > w.before && d.mismatch.after < d.mismatch.before;
-  return text + (stays ? "up to " + position(w.after) : "it drifts up to " + position(w.after) + of) +
-         (grows ? ": over so long a run the smallest errors grow." : ".");
-}
-
-std::string mismatch_line(const CardFacts& f, const Card& card) {
-  if (f.diagnosis == nullptr) return fitted_line(f) + torque_verdict(f, card);
-  const bool torque = std::isfinite(card.torque);
-  return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f, card) + "." +
-         (torque && f.constant_guessed ? " Its unit rests on torque_constant, a guess." : "") +
-         whole_run_words(f) + closed_loop_words(f) + torque_verdict(f, card);
-}
-
 std::string place_line(const CardFacts& f) {
   return f.diagnosis == nullptr ? kToldByDiagnose : where_words(*f.diagnosis, f.coordinates);
 }
@@ -248,7 +142,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
   if (!d.held.empty() && (unknown || d.verdict == DiagnosisVerdict::kHelps)) return step_to_estimate(d);
   if (unknown && d.better_swapped) return kSwapStep;  // which takes no new recording
   if (is_added(d) && !exhausted_words(d).empty())
-    return "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml`.";
+    return "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.";
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
   if (is_added(d)) return step_of_the_model(f, card);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
@@ -287,7 +181,7 @@ Card card_of(const CardFacts& f) {
   measure(f, card);
   card.good_enough = good_enough(f, card);
   card.gap = gap_line(f);
-  card.mismatch = mismatch_line(f, card);
+  card.mismatch = mismatch_words(f, card) + torque_verdict(f, card);
   card.place = place_line(f);
   card.cause = cause_line(f);
   card.helps = helps_line(f, card);

@@ -191,6 +191,7 @@ void tell_intervals(const Study& study, const FittedModel& fitted, const Referen
   d.model_gap = gap_of(fitted.model, d.added);
   d.model_gap->encoder = fitted.model.structure.encoder;
   d.held = held_of(study.sheet);
+  for (const ModelEffect& e : study.sheet.effects) d.modelled.emplace_back(e.entry->name);
   const bool known = d.verdict != DiagnosisVerdict::kUnknown;
   const bool asked = !d.added.empty() || d.model_gap->origin == GapOrigin::kEstimated ||
                      (known && has_estimates(study.sheet));

@@ -284,6 +284,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.named("blame", g.blame, &BlameShift::key);
   archive.added_list("refitted", g.refitted);
   archive.seldom("held_numbers", g.held);
+  archive.seldom("modelled", g.modelled);
   archive("observer_hz", g.observer_hz);
   archive("warnings", g.warnings);
   archive("name", d.result.name);

@@ -191,8 +191,9 @@ TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {
   d.exhausted = true;
   EXPECT_THAT(card_of(d).cause, HasSubstr(" The search ended at its limit of work, so that further causes "
                                           "may have been missed."));
-  EXPECT_EQ(card_of(d).next,
-            "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml`.");
+  EXPECT_EQ(
+      card_of(d).next,
+      "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.");
   d.mismatch.remains = 1.1;
   EXPECT_THAT(card_of(d).cause, Not(HasSubstr("limit of work"))) << "nothing is left to be found";
 }

@@ -49,6 +49,15 @@ TEST(CardTrust, IsInAGapWhereLostMotionIsMeasured) {
   EXPECT_THAT(gapscope::card_of(f).gap, HasSubstr("43 mrad. Trust: none."));
 }
 
+TEST(CardMismatch, NamesTheEffectsThatTheModelHasAlready) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  EXPECT_THAT(card_of(d).mismatch, ::testing::StartsWith("The model misses 100 mN·m rms of torque"));
+  d.modelled = {"cogging_torque", "load_unbalance"};
+  EXPECT_THAT(card_of(d).mismatch,
+              ::testing::StartsWith("The model, which has cogging torque and load unbalance, "
+                                    "misses 100 mN·m rms of torque"));
+}
+
 TEST(CardMismatch, TellsTheErrorUnderTheController) {
   Diagnosis d = of_friction_and_delay(true, true);
   EXPECT_THAT(card_of(d).mismatch, Not(HasSubstr("controller")));

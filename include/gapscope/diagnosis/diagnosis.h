@@ -225,6 +225,7 @@ struct Diagnosis {
   std::vector<BlameShift> blame;
   /// Those that moved farthest first; none of a model that something unknown is missing from
   std::vector<RefittedNumber> refitted;
+  std::vector<std::string> modelled;  ///< effects that the model of the configuration has
   /// Dampings and frictions of the drive that the model holds, by key: no sheet tells them well, and where
   /// one is wrong an effect takes its place
   std::vector<std::string> held;

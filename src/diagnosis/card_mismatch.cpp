@@ -1,0 +1,133 @@
+#include "diagnosis/card_mismatch.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "diagnosis/card_numbers.h"
+#include "diagnosis/card_open.h"
+#include "diagnosis/card_words.h"
+#include "diagnosis/rule.h"
+#include "gapscope/base/text.h"
+#include "gapscope/diagnosis/diagnosis.h"
+
+namespace gapscope::internal::diagnosis {
+namespace {
+
+/// What is left of the motion that the fit follows, where nobody has diagnosed it.
+std::string fit_of_motion(const CardFacts& f) {
+  if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
+    return "Not measured, as no model was fitted.";
+  return fmt::format("A free run of the fitted model fits the motion to {:.4g} % (100 % is exact){}.",
+                     f.reference->fit_percent, f.reference->rejected() ? "; the model is rejected" : "");
+}
+
+/// "The model", "The model, which has motor Coulomb friction,".
+std::string model_words(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const std::string& effect : d.modelled) names.push_back(readable(effect));
+  return names.empty() ? "The model" : "The model, which has " + enumerated(names) + ",";
+}
+
+/// "The model misses 9.66 N rms of force on held-out data, 17.1 % of the 56.5 N rms that the input applies"
+std::string torque_size(const CardFacts& f, const Card& card) {
+  const MismatchSize& m = f.diagnosis->mismatch;
+  const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
+  std::string text = fmt::format("{} misses {} rms of {} on held-out data", model_words(*f.diagnosis),
+                                 torque(card.torque), f.coordinates.torque_word());
+  if (std::isfinite(card.percent))
+    text += fmt::format(", {} the {} rms that the {} applies",
+                        card.torque < 2.0 * m.input_torque ? percent_text(card.percent) + " of"
+                                                           : fmt::format("{:.2g} times", 0.01 * card.percent),
+                        SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque),
+                        what_applies(*f.diagnosis));
+  return text;
+}
+
+std::string error_size(const CardFacts& f) {
+  const MismatchSize& m = f.diagnosis->mismatch;
+  if (!std::isfinite(m.before)) return model_words(*f.diagnosis) + " misses the held-out motion altogether";
+  return model_words(*f.diagnosis) + " misses " +
+         SharedUnit(m.before, f.coordinates.position_unit())(m.before) + " of the held-out motion (" +
+         m.measure + ")";
+}
+
+/// "; no model gets below 0.61 N, which is the encoder's noise": in the unit of the size, so that a diagnosis
+/// that goes on from another is measured by the same. Empty where no floor in torque is known. Recordings may
+/// disagree by more than a model leaves of those held out: that is no bound. What does not come back holds
+/// the encoder's noise: it is the drive's where it is clearly more.
+std::string torque_floor(const CardFacts& f, const Card& card) {
+  const ErrorBudget& b = f.diagnosis->budget;
+  const double floor = b.exists() ? b.floor() : kNaN;
+  if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
+  if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
+  if (b.records >= floor && !b.uncounted.empty()) return "";  // what the balance lacks makes them disagree
+  const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
+  if (b.records >= floor)
+    return "; " + size + " of this differs between the recordings (or parts of one), so no model removes it";
+  return "; no model can get below " + size +
+         (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
+              ? ", by which the drive does not repeat itself"
+              : ", the encoder's noise");
+}
+
+/// Of a model that nothing is missing of: that what is left is no more than the encoder's noise, or than the
+/// drive's own repetition.
+std::string floor_words(const CardFacts& f, const Card& card) {
+  if (const std::string words = torque_floor(f, card); !words.empty()) return words;
+  const MismatchSize& m = f.diagnosis->mismatch;
+  if (f.diagnosis->verdict != DiagnosisVerdict::kNone || !(m.before > 0.0 && m.floor > 0.0)) return "";
+  return fmt::format("; that is noise: the error of the simulated motion is {} times {}",
+                     SharedUnit(1.0, "").number(m.before / m.floor),
+                     m.floor_from == FloorSource::kRepeatability ? "that by which the drive repeats itself"
+                                                                 : "the encoder's own");
+}
+
+std::string additions_below(const CardFacts& f) {
+  return f.diagnosis->added.size() > 1 ? "; with the additions below, " : "; with the addition below, ";
+}
+
+/// " With its controller in the loop the model is 392 mrad rms off in position; with the additions below, it
+/// is 56 mrad off."
+std::string closed_loop_words(const CardFacts& f) {
+  if (!f.diagnosis->closed_loop) return "";
+  const ClosedLoop& c = *f.diagnosis->closed_loop;
+  const SharedUnit position(std::isfinite(c.before) ? c.before : c.after, f.coordinates.position_unit());
+  const auto is = [&](double error) {
+    return std::isfinite(error) ? "is " + position(error) + " rms off in position" : std::string("runs away");
+  };
+  return fmt::format(" With its controller in the loop the model {}{}.", is(c.before),
+                     !f.diagnosis->added.empty() ? additions_below(f) + "it " + is(c.after) : "");
+}
+
+/// " Simulated freely from the first sample on, the model drifts up to 407 mrad from the held-out motion,
+/// whose travel is 876 mrad; with the additions below, up to 41 mrad." Under its controller a drive is judged
+/// by that.
+std::string whole_run_words(const CardFacts& f) {
+  const Diagnosis& d = *f.diagnosis;
+  if (!d.whole_run || d.closed_loop) return "";
+  const WholeRun& w = *d.whole_run;
+  const bool stays = std::isfinite(w.before), stays_after = std::isfinite(w.after);
+  const auto position = [&](double size) { return SharedUnit(size, f.coordinates.position_unit())(size); };
+  const std::string of = " from the held-out motion, whose travel is " + position(w.travel);
+  std::string text = " Simulated freely from the first sample on, the model " +
+                     (stays ? "drifts up to " + position(w.before) + of : "runs away");
+  if (d.added.empty()) return text + ".";
+  text += additions_below(f);
+  if (!stays_after) return text + "it runs away.";
+  const bool grows = w.after > kRule.floor_ratio * w.before && d.mismatch.after < d.mismatch.before;
+  return text + (stays ? "up to " + position(w.after) : "it drifts up to " + position(w.after) + of) +
+         (grows ? ": over so long a run the smallest errors grow." : ".");
+}
+
+}  // namespace
+
+std::string mismatch_words(const CardFacts& f, const Card& card) {
+  if (f.diagnosis == nullptr) return fit_of_motion(f);
+  const bool torque = std::isfinite(card.torque);
+  return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f, card) + "." +
+         (torque && f.constant_guessed ? " Its unit rests on torque_constant, a guess." : "") +
+         whole_run_words(f) + closed_loop_words(f);
+}
+
+}  // namespace gapscope::internal::diagnosis

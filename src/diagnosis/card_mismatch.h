@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/diagnosis/card.h"
+
+namespace gapscope::internal::diagnosis {
+
+/// The line of the model's error, but for the tolerance: how much the model misses, and how far it drifts.
+std::string mismatch_words(const CardFacts& facts, const Card& card);
+
+}  // namespace gapscope::internal::diagnosis
