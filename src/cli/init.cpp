@@ -53,6 +53,29 @@ std::optional<AnchorConfig> anchor_of(const InitArguments& a) {
   return anchor;
 }
 
+/// A number that is told in another unit than asked for, where it is larger than that of any drive at hand.
+struct UnitSlip {
+  const char* option;
+  double value, most;  ///< [unit]
+  const char *unit, *smaller;
+  double per_unit;  ///< one of the smaller ones [unit]
+};
+
+/// Questions, not errors: "--arm: 105 m? 105 mm is 0.105".
+std::vector<std::string> asked_of_units(const InitArguments& a) {
+  const bool turns = a.recording.coordinates().rotational();
+  const UnitSlip slips[] = {{"--arm", a.arm, 10.0, "m", "mm", 1e-3},
+                            {"--mass", a.mass, 1e3, "kg", "g", 1e-3},
+                            turns ? UnitSlip{"--inertia", a.inertia, 100.0, "kg m^2", "kg cm^2", 1e-4}
+                                  : UnitSlip{"--inertia", a.inertia, 1e4, "kg", "g", 1e-3}};
+  std::vector<std::string> questions;
+  for (const UnitSlip& s : slips)
+    if (s.value > s.most)
+      questions.push_back(fmt::format("{}: {:g} {}? {:g} {} is {:g}", s.option, s.value, s.unit, s.value,
+                                      s.smaller, s.value * s.per_unit));
+  return questions;
+}
+
 /// Both recordings, as if a configuration had named them.
 RecordingConfig recordings_of(const InitArguments& a, const RecordingArguments& r) {
   RecordingConfig config = r.configuration();
@@ -169,6 +192,7 @@ void add_init(CommandLine& app) {
     if (const std::string banner = preset_banner(arguments->recording); !banner.empty())
       fmt::print("{:<12}{}\n", "preset", banner);
     print_warnings(preset_remarks(arguments->recording));
+    print_warnings(asked_of_units(*arguments));
     for (const RecordingArguments& one : all) write_starter(*arguments, one, all.size() > 1);
   });
 }

@@ -11,6 +11,7 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/commands/axis.h"
 #include "gapscope/recording/axes.h"
+#include "gapscope/recording/column_name.h"
 
 namespace gapscope::cli {
 
@@ -62,6 +63,9 @@ RecordingConfig RecordingArguments::configuration() const {
   if (!target.empty() && input.empty()) o.columns.input_column = InputColumn::kNone;
   o.controller = commanding();
   if (!axis.empty() && axis != kAllAxes) o.columns = columns_of_axis(o.columns, axis);
+  if (says_temperature(o.columns.input))
+    throw ConfigError(fmt::format("gapscope: --input is {}, a temperature by its name, expected {}",
+                                  shown(o.columns.input), kInputsOfDrives));
   require_three_columns(o.columns);
   o.columns.scales = declared_scales(
       units, registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {

@@ -10,6 +10,8 @@
 #include "config/field_reader.h"
 #include "config/units_reader.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
+#include "gapscope/recording/column_name.h"
 
 namespace gapscope {
 
@@ -97,6 +99,9 @@ RecordingColumns read_columns(const Value& value) {
   std::set<std::string> taken;
   read_column(section, "time", columns.time, taken);
   read_column(section, "input", columns.input, taken);
+  if (says_temperature(columns.input))
+    section.find("input")->fail(
+        fmt::format("is {}, a temperature by its name, expected {}", shown(columns.input), kInputsOfDrives));
   read_column(section, "position", columns.position, taken);
   read_column(section, "load_position", columns.load_position, taken);
   columns.load_position_required = section.find("load_position").has_value();

@@ -99,6 +99,9 @@ const std::vector<BadConfig> kBadData = {
     {"no_files", recorded("train.csv", "[]"), "c.yaml:3: recording.file is an empty list"},
     {"column_twice", recorded("input: u", "input: x1"),
      "c.yaml:5: recording.columns.position uses the column x1 twice"},
+    {"temperature_as_input", recorded("input: u", "input: motor_temp"),
+     "c.yaml:5: recording.columns.input is 'motor_temp', a temperature by its name, expected the column of "
+     "a"},
     {"unknown_unit", with(kRecorded, "  resample", "  units: {position: degree}\n  resample"),
      "c.yaml:7: recording.units.position is 'degree', expected rad, mrad, deg, arcmin, rev, arcsec, or a "
      "number"},
