@@ -96,7 +96,8 @@ void add_diagnose(CommandLine& app) {
   add_work_options(command, arguments->threads, arguments->quiet);
   command.footer(
       "Fits the model to recording: file, adds the effects of `gapscope effects` in turn, and judges on\n"
-      "recording: held_out (a file or a list; without it on the last third of each file). Left out are\n"
+      "recording: held_out (a file or a list; without it on the last third of each file). recording: window\n"
+      "[s] cuts each of these files, those held out as well. Left out are\n"
       "those that the model has already or has no place for (of a load, gap or contact where it is one\n"
       "body), what would turn with a shaft that does not turn, coarser counts where the recording has\n"
       "none, what --exclude names, and, where the torque balance of one body decides, laws that it shows\n"

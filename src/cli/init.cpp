@@ -114,6 +114,9 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
   if (known.anchor) fmt::print("{:<12}{}\n", "anchor", known.anchor->told(r.coordinates()));
   if (!starter.order.empty())
     fmt::print("{:<12}{}\n", "order", with_input_unit(starter.order, read.input_facts()));
+  if (!r.window.empty() && !a.held_out.empty())
+    fmt::print("{:<12}{:g} to {:g} s of both files, {} as well, which is held out\n", "window", r.window[0],
+               r.window[1], printable(a.held_out, 200));
   fmt::print("{:<12}{}gapscope {} {} (or {})\n", "next",
              starter.guesses ? "fill in what is marked GUESS, then " : "",
              a.held_out.empty() ? "run" : "diagnose", shell_word(output),

@@ -183,7 +183,7 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command
       .add_option("--voltage", a.voltage, "column of the supply's voltage: u is the input, a duty, times it")
       .value("NAME");
-  command.add_option("--window", a.window, "part of the file that is used [s]")
+  command.add_option("--window", a.window, "part of each file that is used, held out or not [s]")
       .value("FROM TO")
       .values(2, 2)
       .within(-1e15, 1e15);

@@ -105,7 +105,9 @@ Json recording_schema() {
                 fields_schema(RegisterBits{}).schema("signed numbers that were read without their sign"));
   recording.add("gear_ratio",
                 fields_schema(GearRatios{}).schema("turns of the recorded axis per turn of the model's"));
-  recording.add("window", rising_pair_schema({-kInfinity, kInfinity, "s"}, "part of each file that is used"));
+  recording.add("window",
+                rising_pair_schema({-kInfinity, kInfinity, "s"},
+                                   "part of each file that is used, of held_out and simulated as well"));
   recording.add("lost_rows", words_schema({"held", "bridged"},
                                           "u over rows that are missing: that of the row before, or, where "
                                           "the drive got new ones meanwhile, a line to the next row"));

@@ -107,7 +107,8 @@ void write_recording(YamlWriter& out, const std::string& folder, const Recording
                                    yaml_text(c.position), further));
   internal::config::write_units(out, recording);
   if (options.window)
-    out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second), "s");
+    out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second),
+              recording.held_out.empty() ? "s" : "s, of each file, held_out as well");
   if (options.resample_rate)
     out.entry("resample",
               fmt::format("{{rate: {}{}}}", *options.resample_rate, resampled ? ", for: detector" : ""),

@@ -55,5 +55,20 @@ TEST(InitDoubts, ANumberInAnotherUnitIsAskedFor) {
   EXPECT_THAT(warned("--inertia 1e-3"), Not(HasSubstr("?")));
 }
 
+/// The window of a configuration is of each of its files, and who cuts one is told of the other.
+TEST(InitDoubts, AWindowCutsWhatIsHeldOutAsWellAndThatIsSaid) {
+  Workplace place;
+  place.file("r.csv", with_temperature());
+  place.file("h.csv", with_temperature());
+  const std::string init = "init r.csv --model one_body --window 0 1.5 ";
+  const auto both = place.run(init + "--held-out h.csv -o both.yaml");
+  EXPECT_EQ(both.status, 0) << both.err;
+  EXPECT_THAT(both.out,
+              HasSubstr("window      0 to 1.5 s of both files, h.csv as well, which is held out\n"));
+  EXPECT_THAT(testing::text_of(place.folder() / "both.yaml"),
+              HasSubstr("window: [0, 1.5]  # s, of each file, held_out as well\n"));
+  EXPECT_THAT(place.run(init + "-o one.yaml").out, Not(HasSubstr("window")));
+}
+
 }  // namespace
 }  // namespace gapscope
