@@ -7,11 +7,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <string_view>
 
 #include "gapscope/base/decimals.h"
 #include "gapscope/base/shell_word.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::cli {
 namespace {
@@ -110,18 +110,36 @@ std::string validation_line(const RunResult& r) {
                      r.coordinates.thousandths(s.floor));
 }
 
-/// "`DIR/fitted.yaml`" of the folder that DIR stands for, as a shell takes it.
-std::string told_of_folder(const std::string& text, const std::string& folder) {
-  static constexpr std::string_view kFolder = "DIR";
+/// A word in a command that is told, and what it stands for.
+struct Placeholder {
+  std::string_view word;
+  const std::string& stands_for;  ///< empty: not known, the word stays
+};
+
+bool is_end(char c) { return c == ' ' || c == '`'; }
+
+/// The placeholder that begins here: none within a longer word.
+const Placeholder* begun_at(const std::string& text, std::size_t at, std::span<const Placeholder> all) {
+  if (at == 0 || !is_end(text[at - 1])) return nullptr;
+  for (const Placeholder& p : all) {
+    const std::size_t end = at + p.word.size();
+    const bool whole = end >= text.size() || is_end(text[end]) || text[end] == '/' || text[end] == '_';
+    if (!p.stands_for.empty() && whole && text.compare(at, p.word.size(), p.word) == 0) return &p;
+  }
+  return nullptr;
+}
+
+/// "`gapscope export DIR`", "`DIR/fitted.yaml`" and "`gapscope run CONFIG`" as a shell takes them.
+std::string filled_in(const std::string& text, std::span<const Placeholder> all) {
   std::string told;
   for (std::size_t at = 0; at < text.size();) {
-    const bool begins = at > 0 && (text[at - 1] == ' ' || text[at - 1] == '`');
-    if (!begins || text.compare(at, kFolder.size(), kFolder) != 0) {
+    const Placeholder* p = begun_at(text, at, all);
+    if (p == nullptr) {
       told += text[at++];
       continue;
     }
     const std::size_t end = std::min(text.find_first_of(" `", at), text.size());
-    told += shell_word(folder + text.substr(at + kFolder.size(), end - at - kFolder.size()));
+    told += shell_word(p->stands_for + text.substr(at + p->word.size(), end - at - p->word.size()));
     at = end;
   }
   return told;
@@ -130,13 +148,13 @@ std::string told_of_folder(const std::string& text, const std::string& folder) {
 /// What everybody wants to know, last: it is what stays in view.
 /// @param folder  of the report
 void print_card(const Card& card, const std::string& configuration, const std::string& folder) {
-  const std::string to = configuration.empty() ? "CONFIG" : shell_word(configuration);
+  const Placeholder all[] = {{"DIR", folder}, {"CONFIG", configuration}};
   for (const CardLine& l : card.lines()) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
-    const bool all = !card.diagnosed && &l.text == &card.place;
+    const bool further = !card.diagnosed && &l.text == &card.place;
     const std::string text =
-        all ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : told_of_folder(l.text, folder);
-    line(all ? "diagnosis" : l.name, replaced(replaced(text, "CONFIG`", to + "`"), "CONFIG ", to + " "));
+        further ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.text;
+    line(further ? "diagnosis" : l.name, filled_in(text, all));
   }
 }
 

@@ -74,6 +74,20 @@ TEST(ToldCommands, AShellTakesANameWithBlanksAsItIsTold) {
   EXPECT_THAT(run.out, HasSubstr("`gapscope diagnose " + quoted + "`"));
 }
 
+/// Whatever a card tells in terms of CONFIG and DIR is told on the terminal with the names that are meant.
+TEST(ToldCommands, FolderAndConfigurationStandInCommandsByTheirNames) {
+  Workplace place;
+  place.file("my drive.yaml", kRigWithFriction);
+  const auto diagnose = place.run("diagnose 'my drive.yaml' -o 'my report'" +
+                                  testing::excluding_all_but({"motor_coulomb_friction", "quadratic_drag"}));
+  ASSERT_EQ(diagnose.status, 0) << diagnose.err;
+  EXPECT_THAT(diagnose.out,
+              AllOf(HasSubstr("`'my report/fitted.yaml'`"), HasSubstr("export 'my report' --to"),
+                    HasSubstr("-o 'my report_"), Not(HasSubstr("DIR"))));
+  const auto run = place.run("run 'my drive.yaml' -o other");
+  EXPECT_THAT(run.out, AllOf(HasSubstr("`gapscope diagnose 'my drive.yaml'`"), Not(HasSubstr("CONFIG"))));
+}
+
 TEST(ToldCommands, TheHelpPromisesANextExperimentOnlyWhereThereIsOne) {
   const std::string help = Workplace().run("diagnose --help").out;
   EXPECT_THAT(help, Not(HasSubstr("hold the input that would")));
