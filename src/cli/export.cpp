@@ -36,7 +36,8 @@ void export_configuration(const ExportArguments& a, const Configuration& c) {
   progress_on_terminal(a.quiet)("exporting " + c.name);
   std::optional<JointNumbers> own;
   if (!a.into.empty()) own = joint_numbers(a.into, a.joint);
-  const DriveExport drive = export_drive(c, export_format(a.format), own);
+  DriveExport drive = export_drive(c, export_format(a.format), own);
+  if (a.source.model_from.empty()) tell_in_head(left_unexplained(a.source.file), drive);
   write_export(report, drive);
   print_warnings(drive.certificate.warnings);
   for (const ExportedFile& file : drive.files) say("written", (fs::path(a.folder) / file.name).string());
@@ -84,7 +85,9 @@ void add_drive_export(CommandLine& app) {
       "The certificate says of every number and effect whether the target has it exactly, approximately or "
       "not\n"
       "and why; how far the target's x1 is from gapscope's simulator under the same input at several steps;\n"
-      "the largest step that it stands; and what the format's own defaults would do.\n"
+      "the largest step that it stands; and what the format's own defaults would do. What a diagnosis in "
+      "SOURCE\n"
+      "left unexplained is told there and in the head of the model.\n"
       "SOURCE with recording: needs every number of its model, and is judged under the recorded input; a\n"
       "fitted.yaml under that of its trace (after diagnose: of what was held out), for the first 10 s.\n"
       "DIR may be empty, new, or hold an earlier export that was not changed since.\n\n"

@@ -8,9 +8,71 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/percents.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/results/diagnosis_result.h"
 
 namespace gapscope {
+namespace {
+
+/// Of the floor: what is no more than that no model explains. As in the verdicts of a diagnosis.
+constexpr double kAtFloor = 1.3;
+
+std::string unexplained_in(const DiagnosisResult& r) {
+  const Diagnosis& d = r.diagnosis;
+  const MismatchSize& size = d.mismatch;
+  const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
+  if (d.verdict == DiagnosisVerdict::kNone || !(size.after_torque > 0.0)) return "";
+  if (!unknown && size.after_torque <= kAtFloor * size.floor_torque) return "";
+  const double percent = 100.0 * size.after_torque / size.input_torque;
+  const Coordinates& c = r.coordinates;
+  return fmt::format(
+      "{} {:.3g} {} rms of {} on what was held out ({} of what the input brings), {}.",
+      unknown ? "This model lacks" : "This model, with all that its diagnosis added, still lacks",
+      size.after_torque, c.torque_unit(), c.torque_word(), Percents({&percent, 1})(percent),
+      unknown ? "which its diagnosis found missing and could not explain"
+              : "which the diagnosis did not explain");
+}
+
+/// Behind the first comment of a file: where that ends, and how another one is written.
+struct HeadComment {
+  const char *ends, *begins, *closes;
+};
+
+/// By the ending of the file's name; nothing: such a file has no comments.
+const HeadComment* head_comment(const std::string& file) {
+  static constexpr HeadComment kXml{"-->\n", "<!-- ", " -->\n"}, kC{"*/\n", "/* ", " */\n"},
+      kPython{"\n", "# ", "\n"};
+  if (file.ends_with(".h")) return &kC;
+  if (file.ends_with(".py")) return &kPython;
+  return file.ends_with(".json") ? nullptr : &kXml;
+}
+
+}  // namespace
+
+std::string left_unexplained(const std::string& source) {
+  namespace fs = std::filesystem;
+  const bool folder = fs::is_directory(source);
+  if (!folder && fs::path(source).filename() != "fitted.yaml") return "";
+  const std::string of = folder ? source : fs::path(source).parent_path().string();
+  if (!fs::exists(fs::path(of) / "diagnosis.json")) return "";
+  try {
+    return unexplained_in(read_diagnosis_result(of.empty() ? "." : of));
+  } catch (const ConfigError&) {
+    return "";  // of another version: the model can be exported all the same
+  }
+}
+
+void tell_in_head(const std::string& sentence, DriveExport& drive) {
+  if (sentence.empty()) return;
+  drive.certificate.warnings.push_back(sentence);
+  for (ExportedFile& file : drive.files) {
+    const HeadComment* comment = head_comment(file.name);
+    const auto end = comment == nullptr ? file.text.npos : file.text.find(comment->ends);
+    if (end == file.text.npos) continue;
+    file.text.insert(end + std::string(comment->ends).size(), comment->begins + sentence + comment->closes);
+  }
+}
 
 std::string exported_configuration(const std::string& source) {
   namespace fs = std::filesystem;

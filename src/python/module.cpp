@@ -148,7 +148,8 @@ py::dict export_model(const Asked& asked, const std::string& to, const std::stri
     std::optional<ReportFolder> report;
     if (!output.empty()) report.emplace(output, FolderKind::kExport, source_paths(c));
     tell("exporting " + c.name);
-    const DriveExport drive = export_drive(c, format);
+    DriveExport drive = export_drive(c, format);
+    tell_in_head(left_unexplained(asked.file), drive);
     if (report) write_export(*report, drive);
     a.texts = export_texts(drive);
     a.stored.json = certificate_json(drive.certificate);

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,6 +34,37 @@ TEST(Export, TakesTheFittedModelOfAReportIntoAFolderOfItsOwn) {
   const std::string before = testing::stored(place.folder() / "mjcf");
   EXPECT_EQ(place.run("export report --to mjcf -o mjcf --quiet").status, 0);
   EXPECT_EQ(testing::stored(place.folder() / "mjcf"), before);
+}
+
+/// Who takes the file sees what it does not have, not only who reads the certificate.
+TEST(Export, SaysInItsHeadWhatTheDiagnosisLeftUnexplained) {
+  Workplace place;
+  place.file("drive.yaml",
+             "name: drive\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 4, seed: 3, "
+             "excitation: {sine: {amplitude: 0.58, frequency: 1}}, "
+             "model: {effects: [{motor_coulomb_friction: {level_nm: 0.02}}]}}\nmodel: " +
+                 testing::kPaperModel);
+  const std::string nothing_fits = testing::excluding_all_but({"cogging_torque"});
+  ASSERT_EQ(place.run("diagnose drive.yaml -o report" + nothing_fits).status, 0);
+  const auto stored = nlohmann::json::parse(text_of(place.folder() / "report/diagnosis.json"));
+  ASSERT_EQ(stored["verdict"], "unknown") << "or this is no test";
+  const std::string said = fmt::format("This model lacks {:.3g} N m rms of torque on what was held out (",
+                                       stored["gap"]["after_torque_nm"].get<double>());
+  for (const std::string format : {"mjcf", "c", "sdf", "urdf", "isaac"}) {
+    const auto made = place.run("export report --to " + format + " -o " + format);
+    EXPECT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr("warning: " + said));
+    EXPECT_THAT(text_of(place.folder() / format / "certificate.md"), HasSubstr(said)) << format;
+  }
+  const std::string xml = "-->\n<!-- " + said;
+  EXPECT_THAT(text_of(place.folder() / "mjcf/drive.xml"), HasSubstr(xml));
+  EXPECT_THAT(text_of(place.folder() / "mjcf/drive_fragment.xml"), HasSubstr(xml));
+  EXPECT_THAT(text_of(place.folder() / "sdf/drive.sdf"), HasSubstr(xml));
+  EXPECT_THAT(text_of(place.folder() / "urdf/drive.urdf"), HasSubstr(xml));
+  EXPECT_THAT(text_of(place.folder() / "c/drive.h"), HasSubstr("*/\n/* " + said));
+  EXPECT_THAT(text_of(place.folder() / "isaac/drive_cfg.py"), HasSubstr("\n# " + said));
+  EXPECT_EQ(place.run("export report/fitted.yaml --to mjcf -o again").status, 0);
+  EXPECT_EQ(text_of(place.folder() / "again/drive.xml"), text_of(place.folder() / "mjcf/drive.xml"));
 }
 
 TEST(Export, LeavesAFolderAloneThatHoldsSomethingElse) {

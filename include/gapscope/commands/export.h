@@ -16,6 +16,14 @@ std::string exported_configuration(const std::string& source);
 /// @throws ConfigError for a word that no format has
 ExportFormat export_format(const std::string& word);
 
+/// What the diagnosis in the folder of the exported model found missing and did not explain, in torque and
+/// per cent of the input's, on what was held out; empty: there is none, or it left nothing above its floor.
+/// @param source  as exported_configuration() takes it
+std::string left_unexplained(const std::string& source);
+
+/// Says it where the eye falls first: in the head of every file that can have a comment, in the certificate.
+void tell_in_head(const std::string& sentence, DriveExport& drive);
+
 /// The model, certificate.md and certificate.json.
 std::vector<TextFile> export_texts(const DriveExport& drive);
 
