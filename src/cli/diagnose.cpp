@@ -34,15 +34,6 @@ std::vector<std::string> without(std::vector<std::string> warnings, const std::v
   return warnings;
 }
 
-/// A first Ctrl-C ends the search with what it has found; one that comes later ends the command.
-template <class Work>
-auto to_its_end_or_asked(bool& asked, const Work& work) {
-  const FinishFirst first;
-  auto outcome = work();
-  asked = finish_requested();
-  return outcome;
-}
-
 void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   if (!a.axis.empty()) c = of_axis(std::move(c), a.axis);
   exclude_effects(a.excluded, c);
@@ -55,19 +46,19 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   options.threads = a.threads;
   options.progress = progress_told(a.quiet);
   std::vector<std::string> told;
-  bool stopped = false;
   const auto tell = [&](const std::string& warning) {
     print_warnings({warning});
     told.push_back(warning);
   };
-  DiagnosisOutcome outcome = to_its_end_or_asked(stopped, [&] { return run_diagnosis(c, options, tell); });
+  const FinishFirst first;  // a first Ctrl-C leaves a report of what was found, also where it is being drawn
+  DiagnosisOutcome outcome = run_diagnosis(c, options, tell);
   DiagnosisResult& result = outcome.result;
   options.progress("drawing the report");
   write_diagnosis(report, c, a.figures, outcome);
   print_warnings(without(result.diagnosis.warnings, told));
   if (result.simulated) print_warnings(result.simulated->warnings);
   print_diagnosis(folder, result, c.file);
-  if (stopped) throw ExitStatus{kInterruptedWithReport};
+  if (finish_requested()) throw ExitStatus{kInterruptedWithReport};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Exit status: 0 done, 1 the work failed, 2 the input or the command line is wrong, 3 a check found what
 // spoils the estimates, 130 interrupted.
 #include <fmt/format.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -27,6 +28,19 @@ constexpr char kFinishing[] =
     "\ngapscope: ends after the present step and reports what has been found; Ctrl-C again: at once, and "
     "nothing is kept\n";
 
+constexpr char kStopping[] = "\ngapscope: stops after the present piece of work; asked again: at once\n";
+constexpr suseconds_t kSilent = 200'000;  ///< microseconds that may pass before that is said
+
+/// Work that stops sooner has said so itself.
+extern "C" void on_still_working(int) {
+  [[maybe_unused]] const auto told = write(STDERR_FILENO, kStopping, sizeof kStopping - 1);
+}
+
+void tell_after(suseconds_t wait) {
+  const itimerval timer{{0, 0}, {0, wait}};  // 0: never
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
 /// The first Ctrl-C asks, the second one does not wait for the answer. A diagnosis is asked to come to an end
 /// before it is asked to stop.
 extern "C" void on_interrupt(int signal) {
@@ -37,6 +51,7 @@ extern "C" void on_interrupt(int signal) {
     return;
   }
   request_stop();
+  tell_after(kSilent);
 }
 
 void add_commands(CommandLine& program) {
@@ -85,6 +100,7 @@ int guarded(int argc, char** argv) {
     tell(error.what());
     return kWrongInput;
   } catch (const Interrupted&) {
+    tell_after(0);
     tell("gapscope: interrupted");
     return kInterrupted;
   } catch (const std::bad_alloc&) {
@@ -107,6 +123,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, gapscope::cli::on_interrupt);
   std::signal(SIGTERM, gapscope::cli::on_interrupt);
   if (std::signal(SIGHUP, gapscope::cli::on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+  std::signal(SIGALRM, gapscope::cli::on_still_working);
   std::signal(SIGCHLD, SIG_DFL);  // who started this may not care how its processes end
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is a write that fails, and says so
   return gapscope::cli::guarded(argc, argv);

@@ -1,4 +1,4 @@
-// What long work says on a terminal, and only there.
+// What long work says on a terminal, and what it answers to Ctrl-C.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -14,6 +14,7 @@ namespace gapscope {
 namespace {
 
 using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
 using testing::kPaperModel;
 using testing::Workplace;
 
@@ -26,8 +27,10 @@ simulation:
 )";
 
 /// What the command writes to a terminal that is its standard error.
-std::string told_on_terminal(const Workplace& place, const std::string& arguments) {
-  const std::string command = "cd " + place.folder().string() + " && " + GAPSCOPE_EXECUTABLE + " " +
+/// @param cue  at which Ctrl-C is pressed; empty: never
+std::string told_on_terminal(const Workplace& place, const std::string& arguments, int expected = 0,
+                             const std::string& cue = "") {
+  const std::string command = "cd " + place.folder().string() + " && exec " + GAPSCOPE_EXECUTABLE + " " +
                               arguments + " >out.txt </dev/null";
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
@@ -37,12 +40,17 @@ std::string told_on_terminal(const Workplace& place, const std::string& argument
   }
   std::string told;
   char part[4096];
-  for (ssize_t n; (n = read(terminal, part, sizeof part)) > 0;)
+  bool pressed = cue.empty();
+  for (ssize_t n; (n = read(terminal, part, sizeof part)) > 0;) {
     told.append(part, static_cast<std::size_t>(n));
+    if (pressed || told.find(cue) == told.npos) continue;
+    pressed = write(terminal, "\x03", 1) == 1;
+  }
   close(terminal);
   int status = -1;
   waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0) << told;
+  EXPECT_TRUE(WIFEXITED(status)) << told;
+  EXPECT_EQ(WEXITSTATUS(status), expected) << told;
   return told;
 }
 
@@ -57,6 +65,39 @@ TEST(Progress, OfADiagnosisIsTheStepOfHowManyAndTheTimeSoFar) {
   EXPECT_THAT(told, ContainsRegex(" +[0-9]+:[0-9][0-9]  fitting the nominal model \\.\\.\\."));
   EXPECT_THAT(told, ContainsRegex(" fitting [a-z_]+, 1 of 2 "));
   EXPECT_THAT(told, ContainsRegex(" refining [a-z_]+, 1 of [12] "));
+}
+
+/// The search is over then, and nothing of it is lost.
+TEST(Progress, CtrlCWhileTheReportIsDrawnLeavesTheReport) {
+  Workplace place;
+  place.file("c.yaml",
+             kShortSimulation +
+                 "  model: {effects: [{motor_coulomb_friction: {level_nm: 0.02}}]}\nmodel: " + kPaperModel);
+  const std::string told = told_on_terminal(
+      place, "diagnose c.yaml -j 1 -o r" + testing::excluding_all_but({"motor_coulomb_friction"}), 130,
+      "drawing the report");
+  EXPECT_THAT(told, HasSubstr("gapscope: ends after the present step and reports what has been found"));
+  for (const char* file : {"r/diagnosis.json", "r/report.md", "r/fitted.yaml"})
+    EXPECT_TRUE(place.content().contains(file)) << file;
+  EXPECT_THAT(testing::text_of(place.folder() / "r/diagnosis.json"), HasSubstr("\"verdict\": \"effect\""));
+}
+
+// wait.sh: the command writes to a pipe that nobody empties, so that no point comes at which it could stop.
+constexpr const char* kStuck = R"(mkfifo p; exec 3<>p
+"$@" 2>err.txt & pid=$!
+head -c 1 <&3 >/dev/null; kill -INT $pid
+for i in $(seq 100); do [ -s err.txt ] && break; sleep 0.05; done
+cat err.txt; kill -INT $pid; wait $pid; echo $? >status.txt
+)";
+
+TEST(Progress, CtrlCThatIsNotAnsweredYetIsAcknowledgedAndASecondOneEndsAtOnce) {
+  Workplace place;
+  place.file("c.yaml", std::regex_replace(kShortSimulation, std::regex("duration: 2"), "duration: 60") +
+                           "model: " + kPaperModel);
+  place.file("wait.sh", kStuck);
+  const auto stuck = place.run("simulate c.yaml -o p", "sh wait.sh");
+  EXPECT_EQ(stuck.out, "\ngapscope: stops after the present piece of work; asked again: at once\n");
+  EXPECT_EQ(testing::text_of(place.folder() / "status.txt"), "130\n");
 }
 
 TEST(Progress, OfACampaignIsTheRunOfHowManyAndTheTimeSoFar) {
