@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -55,6 +56,18 @@ const std::vector<Unit>& units(Quantity quantity) {
   return time;
 }
 
+/// Of a torque's unit the sign between its two is written in many ways; the table has the blank.
+std::string as_in_table(Quantity quantity, std::string_view declared) {
+  constexpr std::string_view kForce = "N", kSigns[] = {"", ".", "*", "·", "⋅"};
+  const auto force = declared.rfind(kForce);
+  if (quantity != Quantity::kTorque || force == declared.npos || !declared.ends_with('m'))
+    return std::string(declared);
+  const std::string_view before = declared.substr(0, force + kForce.size());
+  const std::string_view sign = declared.substr(before.size(), declared.size() - before.size() - 1);
+  const bool is_sign = std::find(std::begin(kSigns), std::end(kSigns), sign) != std::end(kSigns);
+  return is_sign ? std::string(before) + " m" : std::string(declared);
+}
+
 std::optional<UnitScale> from_number(std::string_view text) {
   constexpr double kSmallest = 1e-15, kLargest = 1e15;
   double value = 0.0;
@@ -73,13 +86,15 @@ double UnitScale::as_signed(double recorded) const {
 }
 
 std::optional<UnitScale> unit_scale(Quantity quantity, std::string_view declared) {
+  const std::string name = as_in_table(quantity, declared);
   for (const Unit& unit : units(quantity))
-    if (declared == unit.name) return unit.scale;
+    if (name == unit.name) return unit.scale;
   return from_number(declared);
 }
 
-std::string si_unit(Quantity quantity, std::string_view declared) {
+std::string si_unit(Quantity quantity, std::string_view written) {
   const std::vector<Unit>& known = units(quantity);
+  const std::string declared = as_in_table(quantity, written);
   const auto named = [&](const Unit& unit) { return declared == unit.name; };
   if (declared == "%" || declared == "permille" || std::none_of(known.begin(), known.end(), named)) return "";
   for (const char* unit : {"N m", "N", "A", "V", "rad", "m", "s"})

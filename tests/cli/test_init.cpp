@@ -71,6 +71,9 @@ TEST(Init, AnInputInTorqueLeavesNothingToGuess) {
   const std::string yaml = testing::text_of(place.folder() / "torque.yaml");
   EXPECT_THAT(yaml, HasSubstr("torque_constant: 1  # u is in N m already"));
   EXPECT_THAT(yaml, Not(HasSubstr("GUESS")));
+  EXPECT_EQ(place.run("check r.csv --input-unit N*m").status, 0);
+  EXPECT_EQ(place.run("init r.csv --model one_body --input-unit Nm -o short.yaml").status, 0);
+  EXPECT_THAT(testing::text_of(place.folder() / "short.yaml"), HasSubstr("torque_constant: 1  # u is in N m"));
   const auto geared =
       place.run("init r.csv --model one_body --input-unit 'N m' --gear-ratio 2 -o geared.yaml");
   EXPECT_THAT(geared.out, HasSubstr("fill in what is marked GUESS")) << "at which shaft is that torque?";

@@ -36,6 +36,20 @@ TEST(Units, EachIsWhatItsNameSays) {
   EXPECT_THAT(known_units(Quantity::kTime), HasSubstr("ms, us, ns, or a number (s per recorded unit)"));
 }
 
+TEST(Units, OfATorqueAreTakenAsTheyAreCommonlyWritten) {
+  for (const char* written : {"N m", "Nm", "N.m", "N*m", "N·m"}) {
+    const auto scale = unit_scale(Quantity::kTorque, written);
+    ASSERT_TRUE(scale) << written;
+    EXPECT_EQ((*scale)(5.0), 5.0) << written;
+    EXPECT_EQ(si_unit(Quantity::kTorque, written), "N m") << written;
+  }
+  EXPECT_EQ((*unit_scale(Quantity::kTorque, "mNm"))(5.0), 0.005);
+  EXPECT_EQ(si_unit(Quantity::kTorque, "kN*m"), "N m");
+  for (const char* none : {"nm", "NM", "N  m", "N/m", "N m ", "Nmm", "N m m", "N", "m"})
+    EXPECT_FALSE(unit_scale(Quantity::kTorque, none)) << none;
+  EXPECT_FALSE(unit_scale(Quantity::kForce, "Nm"));
+}
+
 /// 120 rows of whole numbers.
 std::string rows() {
   std::string text = "t,u,x1,x2\n";
