@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "cli/command_tree.h"
+#include "gapscope/base/shell_word.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::cli {
@@ -60,6 +61,22 @@ void tell(CLI::App& app, const std::string& what) {
 
 Option not_empty(Option option) {
   return option.accepts([](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); });
+}
+
+/// A value as it follows its option.
+std::string value_word(const std::string& value) {
+  return value.size() > 1 && value[0] == '-' ? "-" + shell_word(value.substr(1)) : shell_word(value);
+}
+
+std::string option_words(const CLI::Option& option) {
+  const std::string name =
+      option.get_lnames().empty() ? "-" + option.get_snames().front() : "--" + option.get_lnames().front();
+  if (option.get_items_expected_max() == 0) return name;
+  const std::vector<std::string> values = option.results();
+  if (values.size() == 1 && values[0].starts_with('-')) return name + "=" + value_word(values[0]);
+  std::string text = name;
+  for (const std::string& value : values) text += " " + value_word(value);
+  return text;
 }
 
 }  // namespace
@@ -133,6 +150,16 @@ void CommandLine::footer(const std::string& text) { app_->footer(text); }
 void CommandLine::action(const std::function<void()>& what) { app_->callback(what); }
 void CommandLine::needs_command() { app_->require_subcommand(1); }
 void CommandLine::may_have_command() { app_->require_subcommand(0, 1); }
+std::string CommandLine::given_options(const std::vector<std::string>& without) const {
+  std::string text;
+  for (const CLI::Option* option : app_->get_options()) {
+    const bool left_out = std::any_of(without.begin(), without.end(),
+                                      [&](const std::string& name) { return option->check_name(name); });
+    if (option->count() == 0 || option->get_positional() || left_out) continue;
+    text += (text.empty() ? "" : " ") + option_words(*option);
+  }
+  return text;
+}
 bool CommandLine::has_command() const { return !app_->get_subcommands().empty(); }
 
 void throw_missing(const char* name) { throw CLI::RequiredError(name); }

@@ -55,8 +55,11 @@ class CommandLine {
 
   void footer(const std::string& text);
   void action(const std::function<void()>& what);
-  void needs_command();      ///< does nothing without one of its own commands
-  void may_have_command();   ///< at most one of its own commands
+  void needs_command();     ///< does nothing without one of its own commands
+  void may_have_command();  ///< at most one of its own commands
+  /// Within an action: the options that the command line has, as a shell takes them: "--input-unit 'N m'".
+  /// @param without  names of options that are left out; positional arguments are, always
+  std::string given_options(const std::vector<std::string>& without) const;
   bool has_command() const;  ///< within an action: whether one of its own commands is called
 
   const CLI::App& app() const { return *app_; }

@@ -26,6 +26,7 @@ struct InitArguments {
   std::string output;
   std::string model;                               ///< empty: as the detector sees it
   std::string from, joint;                         ///< of a simulator's model; empty: none
+  std::string options;                             ///< all that were given but --held-out and --output
   double mass = kNaN, arm = kNaN, inertia = kNaN;  ///< known of the drive [kg, m, kg m² or kg]
 };
 
@@ -91,7 +92,15 @@ std::string output_of(const InitArguments& a, const RecordingArguments& r, bool 
   return (fs::path(one).parent_path() / name).string();
 }
 
-/// The same of the name that its report will have.
+/// For the command with both recordings the other way round: the same, into another file than is written.
+std::string options_turned_round(const InitArguments& a, const RecordingArguments& r) {
+  const fs::path one = output_of(a, r, false);
+  if (a.output.empty() && fs::path(a.held_out).stem() != one.stem()) return a.options;
+  const std::string other = (one.parent_path() / (one.stem().string() + "_turned_round.yaml")).string();
+  return a.options + (a.options.empty() ? "" : " ") + "-o " + shell_word(other);
+}
+
+/// The name of an axis at the end of that which its report will have.
 std::string named_after(const std::string& axis, std::string yaml) {
   const auto end = yaml.find_first_of(" \n", yaml.find("\nname: ") + 7);
   return yaml.insert(end, "_" + plain_part(axis));
@@ -99,7 +108,8 @@ std::string named_after(const std::string& axis, std::string yaml) {
 
 void write_starter(const InitArguments& a, const RecordingArguments& r, bool several) {
   const std::string name = fs::path(a.output).stem().string();  // a name that was given is the report's, too
-  const StarterKnowledge known{model_of(a.model), nominal_of(a), anchor_of(a), name, r.gain_sought()};
+  const StarterKnowledge known{model_of(a.model),          nominal_of(a),  anchor_of(a), name,
+                               options_turned_round(a, r), r.gain_sought()};
   const std::string output = output_of(a, r, several);
   require_file_name(output, {r.file, a.held_out}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
@@ -190,7 +200,8 @@ void add_init(CommandLine& app) {
       "the body has a narrow range. The fit begins there, and diagnose says what that model lacks.\n"
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
-  command.action([arguments] {
+  command.action([arguments, command] {
+    arguments->options = command.given_options({"--held-out", "--output"});
     const auto all = arguments->recording.each_axis();
     if (const std::string banner = preset_banner(arguments->recording); !banner.empty())
       fmt::print("{:<12}{}\n", "preset", banner);

@@ -10,12 +10,12 @@
 #include "config/controller_reader.h"
 #include "config/starter_choice.h"
 #include "config/starter_motor.h"
+#include "config/starter_order.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/inspection/inspection.h"
-#include "gapscope/inspection/reach.h"
 
 namespace gapscope {
 namespace {
@@ -24,6 +24,7 @@ using internal::config::anchor_text;
 using internal::config::as_modelled;
 using internal::config::Begin;
 using internal::config::chosen_structure;
+using internal::config::order_told;
 using internal::config::StarterChoice;
 using internal::config::suggest_anchor;
 using internal::config::write_effects;
@@ -50,42 +51,6 @@ std::string plain_name(const std::string& path) {
 std::string named_from(const std::string& folder, const std::string& recording) {
   const bool stays = std::filesystem::path(recording).is_absolute() || std::filesystem::path(folder) == ".";
   return stays ? recording : std::filesystem::proximate(recording, folder).generic_string();
-}
-
-/// Which is better fitted, and what is to be said of the other one.
-struct ToldOrder {
-  FittingOrder order;
-  std::string little;  ///< why the one that is held out judges little; empty: it does not
-};
-
-/// Reads both recordings as diagnose would.
-ToldOrder order_of(const RecordingConfig& config, Coordinates coordinates) {
-  std::vector<MotionReach> reach;
-  for (const RecordedFile& file : {config.files.front(), config.held_out.front()}) {
-    const Recording r = read_recording(file.path, config.reading_of(file, UnevenRows::kStamped));
-    const MotorTrace trace = r.motor_trace();
-    reach.push_back(reach_of({&trace, 1}));
-  }
-  return {fitting_order(reach[0], reach[1], coordinates), judges_little(reach[0], reach[1])};
-}
-
-std::string order_told(const ToldOrder& told, const std::string& fitted, const std::string& held_out) {
-  const std::string first = printable(fitted, 200), second = printable(held_out, 200);
-  const FittingOrder& order = told.order;
-  const std::string but = told.little.empty() ? "" : "; but " + second + " " + told.little;
-  switch (order.fit) {
-    case FittingOrder::Fit::kFirst:
-      return fmt::format("{}: {} is fitted, which asks more of the drive than {} ({}){}",
-                         but.empty() ? "good as it is" : "good for the fit", first, second, order.why, but);
-    case FittingOrder::Fit::kSecond:
-      return fmt::format(
-          "better the other way round: {0} asks more of the drive than {1} ({2}); a model is known only as "
-          "far as it was fitted -> gapscope init {0} --held-out {1}",
-          second, first, order.why);
-    case FittingOrder::Fit::kEither:
-      break;
-  }
-  return fmt::format("either recording may be fitted: {}{}", order.why, but);
 }
 
 void write_recording(YamlWriter& out, const std::string& folder, const RecordingConfig& recording,
@@ -253,8 +218,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   if (one_body && choice.seen) judge_for(Purpose::kDiagnosis, seen);  // nobody asks the detector
   Starter starter;
   starter.model = choice.why;
-  if (!config.held_out.empty())
-    starter.order = order_told(order_of(config, coordinates), recording, config.held_out.front().path);
+  if (!config.held_out.empty()) starter.order = order_told(config, known.options, coordinates);
   for (const auto* files : {&config.files, &config.held_out})
     for (const RecordedFile& file : *files) warn_of_notes(config, file, coordinates, starter);
   YamlWriter out(coordinates);

@@ -73,7 +73,8 @@ TEST(Init, AnInputInTorqueLeavesNothingToGuess) {
   EXPECT_THAT(yaml, Not(HasSubstr("GUESS")));
   EXPECT_EQ(place.run("check r.csv --input-unit N*m").status, 0);
   EXPECT_EQ(place.run("init r.csv --model one_body --input-unit Nm -o short.yaml").status, 0);
-  EXPECT_THAT(testing::text_of(place.folder() / "short.yaml"), HasSubstr("torque_constant: 1  # u is in N m"));
+  EXPECT_THAT(testing::text_of(place.folder() / "short.yaml"),
+              HasSubstr("torque_constant: 1  # u is in N m"));
   const auto geared =
       place.run("init r.csv --model one_body --input-unit 'N m' --gear-ratio 2 -o geared.yaml");
   EXPECT_THAT(geared.out, HasSubstr("fill in what is marked GUESS")) << "at which shaft is that torque?";
@@ -212,31 +213,6 @@ TEST(Init, AHeldOutRecordingIsNamedAndReadByTheDiagnosis) {
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.err, HasSubstr("third.csv"));
   EXPECT_FALSE(place.content().count("other.yaml"));
-}
-
-TEST(Init, SaysWhichOfTwoRecordingsIsBetterFittedAndSwapsNothing) {
-  Workplace place;
-  const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
-  const auto weak = [](double t) { return 0.1 * std::sin(9.0 * t) + 0.06 * std::sin(31.0 * t); };
-  place.file("rich.csv", one_body_csv(input));
-  place.file("poor.csv", one_body_csv(weak));
-  const std::string init = "init --model one_body --input-unit V ";
-  const auto good = place.run(init + "rich.csv --held-out poor.csv -o good.yaml");
-  EXPECT_EQ(good.status, 0) << good.err;
-  EXPECT_THAT(good.out, HasSubstr("order       good as it is: rich.csv is fitted"));
-  EXPECT_THAT(good.out, ::testing::ContainsRegex("input up to 0[.][0-9]+ against 0[.]1[0-9]* V"));
-  const auto wrong = place.run(init + "poor.csv --held-out rich.csv -o wrong.yaml");
-  EXPECT_EQ(wrong.status, 0) << wrong.err;
-  EXPECT_THAT(wrong.out, HasSubstr("order       better the other way round: rich.csv asks more"));
-  EXPECT_THAT(wrong.out, HasSubstr("-> gapscope init rich.csv --held-out poor.csv"));
-  const std::string yaml = testing::text_of(place.folder() / "wrong.yaml");
-  EXPECT_THAT(yaml, HasSubstr("# better the other way round"));
-  EXPECT_THAT(yaml, HasSubstr("file: \"poor.csv\"\n  held_out: \"rich.csv\""));
-  place.file("again.csv", one_body_csv(input));
-  EXPECT_THAT(place.run(init + "rich.csv --held-out again.csv -o same.yaml").out,
-              HasSubstr("either recording may be fitted: both go as far"));
-  EXPECT_THAT(place.run(init + "rich.csv -o alone.yaml").out, Not(HasSubstr("order ")));
-  EXPECT_THAT(place.run("init --help").out, HasSubstr("is better fitted"));
 }
 
 TEST(Init, AWarningSaysWhatToDo) {

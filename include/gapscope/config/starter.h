@@ -33,6 +33,7 @@ struct StarterKnowledge {
   /// that was read in units of u.
   std::optional<AnchorConfig> anchor = {};
   std::string name = {};     ///< that its report shall have; empty: the joint's, or the recording's
+  std::string options = {};  ///< of the command beside its recordings, for one that Starter::order tells
   bool gain_sought = false;  ///< of the controller that makes the input of the target: the fit finds it
 };
 
