@@ -194,10 +194,10 @@ void add_init(CommandLine& app) {
       "write.\n"
       "--from takes armature, damping, frictionloss, gear and the body's inertia of a joint, of MJCF with "
       "its\n"
-      "classes, geoms and gravity; a gap where a fixed tendon limits the difference of two joints or a "
-      "second joint "
-      "of\n"
-      "the body has a narrow range. The fit begins there, and diagnose says what that model lacks.\n"
+      "classes, geoms, gravity and the actuator's filter, range and constant bias; a gap where a fixed "
+      "tendon\n"
+      "limits the difference of two joints or a second joint of the body has a narrow range. The fit begins\n"
+      "there, and diagnose says what that model lacks.\n"
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
   command.action([arguments, command] {

@@ -74,7 +74,7 @@ JointNumbers joint_numbers(const std::string& path, const std::string& joint) {
     throw ConfigError(path, "begins with <" + printable(kind, 40) + ">, expected <mujoco> or <robot>");
   if (kind == "mujoco") follow_includes(document, path);
   JointNumbers numbers = kind == "mujoco" ? mjcf_joint(top, path, joint) : urdf_joint(top, path, joint);
-  numbers.model = path, numbers.joint = joint;
+  numbers.model = path, numbers.joint = joint, numbers.of_mjcf = kind == "mujoco";
   return numbers;
 }
 

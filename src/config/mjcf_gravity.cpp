@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "config/mjcf_mass.h"
 #include "config/mjcf_turn.h"
@@ -55,6 +57,30 @@ struct Attitude {
   }
 };
 
+/// Nothing where no centre of the body could make another torque of gravity about the axis.
+/// @param g  in the body's frame [m/s²]
+std::optional<HangingBody> hanging_body(const Mjcf& m, const XMLElement& joint, const Vector3d& axis,
+                                        const Vector3d& g) {
+  constexpr double kUpright = 1e-6;  // sine of the angle between the axis and gravity
+  const XMLElement& body = *joint.Parent()->ToElement();
+  const FixedMass own = own_mass(m, body);
+  const Vector3d across = g - axis.dot(g) * axis;
+  if (!(own.hanging > 0.0) || !own.unknown.empty() || across.norm() <= kUpright * g.norm()) return {};
+  const Vector3d centre = own.moment / own.mass, lever = centre - three_of(m, joint, "pos");
+  const Vector3d down = across.normalized(), aside = axis.cross(down);
+  const Matrix3d about =
+      own.inertia - own.mass * (centre.squaredNorm() * Matrix3d::Identity() - centre * centre.transpose());
+  const auto three = [](const Vector3d& v) { return std::array{v.x(), v.y(), v.z()}; };
+  HangingBody h;
+  h.name = body_name(body);
+  h.mass = own.mass, h.weighed = own.hanging, h.by_geoms = own.of_geoms;
+  h.centre = three(centre), h.down = three(down), h.aside = three(aside);
+  h.inertia = {about(0, 0), about(1, 1), about(2, 2), about(0, 1), about(0, 2), about(1, 2)};
+  h.lever_down = lever.dot(down), h.lever_aside = lever.dot(aside);
+  h.gravity = across.norm(), h.reference = m.turned(joint, "ref");
+  return h;
+}
+
 }  // namespace
 
 void read_gravity(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
@@ -77,12 +103,13 @@ void read_gravity(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
   if (n.slides) {
     if (const double force = fixed.hanging * axis.dot(g);
         std::abs(force) > kRounding * fixed.hanging * weight)
-      refuse(fmt::format("{:.4g} N along the slide: effect constant_load_torque", force));
+      n.weight = force;
     return;
   }
   const Vector3d r = fixed.hanging_moment - fixed.hanging * at;
   const double cosine = axis.dot(r.cross(g)), sine = r.dot(g) - r.dot(axis) * axis.dot(g);
   const double amplitude = std::hypot(cosine, sine);
+  n.hanging = hanging_body(m, joint, axis, g);
   if (!absent.empty())
     n.notes.push_back("not taken: gravity on a part of what hangs on the joint, as " + absent);
   if (amplitude <= kRounding * weight * r.norm()) return;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "config/mjcf.h"
+#include "config/mjcf_actuator.h"
 #include "config/mjcf_gravity.h"
 #include "config/mjcf_mass.h"
 #include "config/mjcf_turn.h"
@@ -53,25 +54,24 @@ double inertia_with(const Mjcf& m, const XMLElement& joint, double body) {
   return armature > 0.0 ? armature : kNaN;
 }
 
-double gear_of(const Mjcf& m, const std::string& joint, std::vector<std::string>& notes) {
-  std::vector<const XMLElement*> actuators;
-  for (const XMLElement* s = m.top().FirstChildElement("actuator"); s != nullptr;
-       s = s->NextSiblingElement("actuator"))
-    for (const XMLElement* e = s->FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
-      actuators.push_back(e);
-  for (const XMLElement* e : actuators) {
-    const std::string kind = e->Name();
-    const auto gain = m.values(*e, "gainprm");
-    if (!has_attribute(e, "joint", joint) || (!gain.empty() && gain[0] == 0.0)) continue;
-    if (kind != "motor" && kind != "general")
-      notes.push_back("the actuator is of kind " + kind +
-                      ": its control is no torque, so torque_constant is the gear");
-    return m.value(*e, "gear", 1.0) * (kind == "general" && !gain.empty() ? gain[0] : 1.0);
-  }
-  return kNaN;
+/// Stiffness and damping of a tendon's limit, if it is told by them.
+void read_contact(const Mjcf& m, const XMLElement& fixed, double mobility, JointNumbers& n) {
+  const auto contact = m.values(fixed, "solreflimit");
+  if (contact.size() == 2 && contact[0] < 0.0)
+    n.stiffness = -contact[0] / mobility, n.contact_damping = -contact[1] / mobility;
 }
 
-/// A fixed tendon joint − other with a range: the gap of two bodies.  @returns the other joint
+void read_load(const Mjcf& m, const XMLElement& load, const std::string& name, JointNumbers& n) {
+  n.load_joint = name;
+  n.load_body_inertia = body_inertia_of(m, load, n.notes);
+  n.load_inertia = inertia_with(m, load, n.load_body_inertia);
+  n.load_damping = m.value(load, "damping", 0.0);
+  n.load_friction = m.value(load, "frictionloss", 0.0);
+  n.load_constant_torque = actuation_of(m, name).constant;
+}
+
+/// A fixed tendon joint − other with a range: the gap of two bodies; of the joint alone, if it is narrow: to
+/// the ground.  @returns the other joint
 const XMLElement* read_tendon(const Mjcf& m, const std::string& joint, JointNumbers& n) {
   for (const XMLElement* fixed : elements_below(m.top(), "fixed")) {
     std::string other;
@@ -86,20 +86,28 @@ const XMLElement* read_tendon(const Mjcf& m, const std::string& joint, JointNumb
         other = name;
     }
     const auto range = m.values(*fixed, "range");
-    if (!mine || other.empty() || range.size() < 2) continue;
+    if (!mine || range.size() < 2) continue;
+    const double width = range[1] - range[0];
+    if (other.empty()) {
+      if (!(width < kWidestGap)) continue;
+      n.gap = width, n.locked = true;
+      read_contact(m, *fixed, 1.0 / n.inertia, n);
+      return nullptr;
+    }
     const XMLElement* load = joint_named(m, other);
     if (load == nullptr) continue;
-    n.gap = range[1] - range[0];
-    n.load_inertia = inertia_with(m, *load, body_inertia_of(m, *load, n.notes));
-    n.load_damping = m.value(*load, "damping", 0.0);
-    n.load_friction = m.value(*load, "frictionloss", 0.0);
-    const double mobility = 1.0 / n.inertia + 1.0 / n.load_inertia;
-    const auto contact = m.values(*fixed, "solreflimit");
-    if (contact.size() == 2 && contact[0] < 0.0)
-      n.stiffness = -contact[0] / mobility, n.contact_damping = -contact[1] / mobility;
+    n.gap = width;
+    read_load(m, *load, other, n);
+    read_contact(m, *fixed, 1.0 / n.inertia + 1.0 / n.load_inertia, n);
     return load;
   }
   return nullptr;
+}
+
+void read_actuation(const Mjcf& m, const std::string& joint, JointNumbers& n) {
+  const Actuation a = actuation_of(m, joint);
+  n.torque_constant = a.gain, n.constant_torque = a.constant, n.lag = a.lag, n.input_limit = a.limit;
+  n.notes.insert(n.notes.end(), a.notes.begin(), a.notes.end());
 }
 
 void note_spring(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
@@ -136,10 +144,11 @@ JointNumbers mjcf_joint(const XMLElement& mujoco, const std::string& file, const
   n.inertia = inertia_with(m, *joint, n.body_inertia);
   n.damping = m.value(*joint, "damping", 0.0);
   n.friction = m.value(*joint, "frictionloss", 0.0);
-  n.torque_constant = gear_of(m, name, n.notes);
-  const XMLElement* heavy = read_tendon(m, name, n);
-  if (heavy == nullptr) read_neighbour(m, *joint, n), heavy = joint;
-  read_gravity(m, *heavy, n);
+  read_actuation(m, name, n);
+  const XMLElement* const load = read_tendon(m, name, n);
+  if (!(n.gap > 0.0)) read_neighbour(m, *joint, n);
+  read_gravity(m, load != nullptr ? *load : *joint, n);
+  (load != nullptr ? n.load_constant_torque : n.constant_torque) += n.weight;
   note_spring(m, *joint, n);
   return n;
 }

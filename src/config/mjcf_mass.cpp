@@ -122,7 +122,7 @@ class Geom {
 
 class Sum {
  public:
-  explicit Sum(const Mjcf& m) : m_(m) {
+  explicit Sum(const Mjcf& m, bool with_fixed = true) : m_(m), with_fixed_(with_fixed) {
     for (const XMLElement* e = m.top().FirstChildElement("compiler"); e != nullptr;
          e = e->NextSiblingElement("compiler")) {
       from_geoms_ = m.word(*e, "inertiafromgeom", from_geoms_.c_str());
@@ -142,6 +142,7 @@ class Sum {
       };
       if (is_named(*in, "geom") && by_geoms) add_geom(*in, body, at, turn);
       if (is_named(*in, "frame")) inside(body);
+      if (is_named(*in, "body") && !with_fixed_) continue;
       if (is_named(*in, "body") && moves(*in)) sum.moving = body_name(*in);
       if (is_named(*in, "body") && !moves(*in)) inside(*in);
     }
@@ -172,6 +173,7 @@ class Sum {
     }
     const Solid solid = geom.solid();
     const double mass = geom.mass(solid.volume);
+    sum.of_geoms = true;
     add_mass(body, mass, at + turn * geom.centre(), turn * geom.turn(), mass * solid.inertia.asDiagonal());
   }
 
@@ -185,6 +187,7 @@ class Sum {
   }
 
   const Mjcf& m_;
+  bool with_fixed_;
   std::string from_geoms_ = "auto";
   double first_group_ = 0.0, last_group_ = 5.0;
 };
@@ -206,6 +209,12 @@ double FixedMass::inertia_about(const Vector3d& axis, const Vector3d& at) const 
 
 FixedMass fixed_mass(const Mjcf& m, const XMLElement& body) {
   Sum sum(m);
+  sum.add(body, body, Vector3d::Zero(), Matrix3d::Identity());
+  return sum.sum;
+}
+
+FixedMass own_mass(const Mjcf& m, const XMLElement& body) {
+  Sum sum(m, false);
   sum.add(body, body, Vector3d::Zero(), Matrix3d::Identity());
   return sum.sum;
 }

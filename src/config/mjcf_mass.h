@@ -16,6 +16,7 @@ struct FixedMass {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the frame's origin [kg m²]  // (3 × 3)
   double hanging = 0.0;                               ///< mass that gravcomp does not hold [kg]
   Eigen::Vector3d hanging_moment = Eigen::Vector3d::Zero();  ///< [kg m]
+  bool of_geoms = false;                                     ///< a part of it is a geom's
   std::string unknown;  ///< a part of which the mass is not known, with file and line; empty: none
   std::string moving;   ///< a body behind a joint, whose mass is not in it; empty: none
 
@@ -25,6 +26,9 @@ struct FixedMass {
 
 /// @throws ConfigError where an attribute is no number, or a geom has too few sizes
 FixedMass fixed_mass(const Mjcf& mjcf, const tinyxml2::XMLElement& body);
+
+/// Of the body alone.
+FixedMass own_mass(const Mjcf& mjcf, const tinyxml2::XMLElement& body);
 
 /// "body NAME".
 std::string body_name(const tinyxml2::XMLElement& body);

@@ -24,6 +24,7 @@ using internal::config::anchor_text;
 using internal::config::as_modelled;
 using internal::config::Begin;
 using internal::config::chosen_structure;
+using internal::config::fit_to_structure;
 using internal::config::order_told;
 using internal::config::StarterChoice;
 using internal::config::suggest_anchor;
@@ -37,6 +38,12 @@ using internal::config::YamlWriter;
 double round_down(double rate) {
   const double unit = std::pow(10.0, std::floor(std::log10(rate)) - 1.0);
   return std::floor(rate / unit * (1.0 + 1e-9)) * unit;
+}
+
+double largest_of(const std::vector<double>& u) {
+  double largest = 0.0;
+  for (const double v : u) largest = std::max(largest, std::abs(v));
+  return largest;
 }
 
 /// A name that a folder may have.
@@ -242,9 +249,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   begin.knows_inertia = begin.anchored && (std::isfinite(known.anchor->inertia) ||
                                            (one_body && std::isfinite(known.anchor->mass)));
   if (begin.anchored && std::isfinite(known.anchor->friction)) begin.numbers.friction = kNaN;
-  if (choice.structure == StarterModel::kLocked && begin.numbers.unbalance > 0.0)
-    begin.numbers.unbalance = kNaN,
-    begin.numbers.notes.push_back("not taken: gravity, as the output does not move");
+  fit_to_structure(begin, choice.structure);
+  begin.largest_input = largest_of(r.u);
   write_model(out, choice, begin, coordinates);
   starter.remarks = begin.numbers.notes;
   out.entry("detector", "{bound: auto}");

@@ -52,6 +52,7 @@ StarterChoice chosen_structure(StarterModel model, const MotorTrace& trace, Enco
 StarterChoice as_modelled(const JointNumbers& n, const MotorTrace& trace, EncoderSide encoder,
                           Coordinates coordinates) {
   const std::string where = "joint " + printable(n.joint, 40) + " of " + printable(n.model, 80);
+  if (n.gap > 0.0 && n.locked) return {StarterModel::kLocked, "locked output, as " + where + " has it"};
   if (n.gap > 0.0) return {StarterModel::kGap, "gap and free load, as " + where + " has them"};
   if (encoder == EncoderSide::kLoad) return {StarterModel::kOneBody, "one body, as " + where + " has it"};
   StarterChoice seen = as_seen(trace, coordinates);

@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 namespace gapscope::internal::config {
 namespace {
+
+/// Sharpness of torque_saturation for a limit that is hard; its bound is 12.
+constexpr double kHardLimit = 8.0;
 
 constexpr const char* kTakenByTheGain =
     "not known apart from the controller's gain, which takes its size: only their product acts";
@@ -78,26 +83,74 @@ void suggest_anchor(YamlWriter& out, bool gain_sought, Coordinates coordinates) 
               (coordinates.rotational() ? "; or {mass: 0.49, arm: 0.1}  # kg, m" : ""));
 }
 
+namespace {
+
+/// One effect of a simulator's model, each of its numbers as a start of the fit.
+void write_effect(YamlWriter& out, const char* name,
+                  std::initializer_list<std::pair<const char*, double>> numbers, const std::string& comment) {
+  std::string text;
+  for (const auto& [key, value] : numbers)
+    text += fmt::format("{}{}: {{value: {:.3g}, estimate: true}}", text.empty() ? "" : ", ", key, value);
+  out.entry(std::string("- ") + name, "{" + text + "}", comment);
+}
+
+void write_friction(YamlWriter& out, const Begin& begin, const std::string& unit) {
+  const std::string of = unit + (begin.settled() ? "; " : " (over torque_constant); ") + begin.from;
+  const double level = begin.numbers.friction;
+  if (begin.anchored)
+    out.entry("- motor_coulomb_friction", "{level_nm: {estimate: true}}", unit + "; the fit finds its start");
+  else if (begin.asymmetry != 0.0)
+    write_effect(out, "friction_asymmetry", {{"level_nm", level}, {"coulomb_ratio", begin.asymmetry}}, of);
+  else
+    write_effect(out, "motor_coulomb_friction", {{"level_nm", level}}, of);
+}
+
+}  // namespace
+
+void fit_to_structure(Begin& begin, StarterModel structure) {
+  constexpr double kMostAsymmetric = 0.99;  // of friction_asymmetry
+  JointNumbers& n = begin.numbers;
+  const auto refuse = [&](double& torque, const char* why) {
+    if (torque != 0.0)
+      n.notes.push_back(fmt::format("not taken: the constant torque {:.4g}, {}", torque, why));
+    torque = 0.0;
+  };
+  if (structure == StarterModel::kLocked) {
+    refuse(n.constant_torque, "as the output does not move");
+    refuse(n.load_constant_torque, "as the output does not move");
+    if (n.unbalance > 0.0) n.notes.push_back("not taken: gravity, as the output does not move");
+    n.unbalance = kNaN;
+  }
+  const bool behind_a_gap = structure == StarterModel::kGap && !n.load_joint.empty();
+  if (!behind_a_gap) n.load_constant_torque += n.constant_torque, n.constant_torque = 0.0;
+  begin.asymmetry = n.friction > 0.0 && n.constant_torque != 0.0 ? -n.constant_torque / n.friction : 0.0;
+  if (std::abs(begin.asymmetry) <= kMostAsymmetric && begin.asymmetry != 0.0) return;
+  begin.asymmetry = 0.0;
+  refuse(n.constant_torque, "which is more than the friction of the motor's joint takes up");
+}
+
 void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   const char* const others = "`gapscope effects` lists what else a drive may have";
-  const double friction = begin.numbers.friction, unbalance = begin.numbers.unbalance;
-  if (!(friction > 0.0) && !(unbalance > 0.0)) return out.entry("effects", "[]", others);
+  const JointNumbers& n = begin.numbers;
+  const bool clipped = n.input_limit < begin.largest_input;
+  if (!(n.friction > 0.0) && !(n.unbalance > 0.0) && n.load_constant_torque == 0.0 && !(n.lag > 0.0) &&
+      !clipped)
+    return out.entry("effects", "[]", others);
   out.open("effects");
   out.comment(others);
   const std::string unit = coordinates.torque_unit();
-  if (unbalance > 0.0)
-    out.entry("- load_unbalance",
-              fmt::format("{{amplitude_nm: {{value: {:.3g}, estimate: true}}, phase_rad: {{value: {:.3g}, "
-                          "estimate: true}}}}",
-                          unbalance, begin.numbers.unbalance_phase),
-              unit + ", rad; gravity " + begin.from);
-  if (!(friction > 0.0)) return out.close();
-  if (begin.anchored)
-    out.entry("- motor_coulomb_friction", "{level_nm: {estimate: true}}", unit + "; the fit finds its start");
-  else
-    out.entry("- motor_coulomb_friction",
-              fmt::format("{{level_nm: {{value: {:.3g}, estimate: true}}}}", friction),
-              unit + (begin.settled() ? "; " : " (over torque_constant); ") + begin.from);
+  if (n.unbalance > 0.0)
+    write_effect(out, "load_unbalance", {{"amplitude_nm", n.unbalance}, {"phase_rad", n.unbalance_phase}},
+                 unit + ", rad; gravity " + begin.from);
+  if (n.load_constant_torque != 0.0)
+    write_effect(out, "constant_load_torque", {{"torque_nm", n.load_constant_torque}},
+                 unit + "; " + begin.from);
+  if (n.lag > 0.0)
+    write_effect(out, "actuator_lag", {{"time_constant_s", n.lag}}, "s; filter of the actuator");
+  if (clipped)
+    write_effect(out, "torque_saturation", {{"knee", n.input_limit}, {"sharpness", kHardLimit}},
+                 "unit of u; range of the actuator, which the input exceeds");
+  if (n.friction > 0.0) write_friction(out, begin, unit);
   out.close();
 }
 

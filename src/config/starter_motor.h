@@ -5,6 +5,7 @@
 #include "config/yaml_writer.h"
 #include "gapscope/config/joint_numbers.h"
 #include "gapscope/config/model_config.h"
+#include "gapscope/config/starter.h"
 
 /// What a first configuration says of the motor, and of the scale of its torques.
 namespace gapscope::internal::config {
@@ -14,6 +15,8 @@ namespace gapscope::internal::config {
 struct Begin {
   JointNumbers numbers;
   std::string from;              ///< "read, as one body"
+  double asymmetry = 0.0;        ///< of the motor's friction, forward [-]
+  double largest_input = 0.0;    ///< of the recordings [unit of u]
   bool input_is_torque = false;  ///< torque_constant is 1, and no guess
   bool nominal = false;          ///< the numbers are a simulator's
   bool knows_inertia = false;    ///< by the anchor, or that it is a mass and no less
@@ -30,8 +33,13 @@ void write_estimated(YamlWriter& out, const char* key, double value, const std::
 /// Torque constant, inertia and damping.
 void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates);
 
-/// Coulomb friction and gravity, where they were read: a diagnosis then begins with what is missing beside
-/// them.
+/// Leaves what the structure has no place for to the notes, and finds the effects that are a model's constant
+/// torques: on the load constant_load_torque, before a gap the difference of the motor's friction between
+/// both directions.
+void fit_to_structure(Begin& begin, StarterModel structure);
+
+/// Friction, gravity, constant torques, filter and range of the actuator, where they were read: a diagnosis
+/// then begins with what is missing beside them. A range that the input does not exceed is none of them.
 void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates);
 
 /// "{mass: 0.49, arm: 0.1}"

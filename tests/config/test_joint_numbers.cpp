@@ -101,6 +101,43 @@ TEST(JointNumbers, OfAnMjcfSayWhatOfGravityAndSpringsWasNotTaken) {
               HasSubstr("not taken: the joint's stiffness 0.05 about springref 0.2"));
 }
 
+std::string driven(const std::string& actuators) {
+  return "<mujoco><worldbody><body><inertial pos='0 0 0' mass='2' diaginertia='1e-3 1e-3 1e-3'/><joint "
+         "name='a' type='slide'/></body></worldbody><actuator>" +
+         actuators + "</actuator></mujoco>";
+}
+
+TEST(JointNumbers, OfAnMjcfKnowWhatItsActuatorsDoBesideTheirGear) {
+  const JointNumbers n = read(
+      driven("<general joint='a' gear='2' gainprm='3' biastype='affine' biasprm='0.5 0 0' dyntype='filter' "
+             "dynprm='0.01' ctrllimited='true' ctrlrange='-4 4' forcelimited='true' forcerange='-6 6'/>"
+             "<general joint='a' gainprm='0' biastype='affine' biasprm='-0.2 0 0'/>"
+             "<motor joint='b' gear='7'/>"),
+      "a");
+  EXPECT_DOUBLE_EQ(n.torque_constant, 6.0);
+  EXPECT_DOUBLE_EQ(n.weight, -2.0 * 9.81) << "along z";
+  EXPECT_DOUBLE_EQ(n.constant_torque, 2.0 * 0.5 - 0.2 + n.weight);
+  EXPECT_DOUBLE_EQ(n.lag, 0.01);
+  EXPECT_DOUBLE_EQ(n.input_limit, 2.0) << "by the force";
+  EXPECT_THAT(n.notes, IsEmpty());
+  const JointNumbers free = read(driven("<motor joint='a' ctrllimited='false' ctrlrange='-4 4'/>"), "a");
+  EXPECT_EQ(free.input_limit, kInfinity);
+  EXPECT_EQ(free.lag, 0.0);
+}
+
+TEST(JointNumbers, OfAnMjcfSayWhatOfItsActuatorsWasNotTaken) {
+  const auto noted = [](const std::string& actuators) {
+    const JointNumbers n = read(driven(actuators), "a");
+    return n.notes.empty() ? "" : n.notes.back();
+  };
+  EXPECT_THAT(noted("<general joint='a' biastype='affine' biasprm='0.1 -3 0'/>"),
+              HasSubstr("bias that is no constant torque"));
+  EXPECT_THAT(noted("<general joint='a' dyntype='integrator'/>"), HasSubstr("(dyntype integrator)"));
+  EXPECT_THAT(noted("<motor joint='a' ctrlrange='0 4'/>"), HasSubstr("ctrlrange 0 to 4, which is not alike"));
+  EXPECT_THAT(noted("<motor joint='a'/><motor joint='a' gear='2'/>"),
+              HasSubstr("a further actuator of the joint, a motor"));
+}
+
 TEST(JointNumbers, OfAUrdfAreItsDynamicsAndTheLinkAboutTheAxis) {
   const std::string xml =
       R"(<robot name="r"><link name="base"/><link name="arm"><inertial><origin xyz="0.1 0 0"/>

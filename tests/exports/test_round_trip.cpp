@@ -1,9 +1,14 @@
 // What goes to MuJoCo comes back as the same numbers.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string_view>
+
 #include "exports/exported_drives.h"
-#include "gapscope/config/joint_numbers.h"
+#include "gapscope/config/starter.h"
 #include "gapscope/exports/export.h"
+#include "gapscope/simulation/excitation.h"
+#include "gapscope/simulation/simulate.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {
@@ -33,6 +38,90 @@ TEST(RoundTrip, OfAnMjcfKeepsEveryNumberOfTheDrive) {
     EXPECT_NEAR(n.stiffness, p.contact_stiffness, 1e-9 * p.contact_stiffness);
     EXPECT_NEAR(n.contact_damping, p.contact_damping, 1e-9 * p.contact_damping);
   }
+}
+
+/// The first configuration of a recording of the drive, begun with its own export.
+Configuration begun_with_export(const Configuration& c) {
+  const SimulationConfig& s = *c.simulation;
+  const std::vector<double> u = sample(s.excitation, s.rate, s.samples(), s.seed);
+  SimulationOptions options;
+  options.rate = s.rate;
+  const Recording r = simulate(s.plant.plant_model(), u, options);
+  const testing::TemporaryFile file("", "r.csv");
+  write_csv(file.path(), r);
+  RecordingConfig recording;
+  recording.files = {{file.path(), file.path(), 0}};
+  const Starter starter = starter_configuration(recording, c.encoder, c.coordinates, file.folder().string(),
+                                                {.nominal = back(c)});
+  return parse_configuration(starter.yaml, "begun.yaml");
+}
+
+/// Of the first effect of that name; 0 where there is none.
+double number_of(const Configuration& c, std::string_view effect, std::string_view key) {
+  for (const EffectConfig& e : c.model.effects)
+    if (e.effect.entry->name == effect)
+      for (std::size_t i = 0; i < e.effect.parameters.size(); ++i)
+        if (e.effect.entry->parameters[i].key == key) return e.effect.parameters[i].value;
+  return 0.0;
+}
+
+struct BackAs {
+  const char* effect;
+  const char* key;
+  double value;
+};
+
+/// What the configuration says, to its three digits.
+void expect_back(const std::string& effect, const std::string& numbers,
+                 std::initializer_list<BackAs> expected, const std::string& model = "") {
+  SCOPED_TRACE(effect + numbers);
+  const Configuration begun =
+      begun_with_export(testing::rig_configuration(numbers, model + "  effects: [{" + effect + "}]\n"));
+  EXPECT_EQ(
+      begun.model.effects.size(), expected.size() == 0 ? 0u : [&] {
+        std::vector<std::string_view> names;
+        for (const BackAs& e : expected)
+          if (names.empty() || names.back() != e.effect) names.push_back(e.effect);
+        return names.size();
+      }());
+  for (const BackAs& e : expected)
+    EXPECT_NEAR(number_of(begun, e.effect, e.key), e.value, 5e-3 * std::abs(e.value)) << e.effect << e.key;
+}
+
+/// Every effect that the export says it carries whole, and its ranges: begun with its file nothing is
+/// missing.
+TEST(RoundTrip, OfAnMjcfBringsBackEveryEffectThatItCarries) {
+  for (const std::string& numbers : {testing::kTwoBodies, std::string(", mass_ratio: 0")}) {
+    expect_back("motor_coulomb_friction: {level_nm: 0.01}", numbers,
+                {{"motor_coulomb_friction", "level_nm", 0.01}});
+    expect_back("constant_load_torque: {torque_nm: -0.01}", numbers,
+                {{"constant_load_torque", "torque_nm", -0.01}});
+    expect_back("load_unbalance: {amplitude_nm: 0.01, phase_rad: 0.7}", numbers,
+                {{"load_unbalance", "amplitude_nm", 0.01}, {"load_unbalance", "phase_rad", 0.7}});
+    expect_back("actuator_lag: {time_constant_s: 2.0e-3}", numbers,
+                {{"actuator_lag", "time_constant_s", 2e-3}});
+    expect_back("torque_saturation: {knee: 0.5}", numbers, {{"torque_saturation", "knee", 0.5}});
+    expect_back("torque_saturation: {knee: 0.7}", numbers, {});  // which the input does not reach
+  }
+  const std::string asymmetry = "friction_asymmetry: {level_nm: 0.01, coulomb_ratio: 0.4}";
+  expect_back(asymmetry, testing::kTwoBodies,
+              {{"friction_asymmetry", "level_nm", 0.01}, {"friction_asymmetry", "coulomb_ratio", 0.4}});
+  // Of one body the difference of both directions is a torque that acts always, while it moves.
+  expect_back(asymmetry, ", mass_ratio: 0",
+              {{"constant_load_torque", "torque_nm", -0.004}, {"motor_coulomb_friction", "level_nm", 0.01}});
+  expect_back("motor_coulomb_friction: {level_nm: 0.01}",
+              ", gap: 0.019, contact_stiffness: 200, contact_damping: 0.05",
+              {{"motor_coulomb_friction", "level_nm", 0.01}}, "  load: locked\n");
+}
+
+TEST(RoundTrip, OfAnMjcfKeepsALockedOutput) {
+  const Configuration c = testing::rig_configuration(
+      ", gap: 0.019, contact_stiffness: 200, contact_damping: 0.05", "  load: locked\n");
+  const JointNumbers n = back(c);
+  EXPECT_TRUE(n.locked);
+  EXPECT_NEAR(n.gap, 0.019, 1e-15);
+  EXPECT_NEAR(n.stiffness, 200.0, 1e-9 * 200.0);
+  EXPECT_EQ(begun_with_export(c).model.structure.load, LoadKind::kLocked);
 }
 
 TEST(RoundTrip, OfAUrdfKeepsWhatItCarries) {
