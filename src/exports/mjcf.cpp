@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "exports/left_out.h"
+#include "exports/mjcf_elements.h"
 #include "exports/mujoco_drive.h"
 #include "exports/offset_mass.h"
+#include "exports/own_file.h"
 #include "exports/target_errors.h"
 
 namespace gapscope::internal::exports {
@@ -20,12 +22,6 @@ std::string inertial(const MujocoDrive& d, std::size_t body, bool turns) {
   if (!turns) m.mass = d.inertia[body];
   return fmt::format("<inertial pos=\"{} 0 {}\" mass=\"{}\" diaginertia=\"{} {} {}\"/>", m.x, m.z, m.mass,
                      m.own, m.own, m.own);
-}
-
-/// Friction of a joint with what makes it hold.
-std::string dry_friction(const std::string& level) {
-  return fmt::format("frictionloss=\"{}\" solreffriction=\"{} 1\" solimpfriction=\"{} {} .001\"", level,
-                     kShortest, kHardest, kHardest);
 }
 
 std::string joint(const std::string& name, const MujocoDrive& d, std::size_t body, bool turns) {
@@ -48,41 +44,31 @@ std::string bodies(const ExportSource& s, const MujocoDrive& d) {
   return text + "  </worldbody>\n";
 }
 
-/// The gap: a limit of x1 − x2 on either side, as a spring and a damper that only push.
 std::string contact(const ExportSource& s, const MujocoDrive& d) {
   if (!d.has_load) return "";
-  const double mobility = d.contact_mobility(), place = d.locked ? d.load_place : 0.0;
-  const double half = std::max(d.half_gap, 1e-12);  // MuJoCo asks for a range
   std::string text = fmt::format(
-      "  <tendon>\n    <fixed name=\"{}_gap\" limited=\"true\" range=\"{} {}\"\n           solreflimit=\"{} "
-      "{}\" "
-      "solimplimit=\"{} {} .0001\">\n      <joint joint=\"{}_motor\" coef=\"1\"/>\n",
-      s.stem, place - half, place + half, -d.stiffness * mobility, -d.contact_damping * mobility, kSoftest,
-      kSoftest, s.stem);
+      "  <tendon>\n    <fixed name=\"{}_gap\" {}>\n      <joint joint=\"{}_motor\" coef=\"1\"/>\n", s.stem,
+      gap_limit(d), s.stem);
   if (!d.locked) text += fmt::format("      <joint joint=\"{}_load\" coef=\"-1\"/>\n", s.stem);
   return text + "    </fixed>\n  </tendon>\n";
 }
 
 std::string constant_torques(const ExportSource& s, const MujocoDrive& d) {
   std::string text;
-  for (std::size_t body = 0; body < 2; ++body)
-    if (d.constant[body] != 0.0)
-      text += fmt::format(
-          "    <general name=\"{0}_constant_{1}\" joint=\"{0}_{1}\" gainprm=\"0\" biastype=\"affine\" "
-          "biasprm=\"{2} "
-          "0 0\"/>\n",
-          s.stem, body == 0 ? "motor" : "load", d.constant[body]);
+  for (std::size_t body = 0; body < 2; ++body) {
+    if (d.constant[body] == 0.0) continue;
+    const std::string side = body == 0 ? "motor" : "load";
+    text += fmt::format("    <general name=\"{}_constant_{}\" {}/>\n", s.stem, side,
+                        constant_torque(s.stem + "_" + side, fmt::to_string(d.constant[body])));
+  }
   return text;
 }
 
 /// The drive first, unless it has a state: MuJoCo asks for those without one before those with.
 std::string actuators(const ExportSource& s, const MujocoDrive& d) {
-  std::string drive = fmt::format("    <general name=\"{0}_drive\" joint=\"{0}_motor\" gear=\"{1}\"", s.stem,
-                                  d.torque_constant);
-  if (d.lag > 0.0) drive += fmt::format(" dyntype=\"filter\" dynprm=\"{}\"", d.lag);
-  if (d.input_limit > 0.0)
-    drive += fmt::format(" ctrllimited=\"true\" ctrlrange=\"{} {}\"", -d.input_limit, d.input_limit);
-  drive += "/>\n";
+  const std::string drive =
+      fmt::format("    <general name=\"{0}_drive\" joint=\"{0}_motor\" gear=\"{1}\"{2}/>\n", s.stem,
+                  d.torque_constant, filter_and_range(d));
   const std::string constant = constant_torques(s, d);
   return "  <actuator>\n" + (d.lag > 0.0 ? constant + drive : drive + constant) + "  </actuator>\n";
 }
@@ -129,50 +115,6 @@ std::string heading(const ExportSource& s, const MujocoDrive& d, const std::stri
   if (d.friction[0] > 0.0 || (d.friction[1] > 0.0 && !d.locked))
     text += "     solreffriction is raised to two steps by MuJoCo, whatever the step is.\n";
   return text.insert(text.size() - 1, " -->");
-}
-
-/// What gravity asks of the user's own body; empty: it is right, or not known.
-std::string own_gravity(const ExportSource& s) {
-  constexpr double kShown = 1e-3;  // of a ratio, as far as it is written
-  const double fitted = effect_value(s, "load_unbalance", "amplitude_nm"), has = s.own->unbalance;
-  if (!(fitted > 0.0) || !(has > 0.0) || std::abs(fitted / has - 1.0) < kShown) return "";
-  return fmt::format(
-      "; gravity: {:.4g} instead of {:.4g} N m: the body's mass, or the distance of its centre from the "
-      "axis, "
-      "times {:.3f} (what inertia that adds about the axis: off the armature)",
-      fitted, has, fitted / has);
-}
-
-/// Of armature and body, behind the numbers to paste.
-std::string own_inertia(const ExportSource& s, const MujocoDrive& d) {
-  const std::string take_off =
-      "the armature is all the inertia: take off what your bodies have about the axis";
-  if (!s.own) return "; " + take_off + " (export --into MODEL --joint NAME does it)";
-  if (!std::isfinite(s.own->body_inertia))
-    return "; " + take_off + ", which " + s.own->model + " does not tell";
-  const double left = d.inertia[0] - s.own->body_inertia;
-  const std::string of = fmt::format("the {:.6g} about the axis that the body of {} has in {}",
-                                     s.own->body_inertia, s.own->joint, s.own->model);
-  if (left < 0.0)
-    return fmt::format("; {} is more than all of the inertia found ({:.6g}): make the body lighter by {:.6g}",
-                       of, d.inertia[0], -left);
-  return fmt::format("; the armature is all the inertia ({:.6g}) less {}", d.inertia[0], of);
-}
-
-/// What to change in a model that has these joints already.
-std::string own_file(const ExportSource& s, const MujocoDrive& d) {
-  const bool two = d.has_load && !d.locked;
-  const auto joint = [&](std::size_t body) {
-    const double friction = d.friction[body];
-    const bool known = body == 0 && s.own && std::isfinite(s.own->body_inertia);
-    const double armature = std::max(0.0, d.inertia[body] - (known ? s.own->body_inertia : 0.0));
-    return fmt::format("armature=\"{:.6g}\" damping=\"{:.6g}\" {}", armature, d.damping[body],
-                       friction > 0.0 ? dry_friction(fmt::format("{:.6g}", friction)) : "frictionloss=\"0\"");
-  };
-  std::string text = fmt::format("{}: {}; actuator: gear=\"{:.6g}\"", two ? "joint of the motor" : "joint",
-                                 joint(0), d.torque_constant);
-  if (two) text += "; joint of the load: " + joint(1);
-  return text + own_inertia(s, d) + (s.own ? own_gravity(s) : "");
 }
 
 std::string alone(const ExportSource& s, const MujocoDrive& d, double step) {

@@ -281,7 +281,7 @@ TEST(Mjcf, TellsTheArmatureBesideTheBodyThatAFileOfTheUsersOwnHas) {
   EXPECT_THAT(told(), HasSubstr("from the axis, times 1.250"));
   own.body_inertia = 0.001;
   EXPECT_THAT(told(), HasSubstr("armature=\"0\""));
-  EXPECT_THAT(told(), HasSubstr("make the body lighter by 0.000122"));
+  EXPECT_THAT(told(), HasSubstr("take 0.000122 off the body's own"));
 }
 
 TEST(Mjcf, TheFragmentIsAModelWhenItIsIncluded) {
