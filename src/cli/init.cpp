@@ -100,6 +100,14 @@ std::string options_turned_round(const InitArguments& a, const RecordingArgument
   return a.options + (a.options.empty() ? "" : " ") + "-o " + shell_word(other);
 }
 
+/// What brings a diagnosis back into the MJCF that it began with; empty: it began with none.
+std::string way_back(const InitArguments& a, const StarterKnowledge& known, const std::string& name) {
+  if (!known.nominal || !known.nominal->of_mjcf) return "";
+  const std::string report = shell_word("reports/" + name), into = shell_word(name + "_mjcf");
+  return fmt::format("{:<12}after diagnose: gapscope export {} --to mjcf -o {} --into {} --joint {}\n",
+                     "back", report, into, shell_word(a.from), shell_word(a.joint));
+}
+
 /// The name of an axis at the end of that which its report will have.
 std::string named_after(const std::string& axis, std::string yaml) {
   const auto end = yaml.find_first_of(" \n", yaml.find("\nname: ") + 7);
@@ -131,6 +139,7 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
              starter.guesses ? "fill in what is marked GUESS, then " : "",
              a.held_out.empty() ? "run" : "diagnose", shell_word(output),
              a.held_out.empty() ? "detect, fit, diagnose" : "run, detect, fit");
+  fmt::print("{}", way_back(a, known, read.name));
 }
 
 }  // namespace

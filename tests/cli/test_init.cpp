@@ -172,6 +172,8 @@ TEST(Init, TakesGravityOfAMuJoCoModelAndSaysWhatItLeavesAside) {
                                 "the input is in A, not in N m"));
   }
   EXPECT_THAT(init.out, HasSubstr("gapscope diagnose drive.yaml"));
+  EXPECT_THAT(init.out, HasSubstr("gapscope export reports/elbow --to mjcf -o elbow_mjcf --into robot.xml "
+                                  "--joint elbow\n"));
   EXPECT_EQ(place.run(from + "-o torque.yaml").status, 0);
   EXPECT_THAT(testing::text_of(place.folder() / "torque.yaml"), HasSubstr("torque_constant: 1  #"));
 }
