@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "cli/console.h"
+#include "gapscope/base/shell_word.h"
 
 namespace gapscope::cli {
 
@@ -18,6 +19,15 @@ std::vector<Setting> ConfigArguments::settings() const {
   if (!model_from.empty()) all = gapscope::model_from(model_from);
   for (const std::string& text : set) all.push_back(read_setting(text));
   return all;
+}
+
+ToldConfiguration ConfigArguments::told(const std::string& folder, const std::string& axis) const {
+  ToldConfiguration told{file};
+  for (const std::string& text : set) told.settings += " --set " + shell_word(text);
+  if (!axis.empty()) told.settings += " --axis " + shell_word(axis);
+  if (!model_from.empty()) told.model = " --model-from " + shell_word(model_from);
+  if (!folder.empty()) told.folder = " -o " + shell_word(folder);
+  return told;
 }
 
 void add_config_arguments(CommandLine& command, ConfigArguments& arguments, const char* name,

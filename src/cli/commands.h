@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/console.h"
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/whole_file.h"
 #include "gapscope/config/configuration.h"
@@ -57,6 +58,10 @@ struct ConfigArguments {
   std::string model_from = "";        ///< another configuration, whose model stands in place of this one's
 
   std::vector<Setting> settings() const;  ///< @throws ConfigError
+  /// As it is told in a command.
+  /// @param folder  of -o; empty: none was given
+  /// @param axis    of --axis; empty: none was given
+  ToldConfiguration told(const std::string& folder, const std::string& axis = "") const;
 };
 
 /// @param what  of the file in the help

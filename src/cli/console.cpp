@@ -116,6 +116,7 @@ std::string validation_line(const RunResult& r) {
 struct Placeholder {
   std::string_view word;
   const std::string& stands_for;  ///< empty: not known, the word stays
+  std::string options = "";       ///< that follow it, as a shell takes them
 };
 
 bool is_end(char c) { return c == ' ' || c == '`'; }
@@ -141,7 +142,8 @@ std::string filled_in(const std::string& text, std::span<const Placeholder> all)
       continue;
     }
     const std::size_t end = std::min(text.find_first_of(" `", at), text.size());
-    told += shell_word(p->stands_for + text.substr(at + p->word.size(), end - at - p->word.size()));
+    told +=
+        shell_word(p->stands_for + text.substr(at + p->word.size(), end - at - p->word.size())) + p->options;
     at = end;
   }
   return told;
@@ -149,13 +151,15 @@ std::string filled_in(const std::string& text, std::span<const Placeholder> all)
 
 /// What everybody wants to know, last: it is what stays in view.
 /// @param folder  of the report
-void print_card(const Card& card, const std::string& configuration, const std::string& folder) {
-  const Placeholder all[] = {{"DIR", folder}, {"CONFIG", configuration}};
+void print_card(const Card& card, const ToldConfiguration& c, const std::string& folder) {
   for (const CardLine& l : card.lines()) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool further = !card.diagnosed && &l.text == &card.place;
     const std::string text =
         further ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.text;
+    const bool goes_on = text.find(" --model-from ") != text.npos;  // and names a folder of its own
+    const Placeholder all[] = {{"DIR", folder},
+                               {"CONFIG", c.file, c.settings + (goes_on ? "" : c.model + c.folder)}};
     line(further ? "diagnosis" : l.name, filled_in(text, all));
   }
 }
@@ -194,7 +198,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
-void print_headline(const std::string& folder, const RunResult& r, const std::string& configuration) {
+void print_headline(const std::string& folder, const RunResult& r, const ToldConfiguration& configuration) {
   line("report", folder);
   if (r.model_free) line("model-free", model_free_line(*r.model_free, r.coordinates));
   if (r.model_free && r.model_free->lost_motion.read())
@@ -212,7 +216,8 @@ void print_headline(const std::string& folder, const RunResult& r, const std::st
   if (r.answer) print_card(r.answer->card, configuration, folder);
 }
 
-void print_diagnosis(const std::string& folder, const DiagnosisResult& r, const std::string& configuration) {
+void print_diagnosis(const std::string& folder, const DiagnosisResult& r,
+                     const ToldConfiguration& configuration) {
   const Diagnosis& d = r.diagnosis;
   line("report", folder);
   line("verdict", to_string(d.verdict));

@@ -24,11 +24,21 @@ void say(const char* what, const std::string& text);
 
 void print_warnings(const std::vector<std::string>& warnings);
 
+/// What stands for CONFIG in a command that is told, so that it does what this one did: each as a shell takes
+/// it, with a space before; empty where there is none.
+struct ToldConfiguration {
+  std::string file;           ///< as it was given
+  std::string settings = "";  ///< " --set KEY=VALUE ..."
+  std::string model = "";     ///< " --model-from FILE"
+  std::string folder = "";    ///< " -o DIR"
+};
+
 /// The headline of a run on standard output: the report, both estimates with intervals, and how they compare.
-void print_headline(const std::string& folder, const RunResult& result, const std::string& configuration);
+void print_headline(const std::string& folder, const RunResult& result,
+                    const ToldConfiguration& configuration);
 
 /// The answer of a diagnosis on standard output: the report, the verdict, the sentence and the place.
 void print_diagnosis(const std::string& folder, const DiagnosisResult& result,
-                     const std::string& configuration);
+                     const ToldConfiguration& configuration);
 
 }  // namespace gapscope::cli

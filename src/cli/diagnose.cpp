@@ -57,7 +57,7 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   write_diagnosis(report, c, a.figures, outcome);
   print_warnings(without(result.diagnosis.warnings, told));
   if (result.simulated) print_warnings(result.simulated->warnings);
-  print_diagnosis(folder, result, c.file);
+  print_diagnosis(folder, result, a.config.told(a.folder, a.axis));
   if (finish_requested()) throw ExitStatus{kInterruptedWithReport};
 }
 

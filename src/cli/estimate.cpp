@@ -38,7 +38,7 @@ void estimate(const EstimateArguments& a, const Configuration& c, const std::str
   progress("drawing the report");
   write_estimate(report, c, a.figures, outcome);
   print_warnings(outcome.warnings);
-  print_headline(folder, outcome.result, c.file);
+  print_headline(folder, outcome.result, a.config.told(a.folder));
 }
 
 std::string folder_of(const EstimateArguments& a, const Configuration& c) {

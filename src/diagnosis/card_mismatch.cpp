@@ -18,8 +18,10 @@ namespace {
 std::string fit_of_motion(const CardFacts& f) {
   if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
     return "Not measured, as no model was fitted.";
-  return fmt::format("A free run of the fitted model fits the motion to {:.4g} % (100 % is exact){}.",
-                     f.reference->fit_percent, f.reference->rejected() ? "; the model is rejected" : "");
+  const double percent = f.reference->fit_percent;
+  return fmt::format("A free run of the fitted model {} {:.4g} % (100 % is exact){}.",
+                     percent > 0.0 ? "fits the motion to" : "departs from the motion: fit", percent,
+                     f.reference->rejected() ? "; the model is rejected" : "");
 }
 
 /// "The model", "The model, which has motor Coulomb friction,".

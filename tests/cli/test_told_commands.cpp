@@ -50,6 +50,17 @@ TEST(ToldCommands, ARunSendsToTheDiagnosisInItsCardAlone) {
   EXPECT_EQ(times(run.out, "gapscope diagnose"), times(run.out, "`gapscope diagnose c.yaml`")) << run.out;
 }
 
+// A step that is pasted does what was done: with the settings and into the folder that were given.
+TEST(ToldCommands, ATerminalRepeatsTheOptionsThatWereGiven) {
+  Workplace place;
+  place.file("c.yaml", kRigWithFriction);
+  const auto run = place.run("run c.yaml --set simulation.seed=4 --set 'encoder={bits: 17}' -o 'my rig'");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out,
+              HasSubstr("`gapscope diagnose c.yaml --set 'simulation.seed=4' --set 'encoder={bits: 17}' "
+                        "-o 'my rig'`"));
+}
+
 TEST(ToldCommands, NoStandardErrorIsToldOfADifferenceThatHasNone) {
   Workplace place;
   place.file("c.yaml",
@@ -85,7 +96,8 @@ TEST(ToldCommands, FolderAndConfigurationStandInCommandsByTheirNames) {
               AllOf(HasSubstr("`'my report/fitted.yaml'`"), HasSubstr("export 'my report' --to"),
                     HasSubstr("-o 'my report_"), Not(HasSubstr("DIR"))));
   const auto run = place.run("run 'my drive.yaml' -o other");
-  EXPECT_THAT(run.out, AllOf(HasSubstr("`gapscope diagnose 'my drive.yaml'`"), Not(HasSubstr("CONFIG"))));
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("`gapscope diagnose 'my drive.yaml' -o other`"), Not(HasSubstr("CONFIG"))));
 }
 
 TEST(ToldCommands, TheHelpPromisesANextExperimentOnlyWhereThereIsOne) {
