@@ -111,8 +111,11 @@ std::string turned_words(const JointNumbers& own, const OwnBody& body) {
         "the axis, times {:.3f} (what inertia that adds about the axis: off the armature)",
         own.joint, std::remainder(body.found.phase - body.has.phase, 2.0 * kPi),
         body.found.size / body.has.size);
-  return fmt::format("{} tells no mass of the body of {} that gravity could turn about its axis", own.model,
-                     own.joint);
+  return fmt::format(
+      "no centre of the body of {} in {} has that: its axis is upright, gravity is off, or the mass of the "
+      "body "
+      "itself is not told there",
+      own.joint, own.model);
 }
 
 std::string own_gravity(const ExportSource& s, const MujocoDrive& d, const OwnBody& body) {

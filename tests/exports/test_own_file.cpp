@@ -142,9 +142,19 @@ TEST(OwnFile, TurnsWhatHangsWhereItsMassIsNotTold) {
   EXPECT_THAT(told(), HasSubstr("by 2 rad about its axis, and the mass, or its distance from the axis, times "
                                 "1.250"));
   own.unbalance = kNaN;
-  EXPECT_THAT(told(), HasSubstr("0.05 N m at phase 1 rad instead of none: arm.xml tells no mass"));
+  EXPECT_THAT(
+      told(),
+      HasSubstr(
+          "0.05 N m at phase 1 rad instead of none: no centre of the body of elbow in arm.xml has that"));
   EXPECT_THAT(export_drive(c, ExportFormat::kMjcf).certificate.own_file,
               HasSubstr("gravity: 0.05 N m at phase 1 rad: export --into MODEL"));
+}
+
+/// MuJoCo's default axis is z: about the vertical.
+TEST(OwnFile, SaysThatABodyAboutTheVerticalHasNoGravity) {
+  OwnMjcf own;
+  own.place = "";
+  EXPECT_THAT(told_for(own, hanging_drive(0.05, 1.0)), HasSubstr("its axis is upright"));
 }
 
 TEST(OwnFile, GivesAConstantTorqueFilterAndRangeOfTheActuator) {
