@@ -59,7 +59,7 @@ independent_plant::BlindDrive independent_drive(const SimulationConfig& s) {
   d.motor_inertia = p.motor_inertia;
   d.torque_constant = p.torque_constant;
   d.motor_damping = p.motor_damping;
-  d.load_inertia = p.motor_inertia * p.mass_ratio;
+  if (structure.has_load) d.load_inertia = p.motor_inertia * p.mass_ratio;
   d.load_damping = p.load_damping;
   d.load_coulomb = p.load_coulomb_friction;
   d.gap = p.gap;

@@ -90,6 +90,21 @@ TEST(RunPipeline, KnowsDataThatNoDriveMade) {
               ElementsAre("drive.csv, again.csv were made by `gapscope simulate`; no drive was measured."));
 }
 
+TEST(LoadRecordings, OfOneInertiaAreTheSameByBothPlants) {
+  const auto recorded = [](const std::string& plant) {
+    const std::string yaml = "encoder: {bits: 20}\nsimulation: {rate: 1000, duration: 1, plant: " + plant +
+                             ", excitation: {sine: {amplitude: 0.5, frequency: 1}}}\n"
+                             "model: {parameters: {motor_inertia: 8.78e-4, torque_constant: 0.172, "
+                             "motor_damping: 0.062, mass_ratio: 0}}\n";
+    return simulated_recording(parse_configuration(yaml, "one.yaml"));
+  };
+  const Recording one = recorded("simulator"), other = recorded("independent");
+  ASSERT_EQ(one.size(), other.size());
+  EXPECT_TRUE(other.x2.empty());
+  const double count = 2.0 * kPi / (1 << 20);  // both count; where the motion is between two, they may differ
+  for (std::size_t i = 0; i < one.size(); ++i) ASSERT_NEAR(one.x1[i], other.x1[i], 1.01 * count) << i;
+}
+
 TEST(LoadRecordings, NamesSourcesByTheirContent) {
   const Recorded recorded;
   const std::vector<FileHash> before = sources_of(recorded.configuration());
