@@ -83,6 +83,14 @@ FittedModel retry(const Study& study, const FittedModel& candidate, const Refere
   return best;
 }
 
+FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted) {
+  FitOptions given_alone = study.options.fit;
+  given_alone.starts = 1;
+  FittedModel other =
+      fit_nominal(study.train, with_drive(fitted.model, study.sheet), given_alone, study.observer_hz);
+  return other.mean_cost < fitted.mean_cost ? other : fitted;
+}
+
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
   for (const ModelEffect& e : model.effects)
     if (e.entry == &entry || contained_effect(*e.entry) == &entry) return false;

@@ -50,6 +50,12 @@ FittedModel on_drive_of(const Study& study, const FittedModel& candidate, const 
 /// hardly determine have drifted. Where none of that comes to the floor, also led by a faster observer.
 FittedModel retry(const Study& study, const FittedModel& candidate, const ReferenceModel& better);
 
+/// A fitted model once more from the given values of the drive, on growing parts of the recordings, with its
+/// effects as they were found; whichever leaves less. The numbers that a fit without the effects had led to
+/// may lie in another minimum than theirs, and a refinement on all of the recordings not lead from the given
+/// ones to it.
+FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted);
+
 /// Whether the effect can be added to this model at all: contact effects need a contact, backlash a drive
 /// without, and what the fit estimates anyway cannot be missing.
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/candidates.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/probability.h"
 #include "diagnosis/step.h"
@@ -144,6 +145,14 @@ void keep_wider(const Study& study, const Findings& found, std::size_t steps_bef
   judge_again(study, a.wider->nominal);
 }
 
+/// Where something is left of what was fitted another minimum may leave less.
+void leave_minimum(const Study& study, ScoredModel& model) {
+  if (at_floor(model) || model.fitted.mean_cost < kExplained) return;
+  FittedModel other = searched_from_sheet(study, model.fitted);
+  if (other.mean_cost < model.fitted.mean_cost)
+    model = judge(model.entry, std::move(other), study.held_out, study.observer_hz);
+}
+
 /// Forward from a candidate of the first step.
 Additions follow(Study study, const Findings& found, const ScoredModel& first,
                  std::vector<const EffectEntry*> group) {
@@ -152,6 +161,7 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
   a.effects = {{first.entry, std::move(group)}};
   std::optional<ScoredModel> narrow;  // the model so far, before half of what is held out was fitted
   std::size_t steps_before = 0;
+  leave_minimum(study, a.after);
   while (a.steps.size() + 1 < study.effort.most_effects && !at_floor(a.after) && !study.is_exhausted()) {
     a.explained = explained_without(study, a.after);
     if (a.explained) break;
@@ -172,6 +182,7 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
     drop_stand_ins(study, a);
     choose_among_look_alikes(study, a);
     take_simpler(study, a);
+    leave_minimum(study, a.after);
   }
   if (!narrow) return a;
   if (a.steps.size() > steps_before && a.steps[steps_before].decision.accepted)
