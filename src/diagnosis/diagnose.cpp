@@ -210,7 +210,8 @@ bool contradicted(const Findings& found, const Additions& added) {
 void require_driven(const Study& study, const ScoredModel& model) {
   if (const std::string left = motion_left(study.held_out, model); !left.empty())
     throw ConfigError(study.held_out.traces.front().file,
-                      "u does not move x1: " + left + ", expected the recording of a driven motion");
+                      "by this model u does not move x1: " + left +
+                          ", expected the recording of a driven motion, and a model that is nearer to it");
 }
 
 }  // namespace
