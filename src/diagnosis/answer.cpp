@@ -146,11 +146,10 @@ std::string lost_motion(const Findings& f) {
 
 /// Lost motion is no gap: the reader gets its limit in words.
 Answer play(const Findings& f) {
+  const std::string value = with_interval(f.model_free->gap, f.model_free->ci95, f.coordinates);
   Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
-  a.sentence =
-      "The play at zero torque" + std::string(kWhichGap) + " is " +
-      with_interval(f.model_free->gap, f.model_free->ci95, f.coordinates) +
-      ", measured without a model; friction and compliance contribute to it, so the gap is at most that.";
+  a.sentence = "The play at zero torque" + std::string(kWhichGap) + " is " + value +
+               ", without a model; friction and compliance contribute to it, so the gap is at most that.";
   const FittedParameter* gap = told_gap(f);
   if (gap == nullptr || gap->value > f.model_free->ci95.high) return a;
   Answer model = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);

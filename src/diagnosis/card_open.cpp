@@ -29,9 +29,10 @@ constexpr const char* kRemoves = "it removes ";
 std::string percent_of_share(double share) { return fmt::format("{:.0f}", 100.0 * share); }
 
 /// "torque ripple", "a free curve over the speed"
-std::string rival_words(const std::string& law) {
+std::string rival_words(const std::vector<std::string>& laws) {
   constexpr std::string_view kFree = "free_", kCurve = "_curve";
-  if (law.empty()) return "another torque";
+  if (laws.empty()) return "another torque";
+  const std::string& law = laws.front();
   if (!law.starts_with(kFree) || !law.ends_with(kCurve)) return readable(law);
   return "a free curve over the " + law.substr(kFree.size(), law.size() - kFree.size() - kCurve.size());
 }
@@ -49,7 +50,7 @@ std::string doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
                          percent_of_share(r.share_ci95.high));
     return r.last < conditions.least_share
                ? "what was added after it removes most of the same"
-               : rival_words(r.rival) + " would remove nearly as much in its place";
+               : rival_words(r.rivals) + " would remove nearly as much in its place";
   }
   return "";
 }

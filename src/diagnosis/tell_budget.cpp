@@ -43,7 +43,7 @@ BudgetRung rung_of(const view::Budget& budget, std::size_t i, const std::vector<
   rung.before = before_of(budget, i), rung.after = budget.rungs[i].rms;
   rung.share = choice.evidence.share;
   rung.share_ci95 = choice.evidence.interval;
-  rung.rival = rival_of(budget.rungs[i]);
+  if (std::string rival = rival_of(budget.rungs[i]); !rival.empty()) rung.rivals.push_back(std::move(rival));
   if (choice.law->line)
     rung.period = 2.0 * kPi / (choice.model.back().shape * std::max(1, choice.law->harmonic));
   if (const view::Share* share = share_of(budget, choice.model.back()))

@@ -13,18 +13,12 @@
 #include "results/json_archive.h"
 #include "results/last_resort_fields.h"
 #include "results/simulator_fields.h"
+#include "results/stored_mismatch_fields.h"
 
 /// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
 namespace gapscope::internal::results {
 
 inline constexpr const char* kDiagnosisSchema = "gapscope.diagnosis/2";
-
-/// A trace without its columns, which are in the trace file.
-struct StoredMismatch {
-  std::string trace;
-  int samples = 0, scored_from = 0;
-  MismatchTrace mismatch;
-};
 
 struct DiagnosisDocument {
   std::string schema = kDiagnosisSchema;
@@ -237,17 +231,6 @@ void fields(Archive& archive, MismatchPlace& p) {
   archive("periods_per_turn", p.periods_per_turn);
   MapsOf expected{p, &MapShare::expected};
   archive.single("expected", expected);
-}
-
-template <class Archive>
-void fields(Archive& archive, StoredMismatch& s) {
-  archive("file", s.mismatch.file);
-  archive("trace", s.trace);
-  archive("samples", s.samples);
-  archive("start_s", s.mismatch.start);
-  archive("dt_s", s.mismatch.dt);
-  archive("scored_from", s.scored_from);
-  encoder_side_field(archive, s.mismatch.encoder);
 }
 
 template <class Archive>

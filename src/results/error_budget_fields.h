@@ -18,7 +18,7 @@ void fields(Archive& archive, BudgetRung& r) {
   archive("share_alone", r.alone);
   archive("share_last", r.last);
   archive("period_rad", r.period);
-  archive.seldom("rival", r.rival);
+  archive.seldom("rivals", r.rivals);
 }
 
 template <class Archive>

@@ -92,9 +92,6 @@ class JsonWriter {
   void seldom(const char* key, std::vector<std::string>& values) {
     if (!values.empty()) (*this)(key, values);
   }
-  void seldom(const char* key, std::string& value) {
-    if (!value.empty()) (*this)(key, value);
-  }
   template <class Struct>
   void seldom(const char* key, std::optional<Struct>& value) {
     if (value) single(key, *value);
@@ -188,10 +185,6 @@ class JsonReader {
   void seldom(const char* key, std::vector<std::string>& values) {
     values.clear();
     if (json_.contains(key)) (*this)(key, values);
-  }
-  void seldom(const char* key, std::string& value) {
-    value.clear();
-    if (json_.contains(key)) (*this)(key, value);
   }
   template <class Struct>
   void seldom(const char* key, std::optional<Struct>& value) {

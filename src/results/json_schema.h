@@ -30,10 +30,6 @@ class SchemaWriter {
     (*this)(key, values);
     additions_.insert(key);
   }
-  void seldom(const char* key, std::string& value) {
-    (*this)(key, value);
-    additions_.insert(key);
-  }
   template <class Struct>
   void seldom(const char* key, std::optional<Struct>&) {
     Struct value{};

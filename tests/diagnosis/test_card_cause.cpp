@@ -168,9 +168,9 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
                                  "uncertain, 5 to 50 %)."));
   rung.share_ci95 = {0.3, 0.5};
   EXPECT_THAT(cause(), HasSubstr("input delay (another torque would remove nearly as much in its place)."));
-  rung.rival = "torque_ripple";
+  rung.rivals = {"torque_ripple"};
   EXPECT_THAT(cause(), HasSubstr("input delay (torque ripple would remove nearly as much in its place)."));
-  rung.rival = "free_speed_curve";
+  rung.rivals = {"free_speed_curve"};
   EXPECT_THAT(cause(),
               HasSubstr("delay (a free curve over the speed would remove nearly as much in its place)."));
   rung.last = 0.1;

@@ -20,8 +20,8 @@ struct Setting {
 Setting read_setting(const std::string& text);
 
 /// `model:` and `anchor:`, which goes where there is none, of another configuration, such as the
-/// `fitted.yaml` of a report. What the configuration that they are laid over estimates is estimated from their
-/// numbers on, and so are the effects that it does not have.
+/// `fitted.yaml` of a report. What the configuration that they are laid over estimates is estimated from
+/// their numbers on, and so are the effects that it does not have.
 /// @throws ConfigError where the file is none, or has no model
 std::vector<Setting> model_from(const std::string& file);
 

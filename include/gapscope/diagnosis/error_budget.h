@@ -19,7 +19,7 @@ struct BudgetRung {
   double alone = kNaN;                 ///< the share that it takes of the nominal model's residual
   double last = kNaN;                  ///< of the residual of all the others: what none of them can say
   double period = kNaN;                ///< of a torque that repeats with the motor's position [rad]
-  std::string rival = {};              ///< law that keeps its cause open; empty: none does
+  std::vector<std::string> rivals = {};  ///< laws that keep its cause open: they would remove nearly as much
 };
 
 /// The missing torque from the nominal model down to what no law explains, all as rms in one band
