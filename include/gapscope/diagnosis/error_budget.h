@@ -10,15 +10,15 @@ namespace gapscope {
 /// One rung of an error budget: a law that was added, jointly refitted with all before it, and what it takes
 /// of the missing torque.
 struct BudgetRung {
-  std::string law;                     ///< in the words of the budget
-  std::string effect;                  ///< of the catalogue; empty: it has none that says this
-  bool added = false;                  ///< to the model, as an effect
-  double before = kNaN, after = kNaN;  ///< rms of the missing torque [N m]
-  double share = kNaN;                 ///< 1 − (mean square after)/(before)
-  Interval share_ci95;                 ///< from blocks of held-out time
-  double alone = kNaN;                 ///< the share that it takes of the nominal model's residual
-  double last = kNaN;                  ///< of the residual of all the others: what none of them can say
-  double period = kNaN;                ///< of a torque that repeats with the motor's position [rad]
+  std::string law;                       ///< in the words of the budget
+  std::string effect;                    ///< of the catalogue; empty: it has none that says this
+  bool added = false;                    ///< to the model, as an effect
+  double before = kNaN, after = kNaN;    ///< rms of the missing torque [N m]
+  double share = kNaN;                   ///< 1 − (mean square after)/(before)
+  Interval share_ci95;                   ///< from blocks of held-out time
+  double alone = kNaN;                   ///< the share that it takes of the nominal model's residual
+  double last = kNaN;                    ///< of the residual of all the others: what none of them can say
+  double period = kNaN;                  ///< of a torque that repeats with the motor's position [rad]
   std::vector<std::string> rivals = {};  ///< laws that keep its cause open: they would remove nearly as much
 };
 
