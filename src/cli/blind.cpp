@@ -44,7 +44,7 @@ void say_handed_out(const BlindArguments& a) {
 
 void make(const BlindArguments& a) {
   const BlindConfig config = load_blind_config(a.config);
-  make_blind_check(config, a.cases, a.labels, a.threads, counted(progress_told(a.quiet), "made case"));
+  make_blind_check(config, a.cases, a.labels, a.threads, counted(progress_on_terminal(a.quiet), "made case"));
   say_handed_out(a);
 }
 
@@ -75,7 +75,7 @@ void add_make(CommandLine& blind) {
 
 void put_in(const BlindArguments& a) {
   const Configuration config = load_configuration(a.config);
-  const Progress progress = progress_told(a.quiet);
+  const Progress progress = progress_on_terminal(a.quiet);
   make_implanted_check(config, a.cases, a.labels, a.threads, counted(progress, "made case"), progress);
   say_handed_out(a);
 }
@@ -135,8 +135,8 @@ void add_seal(CommandLine& blind) {
 }
 
 void answer(const BlindArguments& a) {
-  const BlindAnswers answers =
-      answer_blind_check(a.cases, a.answers, a.threads, counted(progress_told(a.quiet), "answered case"));
+  const BlindAnswers answers = answer_blind_check(a.cases, a.answers, a.threads,
+                                                  counted(progress_on_terminal(a.quiet), "answered case"));
   say("answers", fmt::format("{} in {}", answers.cases.size(), a.answers));
   say("seal", answers.seal());
 }
@@ -196,7 +196,7 @@ void run_implants(const BlindArguments& a) {
   const Configuration config = load_configuration(a.config);
   const std::string folder = a.folder.empty() ? "reports/" + config.name : a.folder;
   ReportFolder report(folder, FolderKind::kBlind, {a.config});
-  const Progress progress = progress_told(a.quiet);
+  const Progress progress = progress_on_terminal(a.quiet);
   write_score(report, folder,
               run_implanted_check(config, folder, a.threads, counted(progress, "made case"),
                                   counted(progress, "answered case"), progress));
@@ -220,7 +220,7 @@ void add_whole(CommandLine& blind) {
     const BlindConfig config = load_blind_config(a->config);
     const std::string folder = a->folder.empty() ? "reports/" + config.name : a->folder;
     ReportFolder report(folder, FolderKind::kBlind, {a->config});
-    const Progress progress = progress_told(a->quiet);
+    const Progress progress = progress_on_terminal(a->quiet);
     write_score(report, folder,
                 run_blind_check(config, folder, a->threads, counted(progress, "made case"),
                                 counted(progress, "answered case")));

@@ -41,7 +41,7 @@ std::pair<std::uint64_t, std::uint64_t> seed_range(const std::string& text) {
 
 void make_drives(const DrivesArguments& a) {
   const auto [first, last] = seed_range(a.seeds);
-  const auto progress = progress_told(a.quiet);
+  const auto progress = progress_on_terminal(a.quiet);
   const std::uint64_t count = last - first + 1;
   write_random_drives(a.kind == "gap" ? RandomDriveKind::kGap : RandomDriveKind::kGapFree, first, last,
                       a.folder,

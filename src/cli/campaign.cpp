@@ -58,32 +58,29 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
-/// One line on a terminal that is written over and over, at most five times a second; in a log or a pipe
-/// a line each half minute.
+/// One line on a terminal that is written over and over, at most five times a second.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool quiet) : shown_(!quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
   ~ProgressLine() {
-    if (begun_ && terminal_) fmt::print(stderr, "\n");
+    if (begun_) fmt::print(stderr, "\n");
   }
   void operator()(const CampaignProgress& p) {
-    using namespace std::chrono_literals;
     const auto now = std::chrono::steady_clock::now();
-    const bool due = terminal_ ? !begun_ || p.done == p.runs || now - told_ >= 200ms : now - told_ >= kLogged;
-    if (!shown_ || !due) return;
+    const bool last = p.done == p.runs;
+    if (!shown_ || (!last && begun_ && now - told_ < std::chrono::milliseconds(200))) return;
     told_ = now;
     begun_ = true;
     const std::string left =
         p.fresh > 0 ? fmt::format(", {:.2f} runs/s, about {} left", p.rate(), duration(p.left_s())) : "";
-    fmt::print(stderr, "{}{:>5}  {} of {} runs{}{}{}", terminal_ ? "\r" : "", stopwatch(p.elapsed_s), p.done,
-               p.runs, left, p.failed > 0 ? fmt::format(", {} failed", p.failed) : "",
-               terminal_ ? "\033[K" : "\n");
+    fmt::print(stderr, "\r{:>5}  {} of {} runs{}{}\033[K", stopwatch(p.elapsed_s), p.done, p.runs, left,
+               p.failed > 0 ? fmt::format(", {} failed", p.failed) : "");
     std::fflush(stderr);
   }
 
  private:
-  bool shown_, terminal_, begun_ = false;
-  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+  bool shown_, begun_ = false;
+  std::chrono::steady_clock::time_point told_;
 };
 
 void dry_run(const CampaignConfig& c, const CampaignShard& shard, int threads) {

@@ -88,8 +88,7 @@ void add_work_options(CommandLine& command, int& threads, bool& quiet) {
   command.add_option("-j,--threads", threads, "threads (default: all cores); the results do not depend on it")
       .within(1, 1024)
       .value("N");
-  command.add_flag("--quiet", quiet,
-                   "no progress (as it comes on a terminal, a line each half minute in a log)");
+  command.add_flag("--quiet", quiet, "no progress");
 }
 
 }  // namespace gapscope::cli

@@ -7,11 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <span>
 #include <string_view>
 
-#include "cli/heartbeat.h"
 #include "gapscope/base/decimals.h"
 #include "gapscope/base/shell_word.h"
 
@@ -164,10 +162,6 @@ void print_card(const Card& card, const ToldConfiguration& c, const std::string&
   }
 }
 
-std::string progress_line(double seconds, const std::string& what) {
-  return fmt::format("{:>5}  {} ...\n", stopwatch(seconds), what);
-}
-
 }  // namespace
 
 std::string stopwatch(double seconds) {
@@ -176,19 +170,12 @@ std::string stopwatch(double seconds) {
                   : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
-Progress progress_told(bool quiet) {
+Progress progress_on_terminal(bool quiet) {
   using Clock = std::chrono::steady_clock;
-  if (quiet) return [](const std::string&) {};
-  if (isatty(STDERR_FILENO) == 0) {
-    const auto log = std::make_shared<Heartbeat>(kLogged, [](auto so_far, const std::string& what) {
-      const std::string told = progress_line(so_far.count(), what);  // whole, whoever else writes
-      [[maybe_unused]] const auto written = write(STDERR_FILENO, told.data(), told.size());
-    });
-    return [log](const std::string& what) { log->doing(what); };
-  }
+  if (quiet || isatty(STDERR_FILENO) == 0) return [](const std::string&) {};
   return [begin = Clock::now()](const std::string& what) {
     const std::chrono::duration<double> so_far = Clock::now() - begin;
-    fmt::print(stderr, "{}", progress_line(so_far.count(), what));
+    fmt::print(stderr, "{:>5}  {} ...\n", stopwatch(so_far.count()), what);
   };
 }
 

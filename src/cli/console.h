@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -12,12 +11,8 @@ namespace gapscope::cli {
 /// "1:05", "2:01:05": minutes or hours, minutes and seconds.
 std::string stopwatch(double seconds);
 
-/// Between two lines of progress where standard error is no terminal.
-inline constexpr std::chrono::seconds kLogged{30};
-
-/// Progress on standard error: the time since this call, and what is done. On a terminal every piece of work
-/// as it begins; in a log or a pipe one line each half minute, and none of what is done before.
-Progress progress_told(bool quiet);
+/// Progress on standard error, and only on a terminal: the time since this call, and what is done.
+Progress progress_on_terminal(bool quiet);
 
 /// One line of an answer on standard output.
 void say(const char* what, const std::string& text);

@@ -44,7 +44,7 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = a.threads;
-  options.progress = progress_told(a.quiet);
+  options.progress = progress_on_terminal(a.quiet);
   std::vector<std::string> told;
   const auto tell = [&](const std::string& warning) {
     print_warnings({warning});

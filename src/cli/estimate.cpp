@@ -33,7 +33,7 @@ struct EstimateArguments {
 void estimate(const EstimateArguments& a, const Configuration& c, const std::string& folder,
               const Estimators& wanted) {
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
-  const Progress progress = progress_told(a.quiet);
+  const Progress progress = progress_on_terminal(a.quiet);
   RunOutcome outcome = make_estimate(c, wanted, progress);
   progress("drawing the report");
   write_estimate(report, c, a.figures, outcome);

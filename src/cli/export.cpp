@@ -33,7 +33,7 @@ void say_parts(const char* what, Fidelity fidelity, const Certificate& c) {
 
 void export_configuration(const ExportArguments& a, const Configuration& c) {
   ReportFolder report(a.folder, FolderKind::kExport, source_paths(c));
-  progress_told(a.quiet)("exporting " + c.name);
+  progress_on_terminal(a.quiet)("exporting " + c.name);
   std::optional<JointNumbers> own;
   if (!a.into.empty()) own = joint_numbers(a.into, a.joint);
   DriveExport drive = export_drive(c, export_format(a.format), own);

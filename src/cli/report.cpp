@@ -88,7 +88,7 @@ void add_report(CommandLine& app) {
   command.action([arguments] {
     if (!std::filesystem::is_directory(arguments->folder))
       throw ConfigError(arguments->folder, "there is no such folder, expected the folder of a report");
-    progress_told(arguments->quiet)("drawing " + arguments->folder);
+    progress_on_terminal(arguments->quiet)("drawing " + arguments->folder);
     redraw(arguments->folder, arguments->figures);
     fmt::print("{:<12}{}\n", "report", arguments->folder);
   });

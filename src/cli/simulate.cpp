@@ -27,7 +27,7 @@ void simulate_to_file(const SimulateArguments& a, const Configuration& c) {
   if (!c.simulation)
     throw ConfigError(c.file, "there is no simulation, expected simulation: to make data from");
   require_file_name(a.file, source_paths(c), is_made_by_simulate);
-  const Progress progress = progress_told(a.quiet);
+  const Progress progress = progress_on_terminal(a.quiet);
   progress("simulating " + c.name);
   const Recording r = simulated_recording(c);
   stop_point();
