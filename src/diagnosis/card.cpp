@@ -115,6 +115,11 @@ std::string step_of_the_answer(const CardFacts& f) {
   return "";
 }
 
+std::string other_motion(const Diagnosis& d) {
+  const bool one_way = d.where.headline.find("motion was recorded") != std::string::npos;
+  return one_way ? "both directions, other speeds, other loads" : "other speeds, other loads";
+}
+
 /// Where effects were added: to use them, unless too much is left.
 std::string step_of_the_model(const CardFacts& f, const Card& card) {
   if (std::string left = unexplained(f, card); !left.empty()) return left;
@@ -125,9 +130,9 @@ std::string step_of_the_model(const CardFacts& f, const Card& card) {
           : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
                                : ", which predicts better with it, established or not") +
          "; " + export_words(f) +
-         (d.verdict == DiagnosisVerdict::kHelps
-              ? " To settle the cause, record another motion (other speeds, other loads) and hold that out."
-              : "");
+         (d.verdict == DiagnosisVerdict::kHelps ? " To settle the cause, record another motion (" +
+                                                      other_motion(d) + ") and diagnose again with that."
+                                                : "");
 }
 
 std::string next_line(const CardFacts& f, const Card& card) {

@@ -113,7 +113,8 @@ std::string outside_words(const CardFacts& f) {
 std::string share_words(const AddedEffect& a, const CardFacts& f) {
   if (!std::isfinite(a.shrink)) return "";
   if (a.share_of == ShareOf::kMotion)
-    return fmt::format("cuts the {} by {} %", motion_error(*f.diagnosis), percent_of_shrink(a.shrink));
+    return fmt::format("cuts {}the {} by {} %", &a == f.diagnosis->added.data() ? "" : "what is left of ",
+                       motion_error(*f.diagnosis), percent_of_shrink(a.shrink));
   const auto& rungs = f.diagnosis->budget.rungs;
   const auto at = std::find_if(rungs.begin(), rungs.end(), [&](const BudgetRung& r) {
     return r.effect == a.effect && !(std::abs(r.after - a.after_torque) > 0.0);
@@ -154,9 +155,12 @@ std::string fall_of_motion(const CardFacts& f) {
                      m.measure.empty() ? "" : " (" + m.measure + ")");
 }
 
+/// Whether the size in torque tells what is left: of windows that rest in their median it is none.
+bool tells_torque(const Card& card) { return std::isfinite(card.torque) && card.torque_after > 0.0; }
+
 /// "from 9.66 to 1.22 N (17.1 % to 2.16 % of what the input applies)"
 std::string fall(const CardFacts& f, const Card& card) {
-  if (std::isfinite(card.torque) && std::isfinite(card.torque_after)) {
+  if (tells_torque(card)) {
     const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
     return fmt::format("from {} to {} ({})", torque.number(card.torque), torque(card.torque_after),
                        percents(f, card));
@@ -164,36 +168,14 @@ std::string fall(const CardFacts& f, const Card& card) {
   return fall_of_motion(f);
 }
 
-/// Whether the torque that is told has an effect in it.
-bool is_counted(const AddedEffect& a, const Diagnosis& d) { return !contains(d.budget.uncounted, a.effect); }
-
-std::vector<std::string> told_effects(const std::vector<const AddedEffect*>& all, const CardFacts& f) {
-  std::vector<std::string> told;
-  for (const AddedEffect* a : all) told.push_back(with_asides(*a, f, f.diagnosis->added.size() > 1));
-  return told;
-}
-
 std::string shares(const CardFacts& f, const Card& card) {
-  std::vector<const AddedEffect*> counted, others;
+  std::vector<std::string> told;
   for (const AddedEffect& a : f.diagnosis->added)
-    (is_counted(a, *f.diagnosis) ? counted : others).push_back(&a);
-  std::string text;
-  if (!counted.empty())
-    text = fmt::format("{} {} the {} down {}", enumerated(told_effects(counted, f)),
-                       counted.size() > 1 ? "bring" : "brings",
-                       std::isfinite(card.torque) ? "missing " + std::string(f.coordinates.torque_word())
-                                                  : motion_error(*f.diagnosis),
-                       fall(f, card));
-  if (others.empty()) return text;
-  const MismatchSize& m = f.diagnosis->mismatch;
-  const std::string whole = counted.empty() && std::isfinite(m.before) && m.after < m.before
-                                ? fmt::format("{} the {} down {}", others.size() > 1 ? "bring" : "brings",
-                                              motion_error(*f.diagnosis), fall_of_motion(f))
-                                : std::string(others.size() > 1 ? "help" : "helps") + " the simulated motion";
-  const bool several = others.size() > 1;
-  return fmt::format("{}{}{} {}; the torque balance, which ends at {:.3g} Hz, does not show {}", text,
-                     text.empty() ? "" : "; ", enumerated(told_effects(others, f)), whole,
-                     f.diagnosis->budget.band_hz, several ? "them" : "it");
+    told.push_back(with_asides(a, f, f.diagnosis->added.size() > 1));
+  return fmt::format(
+      "{} {} the {} down {}", enumerated(told), told.size() > 1 ? "bring" : "brings",
+      tells_torque(card) ? "missing " + std::string(f.coordinates.torque_word()) : motion_error(*f.diagnosis),
+      fall(f, card));
 }
 
 /// Whether each effect has the torque that it leaves, and the last one that of the fitted model.

@@ -60,16 +60,15 @@ std::string error_size(const CardFacts& f) {
 /// the encoder's noise: it is the drive's where it is clearly more.
 std::string torque_floor(const CardFacts& f, const Card& card) {
   const ErrorBudget& b = f.diagnosis->budget;
-  const double floor = b.exists() ? b.floor() : kNaN;
+  const double floor = b.exists() && b.uncounted.empty() ? b.floor() : kNaN;
   if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
-  if (b.records >= floor && !b.uncounted.empty()) return "";  // what the balance lacks makes them disagree
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
   if (b.records >= floor)
     return "; " + size + " of this differs between the recordings (or parts of one), so no model removes it";
   return "; no model can get below " + size +
          (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
-              ? ", by which the drive does not repeat itself"
+              ? ", by which the drive itself differs from period to period"
               : ", the encoder's noise");
 }
 
@@ -81,8 +80,9 @@ std::string floor_words(const CardFacts& f, const Card& card) {
   if (f.diagnosis->verdict != DiagnosisVerdict::kNone || !(m.before > 0.0 && m.floor > 0.0)) return "";
   return fmt::format("; that is noise: the error of the simulated motion is {} times {}",
                      SharedUnit(1.0, "").number(m.before / m.floor),
-                     m.floor_from == FloorSource::kRepeatability ? "that by which the drive repeats itself"
-                                                                 : "the encoder's own");
+                     m.floor_from == FloorSource::kRepeatability
+                         ? "that by which the drive itself differs from period to period"
+                         : "the encoder's noise");
 }
 
 std::string additions_below(const CardFacts& f) {
@@ -128,7 +128,9 @@ std::string mismatch_words(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr) return fit_of_motion(f);
   const bool torque = std::isfinite(card.torque);
   return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f, card) + "." +
-         (torque && f.constant_guessed ? " Its unit rests on torque_constant, a guess." : "") +
+         (torque && f.constant_guessed
+              ? " All torques here rest on torque_constant, a guess; percentages do not."
+              : "") +
          whole_run_words(f) + closed_loop_words(f);
 }
 

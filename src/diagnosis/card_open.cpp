@@ -75,7 +75,7 @@ std::string which_is_open(const std::vector<std::string>& group) {
 
 std::string least_of_a_cause(const std::vector<std::string>& why) {
   if (std::ranges::none_of(why, [](const std::string& w) { return w.starts_with(kRemoves); })) return "";
-  return fmt::format(" A cause has to remove {} %.",
+  return fmt::format(" {} % would establish it.",
                      percent_of_share(torque_view::TorqueViewOptions{}.least_share));
 }
 
@@ -136,7 +136,8 @@ std::string unexplained(const CardFacts& f, const Card& card) {
                                  [&](const AddedEffect& a) { return a.after_torque < card.torque; });
   const bool most =
       card.torque_after > card.torque - card.torque_after && card.torque_after > kRule.floor_ratio * floor;
-  if (!(sized && floor > 0.0 && (most || card.torque_after > kRule.far * floor))) return "";
+  if (!(b.uncounted.empty() && sized && floor > 0.0 && (most || card.torque_after > kRule.far * floor)))
+    return "";
   return fmt::format(
       "Do not rely on `DIR/fitted.yaml` yet: {} of the input's {} is unexplained with all that was found "
       "({:.2g} times the least that a model could reach). Record another motion (other speeds, other loads), "

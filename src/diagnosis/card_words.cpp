@@ -119,7 +119,7 @@ std::string export_words(const CardFacts& f) {
   std::vector<std::string> names;
   for (const std::string& effect : f.uncarried) names.push_back(readable(effect));
   return "no format of `gapscope export` carries " + (names.empty() ? "all of it" : enumerated(names)) +
-         " in full; the certificate beside an export states its error.";
+         " in full; the certificate of an export states the error that this makes.";
 }
 
 std::string without_asides(std::string text) {

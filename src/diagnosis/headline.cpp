@@ -35,12 +35,12 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
 
 /// Of the one in which it is denser than the time that it takes, be it the smaller share; where neither is,
 /// what depends on the direction can differ by its sign only.
-std::string direction_words(const std::vector<MapShare>& direction, bool reverses) {
+std::string direction_words(const std::vector<MapShare>& direction, bool reverses, bool explained) {
   const auto dense = std::find_if(direction.begin(), direction.end(), denser_than_chance);
   const bool alike = dense == direction.end();
   const std::string words =
       alike || reverses ? "reverses with the direction of motion" : "depends on the direction of motion";
-  if (alike) return words;
+  if (alike || explained) return words;
   if (!(dense->share < 1.0)) return words + ", all of it " + dense->bin;
   const double here = dense->share / dense->expected, there = (1.0 - dense->share) / (1.0 - dense->expected);
   return fmt::format("{}, {:.2g} times as large {} (rms)", words, std::sqrt(here / there), dense->bin);
@@ -58,12 +58,12 @@ std::string angle_words(const MismatchPlace& p, Coordinates coordinates) {
 }
 
 std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coordinates coordinates,
-                          bool reverses) {
+                          bool reverses, bool explained) {
   switch (pattern) {
     case ResidualPattern::kAngle:
       return angle_words(p, coordinates);
     case ResidualPattern::kDirection:
-      return direction_words(p.direction, reverses);
+      return direction_words(p.direction, reverses, explained);
     case ResidualPattern::kSpeed:
       return fmt::format("depends on the speed (largest at {})", range_words(largest(p.speed).bin));
     case ResidualPattern::kInput:
@@ -124,12 +124,12 @@ std::string one_way_words(const std::vector<MapShare>& direction) {
   return "";
 }
 
-std::string headline_of(const MismatchPlace& place, Coordinates coordinates, bool reverses) {
+std::string headline_of(const MismatchPlace& place, Coordinates coordinates, bool reverses, bool explained) {
   std::string patterns;
   const std::string one_way = one_way_words(place.direction);
   for (const ResidualPattern pattern : place.follows) {
     if (pattern == ResidualPattern::kDirection && !one_way.empty()) continue;  // nothing to compare with
-    const std::string words = pattern_words(pattern, place, coordinates, reverses);
+    const std::string words = pattern_words(pattern, place, coordinates, reverses, explained);
     const char* const joint = patterns.find(',') == patterns.npos ? " and " : ", and ";
     patterns += patterns.empty() || words.empty() ? words : joint + words;
   }

@@ -33,6 +33,8 @@ std::string one_way_words(const std::vector<MapShare>& direction);
 
 /// The place of a mismatch in words.
 /// @param reverses  whether its means forward and backward have opposite signs
-std::string headline_of(const MismatchPlace& place, Coordinates coordinates, bool reverses = true);
+/// @param explained by an effect: then how it is spread over the directions is the motion's
+std::string headline_of(const MismatchPlace& place, Coordinates coordinates, bool reverses = true,
+                        bool explained = false);
 
 }  // namespace gapscope::internal::diagnosis

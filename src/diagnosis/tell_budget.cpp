@@ -128,6 +128,7 @@ void tell_budget(const Study& study, const view::Budget& budget, Diagnosis& d) {
   told.records = study.train.size() + study.held_out.traces.size() > 1 ? budget.floors.disagreement() : kNaN;
   for (std::size_t i = 0; i < budget.rungs.size(); ++i)
     if (budget.rungs[i].helps) told.rungs.push_back(rung_of(budget, i, d.effects));
+  if (!told.uncounted.empty()) return;  // the observer's residual has them all
   d.mismatch.before_torque = told.nominal, d.mismatch.after_torque = told.with_effects;
   d.mismatch.floor_torque = told.floor(), d.mismatch.input_torque = told.input;
 }

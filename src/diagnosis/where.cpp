@@ -246,7 +246,7 @@ MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.phase = densest_phase(place.mode);
   place.follows = followed_patterns(patterns_of(samples, moving, place, line_explained), effect);
-  place.headline = headline_of(place, coordinates, reverses(moving));
+  place.headline = headline_of(place, coordinates, reverses(moving), effect != nullptr);
   return place;
 }
 

@@ -11,7 +11,8 @@ namespace gapscope::internal::diagnosis {
 /// does, or nothing was added.
 std::string doubt_of_motion(const Diagnosis& diagnosis);
 
-/// The same in brief and without its numbers: " by the torque balance alone (the free run cannot tell)".
+/// The same in brief and without its numbers: " by the torque balance alone (the free run, restarted
+/// again and again, does not confirm it)".
 std::string brief_doubt_of_motion(const Diagnosis& diagnosis);
 
 /// A share of the error above the floor in per cent: below the floor nothing more can shrink.

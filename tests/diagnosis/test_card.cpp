@@ -124,8 +124,9 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
               EndsWith("input applies; no model can get below 0.72 N, the encoder's noise."));
   d.budget.repeatability = 1.2;
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("no model can get below 1.2 N, by which the drive does not repeat itself."));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).mismatch,
+      EndsWith("no model can get below 1.2 N, by which the drive itself differs from period to period."));
   d.budget.repeatability = 3.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch, Not(HasSubstr("no model can get below")))
       << "the model with what was added is below";
@@ -148,7 +149,7 @@ TEST(Card, SaysWhereMostLikelyNothingOfTheCatalogueIsTheCause) {
               StartsWith("Simulate with `DIR/fitted.yaml`, which predicts best with all of these"));
   EXPECT_THAT(card.next,
               EndsWith("To settle the cause, record another motion (other speeds, other loads) and "
-                       "hold that out."));
+                       "diagnose again with that."));
   d.added.back().established = true;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause, Not(HasSubstr("ost likely")));
   d.added.back().established = false;

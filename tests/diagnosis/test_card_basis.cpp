@@ -42,7 +42,8 @@ TEST(CardBasis, WhatRoundsToZeroHasNoSign) {
 TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
   const Diagnosis d = by_balance(0.46, {-2.57, 0.83});
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause,
-              StartsWith("Established by the torque balance alone (the free run cannot tell): motor Coulomb "
+              StartsWith("Established by the torque balance alone (the free run, restarted again and again, "
+                         "does not confirm it): motor Coulomb "
                          "friction. "));
   EXPECT_THAT(
       internal::diagnosis::sentence_of(d, Coordinates()),
@@ -50,9 +51,9 @@ TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
   const Diagnosis shown = by_balance(0.9, {0.59, 1.0});
   EXPECT_THAT(card_of(facts_of(nullptr, &shown)).cause, StartsWith("Established: motor Coulomb friction. "));
   const Diagnosis at_floor = by_balance(kNaN, {});
-  EXPECT_THAT(
-      card_of(facts_of(nullptr, &at_floor)).cause,
-      StartsWith("Established by the torque balance alone (the free run cannot tell): motor Coulomb "));
+  EXPECT_THAT(card_of(facts_of(nullptr, &at_floor)).cause,
+              StartsWith("Established by the torque balance alone (the free run, restarted again and again, "
+                         "does not confirm it): motor Coulomb "));
   EXPECT_THAT(
       internal::diagnosis::sentence_of(at_floor, Coordinates()),
       HasSubstr("(established by the torque balance alone; the free run, near its floor, cannot tell)"));

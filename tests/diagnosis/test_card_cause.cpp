@@ -161,8 +161,8 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   d.budget.rungs = {{"input_delay", "input_delay", true, 0.04, 0.037, 0.14, {0.11, 0.2}, 0.2, 0.3}};
   BudgetRung& rung = d.budget.rungs.front();
   const auto cause = [&] { return card_of(d).cause; };
-  EXPECT_THAT(cause(), HasSubstr("helps: input delay (it removes 14 % of the mean square that was left). A "
-                                 "cause has to remove 20 %."));
+  EXPECT_THAT(cause(), HasSubstr("helps: input delay (it removes 14 % of the mean square that was left). 20 "
+                                 "% would establish it."));
   rung.share = 0.4, rung.share_ci95 = {0.05, 0.5};
   EXPECT_THAT(cause(), HasSubstr("input delay (how much of the mean square that was left it removes is "
                                  "uncertain, 5 to 50 %)."));
@@ -181,7 +181,7 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   EXPECT_THAT(
       cause(),
       HasSubstr("friction (it removes 10 % of the mean square that was left) and input delay (it removes "
-                "14 % of the mean square that was left). A cause has to remove 20 %."));
+                "14 % of the mean square that was left). 20 % would establish it."));
 }
 
 TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {

@@ -13,8 +13,10 @@ struct FrictionAsymmetry {
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
-      {"coulomb_ratio", "-", 0.0, -0.99, 0.99, Scale::kLevel, false, "of the mean friction, moving forward"},
-      {"viscous_ratio", "-", 0.0, -0.99, 0.99, Scale::kOne, false, "of the mean damping, moving forward"}};
+      {"coulomb_ratio", "-", 0.0, -0.99, 0.99, Scale::kLevel, false,
+       "of the mean friction forward, the opposite backward"},
+      {"viscous_ratio", "-", 0.0, -0.99, 0.99, Scale::kOne, false,
+       "of the mean damping forward, the opposite backward"}};
   static constexpr std::array<const char*, 2> look_alikes = {"constant_load_torque", "load_unbalance"};
   static constexpr ResidualPattern follows = ResidualPattern::kDirection;
   static constexpr const char* contains = "motor_coulomb_friction";
