@@ -1,13 +1,13 @@
 #include "sliding_mode/turn.h"
 
 #include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
+
+#include "gapscope/base/statistics.h"
+#include "sliding_mode/shared_law.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
-
-constexpr int kSteps = 20;  ///< of the search; each ends within a fraction of what was left
 
 /// The sample in one direction from which on x1 is that far from its extremum, or the last one there is.
 std::size_t away(const MotorTrace& trace, std::size_t from, int step, double way) {
@@ -24,10 +24,10 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
   const std::size_t begin = away(trace, first, -1, way), end = away(trace, last, 1, way);
   const auto rows = static_cast<Eigen::Index>(end - begin + 1);
   Eigen::Matrix<double, Eigen::Dynamic, 5> A(rows, 5);
-  if (rows < 3 * A.cols()) return middle;
+  if (end - begin < SharedLaw::kFewestRows) return middle;
   const double half = 0.5 * static_cast<double>(end - begin);  // columns of like size
   double turn = middle;
-  for (int k = 0; k < kSteps; ++k) {
+  for (double before = kInfinity;;) {
     for (Eigen::Index r = 0; r < rows; ++r) {
       const double t = (static_cast<double>(begin) + static_cast<double>(r) - turn) / half;
       A.row(r) << 1.0, t, t * t, t * std::abs(t), t * t * t;
@@ -35,10 +35,10 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
     const Eigen::Matrix<double, 5, 1> c =
         A.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(&trace.x1[begin], rows));
     const double step = -c(1) / (2.0 * c(2)) * half;
-    if (!std::isfinite(step)) return middle;
-    turn += std::clamp(step, -0.5 * half, 0.5 * half);
-    if (turn < static_cast<double>(begin) || turn > static_cast<double>(end)) return middle;
-    if (std::abs(step) < 1e-3) break;
+    if (!(std::abs(step) < before)) break;  // as near as the numbers tell, or nowhere
+    before = std::abs(step);
+    turn += step;
+    if (!(turn >= static_cast<double>(begin) && turn <= static_cast<double>(end))) return middle;
   }
   const double stay = static_cast<double>(last - first) + 1.0;
   return std::abs(turn - middle) <= stay ? turn : middle;

@@ -8,24 +8,39 @@
 namespace gapscope {
 namespace {
 
+constexpr double kStep = 1e-3;                    // between samples [s]
+constexpr double kArrival = 38.0, kLeave = 21.0;  // acceleration before and after the turn [rad/s²]
+
 /// x1 = ½ a t² about `turn`, a different one on either side, as an encoder of that quantum reads it.
 MotorTrace kinked_parabola(double turn, double quantum, std::vector<double>& x1) {
   for (int i = 0; i < 400; ++i) {
-    const double t = 1e-3 * (i - turn);
-    x1.push_back(quantum * std::round(0.5 * (t < 0.0 ? 38.0 : 21.0) * t * t / quantum));
+    const double t = kStep * (i - turn);
+    x1.push_back(quantum * std::round(0.5 * (t < 0.0 ? kArrival : kLeave) * t * t / quantum));
   }
-  return {"turn", 0.0, 1e-3, x1, x1, quantum};
+  return {"turn", 0.0, kStep, x1, x1, quantum};
+}
+
+/// Standard deviation of the instant [samples], by the roundings alone: the speed at the middle of n samples
+/// over ±h, fitted beside t|t| and t³, has √300·σ/(h·√n) (the first entry of the inverse of their Gram matrix
+/// 1/(i + j + 1), i, j = 1 … 3, is 300), and turns by the mean acceleration.
+double rounding_of_turn(double quantum, double way) {
+  const double stretch = std::sqrt(2.0 * way / kArrival) + std::sqrt(2.0 * way / kLeave);
+  const double speed = std::sqrt(300.0 / (stretch / kStep)) * quantum / std::sqrt(12.0) / (0.5 * stretch);
+  return speed / (0.5 * (kArrival + kLeave)) / kStep;
 }
 
 TEST(TurnTime, IsToldToAFractionOfASampleThoughTheAccelerationSteps) {
+  constexpr double kQuantum = 1e-4, kWay = 5e-3;
+  const double late = std::sqrt(kQuantum / kLeave) / kStep;  // half a count from the turn [samples]
   for (const double turn : {200.0, 200.3, 200.8}) {
     std::vector<double> x1;
-    const MotorTrace trace = kinked_parabola(turn, 1e-4, x1);
+    const MotorTrace trace = kinked_parabola(turn, kQuantum, x1);
     std::size_t first = 399, last = 0;
     for (std::size_t i = 0; i < x1.size(); ++i)
       if (!(x1[i] > 0.0)) first = std::min(first, i), last = i;
-    EXPECT_NEAR(internal::sliding_mode::turn_time(trace, first, last, 5e-3), turn, 0.25);
-    EXPECT_GT(static_cast<double>(last) - turn, 1.0) << "the last sample at the extremum is late";
+    EXPECT_NEAR(internal::sliding_mode::turn_time(trace, first, last, kWay), turn,
+                3.0 * rounding_of_turn(kQuantum, kWay));
+    EXPECT_GT(static_cast<double>(last) - turn, late - 1.0) << "the last sample at the extremum is late";
   }
 }
 
