@@ -65,5 +65,20 @@ TEST(TurnTime, TheStepOfTheMotorsFrictionIsNoLossOfContact) {
   }
 }
 
+/// A heavy load coasts on, and the motor stands still in the gap for a tenth of a second: the torque pushes
+/// it back towards the load, but by less than its own friction, which shows no load there.
+TEST(TurnTime, AMotorThatItsOwnFrictionHoldsInTheGapIsNotAtItsLoad) {
+  TestDrive drive{.m1 = 8.78e-4, .m2 = 5.2e-3, .Km = 1.0, .d1 = 0.0364, .d2 = 0.0083};
+  drive.Fc1 = 0.0203, drive.Fc2 = 0.0183, drive.k = 82.0, drive.c = 0.05, drive.gap = 0.01077;
+  TestEncoder encoder;
+  encoder.rate = 1000.0, encoder.duration = 15.0, encoder.noise = 0.5, encoder.step = 1e-5;
+  const TestRecording recording = record(drive, sine(0.0744, 0.735), encoder);
+  const MotorTrace trace = recording.trace();
+  const GapEstimate g = detect_gap({&trace, 1});
+  if (g.verdict != GapVerdict::kBacklash) return;
+  EXPECT_LE(g.ci95.low, drive.gap);
+  EXPECT_GE(g.ci95.high, drive.gap);
+}
+
 }  // namespace
 }  // namespace gapscope
