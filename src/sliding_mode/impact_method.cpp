@@ -7,6 +7,7 @@
 #include "sliding_mode/coasting.h"
 #include "sliding_mode/passages.h"
 #include "sliding_mode/pooled_flights.h"
+#include "sliding_mode/pushed_load.h"
 #include "sliding_mode/visible_gap.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -50,6 +51,7 @@ void search(const MotorTrace& trace, ImpactAnalysis& a) {
   a.finest_gap = smallest_visible_gap(trace, a.facts, a.run, a.sliding);
   read_passages(trace, marks, events, a);
   read_coasting(trace, a.facts, a.repeats, a.passages);
+  refuse_pushed_loads(trace, a.facts, a.passages);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // Random drives of the independent plant for the detector: how often it answers, how well, and how honest its
 // intervals are.  study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]
-// [wide] [frozen] [rubs]: wide: other contacts, torques and lengths; frozen: as a stream, which learns from
-// the first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of the torque's amplitude
+// [wide] [frozen] [rubs] [pushed]: wide: other contacts, torques and lengths; frozen: as a stream, which
+// learns from the first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of the torque's
+// amplitude; pushed: the load has an unbalance of 0.5 to 5 times its dry friction
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,15 +44,22 @@ double median_coasting(const independent_plant::BlindTruth& truth) {
   return shares.empty() ? 0.0 : median(std::move(shares));
 }
 
+/// What the drive has beside the laws of random_drive().
+struct Extras {
+  bool rubs = false, pushed = false;
+};
+
 Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform waveform,
-            independent_plant::DriveLaws laws, bool rubs, const DetectorOptions& options) {
+            independent_plant::DriveLaws laws, const Extras& extras, const DetectorOptions& options) {
   independent_plant::BlindCase c =
       with_gap ? independent_plant::random_drive(seed, waveform, laws)
                : independent_plant::random_gap_free_drive(
                      seed, static_cast<int>(seed % independent_plant::kGapFreeKinds), waveform, laws);
-  if (std::mt19937_64 g = random_stream(seed, "dry friction of the motor"); rubs)
+  if (std::mt19937_64 g = random_stream(seed, "dry friction of the motor"); extras.rubs)
     c.drive.effects.motor.friction.level_nm =
         c.drive.torque_constant * c.excitation.amplitude * std::uniform_real_distribution(0.02, 0.3)(g);
+  if (std::mt19937_64 g = random_stream(seed, "unbalance of the load"); extras.pushed)
+    c.drive.effects.load.unbalance_nm = c.drive.load_coulomb * log_uniform(g, 0.5, 5.0);
   c.options.tolerance = independent_plant::kFastTolerance;
   const independent_plant::BlindRun r = independent_plant::simulate_blind(c);
   MotorTrace trace = r.recording.motor_trace();
@@ -126,7 +134,7 @@ int main_study(int argc, char** argv) {
   if (argc < 5) {
     fmt::print(stderr,
                "study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each] "
-               "[wide] [frozen]\n");
+               "[wide] [frozen] [rubs] [pushed]\n");
     return 2;
   }
   const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
@@ -140,7 +148,8 @@ int main_study(int argc, char** argv) {
       asked("wide") ? independent_plant::DriveLaws::kWide : independent_plant::DriveLaws::kStated;
   std::map<std::string, Tally> tallies;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    const Outcome o = run(seed, with_gap, waveform, laws, asked("rubs"), {.frozen = asked("frozen")});
+    const Outcome o =
+        run(seed, with_gap, waveform, laws, {asked("rubs"), asked("pushed")}, {.frozen = asked("frozen")});
     if (asked("each")) print_case(o);
     for (const std::string& name : classes(o)) tallies[name].add(o);
   }
