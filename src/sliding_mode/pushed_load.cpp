@@ -152,7 +152,7 @@ void refuse_pushed_loads(const MotorTrace& trace, const signals::SignalFacts& fa
     if (!fit) continue;
     for (const EngagedStroke& s : fit->strokes)
       if (s.passage->refusal == Refusal::kNone && fit->pushes(facts, trace, s))
-        s.passage->refusal = Refusal::kLoadMoving;
+        s.passage->refusal = Refusal::kPushed;
     return;
   }
 }

@@ -42,13 +42,16 @@ const char* refusal_text(Refusal refusal) {
       return "the contact held under pull and tore: the load was dragged along";
     case Refusal::kRestsAlone:
       return "the motor may have come to rest within the gap";
+    case Refusal::kPushed:
+      return "a force drove the load through the gap, too";
   }
   return "";
 }
 
 bool speaks_of_moving_load(Refusal refusal) {
   return refusal == Refusal::kThrownOff || refusal == Refusal::kLoadMoving ||
-         refusal == Refusal::kSameFlank || refusal == Refusal::kTorn || refusal == Refusal::kRestsAlone;
+         refusal == Refusal::kSameFlank || refusal == Refusal::kTorn || refusal == Refusal::kRestsAlone ||
+         refusal == Refusal::kPushed;
 }
 
 Remark advice(Refusal refusal) {
@@ -73,6 +76,8 @@ Remark advice(Refusal refusal) {
       return words::contact_tears();
     case Refusal::kRestsAlone:
       return words::rests_alone();
+    case Refusal::kPushed:
+      return words::load_pushed();
     case Refusal::kNone:
       break;
   }

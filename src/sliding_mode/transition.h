@@ -26,6 +26,7 @@ enum class Refusal {
   kSameFlank,    ///< the flank that is hit is the one that was left: the load has only been caught up with
   kThrownOff,    ///< the impact before threw the bodies apart: they do not share a speed at t1
   kRestsAlone,   ///< the motor may have come to rest within the gap, which its load left before
+  kPushed,       ///< a force drives the load through the gap, too
 };
 
 const char* refusal_text(Refusal refusal);  ///< for the remark of an event

@@ -73,6 +73,11 @@ Remark rests_alone() {
       "the motor may have come to rest within the gap, after a load that coasted on; let the torque fall to "
       "zero more slowly, so that the load stops while it is still pushed, or use a finer encoder"};
 }
+Remark load_pushed() {
+  return {"load_pushed",
+          "where the motion turns round, a force (an unbalance, a spring) exceeds the dry friction of the "
+          "load and drives it through the gap, too; take that force away, or turn round where it is small"};
+}
 Remark contact_tears() {
   return {"contact_tears",
           "the contact holds under pull until it tears, and drags the load along until then; look for grease "

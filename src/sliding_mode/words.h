@@ -23,6 +23,7 @@ Remark few_samples_around_impacts();
 Remark release_not_located();
 Remark load_moves();
 Remark rests_alone();
+Remark load_pushed();
 Remark contact_tears();
 Remark more_periods();
 

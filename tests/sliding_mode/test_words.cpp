@@ -23,6 +23,7 @@ std::vector<Remark> all_remarks() {
           words::release_not_located(),
           words::load_moves(),
           words::rests_alone(),
+          words::load_pushed(),
           words::contact_tears(),
           more,
           words::few_passages_each_way(1, 2, more),
