@@ -2,7 +2,7 @@
 // intervals are.  study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]
 // [wide] [frozen] [rubs] [pushed]: wide: other contacts, torques and lengths; frozen: as a stream, which
 // learns from the first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of the torque's
-// amplitude; pushed: the load has an unbalance of 0.5 to 5 times its dry friction
+// amplitude; pushed: the load has an unbalance of 0.5 to 5 times its dry friction, 1 to 20 periods a turn
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,8 +58,10 @@ Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform wavef
   if (std::mt19937_64 g = random_stream(seed, "dry friction of the motor"); extras.rubs)
     c.drive.effects.motor.friction.level_nm =
         c.drive.torque_constant * c.excitation.amplitude * std::uniform_real_distribution(0.02, 0.3)(g);
-  if (std::mt19937_64 g = random_stream(seed, "unbalance of the load"); extras.pushed)
+  if (std::mt19937_64 g = random_stream(seed, "unbalance of the load"); extras.pushed) {
     c.drive.effects.load.unbalance_nm = c.drive.load_coulomb * log_uniform(g, 0.5, 5.0);
+    c.drive.effects.load.unbalance_periods = log_uniform(g, 1.0, 20.0);
+  }
   c.options.tolerance = independent_plant::kFastTolerance;
   const independent_plant::BlindRun r = independent_plant::simulate_blind(c);
   MotorTrace trace = r.recording.motor_trace();

@@ -26,7 +26,7 @@ GapEstimate read_unbalanced(double unbalance_nm, independent_plant::Waveform wav
   return detect_gap({&trace, 1});
 }
 
-/// Motor and load start from the turn together: the motor's way is 1.7 and 2.4 gaps.
+/// Motor and load start from the turn together: the motor goes 2.8 and 2.3 gaps until it hits the far flank.
 TEST(PushedLoad, IsNotTakenToRest) {
   const GapEstimate triangle = read_unbalanced(0.03, independent_plant::Waveform::kTriangle, 0.12);
   EXPECT_NE(triangle.verdict, GapVerdict::kBacklash) << triangle.gap;
