@@ -15,7 +15,7 @@ constexpr double kBeforeTurn = 0.02;                             ///< of a strok
 constexpr std::size_t kFewestOfStroke = 24;                      ///< samples
 constexpr std::size_t kFewestStrokes = 4;
 constexpr std::size_t kLeftOut = 4;  ///< groups of strokes, in turn: the rest must say the same
-constexpr double kFollows = 2.0;     ///< what the law may leave over, over the noise
+constexpr double kLeavesOver = 2.0;  ///< what the law may leave over, over the noise
 constexpr double kFarBetter = 3.0;   ///< what one without g(x) leaves over, over what it does
 
 constexpr int kStrokeOwn = 2;      ///< numbers of each stroke: place and speed
@@ -135,7 +135,7 @@ std::optional<PushedStrokes> fit_strokes(const MotorTrace& trace, const signals:
   }
   const PlaceLaw with = solve_strokes(reduced, kStrokeShared, kLeftOut);
   const PlaceLaw without = solve_strokes(reduced, kSteadyNumbers, kLeftOut);
-  const double most = kFollows * facts.noise;
+  const double most = kLeavesOver * facts.noise;
   if (with.squares > most * most * freedom || without.squares < kFarBetter * kFarBetter * with.squares)
     return {};
   fit.laws.push_back(with);
