@@ -15,7 +15,7 @@ namespace gapscope::internal::sliding_mode {
 /// from the impact before, once its bounces have faded, to where x1 turns round; the same numbers in all
 /// strokes, fitted in integrated form. A passage in direction d from a turn at x begins with a moving load
 /// where d·g(x) > f'. Only where a law without g(x) cannot follow the strokes: what rings, or is bent
-/// otherwise, tells nothing.
+/// otherwise, tells nothing. f' is the friction of both bodies: a motor that rubs hides as much of the push.
 /// @param passages  of one recording, in their order
 void refuse_pushed_loads(const MotorTrace& trace, const signals::SignalFacts& facts,
                          std::vector<Transition>& passages);
