@@ -235,7 +235,7 @@ std::string step_without_model(const GapEstimate& g) {
   if (open && says("auto_reads")) return "Set detector: bound to auto, which reads this recording.";
   for (const char* slow : {"too_slow", "only_large_gaps", "no_impact_stands_out"})
     if (open && !loop && g.reason.code() == slow)
-      return "For a reading without a model, record a faster motion (higher frequency or amplitude), the "
+      return "For a reading without a model: a faster motion, a finer encoder or faster sampling, the "
              "output free.";
   if (const std::string told = advice_in(g.reason); open && !loop && !told.empty()) return told;
   if (open && !loop)
