@@ -31,14 +31,14 @@ struct EstimateArguments {
 };
 
 void estimate(const EstimateArguments& a, const Configuration& c, const std::string& folder,
-              const Estimators& wanted) {
+              const Estimators& wanted, const std::string& axis = "") {
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   const Progress progress = progress_on_terminal(a.quiet);
   RunOutcome outcome = make_estimate(c, wanted, progress);
   progress("drawing the report");
   write_estimate(report, c, a.figures, outcome);
   print_warnings(outcome.warnings);
-  print_headline(folder, outcome.result, a.config.told(a.folder));
+  print_headline(folder, outcome.result, a.config.told(a.folder, axis));
 }
 
 std::string folder_of(const EstimateArguments& a, const Configuration& c) {
@@ -56,7 +56,7 @@ void estimate_axes(const EstimateArguments& a, const Configuration& c, const Est
   for (const std::string& axis : axes) {
     const std::string folder = folder_of(a, c) + "/" + plain_part(axis);
     if (axes.size() > 1) say("axis", printable(axis, 60));
-    estimate(a, of_axis(c, axis), folder, wanted);
+    estimate(a, of_axis(c, axis), folder, wanted, axis);
     reports.push_back(read_drive_report(folder));
   }
   if (reports.size() > 1) fmt::print("\n{}", spread_text(changes(reports)));

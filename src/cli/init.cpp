@@ -65,6 +65,7 @@ struct UnitSlip {
 /// Questions, not errors: "--arm: 105 m? 105 mm is 0.105".
 std::vector<std::string> asked_of_units(const InitArguments& a) {
   const bool turns = a.recording.coordinates().rotational();
+  // Beyond any machine with one encoder; a slip is a thousand times and more.
   const UnitSlip slips[] = {{"--arm", a.arm, 10.0, "m", "mm", 1e-3},
                             {"--mass", a.mass, 1e3, "kg", "g", 1e-3},
                             turns ? UnitSlip{"--inertia", a.inertia, 100.0, "kg m^2", "kg cm^2", 1e-4}
@@ -133,7 +134,7 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
   if (!starter.order.empty())
     fmt::print("{:<12}{}\n", "order", with_input_unit(starter.order, read.input_facts()));
   if (!r.window.empty() && !a.held_out.empty())
-    fmt::print("{:<12}{:g} to {:g} s of both files, {} as well, which is held out\n", "window", r.window[0],
+    fmt::print("{:<12}{:g} to {:g} s of both files, also of {}, which is held out\n", "window", r.window[0],
                r.window[1], printable(a.held_out, 200));
   fmt::print("{:<12}{}gapscope {} {} (or {})\n", "next",
              starter.guesses ? "fill in what is marked GUESS, then " : "",

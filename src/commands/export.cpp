@@ -23,7 +23,9 @@ std::string unexplained_in(const DiagnosisResult& r) {
   const MismatchSize& size = d.mismatch;
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   if (d.verdict == DiagnosisVerdict::kNone || !(size.after_torque > 0.0)) return "";
-  if (!unknown && size.after_torque <= kAtFloor * size.floor_torque) return "";
+  const bool by_torque = std::isfinite(size.floor_torque);  // of one balance; else by the motion
+  const double left = by_torque ? size.after_torque / size.floor_torque : size.remains;
+  if (!unknown && left <= kAtFloor) return "";
   const double percent = 100.0 * size.after_torque / size.input_torque;
   const Coordinates& c = r.coordinates;
   return fmt::format(

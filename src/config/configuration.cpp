@@ -220,11 +220,14 @@ Configuration parse_configuration(const std::string& text, const std::string& fi
     };
     c = read(settings);
     std::vector<Setting> own;
-    for (const Setting& s : settings)
-      if (!s.taken && !s.key.starts_with("model.effects"))
-        own.push_back(s);  // of effects that it may not have
+    bool sets_effects = false;  // which the own model may not have
+    for (const Setting& s : settings) {
+      const bool of_effects = !s.taken && s.key.starts_with("model.effects");
+      sets_effects = sets_effects || of_effects;
+      if (!s.taken && !of_effects) own.push_back(s);
+    }
     if (std::any_of(settings.begin(), settings.end(), [](const Setting& s) { return s.taken; }))
-      internal::config::estimate_as(read(own), c.model);
+      internal::config::estimate_as(read(own), sets_effects, c.model);
   });
   return c;
 }

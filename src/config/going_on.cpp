@@ -34,11 +34,11 @@ void go_on_as_added(const ShaftTurns& turns, ModelEffect& effect) {
 
 }  // namespace
 
-void estimate_as(const Configuration& own, ModelConfig& taken) {
+void estimate_as(const Configuration& own, bool keep_effects, ModelConfig& taken) {
   if (!own.model.given) return;
   const ReferenceModel model = own.reference_model();
   for (std::size_t i = 0; i < taken.parameters.size(); ++i) go_on(model.parameters[i], taken.parameters[i]);
-  for (std::size_t e = 0; e < taken.effects.size(); ++e) {
+  for (std::size_t e = 0; e < taken.effects.size() && !keep_effects; ++e) {
     ModelEffect& effect = taken.effects[e].effect;
     const auto before =
         std::count_if(taken.effects.begin(), taken.effects.begin() + static_cast<std::ptrdiff_t>(e),

@@ -1,7 +1,6 @@
 #include "gapscope/diagnosis/card.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +10,7 @@
 #include "diagnosis/card_numbers.h"
 #include "diagnosis/card_open.h"
 #include "diagnosis/card_words.h"
-#include "diagnosis/rule.h"
+#include "diagnosis/headline.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/answer.h"
@@ -27,13 +26,12 @@ using internal::diagnosis::exhausted_words;
 using internal::diagnosis::export_words;
 using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
-using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
 using internal::diagnosis::mismatch_words;
 using internal::diagnosis::next_of_numbers;
+using internal::diagnosis::one_way_words;
 using internal::diagnosis::percent_text;
-using internal::diagnosis::SharedUnit;
 using internal::diagnosis::step_to_establish;
 using internal::diagnosis::step_to_estimate;
 using internal::diagnosis::unexplained;
@@ -116,8 +114,8 @@ std::string step_of_the_answer(const CardFacts& f) {
 }
 
 std::string other_motion(const Diagnosis& d) {
-  const bool one_way = d.where.headline.find("motion was recorded") != std::string::npos;
-  return one_way ? "both directions, other speeds, other loads" : "other speeds, other loads";
+  return !one_way_words(d.where.direction).empty() ? "both directions, other speeds, other loads"
+                                                   : "other speeds, other loads";
 }
 
 /// Where effects were added: to use them, unless too much is left.

@@ -49,7 +49,8 @@ std::vector<std::string> groups(const CardFacts& f) {
     others.insert(others.begin(), called(a, f));
     const bool two = others.size() == 2;
     all.push_back(fmt::format("{} {} ({}; `fitted.yaml` has {})", two ? "either" : "one of",
-                              enumerated(others, two ? "or" : "and"), which_is_open(a.group), called(a, f)));
+                              enumerated(others, two ? "or" : "and"), which_is_open(a.group, *f.diagnosis),
+                              called(a, f)));
   }
   return all;
 }

@@ -132,7 +132,10 @@ bool clearly_changes(const Interval& factor) {
 std::string scale_words(const Diagnosis& d) {
   const RefittedNumber* inertia = refitted_number(d, "motor_inertia");
   const RefittedNumber* damping = refitted_number(d, "motor_damping");
-  if (inertia == nullptr || damping == nullptr || refitted_number(d, "torque_constant") != nullptr) return "";
+  const bool scaled =
+      d.fitted.parameters[place::kTorqueConstant].estimate ||
+      refitted_number(d, "torque_constant") != nullptr;  // in stored results only that is known
+  if (inertia == nullptr || damping == nullptr || scaled) return "";
   const Interval a = factor_of(*inertia), b = factor_of(*damping);
   const bool alike = a.low <= b.high && b.low <= a.high;
   if (!alike || !clearly_changes(a) || !clearly_changes(b)) return "";
@@ -198,7 +201,8 @@ std::string also_refitted(const CardFacts& f) {
   if (f.diagnosis == nullptr || f.diagnosis->added.empty() || f.diagnosis->stopped) return "";
   const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kMost);
   if (numbers.empty()) return "";
-  return " All figures, also those before an addition, have your estimated numbers refitted; `fitted.yaml` "
+  return " All figures, also those before an addition, are with your estimated numbers refitted; "
+         "`fitted.yaml` "
          "has " +
          numbers + "." + scale_words(*f.diagnosis);
 }

@@ -43,9 +43,9 @@ std::string doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
   for (const BudgetRung& r : d.budget.rungs) {
     if (!r.added || r.effect != a.effect) continue;
     if (r.share < conditions.least_share)
-      return kRemoves + percent_of_share(r.share) + " % of the mean square that was left";
+      return fmt::format("{}{:.3g} % of the mean square that was left", kRemoves, 100.0 * r.share);
     if (r.share_ci95.low < conditions.least_low)
-      return fmt::format("how much of the mean square that was left it removes is uncertain, {} to {} %",
+      return fmt::format("its share of the mean square that was left is uncertain, {} to {} %",
                          percent_of_share(std::max(0.0, r.share_ci95.low)),
                          percent_of_share(r.share_ci95.high));
     return r.last < conditions.least_share
@@ -64,18 +64,18 @@ std::string why_open(const AddedEffect& a, const Diagnosis& d) {
   return doubt_of_balance(a, d);
 }
 
-std::string which_is_open(const std::vector<std::string>& group) {
-  const bool one_law =
-      group.size() == 2 && contains(group, "constant_load_torque") && contains(group, "friction_asymmetry");
-  return one_law
-             ? "no recording can tell which: dry friction that differs with the direction is one that does "
-               "not, beside a constant torque"
-             : "these recordings cannot tell which";
+std::string which_is_open(const std::vector<std::string>& group, const Diagnosis& d) {
+  const bool one_body = d.model_gap && d.model_gap->origin == GapOrigin::kNone;  // with a gap they differ
+  const bool one_law = one_body && group.size() == 2 && contains(group, "constant_load_torque") &&
+                       contains(group, "friction_asymmetry");
+  return one_law ? "no recording can tell which: dry friction that differs with the direction is the same as "
+                   "equal friction and a constant torque"
+                 : "these recordings cannot tell which";
 }
 
 std::string least_of_a_cause(const std::vector<std::string>& why) {
   if (std::ranges::none_of(why, [](const std::string& w) { return w.starts_with(kRemoves); })) return "";
-  return fmt::format(" {} % would establish it.",
+  return fmt::format(" A cause has to remove at least {} %.",
                      percent_of_share(torque_view::TorqueViewOptions{}.least_share));
 }
 

@@ -14,9 +14,9 @@ namespace gapscope::internal::diagnosis {
 std::string why_open(const AddedEffect& added, const Diagnosis& diagnosis);
 
 /// "these recordings cannot tell which" of a group is the cause, or that none could.
-std::string which_is_open(const std::vector<std::string>& group);
+std::string which_is_open(const std::vector<std::string>& group, const Diagnosis& diagnosis);
 
-/// " A cause has to remove 20 %.", where one of these is that an effect removes less; else empty.
+/// " A cause has to remove at least 20 %.", where one of these is that an effect removes less; else empty.
 std::string least_of_a_cause(const std::vector<std::string>& why);
 
 /// Of the verdict "unknown": "unknown: no effect of the catalogue explains it", or that one takes much of it

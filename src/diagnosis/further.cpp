@@ -9,6 +9,7 @@
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/probability.h"
 #include "diagnosis/step.h"
+#include "gapscope/base/interrupt.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -147,7 +148,7 @@ void keep_wider(const Study& study, const Findings& found, std::size_t steps_bef
 
 /// Where something is left of what was fitted another minimum may leave less.
 void leave_minimum(const Study& study, ScoredModel& model) {
-  if (at_floor(model) || model.fitted.mean_cost < kExplained) return;
+  if (finish_requested() || at_floor(model) || model.fitted.mean_cost < kExplained) return;
   FittedModel other = searched_from_sheet(study, model.fitted);
   if (other.mean_cost < model.fitted.mean_cost)
     model = judge(model.entry, std::move(other), study.held_out, study.observer_hz);

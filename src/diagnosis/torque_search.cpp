@@ -253,7 +253,7 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
   for (const ReferenceModel& values : {balanced, with_drive(balanced, nominal.fitted.model)})
     if (!std::isfinite(search.after.score)) search.after = refitted_from(study, values);
   if (!std::isfinite(search.after.score)) return {};  // its motion diverges: nobody could run it
-  if (search.after.median_free > kRule.far * nominal.median_free) return {};  // no better
+  if (search.after.median_free > kRule.far * nominal.median_free) return {};  // far worse
   drop_what_vanished(search);
   return search;
 }

@@ -65,7 +65,7 @@ std::string effect_sentence(const Diagnosis& d) {
   if (std::isfinite(d.mismatch.shrink))
     text += fmt::format(": with {} the held-out {} shrinks by {} % of what is above the floor",
                         d.effects.size() > 1 ? "them" : "it", motion_error(d),
-                        with_decimals(100.0 * d.mismatch.shrink, 0));
+                        percent_of_shrink(d.mismatch.shrink));
   return text + fmt::format(", to {}.", ratio(d.mismatch.remains, d));
 }
 
@@ -207,11 +207,11 @@ std::string doubt_of_motion(const Diagnosis& d) {
   const std::string what = m.measure.starts_with("prediction") ? "prediction" : "free run";
   if (!std::isfinite(m.shrink_ci95.low))
     return !balance ? "" : " by the torque balance alone; the " + what + ", near its floor, cannot tell";
-  const auto percent = [](double share) { return with_decimals(100.0 * share, 0); };
   return fmt::format("{} its error shrinks by {} % (95 %: {} to {})",
                      balance ? " by the torque balance alone; the " + what + " cannot tell:"
                              : "; the " + what + " of another recording may not show it:",
-                     percent(m.shrink), percent(m.shrink_ci95.low), percent(m.shrink_ci95.high));
+                     percent_of_shrink(m.shrink), percent_of_shrink(m.shrink_ci95.low),
+                     percent_of_shrink(m.shrink_ci95.high));
 }
 
 std::string brief_doubt_of_motion(const Diagnosis& d) {

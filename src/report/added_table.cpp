@@ -44,7 +44,7 @@ const char* established_word(const DiagnosisResult& r) {
   if (d.added.empty() || d.added.front().share_of == ShareOf::kMotion || d.is_shown_by_motion())
     return "established";
   return r.coordinates.rotational() ? "established by the torque balance alone"
-                                    : "established by the balance of force alone";
+                                    : "established by the force balance alone";
 }
 
 /// Where its numbers are from: they are not those of a ranking by the motion.

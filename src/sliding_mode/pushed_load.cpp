@@ -16,6 +16,8 @@ namespace {
 constexpr double kLeavesOver = 2.0;  ///< over the noise
 constexpr double kFarBetter = 3.0;   ///< over what the law leaves over
 
+// What a regression needs, not tuned: where bounces have faded is asked in turn, and the least that leaves
+// the law of seven shared numbers samples and strokes to be contradicted by.
 constexpr double kSkippedForBounces[] = {0.15, 0.3, 0.45, 0.6};  ///< of a stroke, at its beginning
 constexpr double kBeforeTurn = 0.02;                             ///< of a stroke, left out at its end
 constexpr std::size_t kFewestOfStroke = 24;                      ///< samples

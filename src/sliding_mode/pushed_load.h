@@ -16,6 +16,7 @@ namespace gapscope::internal::sliding_mode {
 /// strokes, fitted in integrated form. A passage in direction d from a turn at x begins with a moving load
 /// where d·g(x) > f'. Only where a law without g(x) cannot follow the strokes: what rings, or is bent
 /// otherwise, tells nothing. f' is the friction of both bodies: a motor that rubs hides as much of the push.
+/// It looks at all strokes of a recording together: the detector of a stream does not have it.
 /// @param passages  of one recording, in their order
 void refuse_pushed_loads(const MotorTrace& trace, const signals::SignalFacts& facts,
                          std::vector<Transition>& passages);

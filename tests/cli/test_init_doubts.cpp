@@ -64,7 +64,7 @@ TEST(InitDoubts, AWindowCutsWhatIsHeldOutAsWellAndThatIsSaid) {
   const auto both = place.run(init + "--held-out h.csv -o both.yaml");
   EXPECT_EQ(both.status, 0) << both.err;
   EXPECT_THAT(both.out,
-              HasSubstr("window      0 to 1.5 s of both files, h.csv as well, which is held out\n"));
+              HasSubstr("window      0 to 1.5 s of both files, also of h.csv, which is held out\n"));
   EXPECT_THAT(testing::text_of(place.folder() / "both.yaml"),
               HasSubstr("window: [0, 1.5]  # s, of each file, held_out as well\n"));
   EXPECT_THAT(place.run(init + "-o one.yaml").out, Not(HasSubstr("window")));

@@ -206,6 +206,10 @@ TEST(Setting, TakesTheModelOfAnotherConfiguration) {
   const ReferenceModel set = parse_configuration(estimating, "c.yaml", held).reference_model();
   EXPECT_FALSE(set.parameters[place::kMotorDamping].estimate);
   EXPECT_EQ(set.parameters[place::kMotorDamping].value, 0.3);
+  held.push_back(read_setting("model.effects.motor_coulomb_friction.level_nm=0.03"));
+  const ReferenceModel with_level = parse_configuration(estimating, "c.yaml", held).reference_model();
+  EXPECT_FALSE(with_level.effects[1].parameters[0].estimate) << "it was set";
+  EXPECT_EQ(with_level.effects[1].parameters[0].value, 0.03);
   const testing::TemporaryFile bad("model: {parameters: {gapp: 1}}", "c.yaml"),
       none("name: other\n", "c.yaml");
   EXPECT_THROW(model_from(none.path()), ConfigError);

@@ -156,7 +156,7 @@ TEST(Answer, OfASlowMotionAsksForAFasterOne) {
   GapEstimate g = undecided();
   g.reason = Remark("only_large_gaps", "could only have shown a large gap; use a faster excitation");
   ASSERT_FALSE(of(&g, nullptr).next.empty());
-  EXPECT_THAT(of(&g, nullptr).next.front(), HasSubstr("record a faster motion"));
+  EXPECT_THAT(of(&g, nullptr).next.front(), HasSubstr("a faster motion, a finer encoder or faster sampling"));
   g.reason = Remark("few_passages", "too few passages");
   EXPECT_THAT(of(&g, nullptr).next.front(), HasSubstr("a triangle or a sine with a dwell"));
 }

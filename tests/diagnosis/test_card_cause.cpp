@@ -36,9 +36,12 @@ TEST(CardCause, OfOneLawUnderTwoNamesSaysThatNoRecordingTells) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.added[0].effect = "constant_load_torque";
   d.added[0].group = {"constant_load_torque", "friction_asymmetry"};
+  EXPECT_THAT(card_of(d).cause, HasSubstr("friction asymmetry (these recordings cannot tell which;"))
+      << "a gap tells them apart";
+  d.model_gap = ModelGap();
   EXPECT_THAT(card_of(d).cause,
               HasSubstr("either constant load torque or friction asymmetry (no recording can "
-                        "tell which: dry friction that differs with the direction is one"));
+                        "tell which: dry friction that differs with the direction is the same as"));
 }
 
 TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
@@ -98,7 +101,8 @@ TEST(CardCause, OfAnotherVerdictTellsTheNumbersBrieflyBehindTheNextStep) {
   EXPECT_THAT(
       card_of(d).next,
       HasSubstr(
-          " All figures, also those before an addition, have your estimated numbers refitted; `fitted.yaml` "
+          " All figures, also those before an addition, are with your estimated numbers refitted; "
+          "`fitted.yaml` "
           "has motor "
           "damping 0.1 → 0.04000 N·m s/rad (95 %: 0.03970 to 0.04030), motor inertia 0.00532 → "
           "0.007810 kg m² (95 %: 0.007790 to 0.007830), and smaller changes in load unbalance amplitude."));
@@ -161,11 +165,11 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   d.budget.rungs = {{"input_delay", "input_delay", true, 0.04, 0.037, 0.14, {0.11, 0.2}, 0.2, 0.3}};
   BudgetRung& rung = d.budget.rungs.front();
   const auto cause = [&] { return card_of(d).cause; };
-  EXPECT_THAT(cause(), HasSubstr("helps: input delay (it removes 14 % of the mean square that was left). 20 "
-                                 "% would establish it."));
+  EXPECT_THAT(cause(), HasSubstr("helps: input delay (it removes 14 % of the mean square that was left). A "
+                                 "cause has to remove at least 20 %."));
   rung.share = 0.4, rung.share_ci95 = {0.05, 0.5};
-  EXPECT_THAT(cause(), HasSubstr("input delay (how much of the mean square that was left it removes is "
-                                 "uncertain, 5 to 50 %)."));
+  EXPECT_THAT(cause(), HasSubstr("input delay (its share of the mean square that was left is uncertain, 5 to "
+                                 "50 %)."));
   rung.share_ci95 = {0.3, 0.5};
   EXPECT_THAT(cause(), HasSubstr("input delay (another torque would remove nearly as much in its place)."));
   rung.rivals = {"torque_ripple"};
@@ -181,7 +185,7 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   EXPECT_THAT(
       cause(),
       HasSubstr("friction (it removes 10 % of the mean square that was left) and input delay (it removes "
-                "14 % of the mean square that was left). 20 % would establish it."));
+                "14 % of the mean square that was left). A cause has to remove at least 20 %."));
 }
 
 TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {

@@ -58,9 +58,9 @@ struct JointNumbers {
 /// defaults and classes, the actuator's gear, mass and inertia of the body and of all that is fixed to it, by
 /// inertial or by geoms, gravity on them, also where bodies are turned, the actuator's bias, filter and
 /// range; files that it includes are followed; a gap where a fixed tendon limits the difference of two
-/// joints, or within little one joint, or a second joint of the body has a narrow range. Of URDF: dynamics
-/// and the child's inertia. Bodies behind further joints are not followed, and no mass of a mesh is read:
-/// `notes` says so.
+/// joints, or confines a single joint to a narrow range, or a second joint of the body has a narrow range. Of
+/// URDF: dynamics and the child's inertia. Bodies behind further joints are not followed, and no mass of a
+/// mesh is read: `notes` says so.
 /// @throws ConfigError where the file or one that it includes cannot be read, is of another kind, or has no
 /// such joint: its joints are named
 JointNumbers joint_numbers(const std::string& path, const std::string& joint);
