@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/executable.h"
+#include "cli/one_body_csv.h"
 #include "inspection/rows.h"
 #include "support/data.h"
 
@@ -28,14 +29,6 @@ std::string tried(Workplace& place, const std::string& arguments) {
   for (const char* file : {"report/result.json", "report/diagnosis.json", "report/report.md"})
     EXPECT_TRUE(place.content().count(file)) << file;
   return testing::text_of(place.folder() / "drive.yaml");
-}
-
-std::string one_body_csv(double (*input)(double)) {
-  TestDrive body;
-  body.m2 = 0.0, body.d1 = 0.01;
-  TestEncoder encoder;
-  encoder.rate = 500.0, encoder.duration = 6.0, encoder.bits = 18, encoder.step = 1e-4;
-  return testing::rows_of(record(body, input, encoder)).csv();
 }
 
 TEST(Init, OneBodyIsTakenForOneAndItsNumbersAreRead) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/executable.h"
-#include "inspection/rows.h"
+#include "cli/one_body_csv.h"
 #include "support/data.h"
 
 namespace gapscope {
@@ -13,20 +13,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::Workplace;
 
-std::string csv_of_one_body(double (*input)(double)) {
-  TestDrive body;
-  body.m2 = 0.0, body.d1 = 0.01;
-  TestEncoder encoder;
-  encoder.rate = 500.0, encoder.duration = 6.0, encoder.bits = 18, encoder.step = 1e-4;
-  return testing::rows_of(record(body, input, encoder)).csv();
-}
-
 TEST(InitOrder, SaysWhichOfTwoRecordingsIsBetterFittedAndSwapsNothing) {
   Workplace place;
   const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
   const auto weak = [](double t) { return 0.1 * std::sin(9.0 * t) + 0.06 * std::sin(31.0 * t); };
-  place.file("rich.csv", csv_of_one_body(input));
-  place.file("poor.csv", csv_of_one_body(weak));
+  place.file("rich.csv", one_body_csv(input));
+  place.file("poor.csv", one_body_csv(weak));
   const std::string init = "init --model one_body --input-unit V ";
   const auto good = place.run(init + "rich.csv --held-out poor.csv -o good.yaml");
   EXPECT_EQ(good.status, 0) << good.err;
@@ -40,7 +32,7 @@ TEST(InitOrder, SaysWhichOfTwoRecordingsIsBetterFittedAndSwapsNothing) {
   const std::string yaml = testing::text_of(place.folder() / "wrong.yaml");
   EXPECT_THAT(yaml, HasSubstr("# better the other way round"));
   EXPECT_THAT(yaml, HasSubstr("file: \"poor.csv\"\n  held_out: \"rich.csv\""));
-  place.file("again.csv", csv_of_one_body(input));
+  place.file("again.csv", one_body_csv(input));
   EXPECT_THAT(place.run(init + "rich.csv --held-out again.csv -o same.yaml").out,
               HasSubstr("either recording may be fitted: both go as far"));
   EXPECT_THAT(place.run(init + "rich.csv -o alone.yaml").out, Not(HasSubstr("order ")));
@@ -52,8 +44,8 @@ TEST(InitOrder, TheCommandForTheOtherWayRoundReadsTheFilesAsTheFirstOneDid) {
   Workplace place;
   const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
   const auto weak = [](double t) { return 0.1 * std::sin(9.0 * t) + 0.06 * std::sin(31.0 * t); };
-  place.file("rich.csv", csv_of_one_body(input));
-  place.file("poor one.csv", csv_of_one_body(weak));
+  place.file("rich.csv", one_body_csv(input));
+  place.file("poor one.csv", one_body_csv(weak));
   const std::string options =
       " --input-unit 'N m' --position-unit deg --gear-ratio=-30 --window 0.5 5.5 "
       "--model one_body";
