@@ -1,7 +1,6 @@
 #include "sliding_mode/lone_motor.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,12 +1,12 @@
 #include "sliding_mode/one_body.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/least_squares.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -213,7 +213,7 @@ OneBodyLaw first_law(const Instants& s) {
     A.row(r) << u / weights, 1.0, -v, -std::copysign(1.0, v);
     y(r) = (s.x[i + 2 * m] - 2.0 * s.x[i] + s.x[i - 2 * m]) / (span * span);
   }
-  const Eigen::Vector4d found = A.colPivHouseholderQr().solve(y);
+  const Eigen::Vector4d found = least_squares(A, y);
   return {found(0), found(1), std::max(found(2), 0.0), std::max(found(3), 0.0), 0.0, s.fastest};
 }
 

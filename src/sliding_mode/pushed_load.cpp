@@ -1,10 +1,10 @@
 #include "sliding_mode/pushed_load.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "sliding_mode/least_squares.h"
 #include "sliding_mode/turn.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -62,7 +62,7 @@ double place(const signals::SignalFacts& facts, double x1) { return (x1 - facts.
 ReducedStroke reduce_stroke(const MotorTrace& trace, const signals::SignalFacts& facts,
                             const EngagedStroke& s) {
   const auto rows = static_cast<Eigen::Index>(s.last - s.first + 1);
-  Eigen::Matrix<double, Eigen::Dynamic, kStrokeColumns> A(rows, kStrokeColumns);
+  Eigen::MatrixXd A(rows, kStrokeColumns);
   const double dt = trace.dt, way = -s.passage->event.direction;
   Eigen::Matrix<double, kStrokeShared, 1> once = Eigen::Matrix<double, kStrokeShared, 1>::Zero(),
                                           twice = once;
@@ -76,10 +76,7 @@ ReducedStroke reduce_stroke(const MotorTrace& trace, const signals::SignalFacts&
     once += now * dt;
     twice(1) += (0.5 * (trace.x1[i] + trace.x1[std::min(i + 1, trace.size() - 1)]) - trace.x1[s.first]) * dt;
   }
-  const Eigen::HouseholderQR<decltype(A)> qr(A);
-  const Eigen::Matrix<double, kStrokeColumns, kStrokeColumns> R =
-      qr.matrixQR().topRows<kStrokeColumns>().template triangularView<Eigen::Upper>();
-  return R.bottomRightCorner<kStrokeColumns - kStrokeOwn, kStrokeColumns - kStrokeOwn>();
+  return triangle_of(A).bottomRightCorner<kStrokeColumns - kStrokeOwn, kStrokeColumns - kStrokeOwn>();
 }
 
 /// ẍ = b'·u − a'·ẋ − f'·sign(ẋ) + g(x), of both bodies.
@@ -108,7 +105,7 @@ PlaceLaw solve_strokes(const std::vector<ReducedStroke>& reduced, int columns, s
   y.conservativeResize(at);
   const Eigen::VectorXd scale = A.colwise().norm().transpose().cwiseMax(1e-300);
   A = A * scale.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd scaled = A.colPivHouseholderQr().solve(y);
+  const Eigen::VectorXd scaled = least_squares(A, y);
   PlaceLaw law;
   law.squares = (A * scaled - y).squaredNorm();
   law.numbers.head(columns) = scaled.cwiseQuotient(scale);

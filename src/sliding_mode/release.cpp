@@ -1,12 +1,12 @@
 #include "sliding_mode/release.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "sliding_mode/free_flight.h"
 #include "sliding_mode/impact_time.h"
 #include "sliding_mode/kink_fit.h"
+#include "sliding_mode/least_squares.h"
 #include "sliding_mode/transition.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -24,8 +24,8 @@ MotorState state_in_contact(const MotorTrace& trace, const FlightBegin& begin, d
   const std::size_t first = last - std::min(back, last), n = last - first + 1;
   if (n < kFewestInContact) return begin.motor;
   const Eigen::MatrixXd A = polynomial_columns(n, 3);
-  const Eigen::Vector4d c = A.colPivHouseholderQr().solve(
-      Eigen::Map<const Eigen::VectorXd>(&trace.x1[first], static_cast<Eigen::Index>(n)));
+  const Eigen::Vector4d c =
+      least_squares(A, Eigen::Map<const Eigen::VectorXd>(&trace.x1[first], static_cast<Eigen::Index>(n)));
   const double half = 0.5 * static_cast<double>(n - 1) * trace.dt;  // of the stretch [s]
   return {c.sum(), (c[1] + 2.0 * c[2] + 3.0 * c[3]) / half, (2.0 * c[2] + 6.0 * c[3]) / (half * half)};
 }

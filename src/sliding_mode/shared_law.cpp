@@ -1,11 +1,11 @@
 #include "sliding_mode/shared_law.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "gapscope/base/require.h"
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/least_squares.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -15,7 +15,7 @@ Eigen::Vector3d solve_columns(const Eigen::MatrixXd& A, const Eigen::VectorXd& y
   Eigen::MatrixXd some = A;
   for (int c = 0; c < 3; ++c)
     if (!(used >> c & 1u)) some.col(c).setZero();
-  return some.colPivHouseholderQr().solve(y);
+  return least_squares(some, y);
 }
 
 /// Of the motion from sample i to the next, in the mean.
@@ -51,7 +51,7 @@ void SharedLaw::advance(const LawStretch& s, std::size_t i, Integrals& at) const
 SharedLaw::Reduced SharedLaw::reduce(const LawStretch& s) const {
   const std::size_t n = s.last - s.first + 1;
   GAPSCOPE_REQUIRE(n >= kFewestRows);
-  Eigen::Matrix<double, Eigen::Dynamic, kAll> A(static_cast<Eigen::Index>(n), kAll);
+  Eigen::MatrixXd A(static_cast<Eigen::Index>(n), kAll);
   Integrals at;
   for (std::size_t i = s.first; i <= s.last; ++i) {
     const auto r = static_cast<Eigen::Index>(i - s.first);
@@ -59,8 +59,7 @@ SharedLaw::Reduced SharedLaw::reduce(const LawStretch& s) const {
         trace_->x1[i] - trace_->x1[s.first];
     if (i < s.last) advance(s, i, at);
   }
-  const Eigen::HouseholderQR<decltype(A)> qr(A);
-  return qr.matrixQR().topRows<kAll>().template triangularView<Eigen::Upper>();
+  return triangle_of(A);
 }
 
 void SharedLaw::solve(const std::vector<bool>& used) {

@@ -1,9 +1,9 @@
 #include "sliding_mode/turn.h"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/least_squares.h"
 #include "sliding_mode/shared_law.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -27,8 +27,9 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
   const double middle = 0.5 * (static_cast<double>(first) + static_cast<double>(last));
   const std::size_t begin = away(trace, first, -1, way), end = away(trace, last, 1, way);
   const auto rows = static_cast<Eigen::Index>(end - begin + 1);
-  Eigen::Matrix<double, Eigen::Dynamic, 5> A(rows, 5);
+  Eigen::MatrixXd A(rows, 5);
   if (end - begin < SharedLaw::kFewestRows) return middle;
+  const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(&trace.x1[begin], rows);
   const double half = 0.5 * static_cast<double>(end - begin);  // columns of like size
   double turn = middle;
   double before = kInfinity;
@@ -37,8 +38,7 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
       const double t = (static_cast<double>(begin) + static_cast<double>(r) - turn) / half;
       A.row(r) << 1.0, t, t * t, t * std::abs(t), t * t * t;
     }
-    const Eigen::Matrix<double, 5, 1> c =
-        A.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(&trace.x1[begin], rows));
+    const Eigen::VectorXd c = least_squares(A, x);
     const double step = -c(1) / (2.0 * c(2)) * half;
     if (!(std::abs(step) < before)) break;  // as near as the numbers tell, or nowhere
     before = std::abs(step);
