@@ -24,7 +24,8 @@ const std::vector<EffectCase>& effect_cases() {
       {"half_gap", "gap_eccentricity", {0.005, 0.4, 1.0}},
       {"load_inertia", "load_inertia_variation", {0.5, 3.0, 1.0}},
       {"sense", "encoder_eccentricity", {0.001, 0.4, 1.0}},
-      {"advance", "presliding_friction", {0.01, 0.005, 0.0}}};
+      {"advance", "presliding_friction", {0.01, 0.005, 0.0}},
+      {"substeps", "load_resonance", {0.2, 0.2 * kRate, 0.05}}};
   return cases;
 }
 
@@ -80,6 +81,7 @@ const bool kRegistered = [] {
   add("jet12/sine", rig<Jet<12>>(), one);
   add("jet12/several_sines", rig<Jet<12>>(), several);
   add("jet12/cogging_torque", rig_with<Jet<12>>(effect_cases()[3]), several);
+  add("jet12/load_resonance", rig_with<Jet<12>>(effect_cases().back()), several);
   return true;
 }();
 

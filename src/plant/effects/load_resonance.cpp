@@ -27,7 +27,9 @@ struct LoadResonance {
       {0.2, 127.0, 0.05}, {0.2, 165.0, 0.05}, {0.2, 215.0, 0.05}, {0.2, 280.0, 0.05}, {0.2, 363.0, 0.05},
       {0.2, 472.0, 0.05}, {0.2, 614.0, 0.05}, {0.2, 798.0, 0.05}, {0.2, 1038.0, 0.05}};
 
-  static constexpr int kOrder = 12;  ///< of the series: its rest is below 1e-16 at w0 h = 1/4
+  static constexpr int kOrder = 10;  ///< of the series: its rest is below 1e-14 at w0 h = 1/4
+  static constexpr double kOver[kOrder + 1] = {0.0,     1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5,
+                                               1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10};
 
   template <class T>
   struct Body {
@@ -39,36 +41,35 @@ struct LoadResonance {
     return plant.structure.has_load ? Body<T>{state.x2, state.w2} : Body<T>{state.x1, state.w1};
   }
 
-  /// The further inertia under the cubic through both ends of its carrier's motion, as a power series in the
-  /// share of the step that has passed.   Memory: x3, w3.
+  /// The further inertia against its carrier, whose motion is the cubic through both ends of the step: a
+  /// power series in the share of the step that has passed.   Memory: x3, w3.
   template <class T>
-  static Body<T> further(const EffectPoint<T>& at, const T* memory, const T* p) {
+  static Body<T> apart(const EffectPoint<T>& at, const T* memory, const T* p) {
     const T h = at.time - at.start_time;
-    if (value_of(h) <= 0.0) return {memory[0], memory[1]};
     const Body<T> from = carrier(at.start, at.plant), to = carrier(at.state, at.plant);
+    T z = memory[0] - from.x;
+    if (value_of(h) <= 0.0) return {z, memory[1] - from.w};
+    T slope = (memory[1] - from.w) * h;
     const T way = to.x - from.x;
-    const T b[] = {T(0.0), from.w * h, 3.0 * way - (2.0 * from.w + to.w) * h,
-                   (from.w + to.w) * h - 2.0 * way};
-    const auto base = [&b](int n) { return n < 4 ? b[n] : T(0.0); };
+    const T base[] = {3.0 * way - (2.0 * from.w + to.w) * h, (from.w + to.w) * h - 2.0 * way};
     const T angle = 2.0 * kPi * p[1] * h, pull = angle * angle, drag = 2.0 * p[2] * angle;
-    T y[kOrder + 1] = {memory[0] - from.x, memory[1] * h};
-    T place = y[0] + y[1], speed = y[1];
+    T place = z + slope, speed = slope;
     for (int n = 0; n + 2 <= kOrder; ++n) {
-      const T push = pull * (base(n) - y[n]) + (n + 1.0) * drag * (base(n + 1) - y[n + 1]);
-      y[n + 2] = push / ((n + 1.0) * (n + 2.0));
-      place += y[n + 2];
-      speed += (n + 2.0) * y[n + 2];
+      T next = (pull * z * kOver[n + 1] + drag * slope) * -kOver[n + 2];
+      if (n < 2) next -= base[n];
+      place += next, speed += (n + 2.0) * next;
+      z = slope, slope = next;
     }
-    return {from.x + place, speed / h};
+    return {place, speed / h};
   }
 
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
-    const Body<T> own = further(at, at.memory, p), on = carrier(at.state, at.plant);
+    const Body<T> z = apart(at, at.memory, p);
     const DriveParameters<T>& d = at.plant.drive;
     const T inertia = at.plant.structure.has_load ? T(d.motor_inertia * d.mass_ratio) : d.motor_inertia;
     const T rate = 2.0 * kPi * p[1];
-    return {.load = p[0] * inertia * rate * (rate * (own.x - on.x) + 2.0 * p[2] * (own.w - on.w))};
+    return {.load = p[0] * inertia * rate * (rate * z.x + 2.0 * p[2] * z.w)};
   }
 
   template <class T>
@@ -79,8 +80,8 @@ struct LoadResonance {
 
   template <class T>
   static void advance(const EffectPoint<T>&, const EffectPoint<T>& to, T* memory, const T* p) {
-    const Body<T> own = further(to, memory, p);
-    memory[0] = own.x, memory[1] = own.w;
+    const Body<T> z = apart(to, memory, p), on = carrier(to.state, to.plant);
+    memory[0] = on.x + z.x, memory[1] = on.w + z.w;
   }
 
   /// Both inertias against each other swing faster than the further one on a held load.
