@@ -84,6 +84,9 @@ FittedModel retry(const Study& study, const FittedModel& candidate, const Refere
 }
 
 FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted) {
+  const auto is_start = [](const ParameterSetting& p) { return p.estimate && !std::isnan(p.value); };
+  const auto& drive = study.sheet.parameters;
+  if (std::none_of(drive.begin(), drive.end(), is_start)) return fitted;  // it would set out from itself
   FitOptions given_alone = study.options.fit;
   given_alone.starts = 1;
   FittedModel other =

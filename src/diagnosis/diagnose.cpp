@@ -105,7 +105,6 @@ Findings first_look(Study& study) {
   found.before = scored_nominal(study);
   if (add_supply_steps(found.before.fitted.model, study.observer_hz, study.held_out))
     found.before = judge(nullptr, found.before.fitted, study.held_out, study.observer_hz);
-  if (study.nominal_work == 0) study.nominal_work = *study.options.fit.work;
   study.options.progress("weighing torques");
   found.budget = torque_budget(study, found.before.fitted.model);
   if (at_floor(found.before)) return found;
@@ -225,6 +224,7 @@ Findings investigate(Study& study) {
 
 EffectSearch search_effects(Study& study) {
   Findings found = investigate(study);
+  if (!found.candidates.empty()) study.first_work = *study.options.fit.work;
   TorqueSearch ladder = climb(study, found);
   if (!ladder.added.empty() && at_floor(ladder.after)) return {std::move(found), {}, std::move(ladder)};
   Additions added = add_further(study, found);
@@ -277,10 +277,10 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "laws and the experiment that would decide were not looked for, and causes that hang on them stay "
         "open.");
   if (diagnosis.exhausted = study.has_done_its_work(); diagnosis.exhausted)
-    diagnosis.warnings.push_back(fmt::format(
-        "the search ended at its limit of work, that of {:.0f} fits of the nominal model: it began "
-        "no further step.",
-        study.effort.most_nominal_fits));
+    diagnosis.warnings.push_back(
+        fmt::format("the search ended at its limit of work, that of {:.0f} times its first step: it began no "
+                    "further one.",
+                    study.effort.most_first_steps));
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "

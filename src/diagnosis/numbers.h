@@ -39,10 +39,10 @@ struct SearchEffort {
   std::size_t lines = 3;     ///< of the correcting torque that periodic effects begin with and that are told
   std::size_t branches = 2;  ///< first steps that are followed where the best is unsure
   std::size_t most_effects = 4;
-  /// Work after which no further step is begun [nominal fits]: the last right step of nine pairs began at 8
-  /// at most (`study_diagnosis`, pair, from 884001, 884101 and 884201), while what nothing explains would be
-  /// looked for in every branch, from 40 on.
-  double most_nominal_fits = 20.0;
+  /// Work after which no further step is begun [first steps]: of 20 pairs (`study_diagnosis 7310005 10 pair`,
+  /// `7310101 10 pair`) the last right step began at 2.1 at most, while what nothing explains would be looked
+  /// for in every branch, up to 17.
+  double most_first_steps = 4.0;
 };
 
 /// Lines of the correcting torque over the motor angle. One cycle over the travel is as wide as a line.

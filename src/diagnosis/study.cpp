@@ -105,8 +105,8 @@ bool Study::is_excluded(const EffectEntry& entry) const {
 bool Study::is_exhausted() const { return finish_requested() || has_done_its_work(); }
 
 bool Study::has_done_its_work() const {
-  return static_cast<double>(*options.fit.work) >
-         effort.most_nominal_fits * static_cast<double>(nominal_work);
+  return first_work > 0 &&
+         static_cast<double>(*options.fit.work) > effort.most_first_steps * static_cast<double>(first_work);
 }
 
 bool may_fit_half_of_the_held_out(const Study& study) {

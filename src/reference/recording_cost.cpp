@@ -12,6 +12,10 @@ namespace {
 /// the work alone.
 constexpr double kJet4Cost = 3.0, kJet8Cost = 6.0, kJet12Cost = 9.0;
 
+/// The same of a piece of a step along which smooth effects were followed, in steps without
+/// (bench_simulator).
+constexpr double kSmoothPieceCost = 5.0;
+
 }  // namespace
 
 RecordingCost::RecordingCost(const FitProblem& problem, std::size_t recording, const RecordingStart& start,
@@ -27,7 +31,7 @@ RecordingCost::RecordingCost(const FitProblem& problem, std::size_t recording, c
 
 /// Hands `keep` the index and the residual of each sample.
 template <class T, class Keep>
-bool RecordingCost::run(const T* q, const Keep& keep) const {
+Evaluation RecordingCost::run(const T* q, const Keep& keep) const {
   const ModelNumbers<T> numbers = problem_.numbers(q);
   std::array<T, kStates> initial;
   for (std::size_t i = 0; i < kStates; ++i) initial[i] = T(start_.q[i]);
@@ -36,31 +40,41 @@ bool RecordingCost::run(const T* q, const Keep& keep) const {
   const PlantModel<T> model = problem_.plant_model(numbers);
   const DriveState<T> state = problem_.state(start_, T(0.5 * model.drive.gap), initial.data());
   const double scale = 1.0 / floor_;
+  long pieces = 0;
   const auto visit = [&](std::size_t i, const DriveStepper<T>& stepper) {
     keep(i, T((recording_.x1[i] - stepper.measured()) * scale));
+    pieces = stepper.pieces();
   };
-  if (!problem_.controller) return roll_out(model, state, recording_, gains_, visit);
-  const std::vector<T> u = problem_.commanded(numbers, place_);
-  return roll_out(model, state, recording_, std::span<const T>(u), gains_, visit);
+  Evaluation done;
+  if (!problem_.controller) {
+    done.valid = roll_out(model, state, recording_, gains_, visit);
+  } else {
+    const std::vector<T> u = problem_.commanded(numbers, place_);
+    done.valid = roll_out(model, state, recording_, std::span<const T>(u), gains_, visit);
+  }
+  done.simulations =
+      1.0 + kSmoothPieceCost * static_cast<double>(pieces) / static_cast<double>(recording_.size());
+  return done;
 }
 
 /// Derivatives by the N numbers from `first` on, or as many as are left.
 template <int N>
-bool RecordingCost::run_chunk(const double* q, int first, double* residuals,
-                              std::span<const DerivativeColumn> columns) const {
+Evaluation RecordingCost::run_chunk(const double* q, int first, double* residuals,
+                                    std::span<const DerivativeColumn> columns) const {
   const auto n = static_cast<std::size_t>(numbers()), begin = static_cast<std::size_t>(first);
   std::vector<Jet<N>> jets(n);
   for (std::size_t i = 0; i < n; ++i) jets[i] = Jet<N>(q[i]);
   const auto part = columns.subspan(begin, std::min<std::size_t>(N, n - begin));
   for (std::size_t i = 0; i < part.size(); ++i) jets[begin + i].v[static_cast<int>(i)] = 1.0;
   bool finite = false;
-  const bool valid = run(jets.data(), [&](std::size_t k, const Jet<N>& r) {
+  Evaluation done = run(jets.data(), [&](std::size_t k, const Jet<N>& r) {
     residuals[k] = r.a;
     for (std::size_t i = 0; i < part.size(); ++i)
       if (part[i].first != nullptr) part[i].first[k * part[i].stride] = r.v[static_cast<int>(i)];
     if (k + 1 == recording_.size()) finite = std::isfinite(r.a) && r.v.allFinite();
   });
-  return valid && finite;
+  done.valid = done.valid && finite;
+  return done;
 }
 
 Evaluation RecordingCost::evaluate(const double* q, double* residuals, double* jacobian) const {
@@ -75,16 +89,17 @@ Evaluation RecordingCost::evaluate(const double* q, double* residuals,
   Evaluation done;
   if (stop_requested() || problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return done;
   if (columns.empty()) {
-    done.simulations += 1.0;
-    if (!run(q, [&](std::size_t k, double r) { residuals[k] = r; })) return done;
+    done = run(q, [&](std::size_t k, double r) { residuals[k] = r; });
+    if (!done.valid) return done;
   }
+  done.valid = false;
   for (int first = 0; first < std::ssize(columns); first += 12) {
     const auto left = std::ssize(columns) - first;
-    done.simulations += left <= 4 ? kJet4Cost : left <= 8 ? kJet8Cost : kJet12Cost;
-    const bool valid = left <= 4   ? run_chunk<4>(q, first, residuals, columns)
-                       : left <= 8 ? run_chunk<8>(q, first, residuals, columns)
-                                   : run_chunk<12>(q, first, residuals, columns);
-    if (!valid) return done;
+    const Evaluation part = left <= 4   ? run_chunk<4>(q, first, residuals, columns)
+                            : left <= 8 ? run_chunk<8>(q, first, residuals, columns)
+                                        : run_chunk<12>(q, first, residuals, columns);
+    done.simulations += part.simulations * (left <= 4 ? kJet4Cost : left <= 8 ? kJet8Cost : kJet12Cost);
+    if (!part.valid) return done;
   }
   apply_loss(residuals, columns);
   done.valid = true;

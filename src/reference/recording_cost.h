@@ -10,7 +10,8 @@ namespace gapscope::internal::reference {
 /// What became of an evaluation.
 struct Evaluation {
   bool valid = false;        ///< false: the motion diverged, or was refused
-  double simulations = 0.0;  ///< spent on it, a Jet run counted as its measured cost in plain ones
+  double simulations = 0.0;  ///< spent on it, a run with Jets, or with smooth effects, counted as its
+                             ///< measured cost in plain ones
 };
 
 /// Where the derivatives by one number go: that of each sample `stride` places after the one before.
@@ -41,10 +42,10 @@ class RecordingCost {
 
  private:
   template <class T, class Keep>
-  bool run(const T* q, const Keep& keep) const;
+  Evaluation run(const T* q, const Keep& keep) const;
   template <int N>
-  bool run_chunk(const double* q, int first, double* residuals,
-                 std::span<const DerivativeColumn> columns) const;
+  Evaluation run_chunk(const double* q, int first, double* residuals,
+                       std::span<const DerivativeColumn> columns) const;
   void apply_loss(double* residuals, std::span<const DerivativeColumn> columns) const;
 
   const FitProblem& problem_;

@@ -67,6 +67,10 @@ long DriveStepper<T>::events() const {
   return impl_->events;
 }
 template <class T>
+long DriveStepper<T>::pieces() const {
+  return impl_->smooth_pieces;
+}
+template <class T>
 bool DriveStepper<T>::healthy() const {
   return impl_->healthy;
 }

@@ -85,6 +85,7 @@ struct StepperImpl {
   bool closed = false;
   bool healthy = true;
   long events = 0;
+  long smooth_pieces = 0;  ///< along which smooth effects were followed
   /// Of each segment of a sample (two with a delay), each mode, and how often its pieces are halved.
   StateTransition<T> transitions[2][kFlows][kMostHalvings + 1];
 

@@ -119,6 +119,7 @@ void StepperImpl<T>::advance_smoothly(const StateTransition<T>& step, Forcing<T>
 
 template <class T>
 void StepperImpl<T>::accept(const DriveState<T>& next, const T& h) {
+  if (smooth) ++smooth_pieces;
   if (remembers) advance_memory(next, now + h);
   z = next;
   now += h;

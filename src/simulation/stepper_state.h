@@ -77,7 +77,7 @@ void StepperImpl<T>::reset(const DriveState<T>& state) {
   torque = T(0.0);
   started = closed = false;
   healthy = true;
-  events = 0;
+  events = smooth_pieces = 0;
   forget_zeros();
   if (locked) z.w2 = T(0.0);
   if (motor_friction) mode.motor = direction_of(value_of(z.w1));

@@ -64,6 +64,7 @@ class DriveStepper {
   bool has_load() const;             ///< else it is one body, and mode() means nothing
   bool closed_in_last_step() const;  ///< a contact closed within the last sample
   long events() const;               ///< located since reset()
+  long pieces() const;               ///< since reset(), along which smooth effects were followed
   /// False once the motion left the numbers that a double can hold, or events piled up at one instant.
   bool healthy() const;
 
