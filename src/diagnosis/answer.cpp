@@ -189,7 +189,7 @@ Answer by_model_alone(const Findings& f) {
 /// What to do about a reference that is not good, by the code of its reason.
 const std::map<std::string, std::string>& remedies() {
   static const std::string diagnose =
-      "Run `gapscope diagnose CONFIG`: it asks what the model lacks, such as friction or a delay.";
+      "Run `gapscope diagnose CONFIG`: it finds what the model lacks, such as friction or a delay.";
   static const std::string without =
       "Fit a model without a gap (mass_ratio: 0), or record a motion that closes the contact on both sides.";
   static const std::map<std::string, std::string> all = {

@@ -145,7 +145,11 @@ std::string next_line(const CardFacts& f, const Card& card) {
   if (!d.held.empty() && (unknown || d.verdict == DiagnosisVerdict::kHelps)) return step_to_estimate(d);
   if (unknown && d.better_swapped) return kSwapStep;  // which takes no new recording
   if (is_added(d) && !exhausted_words(d).empty())
-    return "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.";
+    return (one_way_words(d.where.direction).empty()
+                ? std::string("Go on from what was found: ")
+                : "Record both directions, too: without them causes stay open. "
+                  "To go on from what was found: ") +
+           "`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.";
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
   if (is_added(d)) return step_of_the_model(f, card);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);

@@ -10,6 +10,7 @@
 #include "diagnosis/card_open.h"
 #include "diagnosis/card_words.h"
 #include "diagnosis/effect_starts.h"
+#include "diagnosis/rule.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/decimals.h"
 #include "gapscope/base/percents.h"
@@ -39,35 +40,41 @@ std::vector<std::string> names(const CardFacts& f, bool established) {
   return all;
 }
 
-/// "either cogging torque or load unbalance (these recordings cannot tell which; `fitted.yaml` has cogging
-/// torque)", of every group that holds a cause.
-std::vector<std::string> groups(const CardFacts& f) {
+/// "either cogging torque or load unbalance is missing (these recordings cannot tell which; `fitted.yaml` has
+/// cogging torque)", of every group that holds a cause.
+std::vector<std::string> groups(const CardFacts& f, const char* too) {
   std::vector<std::string> all;
   for (const AddedEffect& a : f.diagnosis->added) {
     std::vector<std::string> others = others_of(a, *f.diagnosis);
     if (!a.established || others.empty()) continue;
     others.insert(others.begin(), called(a, f));
     const bool two = others.size() == 2;
-    all.push_back(fmt::format("{} {} ({}; `fitted.yaml` has {})", two ? "either" : "one of",
-                              enumerated(others, two ? "or" : "and"), which_is_open(a.group, *f.diagnosis),
-                              called(a, f)));
+    all.push_back(fmt::format("{} {} is missing{} ({}; `fitted.yaml` has {})", two ? "either" : "one of",
+                              enumerated(others, two ? "or" : "and"), too,
+                              which_is_open(a.group, *f.diagnosis), called(a, f)));
   }
   return all;
 }
 
-/// " Established: motor Coulomb friction and friction asymmetry.": causes, with which evidence does not bear
-/// them out, and what they rest on where that is open.
+/// " Established: motor Coulomb friction. One of input delay and actuator lag is missing, too (...).":
+/// causes, with which evidence does not bear them out, and what they rest on where that is open.
 std::string established_causes(const CardFacts& f) {
-  const std::string alone = enumerated(names(f, true));
-  std::vector<std::string> causes = groups(f);
-  if (!alone.empty()) causes.insert(causes.begin(), alone);
-  if (causes.empty()) return "";
-  const bool rests = rests_on_open_cause(*f.diagnosis);
-  return fmt::format(" Established{}{}: {}.",
-                     !rests                       ? ""
-                     : names(f, false).size() > 1 ? " with them in the model"
-                                                  : " with it in the model",
-                     brief_doubt_of_motion(*f.diagnosis), fmt::join(causes, "; "));
+  const std::vector<std::string> alone = names(f, true);
+  const std::string rest = !rests_on_open_cause(*f.diagnosis) ? ""
+                           : names(f, false).size() > 1       ? "with them in the model"
+                                                              : "with it in the model";
+  const std::string doubt = brief_doubt_of_motion(*f.diagnosis);
+  std::string text;
+  if (!alone.empty())
+    text = fmt::format(" {}{}: {}.", doubt.empty() ? "Established" : doubt, rest.empty() ? "" : " " + rest,
+                       enumerated(alone));
+  const std::string before = !alone.empty()   ? ""
+                             : !doubt.empty() ? doubt + ": "
+                             : rest.empty()   ? ""
+                                              : rest + ", ";
+  for (const std::string& group : groups(f, alone.empty() && rest.empty() ? "" : ", too"))
+    text += " " + as_sentence(before + group);
+  return text;
 }
 
 /// "cogging torque (why)"; an aside that ends the words goes on with it.
@@ -169,7 +176,35 @@ std::string fall(const CardFacts& f, const Card& card) {
   return fall_of_motion(f);
 }
 
+/// What each effect leaves of the simulated motion, where the last one leaves what all of them do; else
+/// empty.
+std::vector<double> rungs_of_motion(const Diagnosis& d) {
+  const MismatchSize& m = d.mismatch;
+  std::vector<double> left;
+  double now = m.before;
+  for (const AddedEffect& a : d.added) {
+    if (a.share_of != ShareOf::kMotion || !std::isfinite(a.shrink)) return {};
+    left.push_back(now -= a.shrink * (now - m.floor));
+  }
+  const SharedUnit error(m.after, "");
+  return left.size() > 1 && error.number(left.back()) == error.number(m.after) ? left : std::vector<double>();
+}
+
+/// "The free-run error (restarted every 0.5 s) falls from 138 mrad to 3 mrad with friction, then to 1 µrad
+/// with ..."
+std::string shares_of_motion(const CardFacts& f, const std::vector<double>& left) {
+  const Diagnosis& d = *f.diagnosis;
+  const auto motion = [&](double size) { return SharedUnit(size, f.coordinates.position_unit())(size); };
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    all.push_back(motion(left[i]) + " with " + with_asides(d.added[i], f, false));
+  return fmt::format("the {} ({}) falls from {} to {}", motion_error(d), d.mismatch.measure,
+                     motion(d.mismatch.before), fmt::join(all, ", then to "));
+}
+
 std::string shares(const CardFacts& f, const Card& card) {
+  if (const std::vector<double> left = rungs_of_motion(*f.diagnosis); !left.empty() && !tells_torque(card))
+    return shares_of_motion(f, left);
   std::vector<std::string> told;
   for (const AddedEffect& a : f.diagnosis->added)
     told.push_back(with_asides(a, f, f.diagnosis->added.size() > 1));
@@ -227,6 +262,14 @@ std::string motion_words(const MismatchSize& m, Coordinates coordinates) {
                      motion(m.before), motion(m.after), m.measure);
 }
 
+std::string what_is_left(const MismatchSize& m) {
+  if (m.remains < kRule.floor_ratio) return "what is left is noise";
+  return fmt::format("what is left, {:.2g} times {}, is not explained", m.remains,
+                     m.floor_from == FloorSource::kRepeatability
+                         ? "that by which the drive itself differs from period to period"
+                         : "the noise");
+}
+
 std::string law_words(const LastResortLaw& law, const Diagnosis& d) {
   return fmt::format("a free curve over the {} cuts the {}{} by {} % (compensation_{}.csv)", law.variable,
                      motion_error(d), law.on_top_of.empty() ? "" : " that is left",
@@ -263,6 +306,8 @@ std::string helps_line(const CardFacts& f, const Card& card) {
     parts.push_back((has_rungs(d) ? rungs(f, card) : shares(f, card)) + "; `fitted.yaml` has " +
                     (d.added.size() > 1 ? "them" : "it"));
   if (!d.added.empty()) parts.back() += motion_words(d.mismatch, f.coordinates);
+  if (!d.added.empty() && d.laws.empty() && d.mismatch.remains > 0.0)
+    parts.push_back(what_is_left(d.mismatch));
   for (const LastResortLaw& law : d.laws) parts.push_back(law_words(law, d));
   if (parts.empty() && d.stopped) return "Not told: the search was stopped before its end.";
   if (parts.empty() && unestablished_rung(d) != nullptr)

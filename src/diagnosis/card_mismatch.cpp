@@ -24,11 +24,12 @@ std::string fit_of_motion(const CardFacts& f) {
                      f.reference->rejected() ? "; the model is rejected" : "");
 }
 
-/// "The model", "The model, which has motor Coulomb friction,".
+/// "The model", "The refitted model, which has motor Coulomb friction,".
 std::string model_words(const Diagnosis& d) {
+  const std::string model = d.refitted.empty() ? "The model" : "The refitted model";
   std::vector<std::string> names;
   for (const std::string& effect : d.modelled) names.push_back(readable(effect));
-  return names.empty() ? "The model" : "The model, which has " + enumerated(names) + ",";
+  return names.empty() ? model : model + ", which has " + enumerated(names) + ",";
 }
 
 /// "The model misses 9.66 N rms of force on held-out data, 17.1 % of the 56.5 N rms that the input applies"
@@ -78,11 +79,14 @@ std::string floor_words(const CardFacts& f, const Card& card) {
   if (const std::string words = torque_floor(f, card); !words.empty()) return words;
   const MismatchSize& m = f.diagnosis->mismatch;
   if (f.diagnosis->verdict != DiagnosisVerdict::kNone || !(m.before > 0.0 && m.floor > 0.0)) return "";
-  return fmt::format("; that is noise: the error of the simulated motion is {} times {}",
-                     SharedUnit(1.0, "").number(m.before / m.floor),
-                     m.floor_from == FloorSource::kRepeatability
-                         ? "that by which the drive itself differs from period to period"
-                         : "the encoder's noise");
+  const SharedUnit motion(m.floor, f.coordinates.position_unit());
+  return fmt::format(
+      "; that is noise: the simulated motion is {} rms off, {} {} (up to {} times as much counts "
+      "as noise)",
+      motion(m.before),
+      m.floor_from == FloorSource::kRepeatability ? "the drive itself differs from period to period by"
+                                                  : "the encoder's noise alone makes",
+      motion(m.floor), kRule.floor_ratio);
 }
 
 std::string additions_below(const CardFacts& f) {
@@ -98,8 +102,12 @@ std::string closed_loop_words(const CardFacts& f) {
   const auto is = [&](double error) {
     return std::isfinite(error) ? "is " + position(error) + " rms off in position" : std::string("runs away");
   };
-  return fmt::format(" With its controller in the loop the model {}{}.", is(c.before),
-                     !f.diagnosis->added.empty() ? additions_below(f) + "it " + is(c.after) : "");
+  const bool travels = f.diagnosis->whole_run && std::isfinite(f.diagnosis->whole_run->travel);
+  const double travel = travels ? f.diagnosis->whole_run->travel : kNaN;
+  return fmt::format(
+      " With its controller in the loop the model {}{}{}.", is(c.before),
+      travels ? " (travel " + SharedUnit(travel, f.coordinates.position_unit())(travel) + ")" : "",
+      !f.diagnosis->added.empty() ? additions_below(f) + "it " + is(c.after) : "");
 }
 
 /// " Simulated freely from the first sample on, the model drifts up to 407 mrad from the held-out motion,
@@ -111,7 +119,10 @@ std::string whole_run_words(const CardFacts& f) {
   const WholeRun& w = *d.whole_run;
   const bool stays = std::isfinite(w.before), stays_after = std::isfinite(w.after);
   const auto position = [&](double size) { return SharedUnit(size, f.coordinates.position_unit())(size); };
-  const std::string of = " from the held-out motion, whose travel is " + position(w.travel);
+  const double drift = std::isfinite(w.before) ? w.before : w.after;
+  const bool alike = drift > 0.1 * w.travel;  // in one unit
+  const std::string of = " from the held-out motion, whose travel is " +
+                         SharedUnit(alike ? drift : w.travel, f.coordinates.position_unit())(w.travel);
   std::string text = " Simulated freely from the first sample on, the model " +
                      (stays ? "drifts up to " + position(w.before) + of : "runs away");
   if (d.added.empty()) return text + ".";

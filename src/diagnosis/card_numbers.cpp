@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
@@ -13,41 +15,76 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-/// Whether a later effect contains this one, and has its numbers.
-bool is_within_another(const EffectEntry& entry, const std::vector<AddedEffect>& all) {
-  return std::any_of(all.begin(), all.end(), [&](const AddedEffect& other) {
-    const EffectEntry* o = find_effect(other.effect);
-    return o != nullptr && contained_effect(*o) == &entry;
-  });
+/// Those that contain the simpler effect, each with a level of it as its first number.
+std::vector<const AddedEffect*> containers_of(const EffectEntry& simpler,
+                                              const std::vector<AddedEffect>& all) {
+  std::vector<const AddedEffect*> found;
+  for (const AddedEffect& other : all)
+    if (const EffectEntry* o = find_effect(other.effect);
+        o != nullptr && contained_effect(*o) == &simpler && !other.parameters.empty())
+      found.push_back(&other);
+  return found;
+}
+
+/// The level of a simpler effect in all that contain it; of several, whose parts are not apart, without an
+/// interval.
+std::optional<NamedValue> shared_level(const std::vector<const AddedEffect*>& containers) {
+  if (containers.empty()) return {};
+  NamedValue level = containers.front()->parameters.front();
+  for (std::size_t i = 1; i < containers.size(); ++i) level.value += containers[i]->parameters.front().value;
+  if (containers.size() > 1) level.ci95 = {};
+  return level;
 }
 
 /// The number that says how much there is of an effect, past those of the simpler one that it contains; of
-/// several ratios, as friction that differs with the direction has them, the largest. nullptr: none is known.
-const NamedValue* own_number(const AddedEffect& a, const std::vector<AddedEffect>& all) {
+/// several ratios, as friction that differs with the direction has them, the largest. Nothing: none is known.
+std::optional<NamedValue> own_number(const AddedEffect& a, const std::vector<AddedEffect>& all) {
   const EffectEntry* entry = find_effect(a.effect);
-  if (entry == nullptr || is_within_another(*entry, all)) return nullptr;
+  if (entry == nullptr) return {};
+  if (const auto containers = containers_of(*entry, all); !containers.empty())
+    return shared_level(containers);
   const EffectEntry* simpler = contained_effect(*entry);
   const std::size_t own = simpler == nullptr ? 0 : simpler->parameters.size();
-  if (own >= a.parameters.size()) return nullptr;
+  if (own >= a.parameters.size()) return {};
   const NamedValue* most = &a.parameters[own];
   const auto is_ratio = [](const NamedValue& n) { return n.key.ends_with("ratio"); };
   for (std::size_t i = own + 1; i < a.parameters.size(); ++i)
     if (const NamedValue& n = a.parameters[i];
         is_ratio(*most) && is_ratio(n) && std::abs(n.value) > std::abs(most->value))
       most = &n;
-  return most;
+  return *most;
+}
+
+/// What a ratio of the level of friction is of the level in all effects that have a part of it.
+double part_of_level(const AddedEffect& a, const std::vector<AddedEffect>& all) {
+  const EffectEntry* simpler = contained_effect(*find_effect(a.effect));
+  if (simpler == nullptr) return 1.0;
+  const std::optional<NamedValue> level = shared_level(containers_of(*simpler, all));
+  return level && level->value > 0.0 ? a.parameters.front().value / level->value : 1.0;
 }
 
 /// "3.12 % of the torque, 95 %: 3.05 to 3.19"; with its sign where it may have either.
-std::string share_text(const AddedEffect& a, const NamedValue& n) {
-  const Interval percent = {100.0 * n.ci95.low, 100.0 * n.ci95.high};
+std::string share_text(const AddedEffect& a, const NamedValue& n, const std::vector<AddedEffect>& all) {
+  double factor = 100.0;
   std::string name = name_of_key(n.key) + " ", unit = "%";
   for (const EffectParameterSpec& p : find_effect(a.effect)->parameters) {
     if (n.key != p.key || *p.of == '\0') continue;
     name = p.low < 0.0 && n.value > 0.0 ? "+" : "";
     unit += std::string(" ") + p.of;
+    if (std::string_view(p.of).find("friction") != std::string_view::npos) factor *= part_of_level(a, all);
   }
-  return name + SharedUnit(1.0, unit).with_interval(100.0 * n.value, percent);
+  return name +
+         SharedUnit(1.0, unit).with_interval(factor * n.value, {factor * n.ci95.low, factor * n.ci95.high});
+}
+
+constexpr const char* kSteadyTorque = "constant_load_torque";
+
+/// "227.26 mN·m pushing backward, 95 %: 226.44 to 228.07"
+std::string pushing(const NamedValue& n, const std::string& unit) {
+  const bool back = n.value < 0.0;
+  const Interval ci95 = back ? Interval{-n.ci95.high, -n.ci95.low} : n.ci95;
+  return SharedUnit(n.value, unit + (back ? " pushing backward" : " pushing forward"))
+      .with_interval(std::abs(n.value), ci95);
 }
 
 std::string without_interval(const AddedEffect& a, const NamedValue& n) {
@@ -141,20 +178,21 @@ std::string scale_words(const Diagnosis& d) {
   if (!alike || !clearly_changes(a) || !clearly_changes(b)) return "";
   const double factor = inertia->fitted / inertia->configured;
   return fmt::format(
-      " Inertia and damping are both {:.4g} times those of the configuration: a torque constant (or gear "
-      "ratio) "
-      "{} {} would say the same; where the inertia is certain, fix it and set torque_constant: "
-      "{{estimate: true}}.",
+      " Inertia and damping are both {:.4g} times those of the configuration, which the recordings cannot "
+      "tell "
+      "from a torque constant (or gear ratio) that is {} {}: where the inertia is certain, fix it and set "
+      "torque_constant: {{estimate: true}}.",
       factor, percent_text(100.0 * std::abs(1.0 / factor - 1.0)), factor > 1.0 ? "smaller" : "larger");
 }
 
 }  // namespace
 
 std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all, Coordinates coordinates) {
-  const NamedValue* amount = own_number(a, all);
-  if (amount == nullptr || !std::isfinite(amount->value)) return "";
+  const std::optional<NamedValue> amount = own_number(a, all);
+  if (!amount || !std::isfinite(amount->value)) return "";
   const std::string unit = coordinates.shown_unit(amount->unit);
-  if (unit.empty()) return share_text(a, *amount) + without_interval(a, *amount);
+  if (unit.empty()) return share_text(a, *amount, all) + without_interval(a, *amount);
+  if (a.effect == kSteadyTorque) return pushing(*amount, unit) + without_interval(a, *amount);
   const std::string name = name_of_key(amount->key);
   const bool said = name == "level" || readable(a.effect).ends_with(name);  // an "input delay" of 3 ms
   return (said ? "" : name + " ") +
@@ -201,10 +239,7 @@ std::string also_refitted(const CardFacts& f) {
   if (f.diagnosis == nullptr || f.diagnosis->added.empty() || f.diagnosis->stopped) return "";
   const std::string numbers = refitted_words(*f.diagnosis, f.coordinates, kMost);
   if (numbers.empty()) return "";
-  return " All figures, also those before an addition, are with your estimated numbers refitted; "
-         "`fitted.yaml` "
-         "has " +
-         numbers + "." + scale_words(*f.diagnosis);
+  return " Of your own numbers the fit has changed " + numbers + "." + scale_words(*f.diagnosis);
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -12,8 +12,8 @@ namespace gapscope::internal::diagnosis {
 inline constexpr std::size_t kToldNumbers = 3;  ///< of the user's own; the report has all
 
 /// "20.54 N, 95 %: 20.11 to 20.97": how much there is of an effect, as the fit has it. A law that contains a
-/// simpler one shares its level with it and is told by what it adds: "stiction ratio 33.0 %". Nothing where
-/// the fit has no numbers of it, or a later effect has them.
+/// simpler one shares its level with it and is told by what it adds, "stiction ratio 33.0 %", the simpler one
+/// by that level. Nothing where the fit has no numbers of it.
 std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all, Coordinates coordinates);
 
 /// "motor damping 0.1 → 0.04 N·m s/rad and motor inertia 0.00532 → 0.00781 kg m²": what the configuration has
@@ -28,7 +28,7 @@ std::string other_numbers_help(const CardFacts& f);
 /// The next step of the same.
 std::string next_of_numbers(const CardFacts& f);
 
-/// " `fitted.yaml` also changes ...", where something was added.
+/// " Of your own numbers the fit has changed ...", where something was added.
 std::string also_refitted(const CardFacts& f);
 
 }  // namespace gapscope::internal::diagnosis

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
@@ -24,9 +25,10 @@ std::vector<std::string> rivals_of(const AddedEffect& a, const Diagnosis& d) {
   return all;
 }
 
-constexpr const char* kRemoves = "it removes ";
+constexpr const char* kLowers = "it lowers the error by only ";
 
-std::string percent_of_share(double share) { return fmt::format("{:.0f}", 100.0 * share); }
+/// Of a share of the mean square, the fall of the rms [%].
+double fall_of_rms(double share) { return 100.0 * (1.0 - std::sqrt(1.0 - std::clamp(share, 0.0, 1.0))); }
 
 /// "torque ripple", "a free curve over the speed"
 std::string rival_words(const std::vector<std::string>& laws) {
@@ -42,12 +44,10 @@ std::string doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
   const torque_view::TorqueViewOptions conditions;
   for (const BudgetRung& r : d.budget.rungs) {
     if (!r.added || r.effect != a.effect) continue;
-    if (r.share < conditions.least_share)
-      return fmt::format("{}{:.3g} % of the mean square that was left", kRemoves, 100.0 * r.share);
+    if (r.share < conditions.least_share) return fmt::format("{}{:.2g} %", kLowers, fall_of_rms(r.share));
     if (r.share_ci95.low < conditions.least_low)
-      return fmt::format("its share of the mean square that was left is uncertain, {} to {} %",
-                         percent_of_share(std::max(0.0, r.share_ci95.low)),
-                         percent_of_share(r.share_ci95.high));
+      return fmt::format("by how much it lowers the error is uncertain, {:.0f} to {:.0f} %",
+                         fall_of_rms(r.share_ci95.low), fall_of_rms(r.share_ci95.high));
     return r.last < conditions.least_share
                ? "what was added after it removes most of the same"
                : rival_words(r.rivals) + " would remove nearly as much in its place";
@@ -74,9 +74,9 @@ std::string which_is_open(const std::vector<std::string>& group, const Diagnosis
 }
 
 std::string least_of_a_cause(const std::vector<std::string>& why) {
-  if (std::ranges::none_of(why, [](const std::string& w) { return w.starts_with(kRemoves); })) return "";
-  return fmt::format(" A cause has to remove at least {} %.",
-                     percent_of_share(torque_view::TorqueViewOptions{}.least_share));
+  if (std::ranges::none_of(why, [](const std::string& w) { return w.starts_with(kLowers); })) return "";
+  return fmt::format(" A cause has to lower it by {:.0f} % or more.",
+                     fall_of_rms(torque_view::TorqueViewOptions{}.least_share));
 }
 
 const BudgetRung* unestablished_rung(const Diagnosis& d) {

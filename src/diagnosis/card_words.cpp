@@ -82,8 +82,8 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   switch (diagnosis->model_gap->origin) {
     case GapOrigin::kNone:
       if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
-        return "Backlash is not modelled (a single body); the encoder is on the load, so that none would "
-               "show.";
+        return "Backlash is not modelled (a single body); the encoder is on the load, so that this recording "
+               "cannot show any.";
       return "Backlash is not modelled (a single body); to check the recording for it: " +
              told_without_model(*diagnosis);
     case GapOrigin::kGiven:
@@ -97,16 +97,27 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   return kElsewhere;
 }
 
+namespace {
+
+/// Of a period that the motion does not go through once.
+std::string short_travel_words(const Diagnosis& d) {
+  const double turns = d.whole_run ? d.whole_run->travel / (2.0 * kPi) : kNaN;
+  if (!(turns * d.where.periods_per_turn < 1.0)) return "";
+  return fmt::format(" (the motion covers {:.2g} turns, so that the period is assumed)", turns);
+}
+
+}  // namespace
+
 std::string where_words(const Diagnosis& d, Coordinates coordinates) {
   if (d.verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no pattern.";
   const std::string& what = d.where.headline;
   const bool has_verb = std::ranges::any_of(std::array{"varies", "changes", "depends", "arises", "reverses"},
                                             [&](const char* verb) { return what.starts_with(verb); });
-  return fmt::format("The missing {} {}{}.", coordinates.torque_word(),
+  return fmt::format("The missing {} {}{}{}.", coordinates.torque_word(),
                      has_verb                  ? ""
                      : what.starts_with("no ") ? "has "
                                                : "is ",
-                     what);
+                     what, short_travel_words(d));
 }
 
 std::string export_words(const CardFacts& f) {

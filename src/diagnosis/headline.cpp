@@ -18,6 +18,8 @@ const MapShare& largest(const std::vector<MapShare>& map) {
                            [](const MapShare& a, const MapShare& b) { return a.share < b.share; });
 }
 
+constexpr std::string_view kDepends = "depends ";
+
 /// By its odds, so that a phase which lasts most of the time can be it, too.
 bool denser_than_chance(const MapShare& m) {
   return m.share * (1.0 - m.expected) > kTelling.dense * m.expected * (1.0 - m.share);
@@ -130,8 +132,10 @@ std::string headline_of(const MismatchPlace& place, Coordinates coordinates, boo
   for (const ResidualPattern pattern : place.follows) {
     if (pattern == ResidualPattern::kDirection && !one_way.empty()) continue;  // nothing to compare with
     const std::string words = pattern_words(pattern, place, coordinates, reverses, explained);
-    const char* const joint = patterns.find(',') == patterns.npos ? " and " : ", and ";
-    patterns += patterns.empty() || words.empty() ? words : joint + words;
+    const std::string joint = patterns.find(',') == patterns.npos ? " and " : ", and ";
+    const bool again =
+        patterns.starts_with(kDepends) && words.starts_with(kDepends);  // "depends on x and on y"
+    patterns += patterns.empty() || words.empty() ? words : joint + words.substr(again ? kDepends.size() : 0);
   }
   if (place.follows.empty()) patterns = "no clear pattern in angle, speed, input or time";
   const std::string phase = phase_words(place, coordinates);

@@ -218,9 +218,9 @@ std::string brief_doubt_of_motion(const Diagnosis& d) {
   if (doubt_of_motion(d).empty()) return "";
   const std::string what = d.mismatch.measure.starts_with("prediction") ? "prediction" : "free run";
   return d.added.front().share_of == ShareOf::kTorque
-             ? " by the torque balance alone (the " + what +
+             ? "Likely, by the torque balance alone (the " + what +
                    ", restarted again and again, does not confirm it)"
-             : " on these recordings (the " + what + " of another may not show it)";
+             : "Established on these recordings (the " + what + " of another may not show it)";
 }
 
 bool rests_on_open_cause(const Diagnosis& d) {

@@ -9,6 +9,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 TEST(CardCause, ALaterOneIsEstablishedWithAnOpenFirstOneInTheModel) {
   EXPECT_EQ(card_of(of_friction_and_delay(false, true)).cause,
@@ -20,11 +21,12 @@ TEST(CardCause, OneOfAGroupIsNotCalledEstablished) {
   Diagnosis d = of_friction_and_delay(true, true);
   EXPECT_EQ(
       card_of(d).cause,
-      "Established: input delay; either motor Coulomb friction or quadratic drag (these recordings cannot "
-      "tell which; `fitted.yaml` has motor Coulomb friction).");
+      "Established: input delay. Either motor Coulomb friction or quadratic drag is missing, too (these "
+      "recordings cannot tell which; `fitted.yaml` has motor Coulomb friction).");
   d.added[0].group.push_back("load_friction");
-  EXPECT_THAT(card_of(d).cause,
-              HasSubstr("; one of motor Coulomb friction, quadratic drag and load friction (these"));
+  EXPECT_THAT(
+      card_of(d).cause,
+      HasSubstr(". One of motor Coulomb friction, quadratic drag and load friction is missing, too (these"));
   d.added[0].group.resize(1);
   EXPECT_EQ(card_of(d).cause, "Established: motor Coulomb friction and input delay.");
   d.added[1].established = false;
@@ -36,11 +38,12 @@ TEST(CardCause, OfOneLawUnderTwoNamesSaysThatNoRecordingTells) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.added[0].effect = "constant_load_torque";
   d.added[0].group = {"constant_load_torque", "friction_asymmetry"};
-  EXPECT_THAT(card_of(d).cause, HasSubstr("friction asymmetry (these recordings cannot tell which;"))
+  EXPECT_THAT(card_of(d).cause,
+              HasSubstr("friction asymmetry is missing, too (these recordings cannot tell which;"))
       << "a gap tells them apart";
   d.model_gap = ModelGap();
   EXPECT_THAT(card_of(d).cause,
-              HasSubstr("either constant load torque or friction asymmetry (no recording can "
+              HasSubstr("Either constant load torque or friction asymmetry is missing, too (no recording can "
                         "tell which: dry friction that differs with the direction is the same as"));
 }
 
@@ -101,17 +104,17 @@ TEST(CardCause, OfAnotherVerdictTellsTheNumbersBrieflyBehindTheNextStep) {
   EXPECT_THAT(
       card_of(d).next,
       HasSubstr(
-          " All figures, also those before an addition, are with your estimated numbers refitted; "
-          "`fitted.yaml` "
-          "has motor "
-          "damping 0.1 → 0.04000 N·m s/rad (95 %: 0.03970 to 0.04030), motor inertia 0.00532 → "
+          " Of your own numbers the fit has changed motor damping 0.1 → 0.04000 N·m s/rad (95 %: 0.03970 to "
+          "0.04030), motor inertia 0.00532 → "
           "0.007810 kg m² (95 %: 0.007790 to 0.007830), and smaller changes in load unbalance amplitude."));
   d.model_gap = ModelGap();
   EXPECT_THAT(card_of(d).next, HasSubstr(", motor inertia (of all that moves) 0.00532 → "));
   d.refitted = {{"mass_ratio", "-", 1.2, 1.0, {0.99, 1.01}}};
-  EXPECT_THAT(card_of(d).next, HasSubstr("`fitted.yaml` has mass ratio (load over motor) 1.2 → 1.000 (95 %"));
+  EXPECT_THAT(card_of(d).next, HasSubstr("has changed mass ratio (load over motor) 1.2 → 1.000 (95 %"));
+  EXPECT_THAT(card_of(d).mismatch, StartsWith("The refitted model misses "));
   d.refitted.clear();
-  EXPECT_THAT(card_of(d).next, Not(HasSubstr("refitted")));
+  EXPECT_THAT(card_of(d).next, Not(HasSubstr("changed")));
+  EXPECT_THAT(card_of(d).mismatch, StartsWith("The model misses "));
 }
 
 // The input's scale, inertia and damping are one number too many: recordings alone know their ratios.
@@ -121,16 +124,17 @@ TEST(CardCause, WhereInertiaAndDampingGrowAlikeTheTorqueConstantMayBeWrong) {
                 {"motor_damping", "N m s/rad", 0.3, 0.341, {0.3405, 0.3415}}};
   EXPECT_THAT(
       card_of(d).next,
-      HasSubstr(" Inertia and damping are both 1.136 times those of the configuration: a torque constant "
-                "(or gear ratio) 12 % smaller would say the same; where the inertia is certain, fix it "
-                "and set torque_constant: {estimate: true}."));
+      HasSubstr(
+          " Inertia and damping are both 1.136 times those of the configuration, which the recordings "
+          "cannot tell from a torque constant (or gear ratio) that is 12 % smaller: where the inertia is "
+          "certain, fix it and set torque_constant: {estimate: true}."));
   d.refitted[1].ci95 = {0.345, 0.347};
   EXPECT_THAT(card_of(d).next, Not(HasSubstr("torque constant"))) << "they grow by different factors";
   d.refitted[1].ci95 = {0.33, 0.352};
   EXPECT_THAT(card_of(d).next, Not(HasSubstr("torque constant"))) << "the damping is known to 3 % alone";
   d = of_other_numbers();
   d.refitted[1].configured = 0.01953, d.refitted[1].fitted = 0.00781;
-  EXPECT_THAT(card_of(d).helps, HasSubstr("a torque constant (or gear ratio) 150 % larger"));
+  EXPECT_THAT(card_of(d).helps, HasSubstr("a torque constant (or gear ratio) that is 150 % larger"));
 }
 
 TEST(CardCause, WhereOnlyTheSimulatorDiffersHelpsAndNextAgreeWithItsLine) {
@@ -165,11 +169,12 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   d.budget.rungs = {{"input_delay", "input_delay", true, 0.04, 0.037, 0.14, {0.11, 0.2}, 0.2, 0.3}};
   BudgetRung& rung = d.budget.rungs.front();
   const auto cause = [&] { return card_of(d).cause; };
-  EXPECT_THAT(cause(), HasSubstr("helps: input delay (it removes 14 % of the mean square that was left). A "
-                                 "cause has to remove at least 20 %."));
+  EXPECT_THAT(cause(),
+              HasSubstr("helps: input delay (it lowers the error by only 7.3 %). A cause has to lower "
+                        "it by 11 % or more."))
+      << "0.14 and 0.2 of the mean square";
   rung.share = 0.4, rung.share_ci95 = {0.05, 0.5};
-  EXPECT_THAT(cause(), HasSubstr("input delay (its share of the mean square that was left is uncertain, 5 to "
-                                 "50 %)."));
+  EXPECT_THAT(cause(), HasSubstr("input delay (by how much it lowers the error is uncertain, 3 to 29 %)."));
   rung.share_ci95 = {0.3, 0.5};
   EXPECT_THAT(cause(), HasSubstr("input delay (another torque would remove nearly as much in its place)."));
   rung.rivals = {"torque_ripple"};
@@ -184,8 +189,8 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
       {"motor_coulomb_friction", "motor_coulomb_friction", true, 0.1, 0.09, 0.1, {}, 0.1, 0.3});
   EXPECT_THAT(
       cause(),
-      HasSubstr("friction (it removes 10 % of the mean square that was left) and input delay (it removes "
-                "14 % of the mean square that was left). A cause has to remove at least 20 %."));
+      HasSubstr("friction (it lowers the error by only 5.1 %) and input delay (it lowers the error by only "
+                "7.3 %). A cause has to lower it by 11 % or more."));
 }
 
 TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {

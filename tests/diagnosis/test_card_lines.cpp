@@ -26,7 +26,7 @@ TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
   EXPECT_THAT(
       card_of(d).mismatch,
       HasSubstr(
-          "up to 54.2 rad from the held-out motion, whose travel is 876 mrad; with the additions below, "
+          "up to 54.2 rad from the held-out motion, whose travel is 0.876 rad; with the additions below, "
           "up to 41.2 mrad."));
   d.whole_run->before = kNaN;
   EXPECT_THAT(
@@ -68,8 +68,66 @@ TEST(CardMismatch, TellsTheErrorUnderTheController) {
   d.closed_loop->before = kNaN;
   EXPECT_THAT(card_of(d).mismatch,
               HasSubstr("the model runs away; with the additions below, it is 56.1 mrad rms off"));
+  d.whole_run = WholeRun{0.407, 0.0412, 0.876};
+  EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model runs away (travel 876 mrad); with the additions"));
+  d.whole_run.reset();
   d.closed_loop->before = 0.392, d.added.clear();
   EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model is 392 mrad rms off in position."));
+}
+
+TEST(CardMismatch, OfAModelAsGoodAsTheRecordingHasTheNoiseBesideIt) {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kNone;
+  d.mismatch.before = 0.429e-3, d.mismatch.floor = 0.354e-3;
+  EXPECT_THAT(
+      card_of(d).mismatch,
+      HasSubstr("; that is noise: the simulated motion is 429 µrad rms off, the encoder's noise alone "
+                "makes 354 µrad (up to 1.3 times as much counts as noise)."));
+  d.mismatch.floor_from = FloorSource::kRepeatability;
+  EXPECT_THAT(card_of(d).mismatch,
+              HasSubstr("off, the drive itself differs from period to period by 354 µrad"));
+}
+
+TEST(CardPlace, SaysWhereAPeriodIsLongerThanTheMotion) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.where.headline = "periodic in the motor angle, once per turn", d.where.periods_per_turn = 1.0;
+  d.whole_run = WholeRun{0.407, 0.0412, 0.876};
+  EXPECT_THAT(card_of(d).place,
+              HasSubstr("once per turn (the motion covers 0.14 turns, so that the period is "
+                        "assumed)."));
+  d.where.periods_per_turn = 24.0;
+  EXPECT_THAT(card_of(d).place, Not(HasSubstr("assumed")));
+}
+
+TEST(CardHelps, TellsWhatIsLeft) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.mismatch.remains = 1.2;
+  EXPECT_THAT(card_of(d).helps, HasSubstr("`fitted.yaml` has them. What is left is noise."));
+  d.mismatch.remains = 45.0;
+  EXPECT_THAT(card_of(d).helps, HasSubstr(" What is left, 45 times the noise, is not explained."));
+}
+
+TEST(CardHelps, WhereTheBalanceTellsNoTorqueEachEffectHasTheErrorThatItLeaves) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.mismatch.before_torque = d.mismatch.after_torque = kNaN;
+  d.mismatch.before = 0.138, d.mismatch.after = 2e-6, d.mismatch.floor = 1e-6;
+  d.mismatch.measure = "free run restarted every 0.5 s";
+  d.added[0].shrink = (0.138 - 1e-3) / (0.138 - 1e-6), d.added[1].shrink = (1e-3 - 2e-6) / (1e-3 - 1e-6);
+  EXPECT_THAT(
+      card_of(d).helps,
+      HasSubstr("The free-run error (free run restarted every 0.5 s) falls from 138 mrad to 1 mrad with "));
+  EXPECT_THAT(card_of(d).helps, HasSubstr(", then to 2 µrad with "));
+  d.added[0].shrink = 0.5;  // not what all of them leave
+  EXPECT_THAT(card_of(d).helps, Not(HasSubstr("falls from 138 mrad")));
+}
+
+TEST(CardNext, OfOneDirectionAsksForTheOtherBeforeTheSearchGoesOn) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.exhausted = true, d.mismatch.remains = 45.0;
+  EXPECT_THAT(card_of(d).next, HasSubstr("Go on from what was found: `gapscope diagnose"));
+  d.where.direction = {{"backward", 0.0, 0.0}, {"forward", 1.0, 1.0}};
+  EXPECT_THAT(card_of(d).next,
+              HasSubstr("Record both directions, too: without them causes stay open. To go on "));
 }
 
 TEST(CardGap, OfAnEncoderOnTheLoadIsNotSentToTheDetector) {
@@ -90,7 +148,8 @@ TEST(CardGap, OfASingleBodyWithItsEncoderOnTheLoadDoesNotShow) {
   d.model_gap = ModelGap();
   d.model_gap->encoder = EncoderSide::kLoad;  // of one body its traces are of the motor, too
   EXPECT_EQ(card_of(d).gap,
-            "Backlash is not modelled (a single body); the encoder is on the load, so that none would show.");
+            "Backlash is not modelled (a single body); the encoder is on the load, so that this recording "
+            "cannot show any.");
 }
 
 }  // namespace
