@@ -80,6 +80,9 @@ std::string gap_verdict(const CardFacts& f) {
 std::string gap_line(const CardFacts& f) {
   if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
   const bool known = f.answer->trust != AnswerTrust::kNone, measured = !known && f.lost_motion;
+  if (known && f.answer->sentence.starts_with("The play"))  // which bounds the gap
+    return as_sentence(f.answer->sentence) + " Trust: " + to_string(f.answer->trust) +
+           " in a gap of that size; as an upper bound of the gap it holds." + gap_verdict(f);
   const bool beside = known && f.answer->from == AnswerSource::kModelFree && f.reference != nullptr &&
                       f.reference->rejected();  // whose reason stands between the reading and the trust
   return as_sentence(known || measured ? f.answer->sentence : without_asides(f.answer->sentence)) +

@@ -49,6 +49,17 @@ TEST(CardTrust, IsInAGapWhereLostMotionIsMeasured) {
   EXPECT_THAT(gapscope::card_of(f).gap, HasSubstr("43 mrad. Trust: none."));
 }
 
+TEST(CardTrust, OfPlayIsInItsBoundOfTheGap) {
+  Answer answer;
+  answer.from = AnswerSource::kModelFree, answer.trust = AnswerTrust::kLimited;
+  answer.sentence = "The play at zero torque is 27 mrad, so the gap is at most that.";
+  CardFacts f;
+  f.answer = &answer;
+  EXPECT_EQ(
+      gapscope::card_of(f).gap,
+      answer.sentence + " Trust: limited in a gap of that size; as an upper bound of the gap it holds.");
+}
+
 TEST(CardMismatch, NamesTheEffectsThatTheModelHasAlready) {
   Diagnosis d = of_friction_and_delay(true, true);
   EXPECT_THAT(card_of(d).mismatch, ::testing::StartsWith("The model misses 100 mN·m rms of torque"));

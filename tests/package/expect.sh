@@ -14,8 +14,9 @@ says() {
   grep -qE "$pattern" <<<"$out" || fail "'$*' says '$out', expected '$pattern'"
 }
 
-# build_project FOLDER NAME INSTALLED [OPTION...]: a project that finds gapscope below INSTALLED, into $work/NAME.
+# build_project FOLDER NAME INSTALLED [OPTION...]: a project that finds gapscope below INSTALLED, into $work/NAME; of
+# its programs the one that $only names, or all.
 build_project() {
   { cmake -S "$1" -B "$work/$2" -DCMAKE_PREFIX_PATH="$3" "${@:4}" &&
-    cmake --build "$work/$2" -j 2; } >"$work/$2.log" 2>&1 || fail "$2: $(cat "$work/$2.log")"
+    cmake --build "$work/$2" -j 2 ${only:+--target "$only"}; } >"$work/$2.log" 2>&1 || fail "$2: $(cat "$work/$2.log")"
 }
