@@ -224,8 +224,12 @@ Findings investigate(Study& study) {
 
 EffectSearch search_effects(Study& study) {
   Findings found = investigate(study);
-  if (!found.candidates.empty()) study.first_work = *study.options.fit.work;
+  if (!found.candidates.empty())
+    study.step_work = static_cast<double>(*study.options.fit.work) *
+                      static_cast<double>(study.catalogue.size()) /
+                      static_cast<double>(found.candidates.size());
   TorqueSearch ladder = climb(study, found);
+  study.work_before = *study.options.fit.work;
   if (!ladder.added.empty() && at_floor(ladder.after)) return {std::move(found), {}, std::move(ladder)};
   Additions added = add_further(study, found);
   // The balance sees what is slow; what leaves the encoder nothing to show is all there is.
@@ -276,11 +280,11 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "the search was stopped before its end: this is what it had found by then. Further steps, free-form "
         "laws and the experiment that would decide were not looked for, and causes that hang on them stay "
         "open.");
-  if (diagnosis.exhausted = study.has_done_its_work(); diagnosis.exhausted)
-    diagnosis.warnings.push_back(
-        fmt::format("the search ended at its limit of work, that of {:.0f} times its first step: it began no "
-                    "further one.",
-                    study.effort.most_first_steps));
+  if (diagnosis.exhausted = ladder.added.empty() && study.has_done_its_work(); diagnosis.exhausted)
+    diagnosis.warnings.push_back(fmt::format(
+        "the search ended at its limit of work, that of {:.0f} further steps like the first: it began "
+        "no further one.",
+        study.effort.most_steps_of_work));
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "

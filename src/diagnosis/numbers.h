@@ -39,10 +39,10 @@ struct SearchEffort {
   std::size_t lines = 3;     ///< of the correcting torque that periodic effects begin with and that are told
   std::size_t branches = 2;  ///< first steps that are followed where the best is unsure
   std::size_t most_effects = 4;
-  /// Work after which no further step is begun [first steps]: of 20 pairs (`study_diagnosis 7310005 10 pair`,
-  /// `7310101 10 pair`) the last right step began at 2.1 at most, while what nothing explains would be looked
-  /// for in every branch, up to 17.
-  double most_first_steps = 4.0;
+  /// Work of further steps after which none is begun [first steps]: of 20 pairs (`study_diagnosis 7310005 10
+  /// pair`, `7310101 10 pair`) the last right one began at 1.1 at most, while what nothing explains would be
+  /// looked for in every branch, up to 16.
+  double most_steps_of_work = 3.0;
 };
 
 /// Lines of the correcting torque over the motor angle. One cycle over the travel is as wide as a line.

@@ -105,8 +105,8 @@ bool Study::is_excluded(const EffectEntry& entry) const {
 bool Study::is_exhausted() const { return finish_requested() || has_done_its_work(); }
 
 bool Study::has_done_its_work() const {
-  return first_work > 0 &&
-         static_cast<double>(*options.fit.work) > effort.most_first_steps * static_cast<double>(first_work);
+  const auto done = static_cast<double>(*options.fit.work - work_before);
+  return step_work > 0.0 && done > effort.most_steps_of_work * step_work;
 }
 
 bool may_fit_half_of_the_held_out(const Study& study) {

@@ -17,9 +17,9 @@ struct Study {
   double seen_quantum = 0.0;  ///< of the samples, where it is coarser than the sheet's; else 0 [rad]
   SearchEffort effort;
   const DiagnosisOptions& options;
-  std::int64_t first_work =
-      0;  ///< samples simulated by the end of the first step, effects counted by what they cost
-  ShaftTurns turns = {};  ///< none of a slide
+  double step_work = 0.0;        ///< samples simulated by the first step, had it tried the whole catalogue
+  std::int64_t work_before = 0;  ///< when further steps may begin
+  ShaftTurns turns = {};         ///< none of a slide
 
   bool is_exhausted() const;  ///< no further step begins: its work is done, or it was asked to finish
   bool has_done_its_work() const;
