@@ -151,6 +151,15 @@ bool has_vanished(const ModelEffect& effect) {
   return effect.entry->parameters[0].absent == 0.0 && is_absent(effect);
 }
 
+bool has_faded(const ModelEffect& refitted, const ModelEffect& balanced) {
+  const std::vector<std::size_t> sizes = sizes_of(*refitted.entry);
+  return refitted.entry->parameters[0].absent == 0.0 &&
+         std::all_of(sizes.begin(), sizes.end(), [&](std::size_t i) {
+           return std::abs(refitted.parameters[i].value) <=
+                  kRule.part * std::abs(balanced.parameters[i].value);
+         });
+}
+
 ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
   const FitOptions& options = study.options.fit;
   const double hz = study.observer_hz;

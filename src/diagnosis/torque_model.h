@@ -26,6 +26,10 @@ ReferenceModel with_terms(ReferenceModel model, const torque_view::Budget& budge
 /// Whether the simulator's refit has taken the effect away again.
 bool has_vanished(const ModelEffect& effect);
 
+/// Whether it has left no more than `part` of any size of it: what the balance took for it was none of it.
+/// @param balanced  the same effect as the balance had it
+bool has_faded(const ModelEffect& refitted, const ModelEffect& balanced);
+
 /// The numbers of the torque balance, or, where the simulator comes near the floor from there, those of its
 /// refit. Where torque is missing that nothing explains, the innovations of an observer favour a heavy drive,
 /// which hides it; the contact of a locked output, which the balance has in no parameter of the model, is

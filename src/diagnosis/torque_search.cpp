@@ -121,14 +121,23 @@ std::vector<const EffectEntry*> group_of(const view::Budget& budget, const view:
   return group;
 }
 
-void drop_what_vanished(TorqueSearch& search) {
+/// @param balanced  the model as the balance had it, with the same effects
+void drop_what_vanished(const ReferenceModel& balanced, TorqueSearch& search) {
+  std::vector<ModelEffect>& effects = search.after.fitted.model.effects;
+  std::vector<bool> gone;
+  for (const ModelEffect& e : effects) gone.push_back(has_vanished(e));
   std::vector<TorqueAddition> kept;
   for (std::size_t i = 0; i < search.added.size(); ++i) {
     const ModelEffect* effect = effect_of(search, i);
-    if (effect == nullptr || !has_vanished(*effect)) kept.push_back(search.added[i]);
+    const auto at = static_cast<std::size_t>(effect == nullptr ? 0 : effect - effects.data());
+    if (effect != nullptr && has_faded(*effect, balanced.effects[at])) gone[at] = true;
+    if (effect == nullptr || !gone[at]) kept.push_back(search.added[i]);
   }
   search.added = std::move(kept);
-  std::erase_if(search.after.fitted.model.effects, has_vanished);
+  std::vector<ModelEffect> left;
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    if (!gone[i]) left.push_back(effects[i]);
+  effects = std::move(left);
 }
 
 /// Whether an effect is one of those that are asked, the simpler one within one of them, or what one of them
@@ -254,7 +263,7 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
     if (!std::isfinite(search.after.score)) search.after = refitted_from(study, values);
   if (!std::isfinite(search.after.score)) return {};  // its motion diverges: nobody could run it
   if (search.after.median_free > kRule.far * nominal.median_free) return {};  // far worse
-  drop_what_vanished(search);
+  drop_what_vanished(balanced, search);
   return search;
 }
 

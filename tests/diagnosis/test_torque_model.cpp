@@ -36,6 +36,7 @@ TEST(TorqueModel, FrictionAtRestDoesNotDriveTheMotor) {
 
 /// Viscous friction that differs with direction acts without any Coulomb friction.
 TEST(TorqueModel, AnEffectWithAnyAmountLeftHasNotVanished) {
+  using internal::diagnosis::has_faded;
   using internal::diagnosis::has_vanished;
   const auto effect = [](const char* name, const std::vector<double>& values) {
     ModelEffect e;
@@ -49,6 +50,12 @@ TEST(TorqueModel, AnEffectWithAnyAmountLeftHasNotVanished) {
   EXPECT_TRUE(has_vanished(effect("load_dependent_friction", {0.0, 0.0})));
   EXPECT_TRUE(has_vanished(effect("stribeck_friction", {0.0, 0.5, 0.1, 2.0})));
   EXPECT_FALSE(has_vanished(effect("shaft_compliance", {1.0}))) << "its first number is no amount";
+  EXPECT_TRUE(has_faded(effect("input_dead_zone", {3e-6}), effect("input_dead_zone", {0.02})));
+  EXPECT_FALSE(has_faded(effect("input_dead_zone", {3e-3}), effect("input_dead_zone", {0.02})));
+  EXPECT_FALSE(
+      has_faded(effect("friction_asymmetry", {0.1, 0.0, 0.2}), effect("friction_asymmetry", {2.0, 0.0, 0.3})))
+      << "its damping is there";
+  EXPECT_FALSE(has_faded(effect("shaft_compliance", {1.0}), effect("shaft_compliance", {100.0})));
 }
 
 }  // namespace
