@@ -21,6 +21,7 @@ namespace {
 
 using internal::diagnosis::also_refitted;
 using internal::diagnosis::as_sentence;
+using internal::diagnosis::brief_doubt_of_motion;
 using internal::diagnosis::cause_line;
 using internal::diagnosis::exhausted_words;
 using internal::diagnosis::export_words;
@@ -131,9 +132,10 @@ std::string step_of_the_model(const CardFacts& f, const Card& card) {
           : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
                                : ", which predicts better with it, established or not") +
          "; " + export_words(f) +
-         (d.verdict == DiagnosisVerdict::kHelps ? " To settle the cause, record another motion (" +
-                                                      other_motion(d) + ") and diagnose again with that."
-                                                : "");
+         (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt_of_motion(d).empty()
+              ? " To settle the cause, record another motion (" + other_motion(d) +
+                    ") and diagnose again with that."
+              : "");
 }
 
 std::string next_line(const CardFacts& f, const Card& card) {

@@ -99,25 +99,28 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
 
 namespace {
 
-/// Of a period that the motion does not go through once.
-std::string short_travel_words(const Diagnosis& d) {
+/// The words with an aside behind a period that the motion does not go through once.
+std::string with_short_travel(std::string what, const Diagnosis& d) {
+  constexpr std::string_view kPeriod = "per turn";
   const double turns = d.whole_run ? d.whole_run->travel / (2.0 * kPi) : kNaN;
-  if (!(turns * d.where.periods_per_turn < 1.0)) return "";
-  return fmt::format(" (the motion covers {:.2g} turns, so that the period is assumed)", turns);
+  const std::size_t at = what.find(kPeriod);
+  if (at == what.npos || !(turns * d.where.periods_per_turn < 1.0)) return what;
+  return what.insert(at + kPeriod.size(),
+                     fmt::format(" (the motion covers {:.2g} turns, so that the period is assumed)", turns));
 }
 
 }  // namespace
 
 std::string where_words(const Diagnosis& d, Coordinates coordinates) {
   if (d.verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no pattern.";
-  const std::string& what = d.where.headline;
+  const std::string what = with_short_travel(d.where.headline, d);
   const bool has_verb = std::ranges::any_of(std::array{"varies", "changes", "depends", "arises", "reverses"},
                                             [&](const char* verb) { return what.starts_with(verb); });
-  return fmt::format("The missing {} {}{}{}.", coordinates.torque_word(),
+  return fmt::format("The missing {} {}{}.", coordinates.torque_word(),
                      has_verb                  ? ""
                      : what.starts_with("no ") ? "has "
                                                : "is ",
-                     what, short_travel_words(d));
+                     what);
 }
 
 std::string export_words(const CardFacts& f) {

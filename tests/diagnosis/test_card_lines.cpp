@@ -101,12 +101,15 @@ TEST(CardMismatch, OfAModelAsGoodAsTheRecordingHasTheNoiseBesideIt) {
 
 TEST(CardPlace, SaysWhereAPeriodIsLongerThanTheMotion) {
   Diagnosis d = of_friction_and_delay(true, true);
-  d.where.headline = "periodic in the motor angle, once per turn", d.where.periods_per_turn = 1.0;
+  d.where.headline = "periodic in the motor angle, once per turn; only forward motion was recorded";
+  d.where.periods_per_turn = 1.0;
   d.whole_run = WholeRun{0.407, 0.0412, 0.876};
   EXPECT_THAT(card_of(d).place,
               HasSubstr("once per turn (the motion covers 0.14 turns, so that the period is "
-                        "assumed)."));
+                        "assumed); only forward motion was recorded."));
   d.where.periods_per_turn = 24.0;
+  EXPECT_THAT(card_of(d).place, Not(HasSubstr("assumed")));
+  d.where.headline = "depends on the input level", d.where.periods_per_turn = 1.0;
   EXPECT_THAT(card_of(d).place, Not(HasSubstr("assumed")));
 }
 
