@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "diagnosis/card_cause.h"
+#include "diagnosis/card_helps.h"
 #include "diagnosis/card_mismatch.h"
 #include "diagnosis/card_numbers.h"
 #include "diagnosis/card_open.h"
 #include "diagnosis/card_words.h"
 #include "diagnosis/headline.h"
+#include "diagnosis/rule.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/answer.h"
@@ -27,6 +29,7 @@ using internal::diagnosis::exhausted_words;
 using internal::diagnosis::export_words;
 using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
+using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
 using internal::diagnosis::mismatch_words;
@@ -82,8 +85,8 @@ std::string gap_line(const CardFacts& f) {
   if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
   const bool known = f.answer->trust != AnswerTrust::kNone, measured = !known && f.lost_motion;
   if (known && f.answer->sentence.starts_with("The play"))  // which bounds the gap
-    return as_sentence(f.answer->sentence) + " Trust: " + to_string(f.answer->trust) +
-           " in a gap of that size; as an upper bound of the gap it holds." + gap_verdict(f);
+    return as_sentence(f.answer->sentence) + " Trust: good as an upper bound, " + to_string(f.answer->trust) +
+           " as the gap itself." + gap_verdict(f);
   const bool beside = known && f.answer->from == AnswerSource::kModelFree && f.reference != nullptr &&
                       f.reference->rejected();  // whose reason stands between the reading and the trust
   return as_sentence(known || measured ? f.answer->sentence : without_asides(f.answer->sentence)) +
@@ -122,12 +125,21 @@ std::string other_motion(const Diagnosis& d) {
                                                    : "other speeds, other loads";
 }
 
+/// What a model that drifts is good for, though the windows by which it is judged are short.
+std::string for_short_motions(const Diagnosis& d) {
+  if (!d.whole_run || d.closed_loop || !(d.whole_run->after > kRule.part * d.whole_run->travel)) return "";
+  return fmt::format(
+      " for motions like the recorded ones alone (over a whole recording it drifts by {:.0f} % of the "
+      "travel)",
+      100.0 * d.whole_run->after / d.whole_run->travel);
+}
+
 /// Where effects were added: to use them, unless too much is left.
 std::string step_of_the_model(const CardFacts& f, const Card& card) {
   if (std::string left = unexplained(f, card); !left.empty()) return left;
   const Diagnosis& d = *f.diagnosis;
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
-  return std::string("Simulate with `DIR/fitted.yaml`") +
+  return std::string("Simulate with `DIR/fitted.yaml`") + for_short_motions(d) +
          (!open                ? ""
           : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
                                : ", which predicts better with it, established or not") +
@@ -143,7 +155,10 @@ std::string next_line(const CardFacts& f, const Card& card) {
   const std::string step = step_of_the_answer(f);
   if (!step.empty()) return step;
   if (f.diagnosis == nullptr)
-    return "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why.";
+    return f.answer != nullptr && f.answer->trust == AnswerTrust::kGood
+               ? "None for the gap; `gapscope diagnose CONFIG` tells where the model and the drive differ, "
+                 "and why."
+               : "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why.";
   const Diagnosis& d = *f.diagnosis;
   if (d.stopped) return "Run `gapscope diagnose CONFIG` to its end.";
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;

@@ -66,11 +66,12 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
   if (b.records >= floor)
-    return "; " + size + " of this differs between the recordings (or parts of one), so no model removes it";
+    return "; " + size +
+           " of this does not repeat from recording to recording (or part to part), so no model removes it";
   return "; no model can get below " + size +
          (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
               ? ", by which the drive itself differs from period to period"
-              : ", the encoder's noise");
+              : ", which the encoder's noise alone looks like");
 }
 
 /// Of a model that nothing is missing of: that what is left is no more than the encoder's noise, or than the

@@ -93,10 +93,11 @@ std::string without_interval(const AddedEffect& a, const NamedValue& n) {
   return a.established ? "" : ", which the recordings do not determine";
 }
 
-std::string name_of_number(const RefittedNumber& n, const Diagnosis& d) {
+std::string name_of_number(const RefittedNumber& n, const Diagnosis& d, Coordinates coordinates) {
   const std::size_t dot = n.key.find('.');
   const bool one_body = d.model_gap && d.model_gap->origin == GapOrigin::kNone;
-  if (n.key == "motor_inertia" && one_body) return "motor inertia (of all that moves)";
+  if (n.key == "motor_inertia" && one_body)
+    return coordinates.rotational() ? "motor inertia (of all that moves)" : "moving mass (motor inertia)";
   if (n.key == "mass_ratio") return "mass ratio (load over motor)";
   if (dot == n.key.npos) return readable(n.key);
   return readable(n.key.substr(0, dot)) + " " + name_of_key(n.key.substr(dot + 1));
@@ -180,7 +181,7 @@ std::string scale_words(const Diagnosis& d) {
   return fmt::format(
       " Inertia and damping are both {:.4g} times those of the configuration, which the recordings cannot "
       "tell "
-      "from a torque constant (or gear ratio) that is {} {}: where the inertia is certain, fix it and set "
+      "from a torque constant (or gear ratio) that is {} {}: where the inertia is certain, hold it and set "
       "torque_constant: {{estimate: true}}.",
       factor, percent_text(100.0 * std::abs(1.0 / factor - 1.0)), factor > 1.0 ? "smaller" : "larger");
 }
@@ -206,7 +207,7 @@ std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::siz
     const bool angle = n.key.ends_with("phase_rad");  // along a slide, too
     const std::string change = change_of(n, (angle ? Coordinates() : coordinates).shown_unit(n.unit));
     if (change.empty()) continue;
-    names.push_back(name_of_number(n, d)), changes.push_back(change);
+    names.push_back(name_of_number(n, d, coordinates)), changes.push_back(change);
   }
   return in_part(names, changes, most);
 }

@@ -81,6 +81,12 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   if (diagnosis == nullptr || !diagnosis->model_gap) return kElsewhere;
   switch (diagnosis->model_gap->origin) {
     case GapOrigin::kNone:
+      if (diagnosis->verdict == DiagnosisVerdict::kNone &&
+          diagnosis->model_gap->encoder != EncoderSide::kLoad)
+        return "Backlash is not modelled (a single body), and none is missed: the model is as good as the "
+               "recording; to "
+               "check without a model: " +
+               told_without_model(*diagnosis);
       if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
         return "Backlash is not modelled (a single body); the encoder is on the load, so that this recording "
                "cannot show any.";
@@ -132,8 +138,8 @@ std::string export_words(const CardFacts& f) {
     return fmt::format("`gapscope export DIR --to {0} -o DIR_{0}`{1}", f.carriers->front(), takes);
   std::vector<std::string> names;
   for (const std::string& effect : f.uncarried) names.push_back(readable(effect));
-  return "no format of `gapscope export` carries " + (names.empty() ? "all of it" : enumerated(names)) +
-         " in full; the certificate of an export states the error that this makes.";
+  return "`gapscope export` loses a part of " + (names.empty() ? "it" : enumerated(names)) +
+         " in every format, and says in certificate.md how much.";
 }
 
 std::string without_asides(std::string text) {

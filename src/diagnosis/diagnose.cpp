@@ -224,10 +224,7 @@ Findings investigate(Study& study) {
 
 EffectSearch search_effects(Study& study) {
   Findings found = investigate(study);
-  if (!found.candidates.empty())
-    study.step_work = static_cast<double>(*study.options.fit.work) *
-                      static_cast<double>(study.catalogue.size()) /
-                      static_cast<double>(found.candidates.size());
+  count_first_step(study, found.candidates.size());
   TorqueSearch ladder = climb(study, found);
   study.work_before = *study.options.fit.work;
   if (!ladder.added.empty() && at_floor(ladder.after)) return {std::move(found), {}, std::move(ladder)};
@@ -282,8 +279,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "open.");
   if (diagnosis.exhausted = ladder.added.empty() && study.has_done_its_work(); diagnosis.exhausted)
     diagnosis.warnings.push_back(fmt::format(
-        "the search ended at its limit of work, that of {:.0f} further steps like the first: it began "
-        "no further one.",
+        "the search ended at its limit of work, {:.0f} further steps like the first, and began no other.",
         study.effort.most_steps_of_work));
   if (held_out.empty())
     diagnosis.warnings.push_back(

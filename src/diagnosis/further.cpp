@@ -103,7 +103,7 @@ void choose_among_look_alikes(const Study& study, Additions& a) {
 void take_simpler(const Study& study, Additions& a) {
   for (Addition& effect : a.effects) {
     const EffectEntry* const simpler = contained_effect(*effect.entry);
-    if (simpler == nullptr || effect.entry == a.effects.back().entry || study.is_exhausted() ||
+    if (simpler == nullptr || effect.entry == a.effects.back().entry || finish_requested() ||
         !has_effect(a.after.fitted.model, effect.entry) || has_effect(a.after.fitted.model, simpler))
       continue;
     const ScoredModel less = refitted(study, with_simpler(a.after.fitted.model, *effect.entry, *simpler));

@@ -109,6 +109,11 @@ bool Study::has_done_its_work() const {
   return step_work > 0.0 && done > effort.most_steps_of_work * step_work;
 }
 
+void count_first_step(Study& study, std::size_t candidates) {
+  const double whole = static_cast<double>(study.catalogue.size()) / static_cast<double>(candidates);
+  if (candidates > 0) study.step_work = whole * static_cast<double>(*study.options.fit.work);
+}
+
 bool may_fit_half_of_the_held_out(const Study& study) {
   return !study.repeats_badly() && !(study.held_out.scored_from.front() > 0);
 }

@@ -39,6 +39,9 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
 /// The recordings that are fitted, to be judged themselves.
 HeldOut fitted_as_held_out(const Study& study);
 
+/// Takes the work so far as that of a first step that has tried so many candidates.
+void count_first_step(Study& study, std::size_t candidates);
+
 /// What is fitted and what is held out.
 std::vector<MotorTrace> everything(const Study& study);
 

@@ -218,8 +218,8 @@ std::string brief_doubt_of_motion(const Diagnosis& d) {
   if (doubt_of_motion(d).empty()) return "";
   const std::string what = d.mismatch.measure.starts_with("prediction") ? "prediction" : "free run";
   return d.added.front().share_of == ShareOf::kTorque
-             ? "Likely, by the torque balance alone (the " + what +
-                   ", restarted again and again, does not confirm it)"
+             ? "Likely, not confirmed (by the torque balance; the " + what +
+                   ", restarted again and again, cannot tell)"
              : "Established on these recordings (the " + what + " of another may not show it)";
 }
 

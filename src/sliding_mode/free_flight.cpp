@@ -66,7 +66,7 @@ FlightLaw::Fit FlightLaw::fit_without(std::size_t first, const Eigen::VectorXd& 
   const Eigen::MatrixXd A = columns(first, first + static_cast<std::size_t>(known.size()) - 1);
   const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(&trace_.x1[first], known.size()) - known;
   const Eigen::VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
-  const Eigen::VectorXd solution = least_squares(A * scale.cwiseInverse().asDiagonal(), y);
+  const Eigen::VectorXd solution = least_squares_of(A * scale.cwiseInverse().asDiagonal(), y);
   Fit result;
   result.first = first;
   result.freedom = static_cast<double>(A.rows() - A.cols());
@@ -93,7 +93,7 @@ FlightLaw::Fit FlightLaw::fit(std::size_t first, std::size_t last, double onset,
   }
   const Eigen::VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
   A = A * scale.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd solution = least_squares(A, y);
+  const Eigen::VectorXd solution = least_squares_of(A, y);
   Fit result;
   result.first = first;
   result.freedom = static_cast<double>(rows - columns);

@@ -4,7 +4,7 @@
 
 namespace gapscope::internal::sliding_mode {
 
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
+Eigen::VectorXd least_squares_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
   return A.colPivHouseholderQr().solve(y);
 }
 

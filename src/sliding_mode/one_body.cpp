@@ -213,7 +213,7 @@ OneBodyLaw first_law(const Instants& s) {
     A.row(r) << u / weights, 1.0, -v, -std::copysign(1.0, v);
     y(r) = (s.x[i + 2 * m] - 2.0 * s.x[i] + s.x[i - 2 * m]) / (span * span);
   }
-  const Eigen::Vector4d found = least_squares(A, y);
+  const Eigen::Vector4d found = least_squares_of(A, y);
   return {found(0), found(1), std::max(found(2), 0.0), std::max(found(3), 0.0), 0.0, s.fastest};
 }
 

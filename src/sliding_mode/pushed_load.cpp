@@ -105,7 +105,7 @@ PlaceLaw solve_strokes(const std::vector<ReducedStroke>& reduced, int columns, s
   y.conservativeResize(at);
   const Eigen::VectorXd scale = A.colwise().norm().transpose().cwiseMax(1e-300);
   A = A * scale.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd scaled = least_squares(A, y);
+  const Eigen::VectorXd scaled = least_squares_of(A, y);
   PlaceLaw law;
   law.squares = (A * scaled - y).squaredNorm();
   law.numbers.head(columns) = scaled.cwiseQuotient(scale);

@@ -25,7 +25,7 @@ MotorState state_in_contact(const MotorTrace& trace, const FlightBegin& begin, d
   if (n < kFewestInContact) return begin.motor;
   const Eigen::MatrixXd A = polynomial_columns(n, 3);
   const Eigen::Vector4d c =
-      least_squares(A, Eigen::Map<const Eigen::VectorXd>(&trace.x1[first], static_cast<Eigen::Index>(n)));
+      least_squares_of(A, Eigen::Map<const Eigen::VectorXd>(&trace.x1[first], static_cast<Eigen::Index>(n)));
   const double half = 0.5 * static_cast<double>(n - 1) * trace.dt;  // of the stretch [s]
   return {c.sum(), (c[1] + 2.0 * c[2] + 3.0 * c[3]) / half, (2.0 * c[2] + 6.0 * c[3]) / (half * half)};
 }

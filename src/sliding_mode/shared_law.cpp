@@ -15,7 +15,7 @@ Eigen::Vector3d solve_columns(const Eigen::MatrixXd& A, const Eigen::VectorXd& y
   Eigen::MatrixXd some = A;
   for (int c = 0; c < 3; ++c)
     if (!(used >> c & 1u)) some.col(c).setZero();
-  return least_squares(some, y);
+  return least_squares_of(some, y);
 }
 
 /// Of the motion from sample i to the next, in the mean.

@@ -38,7 +38,7 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
       const double t = (static_cast<double>(begin) + static_cast<double>(r) - turn) / half;
       A.row(r) << 1.0, t, t * t, t * std::abs(t), t * t * t;
     }
-    const Eigen::VectorXd c = least_squares(A, x);
+    const Eigen::VectorXd c = least_squares_of(A, x);
     const double step = -c(1) / (2.0 * c(2)) * half;
     if (!(std::abs(step) < before)) break;  // as near as the numbers tell, or nowhere
     before = std::abs(step);

@@ -115,14 +115,16 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   ASSERT_TRUE(d.budget.exists());
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).mismatch,
-      EndsWith("input applies; 0.613 N of this differs between the recordings (or parts of one), so no "
-               "model removes it."));
+      EndsWith("input applies; 0.613 N of this does not repeat from recording to recording (or part to "
+               "part), so no model removes it."));
   d.budget.encoder = 0.7;
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("input applies; no model can get below 0.7 N, the encoder's noise."));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).mismatch,
+      EndsWith("input applies; no model can get below 0.7 N, which the encoder's noise alone looks like."));
   d.budget.repeatability = 0.72;
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).mismatch,
-              EndsWith("input applies; no model can get below 0.72 N, the encoder's noise."));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).mismatch,
+      EndsWith("input applies; no model can get below 0.72 N, which the encoder's noise alone looks like."));
   d.budget.repeatability = 1.2;
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).mismatch,

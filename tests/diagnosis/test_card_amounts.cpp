@@ -178,9 +178,10 @@ TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {
                                          "controller, to other simulators."));
   d.closed_loop.reset();
   f.carriers = std::vector<std::string>(), f.uncarried = {"load_dependent_friction"};
-  EXPECT_THAT(card_of(f).next,
-              HasSubstr("no format of `gapscope export` carries load-dependent friction in full; the "
-                        "certificate of an export states the error that this makes."));
+  EXPECT_THAT(
+      card_of(f).next,
+      HasSubstr("`gapscope export` loses a part of load-dependent friction in every format, and says in "
+                "certificate.md how much."));
   EXPECT_THAT(card_of(f).next, Not(HasSubstr("takes it to other simulators")));
 }
 

@@ -42,8 +42,8 @@ TEST(CardBasis, WhatRoundsToZeroHasNoSign) {
 TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
   const Diagnosis d = by_balance(0.46, {-2.57, 0.83});
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause,
-              StartsWith("Likely, by the torque balance alone (the free run, restarted again and again, "
-                         "does not confirm it): motor Coulomb "
+              StartsWith("Likely, not confirmed (by the torque balance; the free run, restarted again and "
+                         "again, cannot tell): motor Coulomb "
                          "friction. "));
   EXPECT_THAT(
       internal::diagnosis::sentence_of(d, Coordinates()),
@@ -52,8 +52,8 @@ TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
   EXPECT_THAT(card_of(facts_of(nullptr, &shown)).cause, StartsWith("Established: motor Coulomb friction. "));
   const Diagnosis at_floor = by_balance(kNaN, {});
   EXPECT_THAT(card_of(facts_of(nullptr, &at_floor)).cause,
-              StartsWith("Likely, by the torque balance alone (the free run, restarted again and again, "
-                         "does not confirm it): motor Coulomb "));
+              StartsWith("Likely, not confirmed (by the torque balance; the free run, restarted again and "
+                         "again, cannot tell): motor Coulomb "));
   EXPECT_THAT(
       internal::diagnosis::sentence_of(at_floor, Coordinates()),
       HasSubstr("(established by the torque balance alone; the free run, near its floor, cannot tell)"));

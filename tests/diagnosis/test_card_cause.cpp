@@ -127,7 +127,7 @@ TEST(CardCause, WhereInertiaAndDampingGrowAlikeTheTorqueConstantMayBeWrong) {
       HasSubstr(
           " Inertia and damping are both 1.136 times those of the configuration, which the recordings "
           "cannot tell from a torque constant (or gear ratio) that is 12 % smaller: where the inertia is "
-          "certain, fix it and set torque_constant: {estimate: true}."));
+          "certain, hold it and set torque_constant: {estimate: true}."));
   d.refitted[1].ci95 = {0.345, 0.347};
   EXPECT_THAT(card_of(d).next, Not(HasSubstr("torque constant"))) << "they grow by different factors";
   d.refitted[1].ci95 = {0.33, 0.352};

@@ -7,6 +7,7 @@
 namespace gapscope {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -55,9 +56,8 @@ TEST(CardTrust, OfPlayIsInItsBoundOfTheGap) {
   answer.sentence = "The play at zero torque is 27 mrad, so the gap is at most that.";
   CardFacts f;
   f.answer = &answer;
-  EXPECT_EQ(
-      gapscope::card_of(f).gap,
-      answer.sentence + " Trust: limited in a gap of that size; as an upper bound of the gap it holds.");
+  EXPECT_EQ(gapscope::card_of(f).gap,
+            answer.sentence + " Trust: good as an upper bound, limited as the gap itself.");
 }
 
 TEST(CardMismatch, NamesTheEffectsThatTheModelHasAlready) {
@@ -116,9 +116,16 @@ TEST(CardPlace, SaysWhereAPeriodIsLongerThanTheMotion) {
 TEST(CardHelps, TellsWhatIsLeft) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.mismatch.remains = 1.2;
-  EXPECT_THAT(card_of(d).helps, HasSubstr("`fitted.yaml` has them. What is left is noise."));
+  EXPECT_THAT(card_of(d).helps,
+              HasSubstr("`fitted.yaml` has them. What is left does not show above the noise of "
+                        "the simulated motion."));
   d.mismatch.remains = 45.0;
   EXPECT_THAT(card_of(d).helps, HasSubstr(" What is left, 45 times the noise, is not explained."));
+  d.budget.nominal = 0.1, d.budget.records = 4e-3, d.budget.encoder = 1e-3, d.budget.band_hz = 64.0;
+  d.budget.input = 0.5, d.budget.remains = 0.02;
+  EXPECT_THAT(card_of(d).helps,
+              ContainsRegex(" Of the [0-9.]+ mN·m left 4 mN·m is what no model removes; the rest is "
+                            "not explained\\."));
 }
 
 TEST(CardHelps, WhereTheBalanceTellsNoTorqueEachEffectHasTheErrorThatItLeaves) {
@@ -133,6 +140,24 @@ TEST(CardHelps, WhereTheBalanceTellsNoTorqueEachEffectHasTheErrorThatItLeaves) {
   EXPECT_THAT(card_of(d).helps, HasSubstr(", then to 2 µrad with "));
   d.added[0].shrink = 0.5;  // not what all of them leave
   EXPECT_THAT(card_of(d).helps, Not(HasSubstr("falls from 138 mrad")));
+}
+
+TEST(CardNext, OfAModelThatDriftsSaysWhatItIsGoodFor) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.whole_run = WholeRun{1.29, 0.231, 0.876};
+  EXPECT_THAT(card_of(d).next,
+              HasSubstr("Simulate with `DIR/fitted.yaml` for motions like the recorded ones alone "
+                        "(over a whole recording it drifts by 26 % of the travel); "));
+  d.whole_run->after = 0.0412;
+  EXPECT_THAT(card_of(d).next, HasSubstr("Simulate with `DIR/fitted.yaml`; "));
+}
+
+TEST(CardGap, OfASingleBodyThatLacksNothingIsNotMissed) {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kNone, d.model_gap = ModelGap();
+  EXPECT_THAT(card_of(d).gap,
+              HasSubstr("(a single body), and none is missed: the model is as good as the recording; "
+                        "to check without a model: `gapscope detect CONFIG`."));
 }
 
 TEST(CardNext, OfOneDirectionAsksForTheOtherBeforeTheSearchGoesOn) {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "gapscope/diagnosis/card.h"
+
+namespace gapscope::internal::diagnosis {
+
+/// The line of a card that tells what is gained by what was added, and what is left.
+std::string helps_line(const CardFacts& facts, const Card& card);
+
+}  // namespace gapscope::internal::diagnosis
