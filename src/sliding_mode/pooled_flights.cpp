@@ -1,10 +1,10 @@
 #include "sliding_mode/pooled_flights.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
-#include "sliding_mode/least_squares.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -31,7 +31,7 @@ ConstrainedFit solve_passive(const SmallMatrix& A, const SmallVector& y) {
     SmallMatrix some = A;
     for (Eigen::Index k = 0; k < bounded; ++k)
       if (dropped >> k & 1u) some.col(k + 1).setZero();
-    const SmallVector solution = least_squares_of(some, y);
+    const SmallVector solution = some.colPivHouseholderQr().solve(y);
     const bool passive = (solution.tail(bounded).array() <= 0.0).all();
     const double left = (some * solution - y).squaredNorm();
     if (passive && left < best.left) best = {solution, left};
