@@ -148,7 +148,7 @@ std::string lost_motion(const Findings& f) {
 Answer play(const Findings& f) {
   const std::string value = with_interval(f.model_free->gap, f.model_free->ci95, f.coordinates);
   Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
-  a.sentence = "The play at zero torque" + std::string(kWhichGap) + " is " + value +
+  a.sentence = std::string(internal::diagnosis::kThePlay) + kWhichGap + " is " + value +
                ", without a model; friction and compliance contribute to it, so the gap is at most that.";
   const FittedParameter* gap = told_gap(f);
   if (gap == nullptr || gap->value > f.model_free->ci95.high) return a;

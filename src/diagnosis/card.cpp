@@ -84,7 +84,7 @@ std::string gap_verdict(const CardFacts& f) {
 std::string gap_line(const CardFacts& f) {
   if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
   const bool known = f.answer->trust != AnswerTrust::kNone, measured = !known && f.lost_motion;
-  if (known && f.answer->sentence.starts_with("The play"))  // which bounds the gap
+  if (known && f.answer->sentence.starts_with(internal::diagnosis::kThePlay))  // which bounds the gap
     return as_sentence(f.answer->sentence) + " Trust: good as an upper bound, " + to_string(f.answer->trust) +
            " as the gap itself." + gap_verdict(f);
   const bool beside = known && f.answer->from == AnswerSource::kModelFree && f.reference != nullptr &&
@@ -125,13 +125,14 @@ std::string other_motion(const Diagnosis& d) {
                                                    : "other speeds, other loads";
 }
 
-/// What a model that drifts is good for, though the windows by which it is judged are short.
+/// What a model is good for that drifts over a whole recording, though not in the windows that judge it.
 std::string for_short_motions(const Diagnosis& d) {
-  if (!d.whole_run || d.closed_loop || !(d.whole_run->after > kRule.part * d.whole_run->travel)) return "";
-  return fmt::format(
-      " for motions like the recorded ones alone (over a whole recording it drifts by {:.0f} % of the "
-      "travel)",
-      100.0 * d.whole_run->after / d.whole_run->travel);
+  if (!d.whole_run || d.closed_loop) return "";
+  const double drift = d.whole_run->after / d.whole_run->travel;
+  if (drift <= kRule.part) return "";
+  return ", for short motions alone (simulated over a whole recording it " +
+         (std::isfinite(drift) ? fmt::format("drifts by {:.0f} % of the travel)", 100.0 * drift)
+                               : "runs away)");
 }
 
 /// Where effects were added: to use them, unless too much is left.
@@ -139,12 +140,12 @@ std::string step_of_the_model(const CardFacts& f, const Card& card) {
   if (std::string left = unexplained(f, card); !left.empty()) return left;
   const Diagnosis& d = *f.diagnosis;
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
-  return std::string("Simulate with `DIR/fitted.yaml`") + for_short_motions(d) +
+  return std::string("Simulate with `DIR/fitted.yaml`") +
          (!open                ? ""
           : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
                                : ", which predicts better with it, established or not") +
-         "; " + export_words(f) +
-         (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt_of_motion(d).empty()
+         for_short_motions(d) + "; " + export_words(f) +
+         (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt_of_motion(d, f.coordinates).empty()
               ? " To settle the cause, record another motion (" + other_motion(d) +
                     ") and diagnose again with that."
               : "");

@@ -36,7 +36,7 @@ std::vector<std::string> names(const CardFacts& f, bool established) {
 
 /// "either cogging torque or load unbalance is missing (these recordings cannot tell which; `fitted.yaml` has
 /// cogging torque)", of every group that holds a cause.
-std::vector<std::string> groups(const CardFacts& f, const char* missing) {
+std::vector<std::string> groups(const CardFacts& f, const std::string& missing) {
   std::vector<std::string> all;
   for (const AddedEffect& a : f.diagnosis->added) {
     std::vector<std::string> others = others_of(a, *f.diagnosis);
@@ -57,16 +57,16 @@ std::string established_causes(const CardFacts& f) {
   const std::string rest = !rests_on_open_cause(*f.diagnosis) ? ""
                            : names(f, false).size() > 1       ? "with them in the model"
                                                               : "with it in the model";
-  const std::string doubt = brief_doubt_of_motion(*f.diagnosis);
+  const std::string doubt = brief_doubt_of_motion(*f.diagnosis, f.coordinates);
   std::string text;
   if (!alone.empty())
-    text = fmt::format(" {}{}: {}.", doubt.empty() ? "Established" : doubt, rest.empty() ? "" : " " + rest,
-                       enumerated(alone));
-  const std::string before = !alone.empty()   ? ""
-                             : !doubt.empty() ? doubt + ": "
-                             : rest.empty()   ? ""
-                                              : rest + ", ";
-  const char* missing = !rest.empty() ? "is still missing" : alone.empty() ? "is missing" : "is missing, too";
+    text = fmt::format(" {}{}: {}.", doubt.empty() ? "Established" : doubt,
+                       rest.empty() ? "" : (doubt.empty() ? " " : ", ") + rest, enumerated(alone));
+  const std::string before = !alone.empty() || rest.empty() ? "" : rest + ", ";
+  const std::string verb = doubt.empty() ? "is " : "may be ";
+  const std::string missing = !rest.empty() && doubt.empty()  ? "is still missing"
+                              : alone.empty() && rest.empty() ? verb + "missing"
+                                                              : verb + "missing, too";
   for (const std::string& group : groups(f, missing)) text += " " + as_sentence(before + group);
   return text;
 }

@@ -13,7 +13,6 @@
 #include "diagnosis/rule.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/percents.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -145,21 +144,22 @@ std::string motion_words(const MismatchSize& m, Coordinates coordinates) {
                      motion(m.before), motion(m.after), m.measure);
 }
 
+/// In torque against what no model gets below; else in the simulated motion.
 std::string what_is_left(const CardFacts& f, const Card& card) {
   const MismatchSize& m = f.diagnosis->mismatch;
-  if (m.remains < kRule.floor_ratio)
-    return "what is left does not show above the noise of the simulated motion";
+  const std::string floor_words = m.floor_from == FloorSource::kRepeatability
+                                      ? "what the drive itself varies by from period to period"
+                                      : "the encoder's noise";
+  if (m.remains < kRule.floor_ratio) return "what is left does not show above " + floor_words;
   const ErrorBudget& b = f.diagnosis->budget;
   const double floor = b.exists() && b.uncounted.empty() && tells_torque(card) ? b.floor() : kNaN;
   if (floor > 0.0 && card.torque_after > kRule.floor_ratio * floor) {
     const SharedUnit torque(card.torque_after, f.coordinates.shown_unit("N m"));
-    return fmt::format("of the {} left {} is what no model removes; the rest is not explained",
+    return fmt::format("of the {} left no model gets below {}; what is above that is not explained",
                        torque(card.torque_after), torque(floor));
   }
-  return fmt::format("what is left, {:.2g} times {}, is not explained", m.remains,
-                     m.floor_from == FloorSource::kRepeatability
-                         ? "that by which the drive itself differs from period to period"
-                         : "the noise");
+  return fmt::format("what is left, {} times {}, is not explained", SharedUnit(1.0, "").number(m.remains),
+                     floor_words);
 }
 
 std::string law_words(const LastResortLaw& law, const Diagnosis& d) {

@@ -103,11 +103,12 @@ std::string closed_loop_words(const CardFacts& f) {
   const auto is = [&](double error) {
     return std::isfinite(error) ? "is " + position(error) + " rms off in position" : std::string("runs away");
   };
-  const bool travels = f.diagnosis->whole_run && std::isfinite(f.diagnosis->whole_run->travel);
+  const bool travels =
+      std::isfinite(c.before) && f.diagnosis->whole_run && std::isfinite(f.diagnosis->whole_run->travel);
   const double travel = travels ? f.diagnosis->whole_run->travel : kNaN;
   return fmt::format(
       " With its controller in the loop the model {}{}{}.", is(c.before),
-      travels ? " (travel " + SharedUnit(travel, f.coordinates.position_unit())(travel) + ")" : "",
+      travels ? " (the travel is " + SharedUnit(travel, f.coordinates.position_unit())(travel) + ")" : "",
       !f.diagnosis->added.empty() ? additions_below(f) + "it " + is(c.after) : "");
 }
 

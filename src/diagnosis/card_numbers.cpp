@@ -165,8 +165,8 @@ bool clearly_changes(const Interval& factor) {
   return half < kRule.part * std::abs(centre - 1.0);
 }
 
-/// " Inertia and damping are both 1.136 times those of the configuration: a torque constant 12 % smaller
-/// would say the same ...", where both clearly change by one factor, and the torque constant is fixed.
+/// " Inertia and damping are both 1.136 times those of the configuration, which ... a torque constant ...
+/// that is 12 % smaller ...", where both clearly change by one factor, and the torque constant is fixed.
 std::string scale_words(const Diagnosis& d) {
   const RefittedNumber* inertia = refitted_number(d, "motor_inertia");
   const RefittedNumber* damping = refitted_number(d, "motor_damping");
@@ -192,13 +192,14 @@ std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all,
   const std::optional<NamedValue> amount = own_number(a, all);
   if (!amount || !std::isfinite(amount->value)) return "";
   const std::string unit = coordinates.shown_unit(amount->unit);
-  if (unit.empty()) return share_text(a, *amount, all) + without_interval(a, *amount);
-  if (a.effect == kSteadyTorque) return pushing(*amount, unit) + without_interval(a, *amount);
+  const bool of_several = containers_of(*find_effect(a.effect), all).size() > 1;
+  const std::string open = of_several ? "" : without_interval(a, *amount);
+  if (unit.empty()) return share_text(a, *amount, all) + open;
+  if (a.effect == kSteadyTorque) return pushing(*amount, unit) + open;
   const std::string name = name_of_key(amount->key);
   const bool said = name == "level" || readable(a.effect).ends_with(name);  // an "input delay" of 3 ms
   return (said ? "" : name + " ") +
-         SharedUnit(amount->value, unit).with_interval(amount->value, amount->ci95) +
-         without_interval(a, *amount);
+         SharedUnit(amount->value, unit).with_interval(amount->value, amount->ci95) + open;
 }
 
 std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::size_t most) {

@@ -44,7 +44,7 @@ std::string doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
   const torque_view::TorqueViewOptions conditions;
   for (const BudgetRung& r : d.budget.rungs) {
     if (!r.added || r.effect != a.effect) continue;
-    if (r.share < conditions.least_share) return fmt::format("{}{:.2g} %", kLowers, fall_of_rms(r.share));
+    if (r.share < conditions.least_share) return fmt::format("{}{:.1f} %", kLowers, fall_of_rms(r.share));
     if (r.share_ci95.low < conditions.least_low)
       return fmt::format("by how much it lowers the error is uncertain, {:.0f} to {:.0f} %",
                          fall_of_rms(r.share_ci95.low), fall_of_rms(r.share_ci95.high));
@@ -75,7 +75,7 @@ std::string which_is_open(const std::vector<std::string>& group, const Diagnosis
 
 std::string least_of_a_cause(const std::vector<std::string>& why) {
   if (std::ranges::none_of(why, [](const std::string& w) { return w.starts_with(kLowers); })) return "";
-  return fmt::format(" A cause has to lower it by {:.0f} % or more.",
+  return fmt::format(" A cause has to lower it by {:.1f} % or more.",
                      fall_of_rms(torque_view::TorqueViewOptions{}.least_share));
 }
 
@@ -136,13 +136,15 @@ std::string unexplained(const CardFacts& f, const Card& card) {
                                  [&](const AddedEffect& a) { return a.after_torque < card.torque; });
   const bool most =
       card.torque_after > card.torque - card.torque_after && card.torque_after > kRule.floor_ratio * floor;
+  if (f.diagnosis->mismatch.remains < kRule.floor_ratio) return "";  // the motion shows none of it
   if (!(b.uncounted.empty() && sized && floor > 0.0 && (most || card.torque_after > kRule.far * floor)))
     return "";
   return fmt::format(
       "Do not rely on `DIR/fitted.yaml` yet: {} of the input's {} is unexplained with all that was found "
-      "({:.2g} times the least that a model could reach). Record another motion (other speeds, other loads), "
+      "({} times the least that a model could reach). Record another motion (other speeds, other loads), "
       "or swap `file` and `held_out` where there are two recordings, and diagnose again.",
-      percent_text(card.percent_after), f.coordinates.torque_word(), card.torque_after / floor);
+      percent_text(card.percent_after), f.coordinates.torque_word(),
+      SharedUnit(1.0, "").number(card.torque_after / floor));
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -66,6 +66,16 @@ std::string as_sentence(std::string text) {
 
 namespace {
 
+/// The words with an aside behind a period that the motion does not go through once.
+std::string with_short_travel(std::string what, const Diagnosis& d) {
+  constexpr std::string_view kPeriod = "per turn";
+  const double turns = d.whole_run ? d.whole_run->travel / (2.0 * kPi) : kNaN;
+  const std::size_t at = what.find(kPeriod);
+  if (at == what.npos || !(turns * d.where.periods_per_turn < 1.0)) return what;
+  return what.insert(at + kPeriod.size(),
+                     fmt::format(" (the held-out motion covers {:.2g} turns, less than a period)", turns));
+}
+
 /// Who tells the gap without a model. An encoder on the load shows none, so that `detect` would send the
 /// reader back.
 std::string told_without_model(const Diagnosis& d) {
@@ -102,20 +112,6 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
   }
   return kElsewhere;
 }
-
-namespace {
-
-/// The words with an aside behind a period that the motion does not go through once.
-std::string with_short_travel(std::string what, const Diagnosis& d) {
-  constexpr std::string_view kPeriod = "per turn";
-  const double turns = d.whole_run ? d.whole_run->travel / (2.0 * kPi) : kNaN;
-  const std::size_t at = what.find(kPeriod);
-  if (at == what.npos || !(turns * d.where.periods_per_turn < 1.0)) return what;
-  return what.insert(at + kPeriod.size(),
-                     fmt::format(" (the motion covers {:.2g} turns, so that the period is assumed)", turns));
-}
-
-}  // namespace
 
 std::string where_words(const Diagnosis& d, Coordinates coordinates) {
   if (d.verdict == DiagnosisVerdict::kNone) return "Nowhere: what is left has no pattern.";

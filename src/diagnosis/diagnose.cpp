@@ -84,9 +84,9 @@ bool take_repeatability(Study& study, const ScoredModel& nominal) {
 /// one had ended in a minimum that the best candidate, not its effect, has left.
 std::optional<ScoredModel> nominal_near(const Study& study, const Findings& found) {
   if (found.candidates.empty() || !std::isfinite(found.candidates.front().score)) return {};
+  const ReferenceModel& best = found.candidates.front().fitted.model;
   ReferenceModel model = found.before.fitted.model;
-  model.parameters = found.candidates.front().fitted.model.parameters;
-  model.controller = found.candidates.front().fitted.model.controller;
+  model.parameters = best.parameters, model.controller = best.controller;
   FittedModel fitted = fit_near(study.train, model, study.options.fit, study.observer_hz);
   if (!(fitted.mean_cost < study.effort.far_better * found.before.fitted.mean_cost)) return {};
   return judge(nullptr, std::move(fitted), study.held_out, study.observer_hz);
@@ -95,12 +95,12 @@ std::optional<ScoredModel> nominal_near(const Study& study, const Findings& foun
 /// The simpler effect that the first candidate contains, where it is none itself.
 const EffectEntry* excluded_parent(const Study& study, const std::vector<ScoredModel>& ranked) {
   const EffectEntry* parent = ranked.empty() ? nullptr : contained_effect(*ranked.front().entry);
-  const auto& all = study.catalogue;
-  return std::find(all.begin(), all.end(), parent) == all.end() ? parent : nullptr;
+  return std::ranges::find(study.catalogue, parent) == study.catalogue.end() ? parent : nullptr;
 }
 
 Findings first_look(Study& study) {
   Findings found;
+  study.work_before = *study.options.fit.work;
   study.options.progress("fitting the nominal model");
   found.before = scored_nominal(study);
   if (add_supply_steps(found.before.fitted.model, study.observer_hz, study.held_out))
@@ -168,8 +168,7 @@ bool asked_far_too_little(const Study& study, const Findings& found) {
 /// What the fitted recordings leave open, for the reader.
 std::string undetermined(const Findings& found) {
   const std::string left = fmt::format(
-      "the recordings that were fitted do not determine the model: it leaves {:.3g} encoder floors on those "
-      "that were held out",
+      "what was fitted does not determine the model: it leaves {:.3g} encoder floors on what was held out",
       found.alone);
   if (found.candidates.empty()) return left + ", and none of it once these are fitted with them.";
   return left + "; their first half was fitted with the others, and the second half judges.";
@@ -192,9 +191,9 @@ std::optional<Findings> look_wider(Study& study, const Findings& found) {
 
 /// The ladder of the torque balance, unless one effect explains all that the encoder shows.
 TorqueSearch climb(const Study& study, const Findings& found) {
-  if (!found.budget || (found.candidates.empty() && at_floor(found.before))) return {};
+  if (!found.budget || !found.budget->says_most) return {};
+  if (found.candidates.empty() && at_floor(found.before)) return {};
   if (found.decision.accepted && at_floor(found.candidates.front()) && !study.repeats_badly()) return {};
-  if (!found.budget->says_most) return {};
   study.options.progress("refitting what leads in torque");
   return take_ladder(study, found.before, *found.budget);
 }
@@ -230,13 +229,13 @@ EffectSearch search_effects(Study& study) {
   if (!ladder.added.empty() && at_floor(ladder.after)) return {std::move(found), {}, std::move(ladder)};
   Additions added = add_further(study, found);
   // The balance sees what is slow; what leaves the encoder nothing to show is all there is.
-  const bool leaves_nothing = added.accepted && (added.explained || at_floor(added.after));
-  if (!ladder.added.empty() && !leaves_nothing) return {std::move(found), {}, std::move(ladder)};
+  if (!ladder.added.empty() && !leaves_nothing(added)) return {std::move(found), {}, std::move(ladder)};
   added.accepted = added.accepted && !contradicted(found, added);
   if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
   if (added.accepted || study.is_exhausted() || !asked_far_too_little(study, found))
     return {std::move(found), std::move(added), {}};
   if (std::optional<Findings> wider = look_wider(study, found)) {
+    study.work_before = *study.options.fit.work;
     added = add_further(study, *wider);
     found = std::move(*wider);
   }
@@ -256,6 +255,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   Study study = make_study(train, held_out, model, counted);
   require_motion(study.held_out);
   auto [found, added, ladder] = search_effects(study);
+  const bool exhausted = ladder.added.empty() && !leaves_nothing(added) && study.has_done_its_work();
   std::string left = added.accepted ? motion_left(study.held_out, added.after) : "";
   if (!left.empty()) added = {};
   Diagnosis diagnosis = verdict_on(study, found, added, ladder, left.empty());
@@ -277,10 +277,10 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "the search was stopped before its end: this is what it had found by then. Further steps, free-form "
         "laws and the experiment that would decide were not looked for, and causes that hang on them stay "
         "open.");
-  if (diagnosis.exhausted = ladder.added.empty() && study.has_done_its_work(); diagnosis.exhausted)
-    diagnosis.warnings.push_back(fmt::format(
-        "the search ended at its limit of work, {:.0f} further steps like the first, and began no other.",
-        study.effort.most_steps_of_work));
+  if (diagnosis.exhausted = exhausted; exhausted)
+    diagnosis.warnings.push_back(
+        fmt::format("the search ended at its limit of work, {:.0f} steps like the first.",
+                    study.effort.most_steps_of_work));
   if (held_out.empty())
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "

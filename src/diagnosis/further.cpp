@@ -204,6 +204,8 @@ bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
                      [&](const ModelEffect& e) { return e.entry == entry; });
 }
 
+bool leaves_nothing(const Additions& a) { return a.accepted && (a.explained || at_floor(a.after)); }
+
 bool borne_out(const ScoredModel& nominal, const Additions& a) {
   if (a.steps.empty() || !a.steps.front().decision.accepted) return false;
   if (a.explained || at_floor(a.after)) return true;

@@ -49,6 +49,9 @@ struct Additions {
 /// know: the first half of what is held out is then fitted, too.
 Additions add_further(const Study& study, const Findings& found);
 
+/// Whether nothing is left to add to them.
+bool leaves_nothing(const Additions& additions);
+
 /// The model without any effect, by what the additions are judged by.
 const ScoredModel& nominal_of(const Findings& found, const Additions& additions);
 

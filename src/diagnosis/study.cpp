@@ -110,8 +110,9 @@ bool Study::has_done_its_work() const {
 }
 
 void count_first_step(Study& study, std::size_t candidates) {
+  if (candidates == 0) return;
   const double whole = static_cast<double>(study.catalogue.size()) / static_cast<double>(candidates);
-  if (candidates > 0) study.step_work = whole * static_cast<double>(*study.options.fit.work);
+  study.step_work = whole * static_cast<double>(*study.options.fit.work - study.work_before);
 }
 
 bool may_fit_half_of_the_held_out(const Study& study) {

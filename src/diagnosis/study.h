@@ -17,8 +17,9 @@ struct Study {
   double seen_quantum = 0.0;  ///< of the samples, where it is coarser than the sheet's; else 0 [rad]
   SearchEffort effort;
   const DiagnosisOptions& options;
-  double step_work = 0.0;        ///< samples simulated by the first step, had it tried the whole catalogue
-  std::int64_t work_before = 0;  ///< when further steps may begin
+  double step_work =
+      0.0;  ///< samples of plain runs that the first step, had it tried the whole catalogue, cost
+  std::int64_t work_before = 0;  ///< the same, by when the first look, and then further steps, may begin
   ShaftTurns turns = {};         ///< none of a slide
 
   bool is_exhausted() const;  ///< no further step begins: its work is done, or it was asked to finish
@@ -39,7 +40,8 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
 /// The recordings that are fitted, to be judged themselves.
 HeldOut fitted_as_held_out(const Study& study);
 
-/// Takes the work so far as that of a first step that has tried so many candidates.
+/// Takes the work since the last first look began as that of a step that has tried so many candidates; none:
+/// there is no limit, as nothing follows.
 void count_first_step(Study& study, std::size_t candidates);
 
 /// What is fitted and what is held out.

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "diagnosis/torque_model.h"
+#include "gapscope/base/require.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -122,15 +123,18 @@ std::vector<const EffectEntry*> group_of(const view::Budget& budget, const view:
 }
 
 /// @param balanced  the model as the balance had it, with the same effects
-void drop_what_vanished(const ReferenceModel& balanced, TorqueSearch& search) {
+/// @returns whether any of them had an amount left, so that the model is another one without it
+bool drop_what_vanished(const ReferenceModel& balanced, TorqueSearch& search) {
   std::vector<ModelEffect>& effects = search.after.fitted.model.effects;
+  GAPSCOPE_REQUIRE(effects.size() == balanced.effects.size());
+  bool changes = false;
   std::vector<bool> gone;
   for (const ModelEffect& e : effects) gone.push_back(has_vanished(e));
   std::vector<TorqueAddition> kept;
   for (std::size_t i = 0; i < search.added.size(); ++i) {
     const ModelEffect* effect = effect_of(search, i);
     const auto at = static_cast<std::size_t>(effect == nullptr ? 0 : effect - effects.data());
-    if (effect != nullptr && has_faded(*effect, balanced.effects[at])) gone[at] = true;
+    if (effect != nullptr && !gone[at] && has_faded(*effect, balanced.effects[at])) gone[at] = changes = true;
     if (effect == nullptr || !gone[at]) kept.push_back(search.added[i]);
   }
   search.added = std::move(kept);
@@ -138,6 +142,12 @@ void drop_what_vanished(const ReferenceModel& balanced, TorqueSearch& search) {
   for (std::size_t i = 0; i < effects.size(); ++i)
     if (!gone[i]) left.push_back(effects[i]);
   effects = std::move(left);
+  return changes;
+}
+
+/// Whether a model can be run, and departs no further than far from the one that it was added to.
+bool is_usable(const ScoredModel& model, const ScoredModel& nominal) {
+  return std::isfinite(model.score) && !(model.median_free > kRule.far * nominal.median_free);
 }
 
 /// Whether an effect is one of those that are asked, the simpler one within one of them, or what one of them
@@ -261,9 +271,11 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
   const ReferenceModel balanced = with_terms(nominal.fitted.model, budget);
   for (const ReferenceModel& values : {balanced, with_drive(balanced, nominal.fitted.model)})
     if (!std::isfinite(search.after.score)) search.after = refitted_from(study, values);
-  if (!std::isfinite(search.after.score)) return {};  // its motion diverges: nobody could run it
-  if (search.after.median_free > kRule.far * nominal.median_free) return {};  // far worse
-  drop_what_vanished(balanced, search);
+  if (!is_usable(search.after, nominal)) return {};
+  if (drop_what_vanished(balanced, search)) {
+    search.after = refitted_from(study, search.after.fitted.model);
+    if (!is_usable(search.after, nominal)) return {};
+  }
   return search;
 }
 

@@ -90,10 +90,12 @@ std::string error_fall(const Diagnosis& d) {
                      percent_of_shrink(d.mismatch.shrink), ratio(d.mismatch.remains, d));
 }
 
+constexpr const char* kByBalance = " by the torque balance alone";
+
 /// " (established by the balance of torque alone; ...)", where the motion does not bear it out.
 std::string doubt_aside(const Diagnosis& d) {
   const std::string doubt = doubt_of_motion(d);
-  return doubt.empty() ? "" : " (established" + doubt + ")";
+  return doubt.empty() ? "" : (doubt.starts_with(kByBalance) ? " (likely," : " (established") + doubt + ")";
 }
 
 /// What is added, in order: causes that are established, then what helps.
@@ -206,20 +208,20 @@ std::string doubt_of_motion(const Diagnosis& d) {
   const bool balance = d.added.front().share_of == ShareOf::kTorque;
   const std::string what = m.measure.starts_with("prediction") ? "prediction" : "free run";
   if (!std::isfinite(m.shrink_ci95.low))
-    return !balance ? "" : " by the torque balance alone; the " + what + ", near its floor, cannot tell";
+    return !balance ? "" : std::string(kByBalance) + "; the " + what + ", near its floor, cannot tell";
   return fmt::format("{} its error shrinks by {} % (95 %: {} to {})",
-                     balance ? " by the torque balance alone; the " + what + " cannot tell:"
+                     balance ? std::string(kByBalance) + "; the " + what + " cannot tell:"
                              : "; the " + what + " of another recording may not show it:",
                      percent_of_shrink(m.shrink), percent_of_shrink(m.shrink_ci95.low),
                      percent_of_shrink(m.shrink_ci95.high));
 }
 
-std::string brief_doubt_of_motion(const Diagnosis& d) {
+std::string brief_doubt_of_motion(const Diagnosis& d, Coordinates coordinates) {
   if (doubt_of_motion(d).empty()) return "";
   const std::string what = d.mismatch.measure.starts_with("prediction") ? "prediction" : "free run";
   return d.added.front().share_of == ShareOf::kTorque
-             ? "Likely, not confirmed (by the torque balance; the " + what +
-                   ", restarted again and again, cannot tell)"
+             ? "Likely, not confirmed (by the " + std::string(coordinates.torque_word()) + " balance; the " +
+                   what + ", restarted again and again, cannot tell)"
              : "Established on these recordings (the " + what + " of another may not show it)";
 }
 

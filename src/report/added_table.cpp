@@ -43,8 +43,7 @@ const char* established_word(const DiagnosisResult& r) {
   const Diagnosis& d = r.diagnosis;
   if (d.added.empty() || d.added.front().share_of == ShareOf::kMotion || d.is_shown_by_motion())
     return "established";
-  return r.coordinates.rotational() ? "established by the torque balance alone"
-                                    : "established by the force balance alone";
+  return r.coordinates.rotational() ? "likely, by the torque balance" : "likely, by the force balance";
 }
 
 /// Where its numbers are from: they are not those of a ranking by the motion.

@@ -88,8 +88,9 @@ constexpr Word kWords[] = {
     {"stablished", "established",
      "of a cause: no other effect, and no free curve over another quantity, explains these recordings nearly "
      "as well; its amount is more than none, and the simulated motion comes nearer. *Established with* "
-     "another: as long as that one, whose own cause is open, is in the model. *Likely*: the torque balance "
-     "says so, and the simulated motion does not bear it out"},
+     "another: as long as that one, whose own cause is open, is in the model"},
+    {"ikely, ", "likely",
+     "of a cause: the balance of torque or force says so, and the simulated motion cannot tell"},
     {"(cause open)", "cause open",
      "not established: it takes its share of the error, but another cause may do so as well; the interval of "
      "its amount holds if it is there"},

@@ -42,21 +42,23 @@ TEST(CardBasis, WhatRoundsToZeroHasNoSign) {
 TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
   const Diagnosis d = by_balance(0.46, {-2.57, 0.83});
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause,
-              StartsWith("Likely, not confirmed (by the torque balance; the free run, restarted again and "
+              StartsWith("Likely, not confirmed (by the force balance; the free run, restarted again and "
                          "again, cannot tell): motor Coulomb "
                          "friction. "));
-  EXPECT_THAT(
-      internal::diagnosis::sentence_of(d, Coordinates()),
-      StartsWith("The model lacks motor Coulomb friction (established by the torque balance alone; "));
+  EXPECT_THAT(internal::diagnosis::sentence_of(d, Coordinates()),
+              StartsWith("The model lacks motor Coulomb friction (likely, by the torque balance alone; "));
   const Diagnosis shown = by_balance(0.9, {0.59, 1.0});
   EXPECT_THAT(card_of(facts_of(nullptr, &shown)).cause, StartsWith("Established: motor Coulomb friction. "));
   const Diagnosis at_floor = by_balance(kNaN, {});
   EXPECT_THAT(card_of(facts_of(nullptr, &at_floor)).cause,
-              StartsWith("Likely, not confirmed (by the torque balance; the free run, restarted again and "
+              StartsWith("Likely, not confirmed (by the force balance; the free run, restarted again and "
                          "again, cannot tell): motor Coulomb "));
-  EXPECT_THAT(
-      internal::diagnosis::sentence_of(at_floor, Coordinates()),
-      HasSubstr("(established by the torque balance alone; the free run, near its floor, cannot tell)"));
+  EXPECT_THAT(internal::diagnosis::sentence_of(at_floor, Coordinates()),
+              HasSubstr("(likely, by the torque balance alone; the free run, near its floor, cannot tell)"));
+  Diagnosis of_a_group = d;
+  of_a_group.added.resize(1), of_a_group.added[0].group = {"motor_coulomb_friction", "quadratic_drag"};
+  EXPECT_THAT(card_of(facts_of(nullptr, &of_a_group)).cause,
+              StartsWith("Either motor Coulomb friction or quadratic drag may be missing (these recordings"));
   Diagnosis by_motion = d;
   for (AddedEffect& a : by_motion.added) a.share_of = ShareOf::kMotion;
   EXPECT_THAT(

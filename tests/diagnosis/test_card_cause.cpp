@@ -171,7 +171,7 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   const auto cause = [&] { return card_of(d).cause; };
   EXPECT_THAT(cause(),
               HasSubstr("helps: input delay (it lowers the error by only 7.3 %). A cause has to lower "
-                        "it by 11 % or more."))
+                        "it by 10.6 % or more."))
       << "0.14 and 0.2 of the mean square";
   rung.share = 0.4, rung.share_ci95 = {0.05, 0.5};
   EXPECT_THAT(cause(), HasSubstr("input delay (by how much it lowers the error is uncertain, 3 to 29 %)."));
@@ -190,7 +190,7 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   EXPECT_THAT(
       cause(),
       HasSubstr("friction (it lowers the error by only 5.1 %) and input delay (it lowers the error by only "
-                "7.3 %). A cause has to lower it by 11 % or more."));
+                "7.3 %). A cause has to lower it by 10.6 % or more."));
 }
 
 TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {

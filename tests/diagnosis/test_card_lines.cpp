@@ -80,7 +80,10 @@ TEST(CardMismatch, TellsTheErrorUnderTheController) {
   EXPECT_THAT(card_of(d).mismatch,
               HasSubstr("the model runs away; with the additions below, it is 56.1 mrad rms off"));
   d.whole_run = WholeRun{0.407, 0.0412, 0.876};
-  EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model runs away (travel 876 mrad); with the additions"));
+  EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model runs away; with the additions"));
+  d.closed_loop->before = 0.392;
+  EXPECT_THAT(card_of(d).mismatch,
+              HasSubstr("is 392 mrad rms off in position (the travel is 876 mrad); with the "));
   d.whole_run.reset();
   d.closed_loop->before = 0.392, d.added.clear();
   EXPECT_THAT(card_of(d).mismatch, HasSubstr("the model is 392 mrad rms off in position."));
@@ -104,28 +107,31 @@ TEST(CardPlace, SaysWhereAPeriodIsLongerThanTheMotion) {
   d.where.headline = "periodic in the motor angle, once per turn; only forward motion was recorded";
   d.where.periods_per_turn = 1.0;
   d.whole_run = WholeRun{0.407, 0.0412, 0.876};
-  EXPECT_THAT(card_of(d).place,
-              HasSubstr("once per turn (the motion covers 0.14 turns, so that the period is "
-                        "assumed); only forward motion was recorded."));
+  EXPECT_THAT(card_of(d).place, HasSubstr("once per turn (the held-out motion covers 0.14 turns, less than a "
+                                          "period); only forward motion was "
+                                          "recorded."));
   d.where.periods_per_turn = 24.0;
-  EXPECT_THAT(card_of(d).place, Not(HasSubstr("assumed")));
+  EXPECT_THAT(card_of(d).place, Not(HasSubstr("less than a period")));
   d.where.headline = "depends on the input level", d.where.periods_per_turn = 1.0;
-  EXPECT_THAT(card_of(d).place, Not(HasSubstr("assumed")));
+  EXPECT_THAT(card_of(d).place, Not(HasSubstr("less than a period")));
 }
 
 TEST(CardHelps, TellsWhatIsLeft) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.mismatch.remains = 1.2;
   EXPECT_THAT(card_of(d).helps,
-              HasSubstr("`fitted.yaml` has them. What is left does not show above the noise of "
-                        "the simulated motion."));
+              HasSubstr("`fitted.yaml` has them. What is left does not show above the encoder's noise."));
   d.mismatch.remains = 45.0;
-  EXPECT_THAT(card_of(d).helps, HasSubstr(" What is left, 45 times the noise, is not explained."));
+  EXPECT_THAT(card_of(d).helps, HasSubstr(" What is left, 45 times the encoder's noise, is not explained."));
+  d.mismatch.remains = 4500.0, d.mismatch.floor_from = FloorSource::kRepeatability;
+  EXPECT_THAT(card_of(d).helps,
+              HasSubstr("left, 4500 times what the drive itself varies by from period to"));
   d.budget.nominal = 0.1, d.budget.records = 4e-3, d.budget.encoder = 1e-3, d.budget.band_hz = 64.0;
   d.budget.input = 0.5, d.budget.remains = 0.02;
-  EXPECT_THAT(card_of(d).helps,
-              ContainsRegex(" Of the [0-9.]+ mN·m left 4 mN·m is what no model removes; the rest is "
-                            "not explained\\."));
+  EXPECT_THAT(
+      card_of(d).helps,
+      ContainsRegex(
+          " Of the [0-9.]+ mN·m left no model gets below 4 mN·m; what is above that is not explained"));
 }
 
 TEST(CardHelps, WhereTheBalanceTellsNoTorqueEachEffectHasTheErrorThatItLeaves) {
@@ -145,11 +151,17 @@ TEST(CardHelps, WhereTheBalanceTellsNoTorqueEachEffectHasTheErrorThatItLeaves) {
 TEST(CardNext, OfAModelThatDriftsSaysWhatItIsGoodFor) {
   Diagnosis d = of_friction_and_delay(true, true);
   d.whole_run = WholeRun{1.29, 0.231, 0.876};
-  EXPECT_THAT(card_of(d).next,
-              HasSubstr("Simulate with `DIR/fitted.yaml` for motions like the recorded ones alone "
-                        "(over a whole recording it drifts by 26 % of the travel); "));
+  EXPECT_THAT(
+      card_of(d).next,
+      HasSubstr(
+          "Simulate with `DIR/fitted.yaml`, for short motions alone (simulated over a whole recording it "
+          "drifts by 26 % of the travel); "));
+  d.added[1].established = false;
+  EXPECT_THAT(card_of(d).next, HasSubstr("established or not, for short motions alone (simulated over "));
+  d.whole_run->after = kNaN;
+  EXPECT_THAT(card_of(d).next, HasSubstr("over a whole recording it runs away)"));
   d.whole_run->after = 0.0412;
-  EXPECT_THAT(card_of(d).next, HasSubstr("Simulate with `DIR/fitted.yaml`; "));
+  EXPECT_THAT(card_of(d).next, HasSubstr("established or not; "));
 }
 
 TEST(CardGap, OfASingleBodyThatLacksNothingIsNotMissed) {

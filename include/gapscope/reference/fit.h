@@ -93,7 +93,8 @@ struct FitOptions {
   bool compare_parts = true;    ///< where the model is not the drive: its values on parts of the recordings
   bool profile = false;         ///< intervals from the profile likelihood as well
   std::optional<double> gap_seed;  ///< start of the gap from another estimate [rad]; absent: own start
-  std::shared_ptr<std::atomic<std::int64_t>> work;  ///< simulated samples are counted here; null: nowhere
+  std::shared_ptr<std::atomic<std::int64_t>>
+      work;  ///< samples of plain simulations are counted here; null: nowhere
 
   void fields(FieldVisitor& visitor);  ///< the one list: keys, bounds, units, docs
 };

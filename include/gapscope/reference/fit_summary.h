@@ -86,7 +86,7 @@ struct FitSummary {
   double coasting_rmse = kNaN;      ///< that error of an observer that knows no torque [rad]
   double without_gap_ratio = kNaN;  ///< that error with the gap closed, over that with it open; NaN: no gap
   int starts = 0;                   ///< starting points tried
-  int simulations = 0;              ///< plain simulations spent, a Jet run counted as its measured cost
+  int simulations = 0;  ///< plain simulations spent, one with Jets or effects counted as its measured cost
   double lag1_autocorrelation = kNaN;       ///< of the residual [-]
   ResidualTest whiteness;                   ///< of the residual with itself
   ResidualTest input_correlation;           ///< of the residual with the input

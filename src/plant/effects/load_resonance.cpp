@@ -27,7 +27,7 @@ struct LoadResonance {
       {0.2, 127.0, 0.05}, {0.2, 165.0, 0.05}, {0.2, 215.0, 0.05}, {0.2, 280.0, 0.05}, {0.2, 363.0, 0.05},
       {0.2, 472.0, 0.05}, {0.2, 614.0, 0.05}, {0.2, 798.0, 0.05}, {0.2, 1038.0, 0.05}};
 
-  static constexpr int kOrder = 10;  ///< of the series: its rest is below 1e-14 at w0 h = 1/4
+  static constexpr int kOrder = 10;  ///< of the series: its rest is 3e-13 of the speed at w0 h = 1/4
   static constexpr double kOver[kOrder + 1] = {0.0,     1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5,
                                                1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10};
 
