@@ -124,8 +124,7 @@ TEST(CardHelps, TellsWhatIsLeft) {
   d.mismatch.remains = 45.0;
   EXPECT_THAT(card_of(d).helps, HasSubstr(" What is left, 45 times the encoder's noise, is not explained."));
   d.mismatch.remains = 4500.0, d.mismatch.floor_from = FloorSource::kRepeatability;
-  EXPECT_THAT(card_of(d).helps,
-              HasSubstr("left, 4500 times what the drive itself varies by from period to"));
+  EXPECT_THAT(card_of(d).helps, HasSubstr("left, 4500 times what the drive itself varies by from period to"));
   d.budget.nominal = 0.1, d.budget.records = 4e-3, d.budget.encoder = 1e-3, d.budget.band_hz = 64.0;
   d.budget.input = 0.5, d.budget.remains = 0.02;
   EXPECT_THAT(

@@ -41,7 +41,7 @@ TEST(DiagnosisBasis, TheNumbersOfTheRankingAreNotThoseOfWhatWasAddedAndBothSayWh
   const std::string text = internal::report::diagnosis_text(servo());
   EXPECT_THAT(text,
               HasSubstr("The numbers of the model with all of it, by the torque balance on the recordings"));
-  EXPECT_THAT(text, HasSubstr("| `load_dependent_friction` (established by the torque balance alone) |"));
+  EXPECT_THAT(text, HasSubstr("| `load_dependent_friction` (likely, by the torque balance) |"));
   EXPECT_THAT(
       text, HasSubstr("## Which effect, judged by the motion\n\nEach candidate alone, on the nominal model"));
   EXPECT_THAT(text,
