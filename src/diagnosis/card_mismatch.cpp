@@ -68,10 +68,9 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (b.records >= floor)
     return "; " + size +
            " of this does not repeat from recording to recording (or part to part), so no model removes it";
-  return "; no model can get below " + size +
-         (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
-              ? ", by which the drive itself differs from period to period"
-              : ", which the encoder's noise alone looks like");
+  if (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder))
+    return "; no model can get below " + size + ", by which the drive itself differs from period to period";
+  return "; the encoder's noise alone looks like " + size + ", below which no model can get";
 }
 
 /// Of a model that nothing is missing of: that what is left is no more than the encoder's noise, or than the

@@ -180,9 +180,9 @@ std::string scale_words(const Diagnosis& d) {
   const double factor = inertia->fitted / inertia->configured;
   return fmt::format(
       " Inertia and damping are both {:.4g} times those of the configuration, which the recordings cannot "
-      "tell "
-      "from a torque constant (or gear ratio) that is {} {}: where the inertia is certain, hold it and set "
-      "torque_constant: {{estimate: true}}.",
+      "tell from a torque constant (or gear ratio) that is {} {}: where the inertia is certain, give it as a "
+      "bare "
+      "number, which is held, and set torque_constant: {{estimate: true}}.",
       factor, percent_text(100.0 * std::abs(1.0 / factor - 1.0)), factor > 1.0 ? "smaller" : "larger");
 }
 

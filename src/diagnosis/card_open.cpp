@@ -75,8 +75,10 @@ std::string which_is_open(const std::vector<std::string>& group, const Diagnosis
 
 std::string least_of_a_cause(const std::vector<std::string>& why) {
   if (std::ranges::none_of(why, [](const std::string& w) { return w.starts_with(kLowers); })) return "";
-  return fmt::format(" A cause has to lower it by {:.1f} % or more.",
-                     fall_of_rms(torque_view::TorqueViewOptions{}.least_share));
+  const double share = torque_view::TorqueViewOptions{}.least_share;
+  return fmt::format(
+      " Only what lowers it by {:.1f} % or more ({:.0f} % of its mean square) is called a cause.",
+      fall_of_rms(share), 100.0 * share);
 }
 
 const BudgetRung* unestablished_rung(const Diagnosis& d) {

@@ -93,7 +93,8 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
     case GapOrigin::kNone:
       if (diagnosis->verdict == DiagnosisVerdict::kNone &&
           diagnosis->model_gap->encoder != EncoderSide::kLoad)
-        return "Backlash is not modelled (a single body), and none is missed: the model is as good as the "
+        return "Backlash is not modelled (a single body), and the recording asks for none: the model is as "
+               "good as the "
                "recording; to "
                "check without a model: " +
                told_without_model(*diagnosis);

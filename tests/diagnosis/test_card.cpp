@@ -120,11 +120,11 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   d.budget.encoder = 0.7;
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).mismatch,
-      EndsWith("input applies; no model can get below 0.7 N, which the encoder's noise alone looks like."));
+      EndsWith("input applies; the encoder's noise alone looks like 0.7 N, below which no model can get."));
   d.budget.repeatability = 0.72;
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).mismatch,
-      EndsWith("input applies; no model can get below 0.72 N, which the encoder's noise alone looks like."));
+      EndsWith("input applies; the encoder's noise alone looks like 0.72 N, below which no model can get."));
   d.budget.repeatability = 1.2;
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).mismatch,

@@ -127,7 +127,7 @@ TEST(CardCause, WhereInertiaAndDampingGrowAlikeTheTorqueConstantMayBeWrong) {
       HasSubstr(
           " Inertia and damping are both 1.136 times those of the configuration, which the recordings "
           "cannot tell from a torque constant (or gear ratio) that is 12 % smaller: where the inertia is "
-          "certain, hold it and set torque_constant: {estimate: true}."));
+          "certain, give it as a bare number, which is held, and set torque_constant: {estimate: true}."));
   d.refitted[1].ci95 = {0.345, 0.347};
   EXPECT_THAT(card_of(d).next, Not(HasSubstr("torque constant"))) << "they grow by different factors";
   d.refitted[1].ci95 = {0.33, 0.352};
@@ -170,8 +170,8 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   BudgetRung& rung = d.budget.rungs.front();
   const auto cause = [&] { return card_of(d).cause; };
   EXPECT_THAT(cause(),
-              HasSubstr("helps: input delay (it lowers the error by only 7.3 %). A cause has to lower "
-                        "it by 10.6 % or more."))
+              HasSubstr("helps: input delay (it lowers the error by only 7.3 %). Only what lowers it by "
+                        "10.6 % or more (20 % of its mean square) is called a cause."))
       << "0.14 and 0.2 of the mean square";
   rung.share = 0.4, rung.share_ci95 = {0.05, 0.5};
   EXPECT_THAT(cause(), HasSubstr("input delay (by how much it lowers the error is uncertain, 3 to 29 %)."));
@@ -190,7 +190,8 @@ TEST(CardCause, SaysWhyTheBalanceDoesNotEstablish) {
   EXPECT_THAT(
       cause(),
       HasSubstr("friction (it lowers the error by only 5.1 %) and input delay (it lowers the error by only "
-                "7.3 %). A cause has to lower it by 10.6 % or more."));
+                "7.3 %). Only what lowers it by 10.6 % or more (20 % "
+                "of its mean square) is called a cause."));
 }
 
 TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {

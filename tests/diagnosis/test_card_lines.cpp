@@ -166,9 +166,10 @@ TEST(CardNext, OfAModelThatDriftsSaysWhatItIsGoodFor) {
 TEST(CardGap, OfASingleBodyThatLacksNothingIsNotMissed) {
   Diagnosis d;
   d.verdict = DiagnosisVerdict::kNone, d.model_gap = ModelGap();
-  EXPECT_THAT(card_of(d).gap,
-              HasSubstr("(a single body), and none is missed: the model is as good as the recording; "
-                        "to check without a model: `gapscope detect CONFIG`."));
+  EXPECT_THAT(
+      card_of(d).gap,
+      HasSubstr("(a single body), and the recording asks for none: the model is as good as the recording; "
+                "to check without a model: `gapscope detect CONFIG`."));
 }
 
 TEST(CardNext, OfOneDirectionAsksForTheOtherBeforeTheSearchGoesOn) {

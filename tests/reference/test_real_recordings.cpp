@@ -89,7 +89,9 @@ FitSummary fit_reducer(const std::string& name, std::pair<double, double> window
   estimate(model, kContactStiffness, 500.0);
   estimate(model, kContactDamping, 1.0);
   model.effects = {estimated("motor_coulomb_friction", 1.0)};
-  return fit_one(recording, model);
+  FitOptions fit;
+  fit.starts = 2;
+  return fit_one(recording, model, fit);
 }
 
 TEST(RealRecordings, GapFrictionAndStiffnessMakeUpThePlayOfALockedReducer) {
