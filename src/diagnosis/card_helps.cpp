@@ -56,12 +56,14 @@ std::string percents(const CardFacts& f, const Card& card) {
          what_applies(*f.diagnosis) + " applies";
 }
 
+/// " (free run restarted every 0.5 s, median of windows)"; empty where no measure is told
+std::string measure_aside(const MismatchSize& m) { return m.measure.empty() ? "" : " (" + m.measure + ")"; }
+
 /// "from 371 to 0.427 µm (free run restarted every 0.5 s, median of windows)"
 std::string fall_of_motion(const CardFacts& f) {
   const MismatchSize& m = f.diagnosis->mismatch;
   const SharedUnit error(m.before, f.coordinates.position_unit());
-  return fmt::format("from {} to {}{}", error.number(m.before), error(m.after),
-                     m.measure.empty() ? "" : " (" + m.measure + ")");
+  return fmt::format("from {} to {}{}", error.number(m.before), error(m.after), measure_aside(m));
 }
 
 /// Whether the size in torque tells what is left: of windows that rest in their median it is none.
@@ -99,7 +101,7 @@ std::string shares_of_motion(const CardFacts& f, const std::vector<double>& left
   std::vector<std::string> all;
   for (std::size_t i = 0; i < left.size(); ++i)
     all.push_back(motion(left[i]) + " with " + with_asides(d.added[i], f, false));
-  return fmt::format("the {} ({}) falls from {} to {}", motion_error(d), d.mismatch.measure,
+  return fmt::format("the {}{} falls from {} to {}", motion_error(d), measure_aside(d.mismatch),
                      motion(d.mismatch.before), fmt::join(all, ", then to "));
 }
 

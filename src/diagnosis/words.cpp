@@ -92,7 +92,8 @@ std::string error_fall(const Diagnosis& d) {
 
 constexpr const char* kByBalance = " by the torque balance alone";
 
-/// " (established by the balance of torque alone; ...)", where the motion does not bear it out.
+/// " (likely, by the torque balance alone; ...)" or " (established; ...)", where the motion does not bear it
+/// out.
 std::string doubt_aside(const Diagnosis& d) {
   const std::string doubt = doubt_of_motion(d);
   return doubt.empty() ? "" : (doubt.starts_with(kByBalance) ? " (likely," : " (established") + doubt + ")";
