@@ -154,7 +154,7 @@ void print_card(const Card& card, const ToldConfiguration& c, const std::string&
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool further = !card.diagnosed && &l.text == &card.place;
     const std::string text =
-        further ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.text;
+        further ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.brief;
     const bool goes_on = text.find(" --model-from ") != text.npos;  // and names a folder of its own
     const Placeholder all[] = {{"DIR", folder},
                                {"CONFIG", c.file, c.settings + (goes_on ? "" : c.model + c.folder)}};
@@ -203,14 +203,38 @@ void print_headline(const std::string& folder, const RunResult& r, const ToldCon
   if (r.answer) print_card(r.answer->card, configuration, folder);
 }
 
+namespace {
+
+/// How much there is of an effect; one that was found several times has a line for each.
+/// @param before  how often its name has been told
+std::string amount_told(const std::string& effect, std::ptrdiff_t before, const DiagnosisResult& r) {
+  for (const AddedEffect& a : r.diagnosis.added)
+    if (a.effect == effect && before-- == 0)
+      return with_input_unit(amount_words(a, r.diagnosis, r.coordinates), r.input.value_or(InputFacts{}));
+  return "";
+}
+
+/// A line for each effect, amounts below each other.
+void print_effects(const DiagnosisResult& r) {
+  const std::vector<std::string>& effects = r.diagnosis.effects;
+  std::size_t width = 0;
+  for (const std::string& effect : effects) width = std::max(width, effect.size());
+  for (auto e = effects.begin(); e != effects.end(); ++e) {
+    const std::string amount = amount_told(*e, std::count(effects.begin(), e, *e), r);
+    line("effect", amount.empty() ? *e : fmt::format("{:<{}}{}", *e, width + 2, amount));
+  }
+}
+
+}  // namespace
+
 void print_diagnosis(const std::string& folder, const DiagnosisResult& r,
                      const ToldConfiguration& configuration) {
-  const Diagnosis& d = r.diagnosis;
   line("report", folder);
-  line("verdict", to_string(d.verdict));
-  for (const std::string& effect : d.effects) line("effect", effect);
+  line("verdict", to_string(r.diagnosis.verdict));
+  print_effects(r);
   if (r.simulated) line("simulator", r.simulated->sentence);
   if (r.answer) print_card(r.answer->card, configuration, folder);
+  line("more", "Amounts, reasons and limits: " + folder + "/report.html");
 }
 
 }  // namespace gapscope::cli

@@ -23,15 +23,19 @@ namespace {
 
 using internal::diagnosis::also_refitted;
 using internal::diagnosis::as_sentence;
+using internal::diagnosis::brief_cause;
 using internal::diagnosis::brief_doubt_of_motion;
+using internal::diagnosis::brief_helps;
 using internal::diagnosis::cause_line;
 using internal::diagnosis::exhausted_words;
 using internal::diagnosis::export_words;
+using internal::diagnosis::first_clause;
 using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
 using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
+using internal::diagnosis::mismatch_size;
 using internal::diagnosis::mismatch_words;
 using internal::diagnosis::next_of_numbers;
 using internal::diagnosis::one_way_words;
@@ -81,19 +85,41 @@ std::string gap_verdict(const CardFacts& f) {
   return (*good ? " Within your tolerance of " : " Outside your tolerance of ") + limit + ".";
 }
 
-std::string gap_line(const CardFacts& f) {
-  if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
-  const bool known = f.answer->trust != AnswerTrust::kNone, measured = !known && f.lost_motion;
+bool gap_is_known(const CardFacts& f) { return f.answer->trust != AnswerTrust::kNone; }
+
+std::string gap_trust(const CardFacts& f) {
+  const bool known = gap_is_known(f), measured = !known && f.lost_motion;
   if (known && f.answer->sentence.starts_with(internal::diagnosis::kThePlay))  // which bounds the gap
-    return as_sentence(f.answer->sentence) + " Trust: good as an upper bound, " + to_string(f.answer->trust) +
-           " as the gap itself." + gap_verdict(f);
+    return std::string(" Trust: good as an upper bound, ") + to_string(f.answer->trust) +
+           " as the gap itself.";
   const bool beside = known && f.answer->from == AnswerSource::kModelFree && f.reference != nullptr &&
                       f.reference->rejected();  // whose reason stands between the reading and the trust
-  return as_sentence(known || measured ? f.answer->sentence : without_asides(f.answer->sentence)) +
-         (measured ? " Trust in a gap: "
-          : beside ? " Trust in that reading: "
-                   : " Trust: ") +
-         to_string(f.answer->trust) + (measured ? "; the lost motion is measured." : ".") + gap_verdict(f);
+  return std::string(measured ? " Trust in a gap: "
+                     : beside ? " Trust in that reading: "
+                              : " Trust: ") +
+         to_string(f.answer->trust) + (measured ? "; the lost motion is measured." : ".");
+}
+
+std::string gap_line(const CardFacts& f) {
+  if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
+  const bool whole = gap_is_known(f) || f.lost_motion;
+  return as_sentence(whole ? f.answer->sentence : without_asides(f.answer->sentence)) + gap_trust(f) +
+         gap_verdict(f);
+}
+
+/// What was measured of a loop, and what it means.
+std::string brief_loop(const std::string& sentence) {
+  const std::string measured = first_clause(sentence, ".");
+  return measured.size() + 1 < sentence.size()
+             ? measured + " " + first_clause(sentence.substr(measured.size() + 1), ".")
+             : measured;
+}
+
+std::string brief_gap(const CardFacts& f) {
+  if (f.answer == nullptr) return first_clause(gap_not_estimated(f.diagnosis, f.coordinates));
+  const std::string& told = f.answer->sentence;
+  if (gap_is_known(f)) return first_clause(told) + gap_trust(f) + gap_verdict(f);
+  return (f.lost_motion ? brief_loop(told) : without_asides(first_clause(told))) + gap_verdict(f);
 }
 
 std::string torque_verdict(const CardFacts& f, const Card& card) {
@@ -136,7 +162,8 @@ std::string for_short_motions(const Diagnosis& d) {
 }
 
 /// Where effects were added: to use them, unless too much is left.
-std::string step_of_the_model(const CardFacts& f, const Card& card) {
+/// @param whole  with what takes them to other simulators
+std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) {
   if (std::string left = unexplained(f, card); !left.empty()) return left;
   const Diagnosis& d = *f.diagnosis;
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
@@ -144,14 +171,14 @@ std::string step_of_the_model(const CardFacts& f, const Card& card) {
          (!open                ? ""
           : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
                                : ", which predicts better with it, established or not") +
-         for_short_motions(d) + "; " + export_words(f) +
+         for_short_motions(d) + (whole ? "; " + export_words(f) : ".") +
          (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt_of_motion(d, f.coordinates).empty()
               ? " To settle the cause, record another motion (" + other_motion(d) +
                     ") and diagnose again with that."
               : "");
 }
 
-std::string next_line(const CardFacts& f, const Card& card) {
+std::string next_line(const CardFacts& f, const Card& card, bool whole) {
   if (card.good_enough && *card.good_enough) return "None: this is within your tolerance.";
   const std::string step = step_of_the_answer(f);
   if (!step.empty()) return step;
@@ -172,7 +199,7 @@ std::string next_line(const CardFacts& f, const Card& card) {
                   "To go on from what was found: ") +
            "`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.";
   if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
-  if (is_added(d)) return step_of_the_model(f, card);
+  if (is_added(d)) return step_of_the_model(f, card, whole);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
   return step_to_establish(d);
 }
@@ -195,12 +222,12 @@ void Tolerance::fields(FieldVisitor& v) {
 }
 
 std::array<CardLine, 6> Card::lines() const {
-  return {{{"gap", gap},
-           {"model error", mismatch},
-           {"where", place},
-           {"cause", cause},
-           {"helps", helps},
-           {"next", next}}};
+  return {{{"gap", brief.gap, gap},
+           {"model error", brief.mismatch, mismatch},
+           {"where", brief.place, place},
+           {"cause", brief.cause, cause},
+           {"helps", brief.helps, helps},
+           {"next", brief.next, next}}};
 }
 
 Card card_of(const CardFacts& f) {
@@ -213,7 +240,12 @@ Card card_of(const CardFacts& f) {
   card.place = place_line(f);
   card.cause = cause_line(f);
   card.helps = helps_line(f, card);
-  card.next = next_line(f, card) + also_refitted(f);
+  card.next = next_line(f, card, true) + also_refitted(f);
+  const std::string size = mismatch_size(f, card);
+  card.brief = {
+      brief_gap(f),         (card.diagnosed ? without_asides(size) : size) + torque_verdict(f, card),
+      card.place,           brief_cause(f),
+      brief_helps(f, card), f.diagnosis == nullptr ? first_clause(card.next) : next_line(f, card, false)};
   return card;
 }
 

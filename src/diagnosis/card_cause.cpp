@@ -81,7 +81,8 @@ std::string with_aside(std::string words, const std::string& aside) {
 
 /// " Not established, though it helps: input delay (it may as well be actuator lag).", of what has an open
 /// cause, with why it is, told once where that is the same of all.
-std::string open_causes(const CardFacts& f) {
+/// @param least  whether to say how much a cause has to take
+std::string open_causes(const CardFacts& f, bool least) {
   std::vector<std::string> open, why;
   for (const AddedEffect& a : f.diagnosis->added) {
     if (a.established) continue;
@@ -97,7 +98,7 @@ std::string open_causes(const CardFacts& f) {
   else
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = with_aside(open[i], why[i]);
   return fmt::format(" Not established, though {}: {}.{}", open.size() > 1 ? "they help" : "it helps",
-                     enumerated(open), least_of_a_cause(why));
+                     enumerated(open), least ? least_of_a_cause(why) : "");
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -130,9 +131,8 @@ std::string simulator_words(const SimulatorComparison* c) {
   return " " + as_sentence(of_your_simulator(c->rows.front().sentence) + others);
 }
 
-}  // namespace
-
-std::string cause_line(const CardFacts& f) {
+/// The line, or the same without why.
+std::string cause_of(const CardFacts& f, bool brief) {
   if (f.diagnosis == nullptr) return kToldByDiagnose;
   const Diagnosis& d = *f.diagnosis;
   const std::string simulator = simulator_words(f.simulated);
@@ -142,13 +142,19 @@ std::string cause_line(const CardFacts& f) {
                 : "No effect is missing that this recording could show; the drive has other numbers than the "
                   "configuration starts at.") +
            simulator;
-  std::string text = established_causes(f), then = open_causes(f);
+  std::string text = established_causes(f), then = open_causes(f, !brief);
   if (text.empty() && then.empty() && d.stopped)
     return "Not told: the search was stopped before its end." + simulator;
   if (rests_on_open_cause(d)) std::swap(text, then);
   text += then;
-  if (text.empty()) text = " " + as_sentence(unknown_words(f));
+  if (brief) text = without_asides(text);
+  if (text.empty()) text = " " + as_sentence(brief ? first_clause(unknown_words(f), ":") : unknown_words(f));
   return text.substr(1) + outside_words(f) + exhausted_words(d) + simulator;
 }
+
+}  // namespace
+
+std::string cause_line(const CardFacts& f) { return cause_of(f, false); }
+std::string brief_cause(const CardFacts& f) { return cause_of(f, true); }
 
 }  // namespace gapscope::internal::diagnosis

@@ -11,4 +11,7 @@ inline constexpr const char* kToldByDiagnose = "Told by `gapscope diagnose CONFI
 /// The line of a card that tells what the model lacks.
 std::string cause_line(const CardFacts& facts);
 
+/// The same without its reasons.
+std::string brief_cause(const CardFacts& facts);
+
 }  // namespace gapscope::internal::diagnosis

@@ -14,7 +14,8 @@
 #include "diagnosis/words.h"
 #include "gapscope/base/percents.h"
 
-namespace gapscope::internal::diagnosis {
+namespace gapscope {
+namespace internal::diagnosis {
 namespace {
 
 /// "brings it from 46.3 to 25.5 mN·m", "cuts the free-run error by 64 %": on the basis that has decided.
@@ -32,18 +33,24 @@ std::string share_words(const AddedEffect& a, const CardFacts& f) {
   return fmt::format("brings it from {} to {}", torque.number(at->before), torque(at->after));
 }
 
+/// Its period, unless its name has it, and how much there is of it.
+std::vector<std::string> amounts_of(const AddedEffect& a, const Diagnosis& d, Coordinates coordinates,
+                                    const std::string& name) {
+  std::vector<std::string> all;
+  const std::string period = period_words(a, coordinates);
+  if (!period.empty() && !name.ends_with(period)) all.push_back(period.substr(1));
+  if (const std::string amount = amount_of(a, d.added, coordinates); !amount.empty()) all.push_back(amount);
+  return all;
+}
+
 /// "cogging torque (2 N; cuts the free-run error by 64 %)": what is known of it alone; an aside in its name
 /// stands under the cause.
 /// @param share  whether what it takes belongs to it, by what has decided on it: torque as the error budget
 /// has it, or a share of the motion's error above the floor; where every effect has the torque that it
 /// leaves, or is the only one, the fall beside it says that
 std::string with_asides(const AddedEffect& a, const CardFacts& f, bool share) {
-  std::vector<std::string> asides;
-  const std::string name = without_asides(name_of(a, *f.diagnosis, f.coordinates)),
-                    period = period_words(a, f.coordinates);
-  if (!period.empty() && !name.ends_with(period)) asides.push_back(period.substr(1));
-  if (const std::string amount = amount_of(a, f.diagnosis->added, f.coordinates); !amount.empty())
-    asides.push_back(amount);
+  const std::string name = without_asides(name_of(a, *f.diagnosis, f.coordinates));
+  std::vector<std::string> asides = amounts_of(a, *f.diagnosis, f.coordinates, name);
   if (const std::string taken = share ? share_words(a, f) : ""; !taken.empty()) asides.push_back(taken);
   return name + (asides.empty() ? "" : fmt::format(" ({})", fmt::join(asides, "; ")));
 }
@@ -192,4 +199,19 @@ std::string helps_line(const CardFacts& f, const Card& card) {
   return text;
 }
 
-}  // namespace gapscope::internal::diagnosis
+std::string brief_helps(const CardFacts& f, const Card& card) {
+  std::string text = without_asides(first_clause(helps_line(f, card)));
+  if (f.diagnosis == nullptr || f.diagnosis->added.empty()) return text;
+  if (motion_words(f.diagnosis->mismatch, f.coordinates).empty()) return text;
+  text.pop_back();
+  return text + ", but the simulated motion comes no nearer.";
+}
+
+}  // namespace internal::diagnosis
+
+std::string amount_words(const AddedEffect& added, const Diagnosis& diagnosis, Coordinates coordinates) {
+  return fmt::format("{}",
+                     fmt::join(internal::diagnosis::amounts_of(added, diagnosis, coordinates, ""), "; "));
+}
+
+}  // namespace gapscope

@@ -134,16 +134,24 @@ std::string whole_run_words(const CardFacts& f) {
          (grows ? ": over so long a run the smallest errors grow." : ".");
 }
 
+std::string size_words(const CardFacts& f, const Card& card, const std::string& floor) {
+  const bool torque = std::isfinite(card.torque);
+  return (torque ? torque_size(f, card) : error_size(f)) + floor + "." +
+         (torque && f.constant_guessed
+              ? " All torques here rest on torque_constant, a guess; percentages do not."
+              : "");
+}
+
 }  // namespace
 
 std::string mismatch_words(const CardFacts& f, const Card& card) {
-  if (f.diagnosis == nullptr) return fit_of_motion(f);
-  const bool torque = std::isfinite(card.torque);
-  return (torque ? torque_size(f, card) : error_size(f)) + floor_words(f, card) + "." +
-         (torque && f.constant_guessed
-              ? " All torques here rest on torque_constant, a guess; percentages do not."
-              : "") +
-         whole_run_words(f) + closed_loop_words(f);
+  return f.diagnosis == nullptr
+             ? fit_of_motion(f)
+             : size_words(f, card, floor_words(f, card)) + whole_run_words(f) + closed_loop_words(f);
+}
+
+std::string mismatch_size(const CardFacts& f, const Card& card) {
+  return f.diagnosis == nullptr ? fit_of_motion(f) : size_words(f, card, "");
 }
 
 }  // namespace gapscope::internal::diagnosis

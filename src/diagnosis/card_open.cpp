@@ -90,12 +90,11 @@ const BudgetRung* unestablished_rung(const Diagnosis& d) {
 std::string unknown_words(const CardFacts& f) {
   const Diagnosis& d = *f.diagnosis;
   const BudgetRung* rung = unestablished_rung(d);
-  if (rung == nullptr) return "unknown: no effect of the catalogue explains it";
+  if (rung == nullptr) return "unknown, as no effect of the catalogue explains it";
   const SharedUnit torque(rung->before, f.coordinates.shown_unit("N m"));
   return fmt::format(
-             "unknown; suspected is {}: as a term of the torque balance it brings the missing {} down from "
-             "{} "
-             "to {}, but {}",
+             "unknown, though {} is suspected: as a term of the torque balance it brings the missing {} down "
+             "from {} to {}, but {}",
              readable(rung->effect.empty() ? rung->law : rung->effect), f.coordinates.torque_word(),
              torque.number(rung->before), torque(rung->after),
              d.better_swapped ? "the recording that was fitted moves too little to establish a cause"

@@ -19,7 +19,7 @@ std::string which_is_open(const std::vector<std::string>& group, const Diagnosis
 /// " A cause has to remove at least 20 %.", where one of these is that an effect removes less; else empty.
 std::string least_of_a_cause(const std::vector<std::string>& why);
 
-/// Of the verdict "unknown": "unknown: no effect of the catalogue explains it", or that one takes much of it
+/// Of the verdict "unknown": "unknown, as no effect of the catalogue explains it", or that one takes much of it
 /// in the error budget and is not established.
 std::string unknown_words(const CardFacts& facts);
 

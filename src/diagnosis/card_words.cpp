@@ -151,4 +151,17 @@ std::string without_asides(std::string text) {
   return text;
 }
 
+std::string first_clause(const std::string& text, std::string_view ends) {
+  int depth = 0;
+  bool code = false;
+  for (std::size_t at = 0; at + 1 < text.size(); ++at) {
+    const char c = text[at];
+    code = code != (c == '`');
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (!code && depth == 0 && text[at + 1] == ' ' && ends.find(c) != ends.npos)
+      return as_sentence(text.substr(0, at));
+  }
+  return as_sentence(text);
+}
+
 }  // namespace gapscope::internal::diagnosis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
@@ -54,5 +55,8 @@ std::string export_words(const CardFacts& facts);
 
 /// Without what stands in brackets: the detail of a report has it.
 std::string without_asides(std::string text);
+
+/// Up to the first of these characters that ends a clause, outside of brackets and of code, with a full stop.
+std::string first_clause(const std::string& text, std::string_view ends = ".;");
 
 }  // namespace gapscope::internal::diagnosis

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "gapscope/results/drive_card.h"
 #include "report/diagnosis_figures.h"
@@ -32,6 +33,17 @@ std::vector<std::string> all_warnings(const DriveStory& s) {
   return all;
 }
 
+/// The lines of which the brief ones are a part.
+std::string detail_of_card(const Card& card, std::span<const char* const, 6> titles) {
+  std::string text;
+  std::size_t i = 0;
+  for (const CardLine& line : card.lines()) {
+    const char* const title = titles[i++];
+    if (line.text != line.brief) text += fmt::format("- **{}:** {}\n", title, typeset(line.text));
+  }
+  return text.empty() ? "" : "\n## In full\n\n" + text;
+}
+
 }  // namespace
 
 std::string card_text(const Card& card) {
@@ -42,9 +54,9 @@ std::string card_text(const Card& card) {
     const char* const title = kTitles[i++];
     if (!card.diagnosed && (&line.text == &card.cause || &line.text == &card.helps)) continue;
     const bool all = !card.diagnosed && &line.text == &card.place;
-    text += fmt::format("- **{}:** {}\n", all ? "Where, cause, what helps" : title, typeset(line.text));
+    text += fmt::format("- **{}:** {}\n", all ? "Where, cause, what helps" : title, typeset(line.brief));
   }
-  return text;
+  return text + detail_of_card(card, kTitles);
 }
 
 std::string story_text(const DriveStory& s) {

@@ -23,7 +23,7 @@ void fields(Archive& archive, Tolerance& t) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Card& c) {
+void fields(Archive& archive, CardText& c) {
   archive("gap", c.gap);
   archive("mismatch", c.mismatch);
   archive("place", c.place);
@@ -47,7 +47,8 @@ void fields(Archive& archive, Answer& a) {
           {AnswerTrust::kGood, "good"}, {AnswerTrust::kLimited, "limited"}, {AnswerTrust::kNone, "none"}});
   archive("sentence", a.sentence);
   archive("next", a.next);
-  archive.added("card", a.card);
+  archive.added("card", static_cast<CardText&>(a.card));
+  archive.added("brief", a.card.brief);
   archive.addition("mismatch_torque_nm", a.card.torque);
   archive.addition("mismatch_percent", a.card.percent);
   archive.addition("mismatch_torque_after_nm", a.card.torque_after);

@@ -43,8 +43,9 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
   }
   facts.constant_guessed = input && input->constant_guessed;
   Card card = card_of(facts);
-  for (std::string* line : {&card.gap, &card.mismatch, &card.place, &card.cause, &card.helps, &card.next})
-    *line = with_input_unit(*line, input.value_or(InputFacts{}));
+  for (CardText* c : {static_cast<CardText*>(&card), &card.brief})
+    for (std::string* line : {&c->gap, &c->mismatch, &c->place, &c->cause, &c->helps, &c->next})
+      *line = with_input_unit(*line, input.value_or(InputFacts{}));
   return card;
 }
 

@@ -220,18 +220,19 @@ Diagnosis unknown_beside_a_budget() {
 
 TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   Diagnosis d = unknown_beside_a_budget();
-  EXPECT_EQ(
-      card_of(d).cause,
-      "Unknown; suspected is load unbalance: as a term of the torque balance it brings the missing torque "
-      "down from 12.6 to 2.43 N·m, but no simulation with it follows the recordings well enough to "
-      "establish it.");
+  EXPECT_EQ(card_of(d).cause,
+            "Unknown, though load unbalance is suspected: as a term of the torque balance it brings the "
+            "missing torque "
+            "down from 12.6 to 2.43 N·m, but no simulation with it follows the recordings well enough to "
+            "establish it.");
   EXPECT_EQ(card_of(d).helps, "Nothing that these recordings establish; `fitted.yaml` has no addition.");
   EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"))
       << "swapped they would send back: what is fitted asks as much";
   d.better_swapped = true;
   EXPECT_EQ(
       card_of(d).cause,
-      "Unknown; suspected is load unbalance: as a term of the torque balance it brings the missing torque "
+      "Unknown, though load unbalance is suspected: as a term of the torque balance it brings the missing "
+      "torque "
       "down from 12.6 to 2.43 N·m, but the recording that was fitted moves too little to establish a cause.");
   d.next_experiment.sentence = "Record a sine.";
   EXPECT_THAT(card_of(d).next, HasSubstr("Swap `file` and `held_out`")) << "takes no new one";
@@ -239,7 +240,7 @@ TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   EXPECT_THAT(card_of(d).mismatch,
               HasSubstr("12.6 N·m rms of torque on held-out data, 10 times the 1.24 N·m rms"));
   d.budget.rungs.front().share = 0.3, d.better_swapped = false;
-  EXPECT_EQ(card_of(d).cause, "Unknown: no effect of the catalogue explains it.");
+  EXPECT_EQ(card_of(d).cause, "Unknown, as no effect of the catalogue explains it.");
   EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"));
 }
 

@@ -11,6 +11,7 @@
 
 namespace gapscope {
 
+struct AddedEffect;
 struct Answer;
 struct Diagnosis;
 struct FitSummary;
@@ -25,21 +26,26 @@ struct Tolerance {
   void fields(FieldVisitor& visitor);
 };
 
-/// One line of the card: "model error" and what is to be said of it.
+/// One line of the card: "model error", what is to be said of it, and the same with numbers and reasons.
 struct CardLine {
   const char* name;
+  const std::string& brief;
   const std::string& text;
 };
 
-/// What everybody wants to know of a drive, in six lines. Terminal, report and JSON show the same text. A
-/// default-built one has nothing to say.
-struct Card {
-  std::string gap;                  ///< the gap, and whether to believe it
-  std::string mismatch;             ///< between model and drive, in torque and per cent of the input's
-  std::string place;                ///< where it is
-  std::string cause;                ///< what it comes from, and how sure that is
-  std::string helps;                ///< what takes how much of it
-  std::string next;                 ///< the next step
+struct CardText {
+  std::string gap;       ///< the gap, and whether to believe it
+  std::string mismatch;  ///< between model and drive, in torque and per cent of the input's
+  std::string place;     ///< where it is
+  std::string cause;     ///< what it comes from, and how sure that is
+  std::string helps;     ///< what takes how much of it
+  std::string next;      ///< the next step
+};
+
+/// What everybody wants to know of a drive, in six lines: brief, as terminal and report begin with it, and
+/// with numbers, reasons and limits. A default-built one has nothing to say.
+struct Card : CardText {
+  CardText brief;
   double torque = kNaN;             ///< rms of the missing torque of the model as it is, held-out [N m]
   double percent = kNaN;            ///< the same, of what the input applies [%]
   double torque_after = kNaN;       ///< with all that helps [N m]
@@ -66,5 +72,9 @@ struct CardFacts {
 };
 
 Card card_of(const CardFacts& facts);
+
+/// How much there is of an effect that a diagnosis has added: "every 2.5 mm; amplitude 988 mN, 95 %: 507 to
+/// 1468". Empty where it has no numbers.
+std::string amount_words(const AddedEffect& added, const Diagnosis& diagnosis, Coordinates coordinates);
 
 }  // namespace gapscope

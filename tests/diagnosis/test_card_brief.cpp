@@ -1,0 +1,100 @@
+// The six lines as a report begins with them: an answer each, without the numbers and reasons behind it.
+#include <gmock/gmock.h>
+
+#include "diagnosis/card_words.h"
+#include "diagnosis/slide_card.h"
+#include "gapscope/diagnosis/simulator.h"
+
+namespace gapscope {
+namespace {
+
+using internal::diagnosis::first_clause;
+using ::testing::EndsWith;
+using testing::facts_of;
+using ::testing::HasSubstr;
+using testing::sharp_answer;
+using testing::slide_diagnosis;
+
+TEST(FirstClause, EndsOutsideOfBracketsCodeAndNumbers) {
+  EXPECT_EQ(first_clause("1.5 mrad (a; b. c), read; more. And more."), "1.5 mrad (a; b. c), read.");
+  EXPECT_EQ(first_clause("Run `a; b` now. Then stop."), "Run `a; b` now.");
+  EXPECT_EQ(first_clause("unknown, though x: y", ":"), "Unknown, though x.");
+  EXPECT_EQ(first_clause("All of it"), "All of it.");
+  EXPECT_EQ(first_clause(""), "");
+}
+
+TEST(CardBrief, AnswersEveryLineInASentenceOrTwo) {
+  const Answer answer = sharp_answer();
+  Diagnosis d = slide_diagnosis();
+  d.added.front().parameters = {{"level_nm", "N m", 20.0, {19.0, 21.0}}};
+  const Card card = card_of(facts_of(&answer, &d));
+  EXPECT_EQ(card.brief.gap,
+            "The backlash gap is 19.0 mrad (95 %: 18.0 to 20.0), measured without a model. Trust: good.");
+  EXPECT_EQ(
+      card.brief.mismatch,
+      "The model misses 10 N rms of force on held-out data, 20 % of the 50 N rms that the input applies.");
+  EXPECT_EQ(card.brief.place, card.place);
+  EXPECT_EQ(card.brief.cause,
+            "Established: motor Coulomb friction. Not established, though it helps: cogging torque.");
+  EXPECT_EQ(card.brief.helps,
+            "The missing force falls from 10 N to 4 N with motor Coulomb friction, then to 2 N with cogging "
+            "torque.");
+  EXPECT_THAT(card.brief.next, ::testing::StartsWith("Simulate with `DIR/fitted.yaml`"));
+  EXPECT_THAT(card.brief.next, ::testing::Not(HasSubstr("export")));
+  EXPECT_THAT(card.helps, HasSubstr("(20.0 N, 95 %: 19.0 to 21.0)")) << "the full line has it";
+}
+
+TEST(CardBrief, KeepsWhatChangesTheAnswer) {
+  const Answer answer = sharp_answer();
+  Diagnosis d = slide_diagnosis();
+  CardFacts f = facts_of(&answer, &d);
+  f.constant_guessed = true;
+  f.tolerance.torque_percent = 5.0;
+  d.mismatch.after = 2.0 * d.mismatch.before;
+  SimulatorComparison c;
+  c.rows.resize(1);
+  c.rows[0].differs = true, c.rows[0].sentence = "it has no cogging torque, the drive has (2 N)";
+  f.simulated = &c;
+  const Card card = card_of(f);
+  EXPECT_THAT(card.brief.mismatch, HasSubstr(" All torques here rest on torque_constant, a guess;"));
+  EXPECT_THAT(card.brief.mismatch, EndsWith(" Outside your tolerance of 5 %, within it with what helps."));
+  EXPECT_THAT(card.brief.helps, EndsWith(", but the simulated motion comes no nearer."));
+  EXPECT_THAT(card.brief.cause, EndsWith(" Your simulator has no cogging torque, the drive has (2 N)."));
+}
+
+TEST(CardBrief, OfWhatIsNotKnownSaysSoWithoutTheReason) {
+  Answer answer;
+  answer.sentence =
+      "The gap is not known: the recording is inconclusive (too slow). The model is rejected: it misses.";
+  CardFacts f = facts_of(&answer, nullptr);
+  EXPECT_EQ(card_of(f).brief.gap, "The gap is not known: the recording is inconclusive.");
+  answer.sentence =
+      "The lost motion at zero torque is 30 mrad (95 %: 17 to 43); the gap is at most 43 mrad. It is mostly "
+      "a gap. And so on.";
+  f.lost_motion = true;
+  EXPECT_EQ(card_of(f).brief.gap,
+            "The lost motion at zero torque is 30 mrad (95 %: 17 to 43); the gap is at most 43 mrad. It is "
+            "mostly a gap.");
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kUnknown;
+  d.budget.band_hz = 8.0;
+  d.budget.rungs = {{"load_unbalance", "load_unbalance", false, 12.6, 2.43, 0.963, {0.9, 0.98}, 0.9, 0.9}};
+  f.diagnosis = &d;
+  EXPECT_EQ(card_of(f).brief.cause, "Unknown, though load unbalance is suspected.");
+  EXPECT_EQ(card_of(f).brief.helps, "Nothing that these recordings establish.");
+  d.budget.rungs.clear();
+  EXPECT_EQ(card_of(f).brief.cause, "Unknown, as no effect of the catalogue explains it.");
+}
+
+TEST(AmountWords, TellPeriodAndAmount) {
+  Diagnosis d = slide_diagnosis();
+  d.added.back().parameters = {{"amplitude_nm", "N m", 2.0, {1.9, 2.1}},
+                               {"phase_rad", "rad", 0.5},
+                               {"periods_per_turn", "1/rev", 2.0 * kPi / 5e-3}};
+  EXPECT_EQ(amount_words(d.added.back(), d, Coordinates::kTranslation),
+            "every 5 mm; amplitude 2.00 N, 95 %: 1.90 to 2.10");
+  EXPECT_EQ(amount_words(d.added.front(), d, Coordinates::kTranslation), "");
+}
+
+}  // namespace
+}  // namespace gapscope
