@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 #include "gapscope/results/drive_card.h"
 #include "report/diagnosis_figures.h"
@@ -33,21 +32,31 @@ std::vector<std::string> all_warnings(const DriveStory& s) {
   return all;
 }
 
-/// The lines of which the brief ones are a part.
-std::string detail_of_card(const Card& card, std::span<const char* const, 6> titles) {
+constexpr std::array kTitles = {"Gap", "Model error", "Where", "Cause", "What helps", "Next step"};
+
+/// The lines that have more to say than the brief ones.
+std::string card_in_full(const Card& card) {
   std::string text;
   std::size_t i = 0;
   for (const CardLine& line : card.lines()) {
-    const char* const title = titles[i++];
+    const char* const title = kTitles[i++];
     if (line.text != line.brief) text += fmt::format("- **{}:** {}\n", title, typeset(line.text));
   }
-  return text.empty() ? "" : "\n## In full\n\n" + text;
+  return text.empty() ? "" : "\n## The card in full\n\n" + text;
+}
+
+/// What stands for a name in the commands of a text that none before it had.
+std::string placeholders_of(const std::string& text, const std::string& before) {
+  const auto begins = [&](const char* word) {
+    return text.find(word) != text.npos && before.find(word) == before.npos;
+  };
+  return std::string(begins(" CONFIG") ? kWhatConfigIs : "") +
+         (begins("DIR") ? "\nDIR is the folder of this report.\n" : "");
 }
 
 }  // namespace
 
 std::string card_text(const Card& card) {
-  static constexpr std::array kTitles = {"Gap", "Model error", "Where", "Cause", "What helps", "Next step"};
   std::string text = "\n";
   std::size_t i = 0;
   for (const CardLine& line : card.lines()) {
@@ -56,7 +65,8 @@ std::string card_text(const Card& card) {
     const bool all = !card.diagnosed && &line.text == &card.place;
     text += fmt::format("- **{}:** {}\n", all ? "Where, cause, what helps" : title, typeset(line.brief));
   }
-  return text + detail_of_card(card, kTitles);
+  const std::string full = card_in_full(card);
+  return text + placeholders_of(text, "") + full + placeholders_of(full, text);
 }
 
 std::string story_text(const DriveStory& s) {
@@ -65,8 +75,6 @@ std::string story_text(const DriveStory& s) {
   for (const std::string& line : s.run ? s.run->simulated_data : s.diagnosis->simulated_data)
     text += "\n> " + line + "\n";
   text += card_text(drive_card(s.run, s.diagnosis));
-  if (text.find(" CONFIG") != text.npos) text += kWhatConfigIs;
-  if (text.find("DIR") != text.npos) text += "\nDIR is the folder of this report.\n";
   std::string detail = bullet_section("Warnings", all_warnings(s));
   if (s.run) detail += estimate_text(*s.run, s.timing);
   if (s.diagnosis) detail += diagnosis_text(*s.diagnosis);

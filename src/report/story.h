@@ -18,7 +18,7 @@ struct DriveStory {
   std::vector<FigureData> figures;  ///< of both
 };
 
-/// The six lines that everybody wants to know.
+/// The six lines that everybody wants to know, briefly and then in full.
 std::string card_text(const Card& card);
 
 /// The text of report.md: the title, the card, then the detail, and what its words mean.

@@ -34,12 +34,15 @@ struct Forcing {
   T contact[3] = {T(0.0), T(0.0), T(0.0)};   ///< of the contact beyond k(δ − sβ) + c δ̇ [N m]
 };
 
+/// What the truncated terms may be, of the state: of the flow, and of one that only says where effects act.
+constexpr double kExact = 1e-17, kRough = 1e-9;
+
 /// Order of the series over a step h of a flow of the given rate: the least n with (rate h)ⁿ⁺¹/(n + 1)! below
-/// 1e-17 of the state, at least 4 for the quadratic torques, at most kSeriesOrder (which leaves 1e-14).
-inline int series_order(double rate_times_h) {
+/// `truncated` of the state, at least 4 for the quadratic torques, at most kSeriesOrder (which leaves 1e-14).
+inline int series_order(double rate_times_h, double truncated = kExact) {
   double term = rate_times_h;
   int n = 0;
-  while (n < kSeriesOrder && (term > 1e-17 || n < 4)) {
+  while (n < kSeriesOrder && (term > truncated || n < 4)) {
     ++n;
     term *= rate_times_h / (n + 1);
   }
@@ -50,9 +53,13 @@ inline int series_order(double rate_times_h) {
 template <class T>
 struct PowerSeries {
   int order = kSeriesOrder;
+  int load_order = kSeriesOrder;  ///< 0: the load rests, and has no further terms
   T x1[kSeriesOrder + 1], w1[kSeriesOrder + 1], x2[kSeriesOrder + 1], w2[kSeriesOrder + 1];
   T torque[kSeriesOrder +
            1];  ///< contact torque τc; outside a closed contact the torque it would have on `side`
+
+  /// Term of x1 − x2.
+  T deflection(int n) const { return n <= load_order ? T(x1[n] - x2[n]) : x1[n]; }
 };
 
 template <class T>
@@ -82,9 +89,10 @@ class MotorTorque {
 /// Contact torque k(δ − sβ) + c δ̇ and what is beyond, term by term; zero on no side.
 template <class T>
 T torque_term(const FlowConstants<T>& f, const PowerSeries<T>& z, int n, int side, const Forcing<T>& on) {
-  T delta = z.x1[n] - z.x2[n];
+  T delta = z.deflection(n), rate = z.w1[n];
+  if (n <= z.load_order) rate -= z.w2[n];
   if (n < 3) delta -= static_cast<double>(side) * on.half_gap[n];
-  T torque = f.k * delta + f.c * (z.w1[n] - z.w2[n]);
+  T torque = f.k * delta + f.c * rate;
   if (f.hardens && n < 3) torque += on.contact[n];
   return torque;
 }
@@ -107,15 +115,17 @@ void compliant_series(const FlowConstants<T>& f, const ContactMode& mode, const 
   const int side = mode.contact != 0 ? mode.contact : mode.outside;
   MotorTorque<T> motor(f, on);
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w2;
+  z.load_order = mode.load == 0 ? 0 : z.order;
   for (int n = 0;; ++n) {
     z.torque[n] = side != 0 ? torque_term(f, z, n, side, on) : T(0.0);
     if (n == z.order) break;
     const double next = kReciprocal[n + 1];
     T contact = mode.contact != 0 ? z.torque[n] : T(0.0);
     z.x1[n + 1] = z.w1[n] * next;
-    z.x2[n + 1] = z.w2[n] * next;
-    z.w2[n + 1] =
-        mode.load == 0 ? T(0.0) : (coefficient(on.load, n) - f.d2 * z.w2[n] + contact) * inverse_m2 * next;
+    if (n < z.load_order) {
+      z.x2[n + 1] = z.w2[n] * next;
+      z.w2[n + 1] = (coefficient(on.load, n) - f.d2 * z.w2[n] + contact) * inverse_m2 * next;
+    }
     if (f.rubs) contact *= felt_share(f, mode);
     z.w1[n + 1] = mode.motor == 0 ? T(0.0) : (motor.term(n) - d1 * z.w1[n] - contact) * inverse_m1 * next;
   }
@@ -130,6 +140,7 @@ void rigid_series(const FlowConstants<T>& f, const ContactMode& mode, const Driv
   const T inverse_m = 1.0 / (f.m1 + felt * f.m2);
   const bool moves = mode.load != 0 && mode.motor != 0;
   MotorTorque<T> motor_torque(f, on);
+  z.load_order = z.order;
   z.x1[0] = start.x1, z.w1[0] = start.w1, z.x2[0] = start.x2, z.w2[0] = start.w1;
   for (int n = 0;; ++n) {
     const T motor = motor_torque.term(n) - d1 * z.w1[n];
@@ -163,8 +174,8 @@ T evaluate(const T (&coefficients)[kSeriesOrder + 1], int order, const T& s) {
 
 template <class T>
 DriveState<T> evaluate(const PowerSeries<T>& z, const T& s) {
-  return {evaluate(z.x1, z.order, s), evaluate(z.w1, z.order, s), evaluate(z.x2, z.order, s),
-          evaluate(z.w2, z.order, s)};
+  return {evaluate(z.x1, z.order, s), evaluate(z.w1, z.order, s), evaluate(z.x2, z.load_order, s),
+          evaluate(z.w2, z.load_order, s)};
 }
 
 }  // namespace gapscope::internal::simulation

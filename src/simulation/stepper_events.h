@@ -62,9 +62,9 @@ void StepperImpl<T>::with_terms(const Guard& guard, const PowerSeries<T>& flow, 
       return use([&](int n) { return constant(model.adhesion, n) + side * flow.torque[n]; });
     case GuardEvent::kClose:
       if (mode.outside != 0) return use([&](int n) { return -side * flow.torque[n]; });
-      return use([&](int n) { return coefficient(on.half_gap, n) - side * (flow.x1[n] - flow.x2[n]); });
+      return use([&](int n) { return coefficient(on.half_gap, n) - side * flow.deflection(n); });
     case GuardEvent::kInside:
-      return use([&](int n) { return side * (flow.x1[n] - flow.x2[n]) - coefficient(on.half_gap, n); });
+      return use([&](int n) { return side * flow.deflection(n) - coefficient(on.half_gap, n); });
     case GuardEvent::kLoadStops:
       return use([&](int n) { return side * flow.w2[n]; });
     case GuardEvent::kLoadBreaks:

@@ -135,7 +135,7 @@ struct StepperImpl {
   void advance_smoothly(const StateTransition<T>& step, Forcing<T>& on, DriveState<T>& next) const;
   void accept(const DriveState<T>& next, const T& h);
   void advance(T span);
-  void build_series(const T& h, PowerSeries<T>& series, Forcing<T>& on) const;
+  void build_series(const T& h, int rough_order, PowerSeries<T>& series, Forcing<T>& on) const;
 
   // --- a sample of its own length: stepper_uneven.h
   void step(const T& u, double span);

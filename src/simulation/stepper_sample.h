@@ -195,17 +195,21 @@ void StepperImpl<T>::segment(const T& span, const T& u, int index) {
 
 /// The flow over h as a series, smooth effects as the quadratic along it.
 template <class T>
-void StepperImpl<T>::build_series(const T& h, PowerSeries<T>& series, Forcing<T>& on) const {
+void StepperImpl<T>::build_series(const T& h, int rough_order, PowerSeries<T>& series, Forcing<T>& on) const {
   on = forcing_without_effects();
   if (!smooth) return flow_series(f, mode, z, on, series);
   const Extra<T> start = extra_at(z, now);
   add_constant(on, start);
+  if (value_of(h) <= 0.0) return flow_series(f, mode, z, on, series);
+  const int whole = series.order;
+  series.order = std::min(whole, rough_order);
   flow_series(f, mode, z, on, series);
-  if (value_of(h) <= 0.0) return;
   const T inverse_h = 1.0 / h;
-  for (int pass = 0; pass < kCorrections + 1; ++pass) {
-    const Extra<T> middle = extra_at(evaluate(series, T(0.5 * h)), now + 0.5 * h);
-    bend(on, start, middle, extra_at(evaluate(series, h), now + h), inverse_h);
+  for (int pass = 0; pass < kCorrections; ++pass) {
+    const DriveState<T> next = evaluate(series, h);
+    const DriveState<T> middle = middle_between(z, next, h, inverse_h);
+    bend(on, start, extra_at(middle, now + 0.5 * h), extra_at(next, now + h), inverse_h);
+    if (pass + 1 == kCorrections) series.order = whole;
     flow_series(f, mode, z, on, series);
   }
 }
@@ -229,7 +233,7 @@ void StepperImpl<T>::advance(T span) {
     const bool last = pieces == 1.0;
     const T h = span / pieces;
     series.order = series_order(rate * value_of(h));
-    build_series(h, series, on);
+    build_series(h, series_order(rate * value_of(h), kRough), series, on);
     FirstEvent event;
     GuardSet set;
     if (value_of(h) > least) {
