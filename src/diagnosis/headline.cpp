@@ -137,8 +137,9 @@ std::string headline_of(const MismatchPlace& place, Coordinates coordinates, boo
         patterns.starts_with(kDepends) && words.starts_with(kDepends);  // "depends on x and on y"
     patterns += patterns.empty() || words.empty() ? words : joint + words.substr(again ? kDepends.size() : 0);
   }
-  if (place.follows.empty()) patterns = "no clear pattern in angle, speed, input or time";
   const std::string phase = phase_words(place, coordinates);
+  if (place.follows.empty() || (patterns.empty() && phase.empty() && one_way.empty()))
+    patterns = "no clear pattern in angle, speed, input or time";
   const std::string told = phase + (phase.empty() || patterns.empty() ? "" : ", ") + patterns;
   if (one_way.empty()) return told;
   return (told.empty() ? "no place that these recordings tell" : told) + "; " + one_way;

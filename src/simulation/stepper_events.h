@@ -155,7 +155,7 @@ void StepperImpl<T>::open(int side) {
 
 template <class T>
 void StepperImpl<T>::close(int side) {
-  closed = true;
+  closed = closed || !f.rigid || side * (value_of(z.w1) - value_of(z.w2)) > 0.0;
   if (f.rigid) return bounce(side);
   contact_zeros = mode.outside != 0 || value_of(f.c) == 0.0 ? 1 : 0;
   mode.contact = side;
@@ -177,6 +177,9 @@ void StepperImpl<T>::bounce(int side) {
   }
   if (load_friction) mode.load = direction_of(value_of(z.w2));
   if (motor_friction) mode.motor = direction_of(value_of(z.w1));
+  // Bodies at rest that touch by rounding alone do not hold each other.
+  if (load_friction && mode.load == 0) resolve_load();
+  if (motor_friction && mode.motor == 0) resolve_motor();
   touching_side = side;
   contact_zeros = 1;
   const Outlook next = outlook(*this, z, acting_at(*this, forcing_now(), 0.0));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gapscope/plant/effect_hooks.h"
 #include "gapscope/simulation/stepper.h"
 #include "simulation/drives.h"
 
@@ -250,6 +251,34 @@ TEST(Stepper, ElasticRigidContactBouncesByEquation3) {
   stepper.reset({0.0, w1, 0.0, w2});
   for (int i = 0; i < 5; ++i) stepper.step(0.0);
   EXPECT_NEAR(stepper.state().w1, (w1 * (1 + alpha) - 2 * alpha * w2) / (1 - alpha), 1e-14);
+}
+
+/// The longest that the motor rests under a torque far above its friction [samples].
+int longest_held(const Motion& motion, const std::vector<double>& torque, double level) {
+  int longest = 0, held = 0;
+  for (std::size_t i = 1; i < motion.states.size(); ++i) {
+    const bool moves = std::abs(motion.states[i].x1 - motion.states[i - 1].x1) > 1e-12;
+    held = moves || std::abs(torque[i - 1]) < 1.5 * level ? 0 : held + 1;
+    longest = std::max(longest, held);
+  }
+  return longest;
+}
+
+TEST(Stepper, BodiesThatRestInTouchDoNotHoldEachOther) {
+  constexpr double kLevel = 0.117;
+  DriveParameters<double> drive;
+  drive.motor_inertia = 0.0312, drive.motor_damping = 0.081, drive.torque_constant = 1.0;
+  DriveStructure one_body;
+  one_body.has_load = false;
+  const std::vector<double> torque = several_sines(0.3, 1e3, 6.0);
+  for (int k = 0; k < 20; ++k) {
+    PlantModel<double> model = plant_model(drive, one_body);
+    model.motor_friction_plus = model.motor_friction_minus = kLevel;
+    model.motor_sticks = true;
+    const double values[] = {0.01 + 1e-3 * k, 0.5};
+    add_effect<double>(model, *find_effect("backlash"), values);
+    EXPECT_LT(longest_held(run(model, torque, 1e-3), torque, kLevel), 3) << "gap " << values[0];
+  }
 }
 
 }  // namespace
