@@ -9,8 +9,8 @@
 namespace gapscope::internal::config {
 namespace {
 
-/// Sharpness of torque_saturation for a limit that is hard; its bound is 12.
-constexpr double kHardLimit = 8.0;
+/// Sharpness of torque_saturation for a limit that is hard: at the knee 1.4 % are missing.
+constexpr double kHardLimit = 50.0;
 
 constexpr const char* kTakenByTheGain =
     "not known apart from the controller's gain, which takes its size: only their product acts";

@@ -14,7 +14,7 @@ struct TorqueSaturation {
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"knee", "unit of u", std::numeric_limits<double>::infinity(), 0.1, 20.0, Scale::kPeakInput},
-      {"sharpness", "-", 2.0, 1.0, 12.0, Scale::kOne}};
+      {"sharpness", "-", 2.0, 1.0, 100.0, Scale::kOne}};
   static constexpr std::array<const char*, 1> look_alikes = {"quadratic_drag"};
   static constexpr ResidualPattern follows = ResidualPattern::kInput;
   static constexpr EffectStart starts[] = {{1.0, 3.0}, {2.5, 3.0}};
