@@ -42,21 +42,23 @@ std::array<double, kDriveParameterCount> suggested(const signals::OneBody& rough
   s[kGap] = (locked ? 0.5 : 0.2) * travel;
   s[kLoadDamping] = 0.5 * damping;
   s[kLoadCoulombFriction] = std::clamp(km * rough.friction, 0.02 * peak, 0.6 * peak);
-  s[kContactStiffness] = (free_load ? 30.0 : 4.0) * peak / travel;
+  s[kContactStiffness] = free_load ? 6.0 * peak / given(kGap, s[kGap]) : 4.0 * peak / travel;
   const double mu = s[kMassRatio];
   const double reduced = s[kMotorInertia] * (free_load ? mu / (1.0 + mu) : 1.0);
   s[kContactDamping] = 0.2 * std::sqrt(given(kContactStiffness, s[kContactStiffness]) * reduced);
   return s;
 }
 
-Interval derived_bounds(int number, double start, double suggestion, const signals::OneBody& rough) {
+Interval derived_bounds(int number, double start, bool given, double suggestion,
+                        const signals::OneBody& rough) {
   switch (number) {
     case kGap:
       return {0.0, std::max(rough.travel, 1e-12)};
+    case kContactStiffness:  // of which nothing is known, what the recording can show is the upper bound
+      return {0.01 * start, given ? 100.0 * start : kInfinity};
     case kMotorInertia:
     case kTorqueConstant:
     case kMassRatio:
-    case kContactStiffness:
       return {0.01 * start, 100.0 * start};
     default:
       return {0.0, std::max(100.0 * start, 10.0 * suggestion)};
@@ -112,7 +114,7 @@ Parameter parameter_of_drive(int number, const ParameterSetting& setting, double
   p.unit = kDriveParameters[number].unit;
   if (!p.estimated) return p;
   p.typical = p.start > 0.0 ? p.start : suggestion;
-  Interval derived = derived_bounds(number, p.start, suggestion, rough);
+  Interval derived = derived_bounds(number, p.start, p.given, suggestion, rough);
   derived.high = std::min(derived.high, p.given ? std::max(most, 3.0 * p.start) : most);
   if (number == kGap)
     p.start = std::min(p.start, 0.9 * derived.high);  // at the travel itself no contact is made
@@ -241,6 +243,8 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   for (const MotorTrace& r : recordings) problem.floors.push_back(signals::encoder_floor(r));
   const std::array<double, kDriveParameterCount> sizes =
       suggested(problem.rough, model, scale.constant > 0.0 ? scale.constant : 1.0);
+  if (problem.structure.has_load && problem.structure.load == LoadKind::kFree && problem.rough.inertia > 0.0)
+    problem.inertia = sizes[kTorqueConstant] * problem.rough.inertia;
   add_drive(problem, model, sizes);
   const ScaleContext context = scales(problem, sizes);
   if (model.controller) add_controller(problem, *model.controller);

@@ -86,6 +86,20 @@ ceres::Solver::Options solver_options(const FitOptions& options, const Effort& e
   return o;
 }
 
+/// Whether what was gained in the second half of the iterations moves no value by a third of its standard
+/// error: then the search has only wandered among the kinks of a quantised motion, whatever it might still
+/// gain.
+bool has_settled(const FitProblem& problem, const ceres::Solver::Summary& summary) {
+  constexpr double kTrifle = 0.1;  // of the cost in variances of a sample, (a third of a standard error)²
+  constexpr std::size_t kFewest = 20;
+  const auto& all = summary.iterations;
+  if (all.size() < kFewest) return false;
+  double before = kInfinity, samples = 0.0;
+  for (std::size_t i = 0; i < all.size() / 2; ++i) before = std::min(before, all[i].cost);
+  for (const MotorTrace& r : problem.recordings) samples += static_cast<double>(r.size());
+  return (before - summary.final_cost) * samples < kTrifle * summary.final_cost;
+}
+
 }  // namespace
 
 Solution solve(const FitProblem& problem, const FitPoint& from, double observer_hz, const Effort& effort) {
@@ -97,7 +111,7 @@ Solution solve(const FitProblem& problem, const FitPoint& from, double observer_
   to.simulations = search.simulations();
   if (summary.termination_type == ceres::FAILURE || !summary.IsSolutionUsable()) return to;
   static_cast<FitPoint&>(to) = search.point();
-  to.converged = summary.termination_type == ceres::CONVERGENCE;
+  to.converged = summary.termination_type == ceres::CONVERGENCE || has_settled(problem, summary);
   const Square left = mean_square_with_priors(problem, to, observer_hz);
   to.mean_square_with_priors = left.value;
   to.simulations += left.simulations;

@@ -10,10 +10,11 @@
 namespace gapscope::internal::reference {
 namespace {
 
-constexpr std::size_t kDrawsPerPoint = 3;  ///< looked at by plain runs
-constexpr double kLooked = 0.25;           ///< share of the recordings that is looked at
-constexpr double kNearFactor = 3.0;        ///< draws around a given value
-constexpr double kFarFactor = 8.0;         ///< draws around a derived one
+constexpr std::size_t kDrawsPerPoint = 3;    ///< looked at by plain runs
+constexpr std::size_t kDrawsOfImpacts = 10;  ///< the same of a free load, each of whose impacts makes minima
+constexpr double kLooked = 0.25;             ///< share of the recordings that is looked at
+constexpr double kNearFactor = 3.0;          ///< draws around a given value
+constexpr double kFarFactor = 8.0;           ///< draws around a derived one
 
 /// A later variant must lower the cost to this share. A load that slides to rest within the gap leaves only
 /// the place where it stops, so a start in motion there is not to be preferred for a trifle.
@@ -23,19 +24,35 @@ constexpr double kClearlyBetter = 0.98;
 /// at no definite time, and derivatives with it.
 constexpr double kInside = 0.02;
 
+/// What moves divides between motor and load: a motor's share of it, and how well their sum is known.
+constexpr Interval kMotorShare = {0.1, 0.95};
+constexpr double kSumFactor = 1.4;
+
 Interval draw_range(const FitProblem& problem, const Parameter& p) {
   if (p.id == drive_number(place::kGap) && !p.given)
-    return {0.01 * problem.rough.travel, 0.8 * problem.rough.travel};
+    return {0.003 * problem.rough.travel, 0.8 * problem.rough.travel};
+  if (p.id == drive_number(place::kMotorInertia) && !p.given && problem.inertia > 0.0)
+    return {kMotorShare.low * problem.inertia, kMotorShare.high * problem.inertia};
   const double factor = p.given ? kNearFactor : kFarFactor;
   return {p.start / factor, p.start * factor};
 }
 
+/// A derived stiffness goes with the gap that was drawn: the wind-up of a contact is a part of its gap, of
+/// whatever travel.
 std::vector<double> drawn(const FitProblem& problem, std::mt19937_64& generator) {
   std::vector<double> q;
+  double narrower = 1.0;  // the drawn gap than the derived one, which goes before
+  double motor = problem.inertia;
   for (std::size_t i = 0; i < problem.free_count(); ++i) {
     const Parameter& p = problem.free_parameter(i);
     const Interval range = draw_range(problem, p);
-    const double value = range.low > 0.0 ? log_uniform(generator, range.low, range.high) : p.start;
+    double value = range.low > 0.0 ? log_uniform(generator, range.low, range.high) : p.start;
+    if (p.id == drive_number(place::kMotorInertia)) motor = value;
+    if (p.id == drive_number(place::kMassRatio) && !p.given && problem.inertia > 0.0)
+      value = std::max(problem.inertia / motor - 1.0, 1.0 / kFarFactor) *
+              log_uniform(generator, 1.0 / kSumFactor, kSumFactor);
+    if (p.id == drive_number(place::kGap) && !p.given) narrower = p.start / value;
+    if (p.id == drive_number(place::kContactStiffness) && !p.given) value *= narrower;
     q.push_back(p.coordinate.solver(std::clamp(value, p.low, p.high)));
   }
   return q;
@@ -129,7 +146,8 @@ StartPoints drawn_points(const FitProblem& problem, std::size_t count) {
   StartPoints found;
   const Excerpt part(problem, kLooked);
   const double hz = problem.options.observer_hz;
-  for (std::size_t i = 0; i < kDrawsPerPoint * count; ++i) {
+  const std::size_t looked = problem.inertia > 0.0 ? kDrawsOfImpacts : kDrawsPerPoint;
+  for (std::size_t i = 0; i < looked * count; ++i) {
     Solution p{start_point(problem, drawn(problem, generator))};
     const Placement placed = choose_variants(part.problem(), p, hz);
     p.starts = placed.starts;

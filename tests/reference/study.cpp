@@ -1,9 +1,10 @@
 // Random recordings for the reference: how often it finds the optimum from afar, how well, and whether its
 // intervals hold. Three rigs, sine and multisine, by the independent plant.
-// study_reference [first seed] [number of fits] [recover|noise|quantiser] [free 5|7] [verbose] [jobs]
+// study_reference [first seed] [number of fits] [recover|noise|quantiser|unknown] [free 5|7] [verbose] [jobs]
 //   recover    20, 14 and 12 bit, every second one with noise of 0.3–1.5 quanta
 //   noise      the same, all with noise
 //   quantiser  12 bit without noise
+//   unknown    as recover, every number sought without a start, as a configuration of `gapscope init` has it
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,8 +27,15 @@ using namespace test;
 
 constexpr double kFarthest = 3.0;    ///< starts are wrong by a factor up to this, either way
 constexpr double kSameCost = 1.001;  ///< against a fit started at the truth
-constexpr int kOrder[] = {
-    kGap, kMotorDamping, kMassRatio, kLoadDamping, kLoadCoulombFriction, kContactStiffness, kContactDamping};
+constexpr int kOrder[] = {kGap,
+                          kMotorDamping,
+                          kMassRatio,
+                          kLoadDamping,
+                          kLoadCoulombFriction,
+                          kContactStiffness,
+                          kContactDamping,
+                          kMotorInertia};
+constexpr int kAll = 8;
 
 struct Case {
   std::string rig, waveform;
@@ -72,7 +80,8 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   c.waveform = sine ? "sine" : "multisine";
   c.bits = list == "quantiser" ? 12 : kBits[seed / 6 % 3];
   const double drawn = uniform(g, 0.3, 1.5);
-  c.noise = list == "noise" || (list == "recover" && seed / 18 % 2 == 1) ? drawn : 0.0;
+  const bool every_second = list == "recover" || list == "unknown";
+  c.noise = list == "noise" || (every_second && seed / 18 % 2 == 1) ? drawn : 0.0;
   c.run.sensor = independent_plant::BlindSensor::with_bits(c.bits, c.noise);
   c.run.options.seed = seed;
   c.run.excitation.waveform =
@@ -83,7 +92,8 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   c.run.drive.x2 = 0.49 * c.run.drive.gap * uniform(g, -1.0, 1.0);
   c.truth = c.start = numbers_of(c.run.drive);
   for (int i = 0; i < free; ++i)
-    c.start[static_cast<std::size_t>(kOrder[i])] *= log_uniform(g, 1.0 / kFarthest, kFarthest);
+    c.start[static_cast<std::size_t>(kOrder[i])] *=
+        list == "unknown" ? kNaN : log_uniform(g, 1.0 / kFarthest, kFarthest);
   return c;
 }
 
@@ -172,7 +182,8 @@ int main_study(int argc, char** argv) {
   const std::uint64_t first = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1;
   const int count = argc > 2 ? std::atoi(argv[2]) : 36;
   const std::string list = argc > 3 ? argv[3] : "recover";
-  const int free = argc > 4 ? std::clamp(std::atoi(argv[4]), 1, 7) : 5;
+  const int asked = argc > 4 ? std::clamp(std::atoi(argv[4]), 1, kAll - 1) : 5;
+  const int free = list == "unknown" ? kAll : asked;
   const bool verbose = argc > 5 && std::atoi(argv[5]) > 0;
   const int jobs = argc > 6 ? std::max(1, std::atoi(argv[6])) : 1;
   std::vector<FitOutcome> outcomes(static_cast<std::size_t>(count));
