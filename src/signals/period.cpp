@@ -15,6 +15,8 @@ constexpr std::size_t kCoarse = 3000;  ///< samples of the search for an exact p
 constexpr std::size_t kThinned = 1500;  ///< samples in which a rough period is looked for
 constexpr double kAlike = 0.15;         ///< rms difference of two periods of the input, over its size
 constexpr double kNearBest = 1.5;       ///< the first lag that is about as good as the best is the period
+constexpr std::size_t kPartsOfPeriod = 50;
+constexpr double kSteady = 0.05;  ///< rms difference of their means over √2, over the input's size
 
 double variance(std::span<const double> u) {
   const double m = mean(u);
@@ -60,6 +62,16 @@ double first_return(std::span<const double> u, double most, double var) {
     if (best > 0.0 && c > 0.3) break;  // past the first return
   }
   return best;
+}
+
+/// Whether periods differ by no more than noise does, which means over a part of a period hardly have: an
+/// amplitude that changes on the way is another input.
+bool comes_back(std::span<const double> u, std::size_t period, double size) {
+  const std::size_t length = std::max<std::size_t>(1, period / kPartsOfPeriod);
+  std::vector<double> means;
+  for (std::size_t i = 0; i + length <= u.size(); i += length) means.push_back(mean(u.subspan(i, length)));
+  const double lag = static_cast<double>(period) / static_cast<double>(length);
+  return repetition_error(means, 0, lag) < kSteady * size;
 }
 
 std::vector<double> thinned(std::span<const double> v, std::size_t step) {
@@ -111,7 +123,7 @@ std::size_t rough_period(const MotorTrace& trace) {
   for (std::size_t lag = (coarse - 1) * step; lag <= (coarse + 1) * step; ++lag)
     if (const double d = repetition_error(trace.u, 0, static_cast<double>(lag)); d < least)
       least = d, period = lag;
-  return period;
+  return comes_back(trace.u, period, size) ? period : 0;
 }
 
 double input_period(const MotorTrace& trace) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "signals/folding.h"
 #include "signals/period.h"
 #include "signals/periodic.h"
@@ -32,6 +34,14 @@ TEST(Period, AnInputThatRepeatsItselfRoughlyHasARoughPeriodOnly) {
   for (double& u : p.u) u += 0.05 * normal(generator);  // 7 % of its rms: below 15 %, above the root of 0.1 %
   EXPECT_EQ(exact_period(trace, 4.0), 0.0);
   EXPECT_NEAR(static_cast<double>(rough_period(trace)), 731.3, 10.0);
+}
+
+TEST(Period, AnAmplitudeThatChangesOnTheWayIsAnotherInput) {
+  Periodic p;
+  MotorTrace trace = p.trace(8.0);
+  const auto half = static_cast<std::ptrdiff_t>(p.u.size() / 2);
+  std::for_each(p.u.begin() + half, p.u.end(), [](double& u) { u *= 1.4; });
+  EXPECT_EQ(rough_period(trace), 0u);
 }
 
 TEST(Period, OneThatEndsWithTheRecordingIsNotComparedWithWhatIsNotThere) {
