@@ -6,9 +6,11 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
+#include "diagnosis/tell_intervals.h"
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/simulator.h"
 
@@ -103,15 +105,31 @@ std::string name_of_number(const RefittedNumber& n, const Diagnosis& d, Coordina
   return readable(n.key.substr(0, dot)) + " " + name_of_key(n.key.substr(dot + 1));
 }
 
-/// The first `most` with what changes, the rest by name: "and smaller changes in contact stiffness".
-std::string in_part(const std::vector<std::string>& names, const std::vector<std::string>& changes,
-                    std::size_t most) {
+/// A number that reads differently now.
+struct Change {
+  std::string name, words;
+  double moved = 0.0;   ///< as moved_by()
+  bool torque = false;  ///< of an effect
+};
+
+/// Those that clearly move, torques of effects before them: what each of these does is seen first in a drive.
+/// Then the rest, both as far as they have moved.
+void put_in_order(std::vector<Change>& all) {
+  const auto place = [](const Change& c) { return !(c.moved > kRule.part) ? 2 : c.torque ? 0 : 1; };
+  std::ranges::stable_sort(all, [&](const Change& a, const Change& b) {
+    return std::pair(place(a), -a.moved) < std::pair(place(b), -b.moved);
+  });
+}
+
+/// The first `most` and all that clearly move with what changes, the rest by name: "and smaller changes in
+/// contact stiffness".
+std::string in_part(const std::vector<Change>& changes, std::size_t most) {
   std::vector<std::string> all, rest;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (i < most)
-      all.push_back(names[i] + " " + changes[i]);
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    if (i < most || changes[i].moved > kRule.part)
+      all.push_back(changes[i].name + " " + changes[i].words);
     else
-      rest.push_back(names[i]);
+      rest.push_back(changes[i].name);
   return rest.empty() ? enumerated(all)
                       : fmt::format("{}, and smaller changes in {}", fmt::join(all, ", "), enumerated(rest));
 }
@@ -203,14 +221,16 @@ std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all,
 }
 
 std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::size_t most) {
-  std::vector<std::string> names, changes;
+  std::vector<Change> changes;
   for (const RefittedNumber& n : d.refitted) {
     const bool angle = n.key.ends_with("phase_rad");  // along a slide, too
     const std::string change = change_of(n, (angle ? Coordinates() : coordinates).shown_unit(n.unit));
     if (change.empty()) continue;
-    names.push_back(name_of_number(n, d, coordinates)), changes.push_back(change);
+    const bool of_effect = n.key.find('.') != n.key.npos && n.unit == "N m";
+    changes.push_back({name_of_number(n, d, coordinates), change, moved_by(n), of_effect});
   }
-  return in_part(names, changes, most);
+  put_in_order(changes);
+  return in_part(changes, most);
 }
 
 std::string other_numbers_help(const CardFacts& f) {

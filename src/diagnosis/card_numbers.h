@@ -18,7 +18,7 @@ std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all,
 
 /// "motor damping 0.1 → 0.04 N·m s/rad and motor inertia 0.00532 → 0.00781 kg m²": what the configuration has
 /// and what was fitted, in its units; empty where none of them reads differently.
-/// @param most  told with their change, the rest by name
+/// @param most  told with their change, and all that change by more than a tenth; the rest by name
 std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::size_t most);
 
 /// What helps where no effect is missing: nothing, or other numbers, of the model and of the user's

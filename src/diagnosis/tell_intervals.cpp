@@ -127,14 +127,6 @@ RefittedNumber for_people(RefittedNumber n, Coordinates coordinates) {
   return n;
 }
 
-/// By how much of itself it has moved; a phase by how much of a turn.
-double moved_by(const RefittedNumber& n) {
-  if (n.key.ends_with("phase_rad"))
-    return std::abs(std::remainder(n.fitted - n.configured, 2.0 * kPi)) / (2.0 * kPi);
-  return std::abs(n.fitted - n.configured) /
-         std::max(std::min(std::abs(n.fitted), std::abs(n.configured)), 1e-9 * std::abs(n.fitted));
-}
-
 /// Whether the torque balance has left a number where the nominal fit had it.
 bool is_held(const FittedModel& fitted, const ReferenceModel& nominal, reference::ParameterId id) {
   if (!fitted.balanced) return false;
@@ -185,6 +177,13 @@ bool has_estimates(const ReferenceModel& model) {
 }
 
 }  // namespace
+
+double moved_by(const RefittedNumber& n) {
+  if (n.key.ends_with("phase_rad"))
+    return std::abs(std::remainder(n.fitted - n.configured, 2.0 * kPi)) / (2.0 * kPi);
+  return std::abs(n.fitted - n.configured) /
+         std::max(std::min(std::abs(n.fitted), std::abs(n.configured)), 1e-9 * std::abs(n.fitted));
+}
 
 void tell_intervals(const Study& study, const FittedModel& fitted, const ReferenceModel& nominal,
                     Diagnosis& d) {

@@ -93,6 +93,16 @@ TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTh
   d.refitted.insert(d.refitted.begin(), {"gap", "rad", 0.02, 0.03, {0.029, 0.031}});
   EXPECT_THAT(card_of(d).helps,
               HasSubstr("0.007830), and smaller changes in load unbalance amplitude; `fitted.yaml`"));
+  d.refitted[3].fitted = 0.44;
+  EXPECT_THAT(card_of(d).helps, HasSubstr("starts at: load unbalance amplitude 0.353 → 0.4400 N·m (95 %"))
+      << "a torque of an effect that changes by more than a tenth";
+  d.refitted[3].fitted = 0.377,
+  d.refitted.push_back({"contact_stiffness", "N m/rad", 100.0, 120.0, {119.0, 121.0}});
+  EXPECT_THAT(
+      card_of(d).helps,
+      HasSubstr("contact stiffness 100 → 120.0 N·m/rad (95 %: 119.0 to 121.0), and smaller changes in load "
+                "unbalance amplitude; `fitted.yaml`"))
+      << "no change of more than a tenth is hidden";
   d.refitted = {of_other_numbers().refitted.back()};
   EXPECT_EQ(card_of(d).helps, "Nothing needed: the model is as good as the recording.");
   EXPECT_EQ(card_of(d).next, "None.");
