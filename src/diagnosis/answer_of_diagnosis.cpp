@@ -19,7 +19,68 @@ AnswerTrust trust_in(const Diagnosis& d) {
   return remains < kRule.far ? AnswerTrust::kLimited : AnswerTrust::kNone;
 }
 
+std::string told_with(double value, const Interval& ci95, Coordinates coordinates) {
+  return SharedUnit(value, coordinates.position_unit()).with_interval_aside(value, ci95);
+}
+
+/// What the diagnosis has fitted; nothing: its recordings do not determine it, or it fits none.
+const ModelGap* fitted_gap(const Diagnosis& d) {
+  const bool fitted =
+      d.model_gap && d.model_gap->origin == GapOrigin::kEstimated && d.model_gap->ci95.low > 0.0;
+  return fitted ? &*d.model_gap : nullptr;
+}
+
+/// Whether a reading without a model is all that the estimate has: its fit is rejected.
+bool reads_beside_rejected(const Answer& estimate, const Findings& f) {
+  return estimate.from == AnswerSource::kModelFree && std::isfinite(estimate.gap) && f.reference != nullptr &&
+         f.reference->rejected();
+}
+
+/// Beside a reading, with which it agrees where their intervals do.
+Answer beside_reading(Answer a, const Answer& reading, Coordinates coordinates) {
+  const bool agree = a.ci95.low <= reading.ci95.high && reading.ci95.low <= a.ci95.high;
+  a.sentence.pop_back();
+  const std::string read = told_with(reading.gap, reading.ci95, coordinates);
+  a.sentence += agree ? "; the reading without a model, " + read + ", agrees."
+                      : ", but without a model it reads " + read + ".";
+  if (!agree) a.trust = AnswerTrust::kLimited;
+  return a;
+}
+
+/// Beside a denial of gaps above a limit.
+std::optional<Answer> beside_denial(std::optional<Answer> told, const ModelGap& gap, const Answer& denial,
+                                    double limit, Coordinates coordinates) {
+  const std::string none = "ithout a model there is no backlash above " + coordinates.thousandths(limit);
+  const bool contradicted = gap.ci95.low > limit;
+  if (!contradicted && (!told || told->trust != AnswerTrust::kGood) && denial.trust == AnswerTrust::kGood)
+    return {};
+  if (told) {
+    told->sentence.pop_back();
+    told->sentence += contradicted ? ", but w" + none + "." : "; w" + none + ", which agrees.";
+    if (contradicted) told->trust = AnswerTrust::kLimited;
+    return told;
+  }
+  if (!contradicted) return {};
+  Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
+  a.sentence = fmt::format("W{}, but the model that the diagnosis has fitted has one of {}.", none,
+                           told_with(gap.value, gap.ci95, coordinates));
+  return a;
+}
+
 }  // namespace
+
+std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, const Answer& estimate, const Findings& f) {
+  std::optional<Answer> told = answer_of_diagnosis(d, f.coordinates);
+  if (estimate.trust == AnswerTrust::kNone && std::isnan(estimate.gap)) return told;
+  const ModelGap* gap = fitted_gap(d);
+  if (gap == nullptr) return {};
+  const bool denied = f.model_free != nullptr && f.model_free->verdict == GapVerdict::kNone;
+  if (denied && std::isnan(estimate.gap))
+    return beside_denial(told, *gap, estimate, f.model_free->none_above(), f.coordinates);
+  const bool good = told && told->trust == AnswerTrust::kGood;
+  if (!good || !reads_beside_rejected(estimate, f)) return {};
+  return beside_reading(*told, estimate, f.coordinates);
+}
 
 std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, Coordinates coordinates) {
   if (!d.model_gap || d.model_gap->origin != GapOrigin::kEstimated) return {};
@@ -27,9 +88,8 @@ std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, Coordinates coordi
   const AnswerTrust trust = trust_in(d);
   if (trust == AnswerTrust::kNone || !(gap.ci95.low > 0.0)) return {};
   Answer a{gap.value, gap.ci95, AnswerSource::kDiagnosis, trust, "", {}};
-  a.sentence = fmt::format(
-      "{}{} by the model that the diagnosis has fitted.", internal::diagnosis::the_gap_is(),
-      SharedUnit(gap.value, coordinates.position_unit()).with_interval_aside(gap.value, gap.ci95));
+  a.sentence = fmt::format("{}{} by the model that the diagnosis has fitted.",
+                           internal::diagnosis::the_gap_is(), told_with(gap.value, gap.ci95, coordinates));
   return a;
 }
 

@@ -9,10 +9,14 @@
 namespace gapscope {
 namespace {
 
-/// The gap that the diagnosis tells, where the estimate beside it tells none.
-std::optional<Answer> better_than(const Answer* estimate, const DiagnosisResult& diagnosis) {
-  if (estimate != nullptr && (estimate->trust != AnswerTrust::kNone || !std::isnan(estimate->gap))) return {};
-  return answer_of_diagnosis(diagnosis.diagnosis, diagnosis.coordinates);
+/// The gap that the diagnosis tells, where the estimate beside it, if there is one, leaves it to that.
+std::optional<Answer> better_than(const RunResult* run, const DiagnosisResult& diagnosis) {
+  if (run == nullptr || !run->answer) return answer_of_diagnosis(diagnosis.diagnosis, diagnosis.coordinates);
+  Findings found;
+  found.model_free = run->model_free ? &*run->model_free : nullptr;
+  found.reference = run->reference ? &*run->reference : nullptr;
+  found.coordinates = diagnosis.coordinates;
+  return answer_of_diagnosis(diagnosis.diagnosis, *run->answer, found);
 }
 
 }  // namespace
@@ -30,7 +34,7 @@ Card drive_card(const RunResult* run, const DiagnosisResult* diagnosis) {
   }
   std::optional<Answer> better;
   if (diagnosis != nullptr) {
-    better = better_than(facts.answer, *diagnosis);
+    better = better_than(run, *diagnosis);
     if (better) facts.answer = &*better;
     facts.simulated = diagnosis->simulated ? &*diagnosis->simulated : nullptr;
     facts.diagnosis = &diagnosis->diagnosis;
@@ -59,9 +63,7 @@ void put_answer(DiagnosisResult& diagnosis, RunResult* beside) {
   Answer answer;
   answer.sentence = "The gap was not estimated.";
   if (beside != nullptr && beside->answer) answer = *beside->answer;
-  if (std::optional<Answer> better =
-          better_than(beside != nullptr && beside->answer ? &answer : nullptr, diagnosis))
-    answer = *better;
+  if (std::optional<Answer> better = better_than(beside, diagnosis)) answer = *better;
   if (diagnosis.answer) answer.tolerance = diagnosis.answer->tolerance;
   diagnosis.answer = answer;
   if (beside != nullptr && beside->answer) beside->answer->tolerance = answer.tolerance;

@@ -54,4 +54,12 @@ Answer answer_of(const Findings& findings);
 /// fitted ones determine it: good at the floor, limited up to ten of it, nothing beyond.
 std::optional<Answer> answer_of_diagnosis(const Diagnosis& diagnosis, Coordinates coordinates);
 
+/// The same beside an estimate that leaves the gap to it: that tells none, reads one without a model while
+/// its own fit is rejected, or denies one that the diagnosis has fitted. Where the diagnosis follows the
+/// recordings its gap is the answer, with limited trust where the reading is another one; where it does not,
+/// and its gap contradicts the denial, the two stand side by side with limited trust. Nothing: the estimate
+/// stands.
+std::optional<Answer> answer_of_diagnosis(const Diagnosis& diagnosis, const Answer& estimate,
+                                          const Findings& beside);
+
 }  // namespace gapscope
