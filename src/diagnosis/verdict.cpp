@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/report_back.h"
+#include "diagnosis/rule.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/text.h"
 
@@ -106,6 +108,37 @@ bool may_be_absent(const AddedEffect& a, const Diagnosis& d) {
 
 namespace {
 
+/// Of the held-out motion, the largest of any recording [rad]; NaN: not known.
+double held_out_travel(const Diagnosis& d) {
+  double travel = d.whole_run ? d.whole_run->travel : kNaN;
+  for (const MismatchTrace& t : d.traces) {
+    if (t.scored_from >= t.x1.size()) continue;
+    const auto begin = t.x1.begin() + static_cast<std::ptrdiff_t>(t.scored_from);
+    const auto [low, high] = std::minmax_element(begin, t.x1.end());
+    travel = std::fmax(travel, *high - *low);
+  }
+  return travel;
+}
+
+/// Whether somebody has given a period, which is then known of the drive.
+bool was_given(double periods_per_turn, const Diagnosis& d) {
+  return std::ranges::any_of(d.periodic, [&](const PeriodicTorque& p) {
+    return p.given && std::abs(p.periods_per_turn - periods_per_turn) < kRule.part * periods_per_turn;
+  });
+}
+
+}  // namespace
+
+bool outlasts_motion(const AddedEffect& a, const Diagnosis& d) {
+  constexpr std::string_view kSearched[] = {"cogging_torque", "encoder_eccentricity", "torque_ripple"};
+  if (std::ranges::find(kSearched, a.effect) == std::end(kSearched)) return false;
+  return std::ranges::any_of(a.parameters, [&](const NamedValue& p) {
+    return p.key == "periods_per_turn" && p.value * held_out_travel(d) < 2.0 * kPi && !was_given(p.value, d);
+  });
+}
+
+namespace {
+
 /// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
 /// them, or comes to the floor like three of several variables, they are no causes. Their cause stays open
 /// where one of another variable than the first does nearly as well, or one of a variable of theirs takes
@@ -140,7 +173,9 @@ bool continues_one(const LawSearch& law, const Additions& added) {
 
 void open_undetermined(Coordinates coordinates, Diagnosis& d) {
   const bool comes_no_nearer = d.mismatch.after > d.mismatch.before;
-  const auto is_open = [&](const AddedEffect& a) { return comes_no_nearer || may_be_absent(a, d); };
+  const auto is_open = [&](const AddedEffect& a) {
+    return comes_no_nearer || may_be_absent(a, d) || outlasts_motion(a, d);
+  };
   if (std::none_of(d.added.begin(), d.added.end(), is_open)) return;
   for (AddedEffect& a : d.added) a.established = a.established && !is_open(a);
   tell_open_causes(d, coordinates);

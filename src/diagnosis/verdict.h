@@ -22,6 +22,11 @@ bool continues_one(const LawSearch& law, const Additions& added);
 /// show it. A coarser count is read, not fitted.
 bool may_be_absent(const AddedEffect& effect, const Diagnosis& diagnosis);
 
+/// Whether the period of a torque or an encoder's error that repeats with the angle, where it was searched,
+/// is longer than any held-out motion: what does not come round once may be anything that bends over the
+/// travel.
+bool outlasts_motion(const AddedEffect& effect, const Diagnosis& diagnosis);
+
 /// Leaves causes open that the recordings do not determine: an effect that may be absent, and with effects
 /// that bring the held-out motion no nearer the torque that they take is paid for elsewhere. Where that is
 /// the first one, they help at most.
