@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/percents.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/diagnosis/card.h"
 #include "gapscope/results/diagnosis_result.h"
 
 namespace gapscope {
@@ -25,15 +27,19 @@ std::string unexplained_in(const DiagnosisResult& r) {
   if (d.verdict == DiagnosisVerdict::kNone || !(size.after_torque > 0.0)) return "";
   const bool by_torque = std::isfinite(size.floor_torque);  // of one balance; else by the motion
   const double left = by_torque ? size.after_torque / size.floor_torque : size.remains;
-  if (!unknown && left <= kAtFloor) return "";
-  const double percent = 100.0 * size.after_torque / size.input_torque;
+  if (!unknown && std::min(left, size.remains) <= kAtFloor) return "";  // the motion shows none of it
   const Coordinates& c = r.coordinates;
-  return fmt::format(
-      "{} {:.3g} {} rms of {} on what was held out ({} of what the input brings), {}.",
-      unknown ? "This model lacks" : "This model, with all that its diagnosis added, still lacks",
-      size.after_torque, c.torque_unit(), c.torque_word(), Percents({&percent, 1})(percent),
-      unknown ? "which its diagnosis found missing and could not explain"
-              : "which the diagnosis did not explain");
+  const std::string_view why = unknown ? "which its diagnosis found missing and could not explain"
+                                       : "which the diagnosis did not explain";
+  const std::string_view model =
+      unknown ? "This model" : "This model, with all that its diagnosis added, still";
+  if (!is_told_in_torque(d))
+    return fmt::format("{} misses {:.3g} {} of what was held out ({}), {}.", model, size.after,
+                       c.position_unit(), size.measure, why);
+  const double percent = 100.0 * size.after_torque / size.input_torque;
+  return fmt::format("{} lacks {:.3g} {} rms of {} on what was held out ({} of what the input brings), {}.",
+                     model, size.after_torque, c.torque_unit(), c.torque_word(),
+                     Percents({&percent, 1})(percent), why);
 }
 
 /// Behind the first comment of a file: where that ends, and how another one is written.

@@ -11,6 +11,7 @@
 
 namespace gapscope {
 namespace {
+using internal::diagnosis::kNoBacklash;
 using internal::diagnosis::the_gap_is;
 
 /// The fit ends with the gap closed, and without a model none is seen either.
@@ -108,11 +109,10 @@ Answer denied(const Findings& f) {
   Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
   const FittedParameter* gap = told_gap(f);
   if (none_by_both(f)) {
-    a.sentence =
-        "There is no backlash above " + least + ", and the fitted model closes the gap: none by both.";
+    a.sentence = kNoBacklash + least + ", and the fitted model closes the gap: none by both.";
     a.trust = AnswerTrust::kGood;
   } else if (gap == nullptr) {
-    a.sentence = "There is no backlash above " + least + end_without_model(f);
+    a.sentence = kNoBacklash + least + end_without_model(f);
   } else if (gap->ci95.low > limit) {
     a.sentence = "Without a model there is no backlash above " + least + ", but the fitted model says " +
                  with_interval(gap->value, f.reference->shown_interval(*gap), f.coordinates) + ".";

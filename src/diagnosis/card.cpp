@@ -27,6 +27,7 @@ using internal::diagnosis::brief_cause;
 using internal::diagnosis::brief_doubt_of_motion;
 using internal::diagnosis::brief_helps;
 using internal::diagnosis::cause_line;
+using internal::diagnosis::drifts_farther;
 using internal::diagnosis::exhausted_words;
 using internal::diagnosis::export_words;
 using internal::diagnosis::first_clause;
@@ -38,8 +39,10 @@ using internal::diagnosis::kToldByDiagnose;
 using internal::diagnosis::mismatch_size;
 using internal::diagnosis::mismatch_words;
 using internal::diagnosis::next_of_numbers;
+using internal::diagnosis::no_nearer;
 using internal::diagnosis::one_way_words;
 using internal::diagnosis::percent_text;
+using internal::diagnosis::SharedUnit;
 using internal::diagnosis::step_to_establish;
 using internal::diagnosis::step_to_estimate;
 using internal::diagnosis::unexplained;
@@ -100,10 +103,20 @@ std::string gap_trust(const CardFacts& f) {
          to_string(f.answer->trust) + (measured ? "; the lost motion is measured." : ".");
 }
 
+/// The trust, and why it is limited in a gap that is denied by no model.
+std::string gap_trust_and_why(const CardFacts& f) {
+  std::string text = gap_trust(f);
+  if (f.answer->trust != AnswerTrust::kLimited ||
+      !f.answer->sentence.starts_with(internal::diagnosis::kNoBacklash))
+    return text;
+  text.pop_back();
+  return text + " (it stands for loads of at least 0.1 of the motor's inertia, until a fitted model agrees).";
+}
+
 std::string gap_line(const CardFacts& f) {
   if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
   const bool whole = gap_is_known(f) || f.lost_motion;
-  return as_sentence(whole ? f.answer->sentence : without_asides(f.answer->sentence)) + gap_trust(f) +
+  return as_sentence(whole ? f.answer->sentence : without_asides(f.answer->sentence)) + gap_trust_and_why(f) +
          gap_verdict(f);
 }
 
@@ -130,7 +143,11 @@ std::string torque_verdict(const CardFacts& f, const Card& card) {
     return " Your tolerance of " + limit + " of the " + f.coordinates.torque_word() + " cannot be judged.";
   if (*good) return " Within your tolerance of " + limit + ".";
   const bool then = card.percent_after <= *f.tolerance.torque_percent;
-  return fmt::format(" Outside your tolerance of {}{}.", limit, then ? ", within it with what helps" : "");
+  const std::string at = std::isfinite(card.torque) ? ""
+                                                    : ", with " + percent_text(card.percent) + " of the " +
+                                                          f.coordinates.torque_word() + " missing";
+  return fmt::format(" Outside your tolerance of {}{}{}.", limit, at,
+                     then ? ", within it with what helps" : "");
 }
 
 std::string place_line(const CardFacts& f) {
@@ -152,9 +169,15 @@ std::string other_motion(const Diagnosis& d) {
 }
 
 /// What a model is good for that drifts over a whole recording, though not in the windows that judge it.
-std::string for_short_motions(const Diagnosis& d) {
+std::string for_short_motions(const Diagnosis& d, Coordinates coordinates) {
   if (!d.whole_run || d.closed_loop) return "";
-  const double drift = d.whole_run->after / d.whole_run->travel;
+  const WholeRun& w = *d.whole_run;
+  const auto motion = [&](double size) { return SharedUnit(size, coordinates.position_unit())(size); };
+  const std::string off = std::isfinite(w.after) ? "drifts up to " + motion(w.after) + " off" : "runs away";
+  if (drifts_farther(d))
+    return fmt::format(", for short motions alone and never whole recordings (over one it {}, without {} {})",
+                       off, d.added.size() > 1 ? "what was added" : "the addition", motion(w.before));
+  const double drift = w.after / w.travel;
   if (drift <= kRule.part) return "";
   return ", for short motions alone (simulated over a whole recording it " +
          (std::isfinite(drift) ? fmt::format("drifts by {:.0f} % of the travel)", 100.0 * drift)
@@ -166,12 +189,13 @@ std::string for_short_motions(const Diagnosis& d) {
 std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) {
   if (std::string left = unexplained(f, card); !left.empty()) return left;
   const Diagnosis& d = *f.diagnosis;
+  if (d.mismatch.after >= d.mismatch.before) return no_nearer(d);
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
   return std::string("Simulate with `DIR/fitted.yaml`") +
-         (!open                ? ""
-          : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
-                               : ", which predicts better with it, established or not") +
-         for_short_motions(d) + (whole ? "; " + export_words(f) : ".") +
+         (!open || drifts_farther(d) ? ""
+          : d.added.size() > 1       ? ", which predicts best with all of these, established or not"
+                                     : ", which predicts better with it, established or not") +
+         for_short_motions(d, f.coordinates) + (whole ? "; " + export_words(f) : ".") +
          (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt_of_motion(d, f.coordinates).empty()
               ? " To settle the cause, record another motion (" + other_motion(d) +
                     ") and diagnose again with that."
@@ -207,6 +231,11 @@ std::string next_line(const CardFacts& f, const Card& card, bool whole) {
 void measure(const CardFacts& f, Card& card) {
   if (f.diagnosis == nullptr) return;
   const MismatchSize& m = f.diagnosis->mismatch;
+  if (!is_told_in_torque(*f.diagnosis)) {  // the balance still tells what the model as it is lacks
+    const ErrorBudget& b = f.diagnosis->budget;
+    card.percent = 100.0 * b.nominal / b.input;
+    return;
+  }
   card.torque = m.before_torque, card.torque_after = m.after_torque;
   card.percent = 100.0 * card.torque / m.input_torque;
   card.percent_after = 100.0 * card.torque_after / m.input_torque;

@@ -13,24 +13,47 @@
 #include "diagnosis/rule.h"
 #include "diagnosis/words.h"
 #include "gapscope/base/percents.h"
+#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
+/// Whether the rung on which an effect was added stands behind a law that the model does not have: what is
+/// left there is left with that law.
+bool is_behind_another_law(const AddedEffect& a, const Diagnosis& d) {
+  for (const BudgetRung& r : d.budget.rungs) {
+    if (!(std::abs(r.after - a.after_torque) > 0.0)) return false;
+    if (!r.added && !contains(d.effects, r.effect)) return true;
+  }
+  return false;
+}
+
+/// What the model with the effects up to each one leaves [N m]; NaN where the balance has no such model. With
+/// the last one it is the model that was fitted.
+std::vector<double> chain_of(const Diagnosis& d) {
+  std::vector<double> left;
+  for (const AddedEffect& a : d.added) left.push_back(is_behind_another_law(a, d) ? kNaN : a.after_torque);
+  if (!left.empty() && d.budget.uncounted.empty() && d.added.back().share_of == ShareOf::kTorque)
+    left.back() = d.mismatch.after_torque;
+  return left;
+}
+
 /// "brings it from 46.3 to 25.5 mN·m", "cuts the free-run error by 64 %": on the basis that has decided.
 std::string share_words(const AddedEffect& a, const CardFacts& f) {
+  const Diagnosis& d = *f.diagnosis;
   if (!std::isfinite(a.shrink)) return "";
   if (a.share_of == ShareOf::kMotion)
-    return fmt::format("cuts {}the {} by {} %", &a == f.diagnosis->added.data() ? "" : "what is left of ",
-                       motion_error(*f.diagnosis), percent_of_shrink(a.shrink));
-  const auto& rungs = f.diagnosis->budget.rungs;
-  const auto at = std::find_if(rungs.begin(), rungs.end(), [&](const BudgetRung& r) {
-    return r.effect == a.effect && !(std::abs(r.after - a.after_torque) > 0.0);
-  });
-  if (at == rungs.end()) return "";
-  const SharedUnit torque(at->before, f.coordinates.shown_unit("N m"));
-  return fmt::format("brings it from {} to {}", torque.number(at->before), torque(at->after));
+    return fmt::format("cuts {}the {} by {} %", &a == d.added.data() ? "" : "what is left of ",
+                       motion_error(d), percent_of_shrink(a.shrink));
+  const std::vector<double> left = chain_of(d);
+  const auto i = static_cast<std::size_t>(&a - d.added.data());
+  const double before = i == 0 ? d.mismatch.before_torque : left[i - 1];
+  if (!is_told_in_torque(d) || !d.budget.uncounted.empty() || !std::isfinite(before) ||
+      !std::isfinite(left[i]))
+    return "";
+  const SharedUnit torque(before, f.coordinates.shown_unit("N m"));
+  return fmt::format("brings it from {} to {}", torque.number(before), torque(left[i]));
 }
 
 /// Its period, unless its name has it, and how much there is of it.
@@ -127,20 +150,21 @@ std::string shares(const CardFacts& f, const Card& card) {
 /// Whether each effect has the torque that it leaves, and the last one that of the fitted model.
 bool has_rungs(const Diagnosis& d) {
   if (d.added.size() < 2 || !d.budget.uncounted.empty()) return false;
-  const SharedUnit torque(d.mismatch.before_torque, "");  // a law that cannot be added may stand between them
+  const std::vector<double> left = chain_of(d);
+  const SharedUnit torque(d.mismatch.before_torque, "");
   return std::isfinite(d.mismatch.before_torque) &&
-         torque.number(d.added.back().after_torque) == torque.number(d.mismatch.after_torque) &&
-         std::all_of(d.added.begin(), d.added.end(),
-                     [](const AddedEffect& a) { return std::isfinite(a.after_torque); });
+         torque.number(left.back()) == torque.number(d.mismatch.after_torque) &&
+         std::ranges::all_of(left, [](double torque_left) { return std::isfinite(torque_left); });
 }
 
 /// "The missing force falls from 9.84 N to 4.19 N with friction, then to 2.20 N with cogging torque; in all
 /// from 17.1 % to 3.8 % of what the input applies"
 std::string rungs(const CardFacts& f, const Card& card) {
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
+  const std::vector<double> left = chain_of(*f.diagnosis);
   std::vector<std::string> all;
-  for (const AddedEffect& a : f.diagnosis->added)
-    all.push_back(torque(a.after_torque) + " with " + with_asides(a, f, false));
+  for (std::size_t i = 0; i < left.size(); ++i)
+    all.push_back(torque(left[i]) + " with " + with_asides(f.diagnosis->added[i], f, false));
   return fmt::format("the missing {} falls from {} to {}; in all from {}", f.coordinates.torque_word(),
                      torque(card.torque), fmt::join(all, ", then to "), percents(f, card));
 }
@@ -164,6 +188,9 @@ std::string what_is_left(const CardFacts& f, const Card& card) {
   const double floor = b.exists() && b.uncounted.empty() && tells_torque(card) ? b.floor() : kNaN;
   if (floor > 0.0 && card.torque_after > kRule.floor_ratio * floor) {
     const SharedUnit torque(card.torque_after, f.coordinates.shown_unit("N m"));
+    if (b.records >= floor)
+      return fmt::format("of the {} left {} disagree by {}; the rest is not explained",
+                         torque(card.torque_after), what_disagrees(*f.diagnosis), torque(floor));
     return fmt::format("of the {} left no model gets below {}; what is above that is not explained",
                        torque(card.torque_after), torque(floor));
   }

@@ -66,8 +66,8 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);
   if (b.records >= floor)
-    return "; " + size +
-           " of this does not repeat from recording to recording (or part to part), so no model removes it";
+    return fmt::format("; {} disagree by {} of this: no one set of numbers removes it",
+                       what_disagrees(*f.diagnosis), size);
   if (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder))
     return "; no model can get below " + size + ", by which the drive itself differs from period to period";
   return "; the encoder's noise alone looks like " + size + ", below which no model can get";
@@ -129,7 +129,8 @@ std::string whole_run_words(const CardFacts& f) {
   if (d.added.empty()) return text + ".";
   text += additions_below(f);
   if (!stays_after) return text + "it runs away.";
-  const bool grows = w.after > kRule.floor_ratio * w.before && d.mismatch.after < d.mismatch.before;
+  const bool grows =
+      w.after > kRule.floor_ratio * w.before && d.mismatch.after < d.mismatch.before && !drifts_farther(d);
   return text + (stays ? "up to " + position(w.after) : "it drifts up to " + position(w.after) + of) +
          (grows ? ": over so long a run the smallest errors grow." : ".");
 }

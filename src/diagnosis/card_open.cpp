@@ -58,6 +58,7 @@ std::string doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
 }  // namespace
 
 std::string why_open(const AddedEffect& a, const Diagnosis& d) {
+  if (outlasts_motion(a, d)) return "its period is longer than the held-out motion";
   if (const std::vector<std::string> rivals = rivals_of(a, d); !rivals.empty())
     return "it may as well be " + enumerated(rivals, "or");
   if (may_be_absent(a, d)) return "these recordings do not determine its amount";
@@ -106,6 +107,12 @@ std::string unknown_words(const CardFacts& f) {
               : "");
 }
 
+const char* what_disagrees(const Diagnosis& d) {
+  const bool parts = !d.traces.empty() &&
+                     std::ranges::all_of(d.traces, [](const MismatchTrace& t) { return t.scored_from > 0; });
+  return parts ? "the recording's parts" : "the recordings";
+}
+
 bool input_is_made(const Diagnosis& d) { return !d.traces.empty() && !d.traces.front().target.empty(); }
 
 const char* what_applies(const Diagnosis& d) { return input_is_made(d) ? "model's controller" : "input"; }
@@ -129,6 +136,20 @@ std::string exhausted_words(const Diagnosis& d) {
   return " The search ended at its limit of work, so that further causes may have been missed.";
 }
 
+bool drifts_farther(const Diagnosis& d) {
+  if (d.added.empty() || !d.whole_run || d.closed_loop || !std::isfinite(d.whole_run->before)) return false;
+  const WholeRun& w = *d.whole_run;
+  const double least = std::sqrt(kRule.far);  // about three, midway between alike and beyond doubt
+  return !(w.after < least * w.before || w.after < kRule.far * d.mismatch.floor);
+}
+
+std::string no_nearer(const Diagnosis& d) {
+  return fmt::format(
+      "Do not rely on `DIR/fitted.yaml` to simulate: the motion comes no nearer with {}. Record another "
+      "motion (other speeds, other loads), and diagnose again.",
+      d.added.size() > 1 ? "what was added" : "the addition");
+}
+
 std::string unexplained(const CardFacts& f, const Card& card) {
   const ErrorBudget& b = f.diagnosis->budget;
   const double floor = b.exists() ? b.floor() : 0.0;
@@ -142,10 +163,12 @@ std::string unexplained(const CardFacts& f, const Card& card) {
     return "";
   return fmt::format(
       "Do not rely on `DIR/fitted.yaml` yet: {} of the input's {} is unexplained with all that was found "
-      "({} times the least that a model could reach). Record another motion (other speeds, other loads), "
+      "({} times {}). Record another motion (other speeds, other loads), "
       "or swap `file` and `held_out` where there are two recordings, and diagnose again.",
       percent_text(card.percent_after), f.coordinates.torque_word(),
-      SharedUnit(1.0, "").number(card.torque_after / floor));
+      SharedUnit(1.0, "").number(card.torque_after / floor),
+      b.records >= floor ? std::string("that by which ") + what_disagrees(*f.diagnosis) + " disagree"
+                         : "the least that a model could reach");
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -19,13 +19,17 @@ std::string which_is_open(const std::vector<std::string>& group, const Diagnosis
 /// " A cause has to remove at least 20 %.", where one of these is that an effect removes less; else empty.
 std::string least_of_a_cause(const std::vector<std::string>& why);
 
-/// Of the verdict "unknown": "unknown, as no effect of the catalogue explains it", or that one takes much of it
-/// in the error budget and is not established.
+/// Of the verdict "unknown": "unknown, as no effect of the catalogue explains it", or that one takes much of
+/// it in the error budget and is not established.
 std::string unknown_words(const CardFacts& facts);
 
 /// The first law of the error budget, where that alone takes most of a mismatch of which nothing is
 /// established; nullptr: there is none.
 const BudgetRung* unestablished_rung(const Diagnosis& diagnosis);
+
+/// "the recordings", or "the recording's parts" where what is held out is the end of what was fitted: what
+/// one set of numbers leaves that one for each would not.
+const char* what_disagrees(const Diagnosis& diagnosis);
 
 /// Whether the input was not recorded: the model's controller makes it of the goal.
 bool input_is_made(const Diagnosis& diagnosis);
@@ -45,6 +49,13 @@ std::string exhausted_words(const Diagnosis& diagnosis);
 /// What remains once all that was added is in the model, where that is most of it or far above the floor;
 /// empty: it is neither, or the budget has no size of something that was added.
 std::string unexplained(const CardFacts& facts, const Card& card);
+
+/// Whether the model drifts about three times as far with what was added, from a recording simulated as a
+/// whole: small errors of the right numbers add up to less.
+bool drifts_farther(const Diagnosis& diagnosis);
+
+/// The step where what was added takes torque and brings the simulated motion no nearer.
+std::string no_nearer(const Diagnosis& diagnosis);
 
 /// The step to the same recordings the other way round.
 inline constexpr const char* kSwapStep =

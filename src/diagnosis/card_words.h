@@ -11,6 +11,7 @@
 /// How a card writes numbers and lists.
 namespace gapscope::internal::diagnosis {
 
+inline constexpr const char* kNoBacklash = "There is no backlash above ";  ///< begins one that denies a gap
 inline constexpr const char* kThePlay = "The play at zero torque";  ///< begins the answer that bounds a gap
 
 /// A size with the prefix that keeps the first of several between 1 and 1000; all of them in that unit.

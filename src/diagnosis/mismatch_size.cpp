@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/diagnosis/card.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -188,3 +189,16 @@ double weight_of(const ScoredModel& candidate, const ScoredModel& best) {
 }
 
 }  // namespace gapscope::internal::diagnosis
+
+namespace gapscope {
+
+bool is_told_in_torque(const Diagnosis& d) {
+  using internal::diagnosis::kRule;
+  const MismatchSize& m = d.mismatch;
+  if (d.added.empty() || d.budget.uncounted.empty()) return std::isfinite(m.before_torque);
+  const double motion_left = std::max(0.0, (m.after - m.floor) / (m.before - m.floor));
+  const bool tellable = m.before >= kRule.floor_ratio * m.floor;  // at the floor no motion falls any more
+  return tellable && m.after_torque <= (motion_left + kRule.part) * m.before_torque;
+}
+
+}  // namespace gapscope

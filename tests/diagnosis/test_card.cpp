@@ -115,8 +115,8 @@ TEST(Card, TellsTheFloorInTheUnitOfTheSize) {
   ASSERT_TRUE(d.budget.exists());
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).mismatch,
-      EndsWith("input applies; 0.613 N of this does not repeat from recording to recording (or part to "
-               "part), so no model removes it."));
+      EndsWith(
+          "input applies; the recordings disagree by 0.613 N of this: no one set of numbers removes it."));
   d.budget.encoder = 0.7;
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).mismatch,

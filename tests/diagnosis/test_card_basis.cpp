@@ -82,8 +82,19 @@ TEST(CardBasis, AShareSaysWhatItIsOf) {
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).helps,
       StartsWith(
-          "Motor Coulomb friction (brings it from 10 to 4 N) and cogging torque (brings it from 4 to "
-          "2 N) bring the missing force down from 10 to 3 N (20.0 % to 6.0 % of what the input applies)"));
+          "The missing force falls from 10 N to 4 N with motor Coulomb friction, then to 3 N with cogging "
+          "torque; in all from 20.0 % to 6.0 % of what the input applies"));
+  Diagnosis behind = d;  // a law between them that is not in the model
+  BudgetRung resonance;
+  resonance.law = "resonance", resonance.effect = "shaft_compliance";
+  behind.budget.rungs.insert(behind.budget.rungs.begin() + 1, resonance);
+  behind.budget.rungs[1].after = 3.5;
+  EXPECT_EQ(card_of(facts_of(nullptr, &behind)).helps, card_of(facts_of(nullptr, &d)).helps);
+  behind.added.insert(behind.added.begin() + 1, behind.added[1]);
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &behind)).helps,
+      StartsWith("Motor Coulomb friction (brings it from 10 to 4 N), cogging torque and cogging torque "
+                 "bring the missing force down from 10 to 3 N"));
   for (AddedEffect& a : d.added) a.share_of = ShareOf::kMotion;
   d.mismatch.measure = "prediction of an observer at 3 Hz, median over windows of the rms";
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,

@@ -22,6 +22,9 @@ TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
   EXPECT_THAT(
       card_of(d).mismatch,
       HasSubstr("with the additions below, up to 900 mrad: over so long a run the smallest errors grow."));
+  d.whole_run->after = 1.4;
+  EXPECT_THAT(card_of(d).mismatch, HasSubstr("with the additions below, up to 1.4 rad."))
+      << "more than small errors of the numbers add up to";
   d.whole_run->after = 0.0412;
   d.whole_run->before = 54.2;
   EXPECT_THAT(
@@ -127,10 +130,16 @@ TEST(CardHelps, TellsWhatIsLeft) {
   EXPECT_THAT(card_of(d).helps, HasSubstr("left, 4500 times what the drive itself varies by from period to"));
   d.budget.nominal = 0.1, d.budget.records = 4e-3, d.budget.encoder = 1e-3, d.budget.band_hz = 64.0;
   d.budget.input = 0.5, d.budget.remains = 0.02;
+  EXPECT_THAT(card_of(d).helps,
+              ContainsRegex(
+                  " Of the [0-9.]+ mN·m left the recordings disagree by 4 mN·m; the rest is not explained"));
+  d.traces.resize(1), d.traces.front().scored_from = 100;
+  EXPECT_THAT(card_of(d).helps, HasSubstr(" left the recording's parts disagree by 4 mN·m; the rest"));
+  d.budget.encoder = 5e-3;
   EXPECT_THAT(
       card_of(d).helps,
       ContainsRegex(
-          " Of the [0-9.]+ mN·m left no model gets below 4 mN·m; what is above that is not explained"));
+          " Of the [0-9.]+ mN·m left no model gets below 5 mN·m; what is above that is not explained"));
 }
 
 TEST(CardHelps, WhereTheBalanceTellsNoTorqueEachEffectHasTheErrorThatItLeaves) {
@@ -160,6 +169,9 @@ TEST(CardNext, OfAModelThatDriftsSaysWhatItIsGoodFor) {
   d.added[1].established = false;
   EXPECT_THAT(card_of(d).next, HasSubstr("established or not, for short motions alone (simulated over "));
   d.whole_run->after = kNaN;
+  EXPECT_THAT(card_of(d).next,
+              HasSubstr("never whole recordings (over one it runs away, without what was added 1.29 rad)"));
+  d.whole_run->before = kNaN;
   EXPECT_THAT(card_of(d).next, HasSubstr("over a whole recording it runs away)"));
   d.whole_run->after = 0.0412;
   EXPECT_THAT(card_of(d).next, HasSubstr("established or not; "));

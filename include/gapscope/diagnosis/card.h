@@ -46,8 +46,9 @@ struct CardText {
 /// with numbers, reasons and limits. A default-built one has nothing to say.
 struct Card : CardText {
   CardText brief;
-  double torque = kNaN;             ///< rms of the missing torque of the model as it is, held-out [N m]
-  double percent = kNaN;            ///< the same, of what the input applies [%]
+  double torque = kNaN;  ///< rms of the missing torque of the model as it is, held-out [N m]
+  /// The same, of what the input applies [%]; known of the balance, too, where the motion tells the rest
+  double percent = kNaN;
   double torque_after = kNaN;       ///< with all that helps [N m]
   double percent_after = kNaN;      ///< the same [%]
   std::optional<bool> good_enough;  ///< by the tolerance; nothing: none is stated, or it cannot be told
@@ -72,6 +73,11 @@ struct CardFacts {
 };
 
 Card card_of(const CardFacts& facts);
+
+/// Whether the sizes of a mismatch in torque are of what is missing. Those of the torque balance always are,
+/// where it has all that was added. The observer's correcting torque holds the encoder's noise in its whole
+/// band: it tells what is left only where it falls as far as the motion's error does.
+bool is_told_in_torque(const Diagnosis& diagnosis);
 
 /// How much there is of an effect that a diagnosis has added: "every 2.5 mm; amplitude 988 mN, 95 %: 507 to
 /// 1468". Empty where it has no numbers.

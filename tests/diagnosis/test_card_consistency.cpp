@@ -1,0 +1,179 @@
+// That no two lines of a card, nor a card and the answer beside it, say different things of one quantity.
+#include <gmock/gmock.h>
+
+#include "diagnosis/friction_and_delay.h"
+#include "diagnosis/verdict.h"
+#include "gapscope/diagnosis/answer.h"
+
+namespace gapscope {
+namespace {
+
+using internal::diagnosis::open_undetermined;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// Explained to the floor by a delay that the torque balance has no place for, while the observer's
+/// correcting torque, which is noise, hardly falls.
+Diagnosis of_uncounted() {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.effects.pop_back(), d.added.pop_back();
+  d.added.front().group.resize(1);
+  d.mismatch.before = 16.1e-3, d.mismatch.after = 0.17e-3, d.mismatch.floor = 0.136e-3;
+  d.mismatch.remains = 1.25, d.mismatch.measure = "free run restarted every 0.5 s";
+  d.mismatch.before_torque = 0.328, d.mismatch.after_torque = 0.311, d.mismatch.input_torque = 2.32;
+  d.mismatch.shrink_ci95 = {0.9, 1.0};
+  d.budget.band_hz = 16.0, d.budget.input = 2.33, d.budget.nominal = 0.201, d.budget.encoder = 0.02;
+  d.budget.uncounted = {"motor_coulomb_friction"};
+  return d;
+}
+
+TEST(CardConsistency, WhereTheTorqueDoesNotFallAsTheMotionDoesTheMotionTellsBothLines) {
+  Diagnosis d = of_uncounted();
+  const Card card = card_of(d);
+  EXPECT_THAT(card.mismatch, StartsWith("The model misses 16.1 mrad of the held-out motion (free run"));
+  EXPECT_EQ(card.brief.mismatch, "The model misses 16.1 mrad of the held-out motion.");
+  EXPECT_THAT(card.helps, HasSubstr("brings the free-run error down from 16.1 to 0.17 mrad"));
+  EXPECT_TRUE(std::isnan(card.torque) && std::isnan(card.torque_after));
+  d.mismatch.after_torque = 0.02;
+  EXPECT_THAT(card_of(d).helps, HasSubstr("brings the missing torque down from 328 to 20 mN·m"))
+      << "it falls as far";
+  d.mismatch.after_torque = 0.311, d.budget.uncounted.clear();
+  EXPECT_THAT(card_of(d).helps, HasSubstr("brings the missing torque down from 328 to 311 mN·m"))
+      << "of the balance";
+}
+
+TEST(CardConsistency, AToleranceOfTheTorqueIsThenJudgedByTheBalance) {
+  const Diagnosis d = of_uncounted();
+  CardFacts f;
+  f.diagnosis = &d, f.tolerance.torque_percent = 5.0;
+  EXPECT_THAT(gapscope::card_of(f).mismatch,
+              EndsWith(" Outside your tolerance of 5 %, with 8.63 % of the torque missing."));
+  f.tolerance.torque_percent = 10.0;
+  EXPECT_THAT(gapscope::card_of(f).mismatch, EndsWith(" Within your tolerance of 10 %."));
+}
+
+/// A gap that the diagnosis has fitted, of 20 mrad, to the floor.
+Diagnosis of_gap() {
+  Diagnosis d;
+  d.verdict = DiagnosisVerdict::kNone;
+  d.mismatch.before = d.mismatch.after = 7e-6, d.mismatch.floor = 8e-6;
+  d.model_gap = ModelGap{GapOrigin::kEstimated, 20e-3, {19.9e-3, 20.1e-3}};
+  return d;
+}
+
+TEST(CardConsistency, TheGapOfTheDiagnosisGoesBeforeThatOfAnEstimateWhoseFitIsRejected) {
+  const Diagnosis d = of_gap();
+  Answer reading{20.3e-3, {19.3e-3, 21.3e-3}, AnswerSource::kModelFree, AnswerTrust::kGood, "", {}};
+  FitSummary fit;
+  fit.trust = FitTrust::kRejected;
+  GapEstimate estimate;
+  estimate.verdict = GapVerdict::kBacklash;
+  Findings beside;
+  beside.model_free = &estimate, beside.reference = &fit;
+  std::optional<Answer> told = answer_of_diagnosis(d, reading, beside);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->trust, AnswerTrust::kGood);
+  EXPECT_EQ(told->gap, 20e-3);
+  EXPECT_THAT(told->sentence, EndsWith(" is 20.000 mrad (95 %: 19.900 to 20.100) by the model that the "
+                                       "diagnosis has fitted; the reading without a "
+                                       "model, 20.30 mrad (95 %: 19.30 to 21.30), agrees."));
+  reading.ci95 = {20.2e-3, 20.4e-3};
+  told = answer_of_diagnosis(d, reading, beside);
+  EXPECT_EQ(told->trust, AnswerTrust::kLimited);
+  EXPECT_THAT(told->sentence, HasSubstr(", but without a model it reads 20.3"));
+  fit.trust = FitTrust::kGood;
+  EXPECT_FALSE(answer_of_diagnosis(d, reading, beside).has_value()) << "the estimate has a fit of its own";
+}
+
+TEST(CardConsistency, AGapThatIsDeniedAndFittedIsADisagreement) {
+  Diagnosis d = of_gap();
+  Answer denial{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "There is no backlash above", {}};
+  GapEstimate estimate;
+  estimate.verdict = GapVerdict::kNone;
+  estimate.smallest_visible_gap = 16e-3;
+  Findings beside;
+  beside.model_free = &estimate;
+  std::optional<Answer> told = answer_of_diagnosis(d, denial, beside);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->trust, AnswerTrust::kLimited);
+  EXPECT_THAT(told->sentence, HasSubstr(", but without a model there is no backlash above 16 mrad."));
+  d.mismatch.after = 1e-3, d.verdict = DiagnosisVerdict::kHelps;  // which does not follow the recordings
+  told = answer_of_diagnosis(d, denial, beside);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_TRUE(std::isnan(told->gap));
+  EXPECT_EQ(told->sentence,
+            "Without a model there is no backlash above 16 mrad, but the model that the diagnosis has fitted "
+            "has one of 20.000 mrad (95 %: 19.900 to 20.100).");
+  estimate.smallest_visible_gap = 30e-3;
+  EXPECT_FALSE(answer_of_diagnosis(d, denial, beside).has_value()) << "both may be so";
+  d = of_gap();
+  told = answer_of_diagnosis(d, denial, beside);
+  EXPECT_EQ(told->trust, AnswerTrust::kGood);
+  EXPECT_THAT(told->sentence,
+              EndsWith("; without a model there is no backlash above 30 mrad, which agrees."));
+}
+
+TEST(CardConsistency, LimitedTrustInADenialHasItsReason) {
+  Answer denial{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
+  denial.sentence = "There is no backlash above 1 mrad.";
+  CardFacts f;
+  f.answer = &denial;
+  EXPECT_EQ(gapscope::card_of(f).gap,
+            "There is no backlash above 1 mrad. Trust: limited (it stands for loads of at least 0.1 of the "
+            "motor's inertia, until a fitted model agrees).");
+  EXPECT_EQ(gapscope::card_of(f).brief.gap, "There is no backlash above 1 mrad. Trust: limited.");
+  denial.trust = AnswerTrust::kGood;
+  EXPECT_THAT(gapscope::card_of(f).gap, EndsWith("Trust: good."));
+}
+
+TEST(CardConsistency, NoStepUsesAModelForWhatItDoesWorse) {
+  Diagnosis d = of_friction_and_delay(true, false);
+  EXPECT_THAT(card_of(d).next, StartsWith("Simulate with `DIR/fitted.yaml`, which predicts best with all"));
+  d.whole_run = WholeRun{0.147, 1.45, 3.24};
+  EXPECT_THAT(
+      card_of(d).next,
+      StartsWith("Simulate with `DIR/fitted.yaml`, for short motions alone and never whole recordings "
+                 "(over one it drifts up to 1.45 rad off, without what was added 147 mrad)"));
+  d.whole_run->after = 0.3;
+  EXPECT_THAT(card_of(d).next, Not(HasSubstr("whole recordings (")));
+  d.mismatch.after = d.mismatch.before;
+  EXPECT_THAT(card_of(d).next, StartsWith("Do not rely on `DIR/fitted.yaml` to simulate: the motion comes no "
+                                          "nearer with what was added. Record another motion"));
+}
+
+/// One cogging torque of N cycles per turn, over a motion of 2 rad.
+Diagnosis of_period(double periods_per_turn) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.effects = {"cogging_torque"};
+  d.added.resize(1);
+  AddedEffect& a = d.added.front();
+  a.effect = "cogging_torque", a.group = {a.effect};
+  a.parameters = {{"amplitude_nm", "N m", 0.1, {0.09, 0.11}},
+                  {"periods_per_turn", "1/rev", periods_per_turn}};
+  d.traces.resize(1);
+  d.traces.front().x1 = {50.0, 0.0, 2.0}, d.traces.front().scored_from = 1;
+  open_undetermined({}, d);
+  return d;
+}
+
+TEST(CardConsistency, APeriodThatTheHeldOutMotionDoesNotGoThroughIsNoCause) {
+  const Diagnosis within = of_period(3.2), beyond = of_period(3.1);  // 1.96 and 2.03 rad
+  EXPECT_TRUE(within.added.front().established);
+  EXPECT_FALSE(beyond.added.front().established);
+  EXPECT_EQ(beyond.verdict, DiagnosisVerdict::kHelps);
+  EXPECT_THAT(card_of(beyond).cause,
+              HasSubstr("cogging torque (its period is longer than the held-out motion)"));
+  Diagnosis given = of_period(3.2);
+  given.periodic.push_back({3.0, kNaN, kNaN, kNaN, kNaN, 0, 0, false, true});
+  given.added.front().parameters[1].value = 3.0;
+  open_undetermined({}, given);
+  EXPECT_TRUE(given.added.front().established) << "somebody knows of it";
+  given.added.front().effect = "load_unbalance", given.periodic.clear();
+  open_undetermined({}, given);
+  EXPECT_TRUE(given.added.front().established) << "its period is one turn, whatever the motion";
+}
+
+}  // namespace
+}  // namespace gapscope
