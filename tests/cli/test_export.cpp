@@ -11,6 +11,7 @@ namespace gapscope {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::text_of;
 using testing::Workplace;
 
@@ -65,6 +66,25 @@ TEST(Export, SaysInItsHeadWhatTheDiagnosisLeftUnexplained) {
   EXPECT_THAT(text_of(place.folder() / "isaac/drive_cfg.py"), HasSubstr("\n# " + said));
   EXPECT_EQ(place.run("export report/fitted.yaml --to mjcf -o again").status, 0);
   EXPECT_EQ(text_of(place.folder() / "again/drive.xml"), text_of(place.folder() / "mjcf/drive.xml"));
+  auto followed = stored;  // as if something had been added that brings the motion to the floor
+  followed["verdict"] = "effect", followed["gap"]["remains_ratio"] = 0.9;
+  followed["gap"]["floor_torque_nm"] = followed["gap"]["after_torque_nm"].get<double>() / 3.0;
+  place.file("report/diagnosis.json", followed.dump());
+  EXPECT_THAT(place.run("export report --to mjcf -o followed").err, Not(HasSubstr("This model")));
+  followed["gap"]["remains_ratio"] = 3.0;
+  place.file("report/diagnosis.json", followed.dump());
+  EXPECT_THAT(place.run("export report --to mjcf -o left").err,
+              HasSubstr("warning: This model, with all that its diagnosis added, still lacks "));
+  followed["effects"] = {"input_delay"}, followed["error_budget"]["uncounted"] = {"input_delay"};
+  followed["gap"]["after_rad"] = 3.0 * followed["gap"]["floor_rad"].get<double>();
+  followed["added"] = nlohmann::json::parse(
+      R"([{"effect": "input_delay", "cause": "established", "group": ["input_delay"], "probability": null,
+           "parameters": {}, "units": {}, "parameters_ci95": {}, "shrink": 0.9, "shrink_ci95": null,
+           "after_torque_nm": null}])");
+  place.file("report/diagnosis.json", followed.dump());
+  EXPECT_THAT(place.run("export report --to mjcf -o uncounted").err,
+              HasSubstr("warning: This model, with all that its diagnosis added, still misses "))
+      << "the torque has not fallen with the motion";
 }
 
 TEST(Export, LeavesAFolderAloneThatHoldsSomethingElse) {
