@@ -38,11 +38,14 @@ double slope(const MotorTrace& r, std::size_t first, std::size_t n) {
   return sum / (weight * r.dt);
 }
 
-/// Rows of the balance of one recording, with a constant of integration of its own; N: 4, or 5 with what is
-/// known.
+/// Torques beside the four of one body, each at every sample of one recording.
+template <int N>
+using Beside = std::array<std::span<const double>, N - 4>;
+
+/// Rows of the balance of one recording, with a constant of integration of its own; N: 4 and what is beside.
 template <int N>
 struct Balance {
-  std::vector<std::array<double, N>> rows;  ///< w, x, ∫sign w, t, ∫known
+  std::vector<std::array<double, N>> rows;  ///< w, x, ∫sign w, t, ∫ of what is beside
   std::vector<double> impulse;              ///< ∫u
 };
 
@@ -52,24 +55,24 @@ double time_before(const MotorTrace& r, std::size_t sample, std::size_t stride) 
   return r.stamps[sample] - r.stamps[sample - stride];
 }
 
-/// @param known of each sample [N m]; read where N is 5
 template <int N>
-Balance<N> balance_of(const MotorTrace& r, std::span<const double> known) {
+Balance<N> balance_of(const MotorTrace& r, const Beside<N>& beside) {
   Balance<N> b;
   const std::size_t n = speed_window(r);
   const std::size_t stride = std::max<std::size_t>(1, (r.size() - n) / kRows);
-  double impulse = 0.0, direction = 0.0, momentum = 0.0;
+  double impulse = 0.0, direction = 0.0;
+  std::array<double, N - 4> momentum{};
   std::size_t done = 0;
   for (std::size_t first = 0; first + n <= r.size(); first += stride) {
     const double w = slope(r, first, n);
     const std::size_t centre = first + n / 2;
     for (; done < centre; ++done) {
       impulse += r.u[done] * r.step(done);
-      if constexpr (N == 5) momentum += known[done] * r.step(done);
+      for (std::size_t j = 0; j < beside.size(); ++j) momentum[j] += beside[j][done] * r.step(done);
     }
     if (first > 0) direction += (w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0) * time_before(r, centre, stride);
     b.rows.push_back({w, r.x1[centre] - r.x1[0], direction, r.elapsed(centre)});
-    if constexpr (N == 5) b.rows.back()[4] = momentum;
+    std::copy(momentum.begin(), momentum.end(), b.rows.back().begin() + 4);
     b.impulse.push_back(impulse);
   }
   return b;
@@ -91,9 +94,17 @@ void centre(Balance<N>& b) {
   }
 }
 
-/// @param known of each recording; read where N is 5
+/// The balance of several recordings, solved.
 template <int N>
-OneBody balanced(std::span<const MotorTrace> recordings, std::span<const std::vector<double>> known) {
+struct Solved {
+  OneBody body;
+  Eigen::Matrix<double, N, 1> solution;  ///< one number for each column of the rows
+  double left = 0.0;                     ///< Σ of the squares that no column explains
+};
+
+/// @param beside of each recording
+template <int N>
+Solved<N> balanced(std::span<const MotorTrace> recordings, std::span<const Beside<N>> beside) {
   using Vector = Eigen::Matrix<double, N, 1>;
   using Matrix = Eigen::Matrix<double, N, N>;
   OneBody body;
@@ -102,7 +113,7 @@ OneBody balanced(std::span<const MotorTrace> recordings, std::span<const std::ve
   double squares = 0.0, count = 0.0, brought = 0.0;
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     const MotorTrace& r = recordings[k];
-    Balance<N> b = balance_of<N>(r, N == 5 ? std::span<const double>(known[k]) : std::span<const double>());
+    Balance<N> b = balance_of<N>(r, beside[k]);
     for (const auto& row : b.rows) {
       squares += row[0] * row[0];
       body.peak_speed = std::max(body.peak_speed, std::abs(row[0]));
@@ -130,16 +141,35 @@ OneBody balanced(std::span<const MotorTrace> recordings, std::span<const std::ve
   body.inertia = solution[0];
   body.damping = solution[1];
   body.friction = solution[2];
-  if constexpr (N == 5) body.known = solution[4];
-  return body;
+  return {body, solution, left};
 }
 
 }  // namespace
 
-OneBody as_one_body(std::span<const MotorTrace> recordings) { return balanced<4>(recordings, {}); }
+OneBody as_one_body(std::span<const MotorTrace> recordings) {
+  return balanced<4>(recordings, std::vector<Beside<4>>(recordings.size())).body;
+}
 
 OneBody as_one_body(std::span<const MotorTrace> recordings, std::span<const std::vector<double>> known) {
-  return balanced<5>(recordings, known);
+  const std::vector<Beside<5>> beside = [&] {
+    std::vector<Beside<5>> all;
+    for (const std::vector<double>& one : known) all.push_back({one});
+    return all;
+  }();
+  Solved<5> solved = balanced<5>(recordings, beside);
+  solved.body.known = solved.solution[4];
+  return solved.body;
+}
+
+HangingArm hanging_arm(const MotorTrace& recording) {
+  std::vector<double> sines, cosines;
+  for (const double x : recording.x1) sines.push_back(std::sin(x)), cosines.push_back(std::cos(x));
+  const std::span<const MotorTrace> all(&recording, 1);
+  const Beside<6> beside{sines, cosines};
+  const Solved<6> with = balanced<6>(all, std::span(&beside, 1));
+  const Solved<4> without = balanced<4>(all, std::vector<Beside<4>>(1));
+  const double sine = with.solution[4], cosine = with.solution[5];
+  return {std::atan2(-cosine, sine), std::hypot(sine, cosine), with.body.inertia, with.left / without.left};
 }
 
 }  // namespace gapscope::internal::signals

@@ -30,4 +30,14 @@ OneBody as_one_body(std::span<const MotorTrace> recordings);
 /// @param known what the motor brings against it, of each sample of each recording [N m]
 OneBody as_one_body(std::span<const MotorTrace> recordings, std::span<const std::vector<double>> known);
 
+/// An arm that hangs on the axis, read off the same balance beside A sin x1 + B cos x1 = G sin(x1 − x0).
+struct HangingArm {
+  double angle = 0.0;    ///< x0, where it hangs, of −π to π [rad]
+  double gravity = 0.0;  ///< G > 0 [unit of u]
+  double inertia = 0.0;  ///< M of that balance; below zero: u has the other sign, and x0 is that of the top
+  double left = 1.0;     ///< what the balance leaves, over what it leaves without gravity, squares [-]
+};
+
+HangingArm hanging_arm(const MotorTrace& recording);
+
 }  // namespace gapscope::internal::signals
