@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "inspection/rules.h"
+#include "inspection/switched_off.h"
 #include "signals/noise.h"
 
 namespace gapscope::internal::inspection {
@@ -27,11 +28,7 @@ constexpr double kAbrupt =
 constexpr std::size_t kMostForSpectrum = 1u << 16;
 constexpr double kLeastOfCounts = 5.0;  ///< peak of whole numbers that are no rounded torque
 constexpr double kNoNoise = 1e-6;       ///< of the range: what is left of rounding
-/// Of the recording, that u is zero at one go. `gapscope check` of the 20 recordings of real drives at hand
-/// finds both of a falling arm (0.75) and no other (0.007 at most), with half and with double as well.
-constexpr double kSwitchedOff = 0.1;
-constexpr double kMoved = 10.0;   ///< quanta of x1: it moves
-constexpr double kOneLine = 0.9;  ///< share of the power that makes one line all there is
+constexpr double kOneLine = 0.9;        ///< share of the power that makes one line all there is
 
 struct Extremes {
   double low, high;
@@ -172,31 +169,6 @@ double share_near(const Spectrum& s, std::size_t line) {
   return sum / s.total;
 }
 
-struct Stretch {
-  std::size_t from = 0, to = 0;
-  std::size_t length() const { return to - from; }
-};
-
-/// The one long stretch in which u is zero while x1 goes on moving; dwells of a command come more than once.
-Stretch switched_off(const recording::RecordedRows& rows, double quantum) {
-  Stretch longest, second;
-  for (std::size_t i = 0; i < rows.u.size();) {
-    std::size_t end = i;
-    while (end < rows.u.size() && rows.u[end] == 0.0) ++end;
-    if (const Stretch zeros{i, end}; zeros.length() > longest.length())
-      second = std::exchange(longest, zeros);
-    else if (zeros.length() > second.length())
-      second = zeros;
-    i = std::max(end, i + 1);
-  }
-  if (static_cast<double>(longest.length()) < kSwitchedOff * static_cast<double>(rows.u.size()) ||
-      2 * second.length() > longest.length())
-    return {};
-  const auto [low, high] = std::minmax_element(rows.x1.begin() + static_cast<std::ptrdiff_t>(longest.from),
-                                               rows.x1.begin() + static_cast<std::ptrdiff_t>(longest.to));
-  return *high - *low > kMoved * quantum ? longest : Stretch{};
-}
-
 }  // namespace
 
 Finding check_input(const Material& m, RecordingFacts& facts) {
@@ -217,7 +189,7 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
                                 bits, std::ldexp(1.0, bits)),
             fmt::format("recording: registers: {{input: {}}} (--input-register {}), so that {:.0f} is -1",
                         bits, bits, std::ldexp(1.0, bits) - 1.0)};
-  if (const Stretch off = switched_off(m.rows, m.signal.quantum); off.length() > 0)
+  if (const Stretch off = switched_off(m.rows.u, m.rows.x1, m.signal.quantum); off.length() > 0)
     return {kInputRule, Severity::kNote,
             found + fmt::format(": zero from {:.2f} to {:.2f} s, while x1 goes on moving", m.rows.t[off.from],
                                 m.rows.t[off.to - 1]),

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/recording/recording_file.h"
+#include "inspection/switched_off.h"
 #include "signals/encoder.h"
 #include "signals/local_motion.h"
 
@@ -73,6 +76,27 @@ MotionReach reach_of(const MotorTrace& r) {
   return {*high - *low, speed, input_of(r), reversals_of(r, *high - *low), moving_of(r, speed)};
 }
 
+MotorTrace rows_of(const MotorTrace& r, std::size_t from, std::size_t to) {
+  MotorTrace part = r;
+  part.start = r.time(from);
+  part.u = r.u.empty() ? r.u : r.u.subspan(from, to - from);
+  part.x1 = r.x1.subspan(from, to - from);
+  part.stamps = r.stamps.empty() ? r.stamps : r.stamps.subspan(from, to - from);
+  return part;
+}
+
+/// Without what it did while the drive was switched off, which nobody asked of it; of that alone nothing
+/// would be left.
+std::vector<MotorTrace> driven_parts(const MotorTrace& r) {
+  if (r.u.empty()) return {r};
+  const auto off = internal::inspection::switched_off(r.u, r.x1, internal::signals::encoder_quantum(r));
+  if (off.length() == 0) return {r};
+  std::vector<MotorTrace> parts;
+  if (off.from >= kFewestSamples) parts.push_back(rows_of(r, 0, off.from));
+  if (r.size() - off.to >= kFewestSamples) parts.push_back(rows_of(r, off.to, r.size()));
+  return parts.empty() ? std::vector{r} : parts;
+}
+
 /// In more rows than it moves.
 bool stands(const MotionReach& r) { return r.moving < 1.0 - r.moving; }
 
@@ -103,6 +127,10 @@ std::string reversals_told(const MotionReach& second, const MotionReach& first) 
   return fmt::format("{} reversals against {}", second.reversals, first.reversals);
 }
 
+std::string one_way(const MotionReach& both_ways) {
+  return fmt::format("{} reversals against none", both_ways.reversals);
+}
+
 /// Why the first is better fitted; empty where it is not.
 std::string reason_to_fit(const MotionReach& first, const MotionReach& second, Coordinates coordinates) {
   const std::string farther = goes_farther(second, first, coordinates);
@@ -115,8 +143,10 @@ std::string reason_to_fit(const MotionReach& first, const MotionReach& second, C
 MotionReach reach_of(std::span<const MotorTrace> recordings) {
   MotionReach farthest;
   farthest.moving = 0.0;
-  for (const MotorTrace& r : recordings) {
-    if (r.size() == 0) continue;
+  std::vector<MotorTrace> parts;
+  for (const MotorTrace& r : recordings)
+    if (r.size() > 0) std::ranges::copy(driven_parts(r), std::back_inserter(parts));
+  for (const MotorTrace& r : parts) {
     const MotionReach one = reach_of(r);
     farthest.travel = std::max(farthest.travel, one.travel);
     farthest.speed = std::max(farthest.speed, one.speed);
@@ -128,6 +158,7 @@ MotionReach reach_of(std::span<const MotorTrace> recordings) {
 }
 
 std::string goes_farther(const MotionReach& first, const MotionReach& second, Coordinates coordinates) {
+  if (first.reversals > 0 && second.reversals == 0) return "";
   std::vector<std::string> farther;
   for (const Compared& c : compared(first, second, coordinates)) {
     if (c.nearer()) return "";
@@ -151,6 +182,9 @@ std::string judges_little(const MotionReach& fitted, const MotionReach& held_out
 
 FittingOrder fitting_order(const MotionReach& first, const MotionReach& second, Coordinates coordinates) {
   using Fit = FittingOrder::Fit;
+  // No model that is fitted to one direction alone is known in the other.
+  if (first.reversals > 0 && second.reversals == 0) return {Fit::kFirst, one_way(first)};
+  if (second.reversals > 0 && first.reversals == 0) return {Fit::kSecond, one_way(second)};
   if (const auto why = reason_to_fit(first, second, coordinates); !why.empty()) return {Fit::kFirst, why};
   if (const auto why = reason_to_fit(second, first, coordinates); !why.empty()) return {Fit::kSecond, why};
   std::vector<std::string> apart;

@@ -77,7 +77,32 @@ TEST(GoesFarther, AnInputThatIsNotKnownDecidesNothing) {
   EXPECT_THAT(goes_farther(unknown, reach(swung(1.0, 6.0, 2.0)), {}), HasSubstr("travel 2 against 1 rad"));
 }
 
+/// An arm that was let go: the last three quarters fall without an input.
+Recording dropped() {
+  Recording r = swung(0.5, 12.0, 2.0);
+  for (std::size_t i = 500; i < r.x1.size(); ++i)
+    r.u[i] = 0.0, r.x1[i] = r.x1[499] + 3.0 * std::sin(20.0 * r.dt * static_cast<double>(i - 499));
+  return r;
+}
+
+TEST(MotionReach, CountsNothingOfADriveThatWasSwitchedOff) {
+  const MotionReach r = reach(dropped());
+  EXPECT_NEAR(r.travel, 1.0, 1e-2);
+  EXPECT_NEAR(r.speed, 6.0, 0.1);
+  EXPECT_EQ(r.reversals, 4);
+}
+
 using Fit = FittingOrder::Fit;
+
+TEST(FittingOrder, NeverPrefersARecordingThatMovesInOneDirectionOnly) {
+  const MotionReach both_ways = reach(swung(0.5, 6.0, 2.0));
+  MotionReach one_way = reach(swung(2.0, 12.0, 4.0));
+  one_way.reversals = 0;
+  EXPECT_EQ(fitting_order(both_ways, one_way, {}).fit, Fit::kFirst);
+  EXPECT_EQ(fitting_order(both_ways, one_way, {}).why, "7 reversals against none");
+  EXPECT_EQ(fitting_order(one_way, both_ways, {}).fit, Fit::kSecond);
+  EXPECT_EQ(goes_farther(both_ways, one_way, {}), "");
+}
 
 TEST(FittingOrder, TakesTheOneThatGoesFartherWhicheverStandsFirst) {
   const MotionReach slow = reach(swung(0.5, 6.0, 2.0)), fast = reach(swung(0.5, 12.0, 2.0));

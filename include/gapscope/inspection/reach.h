@@ -17,12 +17,13 @@ struct MotionReach {
   double moving = 1.0;  ///< share of the samples in which it moves; of several the largest [-]
 };
 
-/// The farthest of several recordings, each quantity for itself; their reversals are added up.
+/// The farthest of several recordings, each quantity for itself; their reversals are added up. A long stretch
+/// in which the drive was switched off (u zero at one go, while x1 moves) counts for nothing.
 MotionReach reach_of(std::span<const MotorTrace> recordings);
 
 /// In what the second goes clearly farther, with its numbers first: "speed up to 12.7 against 4.38 rad/s";
 /// empty where it does not, or where the first goes clearly farther in something else: then neither covers
-/// the other.
+/// the other; or where the second moves in one direction only and the first in both.
 std::string goes_farther(const MotionReach& first, const MotionReach& second, Coordinates coordinates);
 
 /// Why one that is held out judges less than the fitted one shows, with what to do: "moves in one direction
@@ -36,7 +37,8 @@ struct FittingOrder {
   std::string why;  ///< in what that one goes farther, or that none does, with the numbers of both
 };
 
-/// The one that goes farther (goes_farther()); of two that go as far, the one with clearly more reversals.
+/// The one that moves in both directions, where the other does not; else that which goes farther
+/// (goes_farther()); of two that go as far, the one with clearly more reversals.
 FittingOrder fitting_order(const MotionReach& first, const MotionReach& second, Coordinates coordinates);
 
 }  // namespace gapscope
