@@ -189,7 +189,8 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
                                 bits, std::ldexp(1.0, bits)),
             fmt::format("recording: registers: {{input: {}}} (--input-register {}), so that {:.0f} is -1",
                         bits, bits, std::ldexp(1.0, bits) - 1.0)};
-  if (const Stretch off = switched_off(m.rows.u, m.rows.x1, m.signal.quantum); off.length() > 0)
+  if (auto impossible = impossible_input(m, found)) return *std::move(impossible);
+  if (const OffStretch off = switched_off(m.rows.u, m.rows.x1, m.signal.quantum); off.length() > 0)
     return {kInputRule, Severity::kNote,
             found + fmt::format(": zero from {:.2f} to {:.2f} s, while x1 goes on moving", m.rows.t[off.from],
                                 m.rows.t[off.to - 1]),

@@ -129,6 +129,9 @@ Inspection inspect(const std::string& path, const ReadOptions& options, Coordina
   m.rows = internal::recording::read_window(path, options, internal::recording::EarlierRow::kSkipped);
   m.register_input = as_it_stands(m.rows, path, options);
   m.duty = without_voltage(path, options);
+  const UnitScale& position = options.columns.scales.position;
+  m.position_unit = position.factor / position.divisor;
+  m.commanded = !options.columns.reads_input();
   m.recording = on_grid(m.rows, options);
   m.resampled = options.resample_rate.has_value();
   m.coordinates = coordinates;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct Material {
   recording::RecordedRows rows;        ///< as they stand in the file
   std::vector<double> register_input;  ///< the input's column as it stands, without unit and supply
   std::vector<double> duty;     ///< where u is a duty times the supply's voltage, this duty at each row
+  double position_unit = 1.0;   ///< of the position's column [rad]
+  bool commanded = false;       ///< u is what a controller makes of a target
   Recording recording;          ///< the rows on a uniform grid
   signals::SignalFacts signal;  ///< of its x1
   bool resampled = false;       ///< on request: also for fit and diagnose, which need no grid
@@ -43,6 +46,10 @@ inline std::string figure(double value, int digits = 3) {
 inline bool whole_numbers(std::span<const double> samples) {
   return std::all_of(samples.begin(), samples.end(), [](double v) { return v == std::round(v); });
 }
+
+/// Where u cannot be what drives the motor: a commanded position, a duty far beyond one. Nothing: it may be.
+/// @param found  what is told of u in any case
+std::optional<Finding> impossible_input(const Material& m, const std::string& found);
 
 /// One question each; fills the facts that it finds.
 Finding check_time(const Material& m, RecordingFacts& facts);

@@ -13,12 +13,12 @@ constexpr double kMoved = 10.0;  ///< quanta of x1: it moves
 
 }  // namespace
 
-Stretch switched_off(std::span<const double> u, std::span<const double> x1, double quantum) {
-  Stretch longest, second;
+OffStretch switched_off(std::span<const double> u, std::span<const double> x1, double quantum) {
+  OffStretch longest, second;
   for (std::size_t i = 0; i < u.size();) {
     std::size_t end = i;
     while (end < u.size() && u[end] == 0.0) ++end;
-    if (const Stretch zeros{i, end}; zeros.length() > longest.length())
+    if (const OffStretch zeros{i, end}; zeros.length() > longest.length())
       second = std::exchange(longest, zeros);
     else if (zeros.length() > second.length())
       second = zeros;
@@ -30,7 +30,7 @@ Stretch switched_off(std::span<const double> u, std::span<const double> x1, doub
     return {};
   const auto [low, high] = std::minmax_element(x1.begin() + static_cast<std::ptrdiff_t>(longest.from),
                                                x1.begin() + static_cast<std::ptrdiff_t>(longest.to));
-  return *high - *low > kMoved * quantum ? longest : Stretch{};
+  return *high - *low > kMoved * quantum ? longest : OffStretch{};
 }
 
 }  // namespace gapscope::internal::inspection

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "gapscope/recording/recording_file.h"
 #include "inspection/rules.h"
 #include "signals/noise.h"
 #include "signals/one_body.h"
@@ -24,6 +25,11 @@ constexpr std::size_t kLags = 8;        ///< samples in which a loop answers
 constexpr double kAnswers = 0.15;       ///< correlation that is an answer
 /// Impulse of the inertia over what one body leaves [-], rms, from which on it is seen.
 constexpr double kSeen = 1.0;
+/// Of what one body leaves, squares, that it leaves beside gravity at most: else something else is missing.
+constexpr double kLeftByGravity = 0.5;
+/// What both halves of a recording may say of where the arm hangs, apart from the whole: half of the 0.5 that
+/// a fit looks about it [rad].
+constexpr double kHangsApart = 0.25;
 
 /// ∫u dx1 over what it could be at most: u is held, so the sum is exact.
 double work_cosine(const Material& m) {
@@ -73,6 +79,30 @@ Answer answer_of(const std::vector<double>& u, const std::vector<double>& x) {
   return best;
 }
 
+double angle_between(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * std::numbers::pi)); }
+
+MotorTrace part_of(const MotorTrace& r, std::size_t from, std::size_t count) {
+  MotorTrace part = r;
+  part.u = r.u.subspan(from, count), part.x1 = r.x1.subspan(from, count);
+  return part;
+}
+
+/// Where an arm hangs: what the whole recording and both of its halves say alike, of -2.9 to 3.4 rad, so that
+/// half a turn has one sign; NaN where they do not.
+double hanging_angle(const Material& m) {
+  const MotorTrace trace = m.recording.motor_trace();
+  if (!m.coordinates.rotational() || trace.size() < 2 * kFewestSamples) return kNaN;
+  const signals::HangingArm all = signals::hanging_arm(trace);
+  if (!(all.inertia > 0.0) || !(all.gravity > 0.0) || !(all.left < kLeftByGravity)) return kNaN;
+  const std::size_t half = trace.x1.size() / 2;
+  for (const std::size_t from : {std::size_t{0}, half}) {
+    const signals::HangingArm part = signals::hanging_arm(part_of(trace, from, half));
+    if (!(angle_between(part.angle, all.angle) < kHangsApart)) return kNaN;
+  }
+  const bool half_turn_below = all.angle < kHangsApart - std::numbers::pi;
+  return all.angle + (half_turn_below ? 2.0 * std::numbers::pi : 0.0);
+}
+
 /// The body beside a torque sin(x1 + phase), at the phase that shows its inertia best; nothing where none
 /// shows.
 std::optional<signals::OneBody> with_gravity(const Material& m, const MotorTrace& trace) {
@@ -103,7 +133,7 @@ Finding check_sign(const Material& m, RecordingFacts& facts) {
         "sign", Severity::kSpoils,
         found + ": the motion would drive the motor, as no passive load can for long",
         "turn the sign of u or of x1, for instance recording: gear_ratio: {position: -1} (unless a weight or "
-        "another motor drives this one)"};
+        "another motor drives this one, or the columns of u and x1 are exchanged: --input, --position)"};
   return {"sign", Severity::kNote,
           found + fmt::format(": little, and less than none, as where x1 is {:.2g} ms late", 1e3 * delay),
           "look whether a positive u accelerates towards positive x1, and whether t is that of u and of x1 "
@@ -118,6 +148,7 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
             "x1 goes with u, as against a locked output: it says nothing about the inertia", ""};
   const signals::OneBody rough = signals::as_one_body(std::span(&trace, 1));
   facts.inertia = rough.inertia, facts.damping = rough.damping, facts.friction = rough.friction;
+  facts.hangs_at = hanging_angle(m);
   const char* const units = m.coordinates.rotational() ? "kg m², N·m s, N·m" : "kg, N s/m, N";
   const auto number = [](double value) { return value > 0.0 ? figure(value) : "too small to be seen"; };
   if (!(rough.inertia > 0.0) && !(rough.damping > 0.0)) {

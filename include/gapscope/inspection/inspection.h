@@ -55,8 +55,9 @@ struct RecordingFacts {
   double inertia = kNaN;          ///< of motor and load, as one body [unit of u s²/rad]
   double damping = kNaN;          ///< [unit of u s/rad]
   double friction = kNaN;         ///< [unit of u]
-  double feedback = kNaN;         ///< correlation of the fast part of u with that of x1 just before [-]
-  double rest_share = kNaN;       ///< of the time in which x1 stands still [-]
+  double hangs_at = kNaN;    ///< position at which what hangs on the axis hangs down, where it shows [rad]
+  double feedback = kNaN;    ///< correlation of the fast part of u with that of x1 just before [-]
+  double rest_share = kNaN;  ///< of the time in which x1 stands still [-]
 };
 
 /// What a recording is wanted for.
@@ -84,6 +85,10 @@ Inspection inspect(const std::string& path, const ReadOptions& options = {}, Coo
 
 /// What spoils the answers to other questions alone becomes a note, which says so.
 void judge_for(Purpose purpose, Inspection& inspection);
+
+/// Of a current whose peak no motor has: it is likely one of mA.
+/// @param unit  of u, as it was declared: "A", "V", ...; empty: none was
+void judge_for_unit(const std::string& unit, Inspection& inspection);
 
 /// Of an encoder on the load: no detector reads a gap there, so what the motion lacks for one spoils nothing,
 /// and no motion is asked for.
