@@ -65,17 +65,27 @@ struct UnitSlip {
 /// Questions, not errors: "--arm: 105 m? 105 mm is 0.105".
 std::vector<std::string> asked_of_units(const InitArguments& a) {
   const bool turns = a.recording.coordinates().rotational();
-  // Beyond any machine with one encoder; a slip is a thousand times and more.
-  const UnitSlip slips[] = {{"--arm", a.arm, 10.0, "m", "mm", 1e-3},
-                            {"--mass", a.mass, 1e3, "kg", "g", 1e-3},
-                            turns ? UnitSlip{"--inertia", a.inertia, 100.0, "kg m^2", "kg cm^2", 1e-4}
-                                  : UnitSlip{"--inertia", a.inertia, 1e4, "kg", "g", 1e-3}};
+  // No joint with one encoder turns more; a slip is a hundred times and more. An arm of 10 cm is seldom
+  // written as 30 or more, one in mm is.
+  const UnitSlip slips[] = {
+      {"--arm", a.arm, 3.0, "m", a.arm < 30.0 ? "cm" : "mm", a.arm < 30.0 ? 1e-2 : 1e-3},
+      {"--mass", a.mass, 200.0, "kg", "g", 1e-3},
+      turns ? UnitSlip{"--inertia", a.inertia, 100.0, "kg m^2", "kg cm^2", 1e-4}
+            : UnitSlip{"--inertia", a.inertia, 1e4, "kg", "g", 1e-3}};
   std::vector<std::string> questions;
   for (const UnitSlip& s : slips)
     if (s.value > s.most)
       questions.push_back(fmt::format("{}: {:g} {}? {:g} {} is {:g}", s.option, s.value, s.unit, s.value,
                                       s.smaller, s.value * s.per_unit));
   return questions;
+}
+
+/// @throws ConfigError where the one that is held out is the one that is fitted
+void require_two_recordings(const InitArguments& a) {
+  std::error_code problem;
+  if (!a.held_out.empty() && fs::equivalent(a.held_out, a.recording.file, problem))
+    throw ConfigError(fmt::format("gapscope: --held-out is {}, the recording itself, expected a second one",
+                                  printable(a.held_out, 200)));
 }
 
 /// Both recordings, as if a configuration had named them.
@@ -131,6 +141,7 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
   print_warnings(starter.spoiling);
   fmt::print("{:<12}{}\n{:<12}{}\n", "written", output, "model", starter.model);
   if (known.anchor) fmt::print("{:<12}{}\n", "anchor", known.anchor->told(r.coordinates()));
+  if (!starter.hangs.empty()) fmt::print("{:<12}{}\n", "hangs_at", starter.hangs);
   if (!starter.order.empty())
     fmt::print("{:<12}{}\n", "order", with_input_unit(starter.order, read.input_facts()));
   if (!r.window.empty() && !a.held_out.empty())
@@ -197,7 +208,9 @@ void add_init(CommandLine& app) {
       "one of torque or force) or left to the fit.\n"
       "--mass with --arm, or --inertia, is what sets the scale where nobody knows torque_constant: it is "
       "then\n"
-      "written as anchor:, and the fit finds torque_constant.\n"
+      "written as anchor:, and the fit finds torque_constant; where an arm hangs down (anchor: hangs_at) is "
+      "read\n"
+      "off the recording or taken as position 0.\n"
       "A gap that the detector does not see (inconclusive) is a GUESS too.\n"
       "--preset dynamixel, feetech, odrive, moteus or twincat declares the columns and units that these "
       "drives "
@@ -211,6 +224,7 @@ void add_init(CommandLine& app) {
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
   command.action([arguments, command] {
+    require_two_recordings(*arguments);
     arguments->options = command.given_options({"--held-out", "--output"});
     const auto all = arguments->recording.each_axis();
     if (const std::string banner = preset_banner(arguments->recording); !banner.empty())

@@ -20,11 +20,13 @@
 namespace gapscope {
 namespace {
 
+using internal::config::anchor_comment;
 using internal::config::anchor_text;
 using internal::config::as_modelled;
 using internal::config::Begin;
 using internal::config::chosen_structure;
 using internal::config::fit_to_structure;
+using internal::config::hanging_told;
 using internal::config::order_told;
 using internal::config::StarterChoice;
 using internal::config::suggest_anchor;
@@ -122,8 +124,11 @@ void write_commanding(YamlWriter& out, const RecordingConfig& recording, bool so
 }
 
 Begin begin_of(const RecordingFacts& f, bool one_body, const std::optional<JointNumbers>& nominal) {
-  if (nominal) return {*nominal, "of joint " + printable(nominal->joint, 40), true};
   Begin begin;
+  if (nominal) {
+    begin.numbers = *nominal, begin.from = "of joint " + printable(nominal->joint, 40), begin.nominal = true;
+    return begin;
+  }
   begin.from = "read, as one body";
   if (one_body && f.inertia > 0.0)  // else the recording is no single body's, and says nothing of the others
     begin.numbers.inertia = f.inertia, begin.numbers.damping = f.damping, begin.numbers.friction = f.friction;
@@ -197,11 +202,21 @@ std::string head(bool guesses, Coordinates coordinates) {
   return out.text();
 }
 
+/// As `check` looks at it, with what the declared unit of the input says.
+Inspection inspected(const RecordingConfig& config, const std::string& path, const ReadOptions& options,
+                     Coordinates coordinates) {
+  Inspection seen = inspect(path, options, coordinates);
+  const bool recorded = options.columns.reads_input() && options.columns.voltage.empty();
+  const Quantity torque = coordinates.rotational() ? Quantity::kTorque : Quantity::kForce;
+  judge_for_unit(recorded ? si_unit(torque, config.units.input) : "", seen);
+  return seen;
+}
+
 /// Of notes that are worth a warning, of what is fitted and what is held out alike.
 void warn_of_notes(const RecordingConfig& config, const RecordedFile& file, Coordinates coordinates,
                    Starter& starter) {
   for (const Finding& f :
-       inspect(file.path, config.reading_of(file, UnevenRows::kStamped), coordinates).findings)
+       inspected(config, file.path, config.reading_of(file, UnevenRows::kStamped), coordinates).findings)
     if (f.warned)
       starter.spoiling.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
 }
@@ -213,7 +228,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   const std::optional<JointNumbers>& nominal = known.nominal;
   const std::string& recording = config.files.front().path;
   ReadOptions& options = config.reading;
-  Inspection seen = inspect(recording, options, coordinates);
+  Inspection seen = inspected(config, recording, options, coordinates);
   if (encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(seen);
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);
@@ -254,10 +269,12 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   write_model(out, choice, begin, coordinates);
   starter.remarks = begin.numbers.notes;
   out.entry("detector", "{bound: auto}");
+  const double hangs_at = seen.facts.hangs_at;
   if (known.anchor)
-    out.entry("anchor", anchor_text(*known.anchor), "known of the drive: sets the scale of all torques");
+    out.entry("anchor", anchor_text(*known.anchor, hangs_at), anchor_comment(*known.anchor, hangs_at));
   else if (!begin.settled())
     suggest_anchor(out, begin.gain_sought, coordinates);
+  if (known.anchor) starter.hangs = hanging_told(*known.anchor, hangs_at);
   starter.guesses = out.text().find("GUESS") != std::string::npos;
   starter.yaml = head(starter.guesses, coordinates) + out.text();
   return starter;

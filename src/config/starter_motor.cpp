@@ -45,7 +45,8 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
     out.entry("torque_constant", "1", std::string("u is in ") + coordinates.torque_unit() + " already");
   else if (begin.numbers.torque_constant > 0.0)
     out.entry("torque_constant", yaml_number(begin.numbers.torque_constant),
-              coordinates.with_units("[N m] per unit of u; ") + begin.from);
+              coordinates.with_units("[N m] per unit of u; ") + begin.from +
+                  (begin.nominal ? "; every number that is fitted goes in proportion to it" : ""));
   else
     out.entry("torque_constant", "{value: 1, guess: true}",
               coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u. "
@@ -57,13 +58,45 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
                   begin.from);
 }
 
-std::string anchor_text(const AnchorConfig& anchor) {
+namespace {
+
+/// About 0 a fit looks that far on its own (anchor_reader.cpp), and so it does about what is read [rad].
+constexpr double kHangsWithin = 0.5;
+
+/// Beyond half of that a start at 0 is nearer to its bound than to where the arm hangs.
+bool hangs_elsewhere(const AnchorConfig& anchor, double hangs_at) {
+  return std::isfinite(anchor.mass) && std::abs(hangs_at) > 0.5 * kHangsWithin;
+}
+
+}  // namespace
+
+std::string hanging_told(const AnchorConfig& anchor, double hangs_at) {
+  if (!hangs_elsewhere(anchor, hangs_at)) return "";
+  return fmt::format("{:.2f} rad, read off the recording: the position at which the arm hangs down",
+                     hangs_at);
+}
+
+std::string anchor_comment(const AnchorConfig& anchor, double hangs_at) {
+  const std::string known = "known of the drive: sets the scale of all torques";
+  if (!std::isfinite(anchor.mass)) return known;
+  if (hangs_elsewhere(anchor, hangs_at))
+    return known + "; hangs_at [rad]: where the arm hangs down, read off the recording, the fit finds it";
+  if (std::isfinite(hangs_at)) return known + "; the arm hangs down at about 0, as the recording shows";
+  return known +
+         "; that the arm hangs down at 0 (within 0.5 rad) the recording does not tell: else add hangs_at: "
+         "its position there [rad], e.g. 3.14";
+}
+
+std::string anchor_text(const AnchorConfig& anchor, double hangs_at) {
   std::string text;
   const auto add = [&](const char* key, double value) {
     if (std::isfinite(value))
       text += (text.empty() ? "" : ", ") + fmt::format("{}: {}", key, yaml_number(value));
   };
   add("mass", anchor.mass), add("arm", anchor.arm);
+  if (hangs_elsewhere(anchor, hangs_at))
+    text += fmt::format(", hangs_at: {{value: {0:.2f}, estimate: true, bounds: [{1:.2f}, {2:.2f}]}}",
+                        hangs_at, hangs_at - kHangsWithin, hangs_at + kHangsWithin);
   add("inertia", anchor.inertia), add("friction", anchor.friction);
   return "{" + text + "}";
 }

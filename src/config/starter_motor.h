@@ -42,8 +42,16 @@ void fit_to_structure(Begin& begin, StarterModel structure);
 /// then begins with what is missing beside them. A range that the input does not exceed is none of them.
 void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates);
 
-/// "{mass: 0.49, arm: 0.1}"
-std::string anchor_text(const AnchorConfig& anchor);
+/// "{mass: 0.49, arm: 0.1}"; with an arm that hangs clearly elsewhere than at 0: "hangs_at: {value: 3.14,
+/// ...}".
+/// @param hangs_at  as the recording shows it [rad]; NaN: it does not
+std::string anchor_text(const AnchorConfig& anchor, double hangs_at = kNaN);
+
+/// What stands beside it, and in what is told of it: where the arm hangs, or that it is taken as 0.
+std::string anchor_comment(const AnchorConfig& anchor, double hangs_at);
+
+/// "hangs at 3.14 rad, ..."; empty: within what is looked about 0, or not seen.
+std::string hanging_told(const AnchorConfig& anchor, double hangs_at);
 
 /// Where torque_constant is a guess: one number with a unit of torque settles it.
 void suggest_anchor(YamlWriter& out, bool gain_sought, Coordinates coordinates);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 namespace gapscope::internal::run {
 
 std::vector<std::string> guess_warnings(const Configuration& c) {
@@ -21,6 +24,25 @@ std::vector<std::string> guess_warnings(const Configuration& c) {
             : fmt::format("{} is a guess ({}), and what is fitted beside it rests on that.", key, number));
   }
   return warnings;
+}
+
+std::string hanging_warning(const Configuration& c, double phase) {
+  constexpr double kEdge = 1e-3;  // of the band: an end that the last steps of a search do not quite reach
+  if (!c.anchor || !(c.anchor->mass > 0.0) || !c.anchor->hangs_at.estimate) return "";
+  const double low = c.anchor->hangs_at.low, high = c.anchor->hangs_at.high, hangs = -phase;
+  if (!(std::min(hangs - low, high - hangs) < kEdge * (high - low))) return "";
+  return fmt::format(
+      "the arm of the anchor ended at the edge of where it may hang ({:.4g} to {:.4g} rad): it hangs "
+      "elsewhere, and no torque, inertia or friction here is right -> anchor: hangs_at: the position at "
+      "which "
+      "the arm hangs down, e.g. {{value: 3.14, estimate: true, bounds: [2.64, 3.64]}} (or a bare number).",
+      low, high);
+}
+
+std::string hanging_warning(const Configuration& c, const ReferenceModel& fitted) {
+  for (const ModelEffect& e : fitted.effects)
+    if (e.entry->name == std::string_view("load_unbalance")) return hanging_warning(c, e.parameters[1].value);
+  return "";
 }
 
 std::optional<InputFacts> known_input(const Configuration& c) {

@@ -23,11 +23,13 @@ namespace {
 /// the detector's concern.
 std::vector<std::string> spoiling(const Configuration& c, const std::vector<RecordedFile>& files) {
   std::vector<std::string> warnings;
-  for (const RecordedFile& file : files)
-    for (const Finding& f :
-         inspect(file.path, c.recording->reading_of(file, UnevenRows::kStamped), c.coordinates).findings)
+  for (const RecordedFile& file : files) {
+    Inspection seen = inspect(file.path, c.recording->reading_of(file, UnevenRows::kStamped), c.coordinates);
+    judge_for_unit(c.input_facts().unit, seen);
+    for (const Finding& f : seen.findings)
       if ((f.severity == Severity::kSpoils || f.warned) && f.rule != kReversalsRule)
         warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
+  }
   return warnings;
 }
 
@@ -154,6 +156,8 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   d.better_swapped = swapped;
   const std::vector<std::string> guesses = internal::run::guess_warnings(c);
   warnings.insert(warnings.end(), guesses.begin(), guesses.end());
+  if (std::string hangs = internal::run::hanging_warning(c, d.fitted); !hangs.empty())
+    warnings.push_back(std::move(hangs));
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
   for (std::string& warning : d.warnings) warning = with_input_unit(warning, c.input_facts());
   if (!simulated.empty() && finish_requested())

@@ -236,6 +236,9 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
   if (r.reference) append(out.warnings, texts_of(r.reference->warnings));
   if (r.reference) append(out.warnings, internal::run::guess_warnings(c));
+  if (const FittedParameter* p = r.reference ? r.reference->find("load_unbalance.phase_rad") : nullptr)
+    if (std::string hangs = internal::run::hanging_warning(c, p->value); !hangs.empty())
+      out.warnings.push_back(std::move(hangs));
   for (std::string& warning : out.warnings) warning = with_input_unit(warning, c.input_facts());
   if (r.model_free && r.reference) r.comparison = compare(*r.model_free, *r.reference);
   if (r.comparison) r.comparison->map_width = map_width(r.recordings);

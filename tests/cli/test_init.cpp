@@ -129,7 +129,9 @@ TEST(Init, BeginsWithTheNumbersOfAMuJoCoModel) {
   EXPECT_EQ(init.status, 0) << init.err;
   const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
   EXPECT_THAT(yaml, HasSubstr("joint elbow of robot.xml"));
-  EXPECT_THAT(yaml, HasSubstr("torque_constant: 0.172"));
+  EXPECT_THAT(yaml,
+              HasSubstr("torque_constant: 0.172  # N m per unit of u; of joint elbow; every number that is "
+                        "fitted goes in proportion to it"));
   EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.003, estimate: true}"));
   EXPECT_THAT(yaml, HasSubstr("motor_damping: {value: 0.05, estimate: true}"));
   EXPECT_THAT(yaml, HasSubstr("- motor_coulomb_friction: {level_nm: {value: 0.02, estimate: true}}"));

@@ -51,8 +51,70 @@ TEST(InitDoubts, ANumberInAnotherUnitIsAskedFor) {
   EXPECT_THAT(warned("--mass 0.5 --arm 105"), HasSubstr("warning: --arm: 105 m? 105 mm is 0.105\n"));
   EXPECT_THAT(warned("--mass 1500 --arm 0.1"), HasSubstr("warning: --mass: 1500 kg? 1500 g is 1.5\n"));
   EXPECT_THAT(warned("--inertia 250"), HasSubstr("warning: --inertia: 250 kg m^2? 250 kg cm^2 is 0.025\n"));
+  EXPECT_THAT(warned("--mass 490 --arm 10"), AllOf(HasSubstr("warning: --mass: 490 kg? 490 g is 0.49\n"),
+                                                   HasSubstr("warning: --arm: 10 m? 10 cm is 0.1\n")));
   EXPECT_THAT(warned("--mass 0.5 --arm 0.105"), Not(HasSubstr("?")));
   EXPECT_THAT(warned("--inertia 1e-3"), Not(HasSubstr("?")));
+}
+
+/// Of an arm on a servo whose position 0 is not where it hangs.
+TEST(InitDoubts, WhereAnArmHangsIsReadOffTheRecording) {
+  Workplace place;
+  const auto pendulum = [](double hangs, bool switched_off) {
+    std::string csv = "t,u,x1\n";
+    for (int i = 0; i < 4000; ++i) {
+      const double t = 0.002 * i, w = 3.6 * std::cos(3.0 * t) + 2.8 * std::cos(7.0 * t);
+      const double a = -10.8 * std::sin(3.0 * t) - 19.6 * std::sin(7.0 * t);
+      const double x = 1.2 * std::sin(3.0 * t) + 0.4 * std::sin(7.0 * t);
+      const double u = switched_off && i >= 2000 ? 0.0 : 0.02 * a + 0.03 * w + 0.7 * std::sin(x);
+      csv += fmt::format("{:.3f},{:.8f},{:.8f}\n", t, u, x + hangs);
+    }
+    return csv;
+  };
+  place.file("pi.csv", pendulum(3.14, false));
+  place.file("zero.csv", pendulum(0.0, false));
+  place.file("off.csv", pendulum(0.0, true));
+  const auto written = [&](const std::string& name) {
+    const auto init = place.run("init " + name + ".csv --model one_body --mass 0.7 --arm 0.1");
+    EXPECT_EQ(init.status, 0) << init.err;
+    return std::pair(init.out, testing::text_of(place.folder() / (name + ".yaml")));
+  };
+  const auto [told, pi] = written("pi");
+  EXPECT_THAT(told, HasSubstr("hangs_at    3.14 rad, read off the recording"));
+  EXPECT_THAT(pi, HasSubstr("anchor: {mass: 0.7, arm: 0.1, hangs_at: {value: 3.14, estimate: true, bounds: "
+                            "[2.64, 3.64]}}"));
+  const auto [quiet, zero] = written("zero");
+  EXPECT_THAT(quiet, Not(HasSubstr("hangs_at")));
+  EXPECT_THAT(zero, HasSubstr("the arm hangs down at about 0, as the recording shows"));
+  EXPECT_THAT(written("off").second, HasSubstr("the recording does not tell: else add hangs_at:"));
+  EXPECT_THAT(place.run("init --help").out, HasSubstr("anchor: hangs_at"));
+}
+
+TEST(InitDoubts, AGoalIsNoInput) {
+  Workplace place;
+  std::string csv = "t,goal,x1\n";
+  for (int i = 0; i < 3000; ++i)
+    csv += fmt::format("{:.3f},{:.6f},{:.8f}\n", 1e-3 * i, std::sin(9e-3 * (i + 10)), std::sin(9e-3 * i));
+  place.file("r.csv", csv);
+  const auto check = place.run("check r.csv --input goal");
+  EXPECT_EQ(check.status, 3);
+  EXPECT_THAT(check.out, HasSubstr("a commanded position"));
+  const auto init = place.run("init r.csv --input goal --model one_body");
+  EXPECT_EQ(init.status, 0);
+  EXPECT_THAT(init.err, HasSubstr("such a column belongs under --target"));
+}
+
+TEST(InitDoubts, WhatIsRefusedSaysWhatToDo) {
+  Workplace place;
+  place.file("r.csv", with_temperature());
+  EXPECT_THAT(place.run("init r.csv --encoder-side load").err,
+              AllOf(HasSubstr("expected a header with the columns t, u, x2;"), HasSubstr("--position x1")));
+  EXPECT_THAT(place.run("init r.csv --held-out ./r.csv").err,
+              HasSubstr("--held-out is ./r.csv, the recording itself"));
+  EXPECT_THAT(place.run("diagnose r.yaml --held-out h.csv").err, HasSubstr("--set recording.held_out=FILE"));
+  ASSERT_EQ(place.run("init r.csv --model one_body").status, 0);
+  EXPECT_THAT(place.run("init r.csv --model one_body").err,
+              AllOf(HasSubstr("r.yaml: is there already"), HasSubstr("or that it is deleted first")));
 }
 
 /// The window of a configuration is of each of its files, and who cuts one is told of the other.
