@@ -52,6 +52,10 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
       app.get_subcommands().empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   std::string what = no_command ? "there is no command" : error.what();
   std::replace(what.begin(), what.end(), '\n', ' ');
+  const bool has_settings = !app.get_subcommands().empty() &&
+                            app.get_subcommands().front()->get_option_no_throw("--set") != nullptr;
+  if (has_settings && what.find("--held-out") != what.npos)
+    what += " (the recording that is held out is the configuration's: --set recording.held_out=FILE)";
   return what;
 }
 

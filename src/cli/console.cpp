@@ -154,7 +154,10 @@ void print_card(const Card& card, const ToldConfiguration& c, const std::string&
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool further = !card.diagnosed && &l.text == &card.place;
     const std::string text =
-        further ? "Where, cause and what helps: run `gapscope diagnose CONFIG`." : l.brief;
+        !further             ? l.brief
+        : c.to_begin.empty() ? "Where, cause and what helps: run `gapscope diagnose CONFIG`."
+                             : "Where, cause and what helps take a model: run `gapscope init " + c.to_begin +
+                                   "`, which writes a first one, then `gapscope diagnose` with that.";
     const bool goes_on = text.find(" --model-from ") != text.npos;  // and names a folder of its own
     const Placeholder all[] = {{"DIR", folder},
                                {"CONFIG", c.file, c.settings + (goes_on ? "" : c.model + c.folder)}};

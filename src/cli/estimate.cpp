@@ -11,6 +11,7 @@
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/plain_name.h"
+#include "gapscope/base/shell_word.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/commands/axis.h"
 #include "gapscope/report/changes_report.h"
@@ -38,7 +39,9 @@ void estimate(const EstimateArguments& a, const Configuration& c, const std::str
   progress("drawing the report");
   write_estimate(report, c, a.figures, outcome);
   print_warnings(outcome.warnings);
-  print_headline(folder, outcome.result, a.config.told(a.folder, axis));
+  ToldConfiguration told = a.config.told(a.folder, axis);
+  if (!c.model.given) told.to_begin = c.recording ? shell_word(c.recording->files.front().path) : "RECORDING";
+  print_headline(folder, outcome.result, told);
 }
 
 std::string folder_of(const EstimateArguments& a, const Configuration& c) {

@@ -221,9 +221,10 @@ std::string require_file_name(const std::string& file, const std::vector<std::st
   if (!parent.empty() && !fs::is_directory(parent, problem))
     throw ConfigError(file, "cannot be written there, expected a folder that exists");
   if (fs::is_regular_file(there) && fs::file_size(file, problem) > 0 && !is_own(file))
-    throw ConfigError(file,
-                      "is there already, expected another name (-o FILE) or that it is moved away: this "
-                      "command did not write it");
+    throw ConfigError(
+        file,
+        "is there already, expected another name (-o FILE), or that it is deleted first: it is not "
+        "overwritten");
   return found;
 }
 

@@ -117,10 +117,14 @@ int CsvRow::place(const std::string& name, bool required) const {
     if (!required) return -1;
     const auto meant = std::find_if(fields_.begin(), fields_.end(),
                                     [&](std::string_view column) { return may_be_meant(column, name); });
+    const bool of_motor = meant == fields_.end() && name == "x2" && name == columns_.position &&
+                          std::find(fields_.begin(), fields_.end(), "x1") != fields_.end();
     fail(fmt::format(
         "there is no column {} among {}, expected a header with {}; other names{} are declared ({})",
         shown(name), there(), wanted_with(name),
-        meant == fields_.end() ? "" : fmt::format(", perhaps {} here,", shown(*meant)),
+        of_motor                 ? ", perhaps x1 here (--position x1),"
+        : meant == fields_.end() ? ""
+                                 : fmt::format(", perhaps {} here,", shown(*meant)),
         "recording: columns, or --time, --input, --position"));
   }
   if (std::find(found + 1, fields_.end(), name) != fields_.end())
@@ -129,8 +133,9 @@ int CsvRow::place(const std::string& name, bool required) const {
 }
 
 std::string CsvRow::wanted_with(const std::string& name) const {
-  const bool further = name == columns_.load_position || name == columns_.voltage ||
-                       (name == columns_.target && columns_.reads_input());
+  const bool one_of_three = name == columns_.position;  // of an encoder on the load alone
+  const bool further = !one_of_three && (name == columns_.load_position || name == columns_.voltage ||
+                                         (name == columns_.target && columns_.reads_input()));
   return further ? wanted() + ", " + name : wanted();
 }
 

@@ -50,6 +50,18 @@ TEST(ToldCommands, ARunSendsToTheDiagnosisInItsCardAlone) {
   EXPECT_EQ(times(run.out, "gapscope diagnose"), times(run.out, "`gapscope diagnose c.yaml`")) << run.out;
 }
 
+/// A recording without a model is sent to the command that writes one: `diagnose` of it would be refused.
+TEST(ToldCommands, ARunWithoutAModelSendsToInit) {
+  Workplace place;
+  place.file("c.yaml", kRigWithFriction);
+  ASSERT_EQ(place.run("simulate c.yaml -o r.csv").status, 0);
+  place.file("d.yaml", "name: bare\nrecording: {file: r.csv}\n");
+  const auto detect = place.run("detect d.yaml");
+  ASSERT_EQ(detect.status, 0) << detect.err;
+  EXPECT_THAT(detect.out, AllOf(HasSubstr("take a model: run `gapscope init "), HasSubstr("r.csv`")));
+  EXPECT_THAT(detect.out, Not(HasSubstr("gapscope diagnose d.yaml")));
+}
+
 // A step that is pasted does what was done: with the settings and into the folder that were given.
 TEST(ToldCommands, ATerminalRepeatsTheOptionsThatWereGiven) {
   Workplace place;

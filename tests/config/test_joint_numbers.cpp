@@ -159,6 +159,8 @@ TEST(JointNumbers, AreRefusedWithWhatWasExpected) {
   EXPECT_THAT(refused("<mujoco/>", "knee"), HasSubstr("expected one of: none"));
   EXPECT_THAT(refused("<sdf/>", "knee"), HasSubstr("begins with <sdf>, expected <mujoco> or <robot>"));
   EXPECT_THAT(refused("no XML", "knee"), HasSubstr("cannot be read as XML"));
+  EXPECT_THAT(refusal([] { joint_numbers("/nowhere/robot.xml", "knee"); }),
+              HasSubstr("/nowhere/robot.xml: cannot be opened"));
   EXPECT_THAT(
       refused("<mujoco><worldbody><body><joint name=\"a\" damping=\"soft\"/></body></worldbody></mujoco>",
               "a"),
