@@ -21,6 +21,10 @@ std::vector<Setting> ConfigArguments::settings() const {
   return all;
 }
 
+std::vector<Setting> ConfigArguments::simulated_settings() const {
+  return over_both_models(file, settings());
+}
+
 ToldConfiguration ConfigArguments::told(const std::string& folder, const std::string& axis) const {
   ToldConfiguration told{file};
   for (const std::string& text : set) told.settings += " --set " + shell_word(text);
@@ -59,11 +63,10 @@ std::string simulated_part(const Configuration& c) {
   return all.substr(from, to - from);
 }
 
-}  // namespace
-
+/// Warns of each `--set model...` that the simulated drive does not see: a fitted.yaml's sees them all.
 void warn_of_idle_settings(const ConfigArguments& arguments, const Configuration& c) {
-  if (!c.simulation) return;
   const std::vector<Setting> settings = arguments.settings();
+  if (!c.simulation || arguments.simulated_settings().size() > settings.size()) return;
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (!settings[i].key.starts_with("model.")) continue;
     std::vector<Setting> others = settings;
@@ -76,10 +79,23 @@ void warn_of_idle_settings(const ConfigArguments& arguments, const Configuration
   }
 }
 
-void with_configuration(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work) {
-  const std::vector<Setting> settings = arguments.settings();
+void with_settings(const std::string& file, const std::vector<Setting>& settings,
+                   const std::function<void(Configuration&)>& work) {
   telling_settings(settings, [&] {
-    Configuration c = load_configuration(arguments.file, settings);
+    Configuration c = load_configuration(file, settings);
+    work(c);
+  });
+}
+
+}  // namespace
+
+void with_configuration(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work) {
+  with_settings(arguments.file, arguments.settings(), work);
+}
+
+void with_simulated_drive(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work) {
+  with_settings(arguments.file, arguments.simulated_settings(), [&](Configuration& c) {
+    warn_of_idle_settings(arguments, c);
     work(c);
   });
 }

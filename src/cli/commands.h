@@ -58,6 +58,8 @@ struct ConfigArguments {
   std::string model_from = "";        ///< another configuration, whose model stands in place of this one's
 
   std::vector<Setting> settings() const;  ///< @throws ConfigError
+  /// The same for what is simulated: of a `fitted.yaml`, which has its drive twice, over both.
+  std::vector<Setting> simulated_settings() const;  ///< @throws ConfigError
   /// As it is told in a command.
   /// @param folder  of -o; empty: none was given
   /// @param axis    of --axis; empty: none was given
@@ -68,11 +70,12 @@ struct ConfigArguments {
 void add_config_arguments(CommandLine& command, ConfigArguments& arguments, const char* name = "CONFIG",
                           const char* what = kConfigHelp);
 
-/// Warns of each `--set model...` that the simulated drive does not see.
-void warn_of_idle_settings(const ConfigArguments& arguments, const Configuration& c);
-
 /// Does the work with the configuration and its settings; what is wrong with a setting names it.
 void with_configuration(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work);
+
+/// The same with the drive that is simulated, or exported; warns of each `--set model...` that it does not
+/// see.
+void with_simulated_drive(const ConfigArguments& arguments, const std::function<void(Configuration&)>& work);
 
 /// In place of a number that the fit finds.
 inline constexpr const char* kSought = "estimate";

@@ -95,10 +95,7 @@ void add_drive_export(CommandLine& app) {
   command.action([arguments] {
     const ConfigArguments source{exported_configuration(arguments->source.file), arguments->source.set,
                                  arguments->source.model_from};
-    with_configuration(source, [&](const Configuration& c) {
-      warn_of_idle_settings(source, c);
-      export_configuration(*arguments, c);
-    });
+    with_simulated_drive(source, [&](const Configuration& c) { export_configuration(*arguments, c); });
   });
 }
 

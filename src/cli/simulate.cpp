@@ -76,10 +76,7 @@ void add_simulate(CommandLine& app) {
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(details());
   command.action([arguments] {
-    with_configuration(arguments->config, [&](const Configuration& c) {
-      warn_of_idle_settings(arguments->config, c);
-      simulate_to_file(*arguments, c);
-    });
+    with_simulated_drive(arguments->config, [&](const Configuration& c) { simulate_to_file(*arguments, c); });
   });
 }
 

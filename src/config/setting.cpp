@@ -190,6 +190,25 @@ std::vector<Setting> model_from(const std::string& file) {
   return all;
 }
 
+std::vector<Setting> over_both_models(const std::string& file, const std::vector<Setting>& settings) {
+  using internal::config::parse_tree;
+  const auto of_model = [](const Setting& s) { return s.key == "model" || s.key.starts_with("model."); };
+  if (std::none_of(settings.begin(), settings.end(), of_model)) return settings;
+  const YAML::Node root = parse_tree(internal::config::read_text(file), file);
+  const auto has = [](const YAML::Node& map, const char* key) { return map.IsMap() && map[key].IsDefined(); };
+  if (!has(root, "model") || !has(root, "simulation") || !has(root["simulation"], "model") ||
+      YAML::Dump(root["model"]) != YAML::Dump(root["simulation"]["model"]))
+    return settings;
+  std::vector<Setting> both;
+  for (const Setting& s : settings) {
+    both.push_back(s);
+    if (!of_model(s)) continue;
+    const std::string place = s.place.empty() ? "--set " + s.key : s.place;
+    both.push_back({"simulation." + s.key, s.yaml, place, s.removed, false});
+  }
+  return both;
+}
+
 void telling_settings(std::span<const Setting> settings, const std::function<void()>& work) {
   try {
     work();

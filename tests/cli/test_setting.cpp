@@ -53,6 +53,31 @@ TEST(SettingOption, ThatTheSimulatedDriveDoesNotSeeIsWarnedOf) {
   EXPECT_NE(text_of(place.folder() / "seen.csv"), text_of(place.folder() / "idle.csv"));
 }
 
+/// A fitted.yaml has its drive twice, and who sets a number of the model means the drive.
+TEST(SettingOption, OfTheModelActsOnWhatAFittedConfigurationSimulatesAndExports) {
+  Workplace place;
+  const std::string model =
+      "{parameters: {motor_inertia: 0.001, torque_constant: 1, mass_ratio: 0, motor_damping: 0.01}}";
+  const std::string fitted =
+      "name: quick_fitted\nencoder: {bits: 18}\nsimulation: {rate: 500, duration: 2, excitation: {sine: "
+      "{amplitude: 0.5, frequency: 1}}, model: " +
+      model + "}\nmodel: " + model + "\n";
+  place.file("fitted.yaml", fitted);
+  place.file("other.yaml", replaced(fitted, "0.01", "0.03"));
+  const auto set = place.run("simulate fitted.yaml --set model.parameters.motor_damping=0.03 -o set.csv");
+  EXPECT_EQ(set.status, 0);
+  EXPECT_EQ(set.err, "");
+  ASSERT_EQ(place.run("simulate other.yaml -o other.csv").status, 0);
+  EXPECT_EQ(text_of(place.folder() / "set.csv"), text_of(place.folder() / "other.csv"));
+  for (const char* key : {"model.parameters.motor_damping", "simulation.model.parameters.motor_damping"}) {
+    ASSERT_EQ(place.run(std::string("export fitted.yaml --to mjcf -o m --set ") + key + "=0.03").status, 0);
+    EXPECT_THAT(text_of(place.folder() / "m/quick.xml"), ::testing::HasSubstr("damping=\"0.03\"")) << key;
+  }
+  const auto wrong = place.run("simulate fitted.yaml --set model.parameters.gapp=1 -o wrong.csv");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, ::testing::HasSubstr("--set model.parameters.gapp: "));
+}
+
 TEST(SvgOption, DrawsEachFigureTwiceAndTheNextReportTidiesUp) {
   Workplace place;
   place.file("c.yaml", drive("3", "18"));

@@ -25,6 +25,11 @@ Setting read_setting(const std::string& text);
 /// @throws ConfigError where the file is none, or has no model
 std::vector<Setting> model_from(const std::string& file);
 
+/// Of a configuration that has one drive twice, as a `fitted.yaml` has it (model: and simulation: model
+/// alike), each setting of `model` is laid over both; of any other one they are as they were.
+/// @throws ConfigError where the file is none
+std::vector<Setting> over_both_models(const std::string& file, const std::vector<Setting>& settings);
+
 /// Does the work, in which what is wrong with a setting is told of `--set KEY` in place of a file and line,
 /// also where it shows long after the configuration was read.
 void telling_settings(std::span<const Setting> settings, const std::function<void()>& work);
