@@ -44,7 +44,7 @@ Panel time_panel(const std::string& title, const Axis& y, const MismatchTrace& t
   panel.x = {
       "time $t$", "s", {t.time(std::min(t.scored_from, t.x1.size() - 1)), t.time(t.x1.size() - 1)}, {}, {}};
   panel.y = y;
-  panel.height = 400.0;
+  panel.height = 460.0;  // a correcting torque in mN·m is named in one line
   return panel;
 }
 

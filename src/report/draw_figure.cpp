@@ -6,7 +6,8 @@
 namespace gapscope::internal::report {
 namespace {
 
-constexpr double kBetween = 34.0;  // rows, and columns
+constexpr double kBetween = 34.0;         // rows
+constexpr double kBetweenColumns = 90.0;  // an upright label is nearer to its own numbers than to a neighbour
 constexpr double kFarFromTicks = 120.0;
 
 /// Everything in its place: the frames of a column begin at one line, those of a row share their upper edge.
@@ -49,9 +50,14 @@ std::vector<Margins> panel_margins(const FigureData& figure, const Typesetter& t
 }
 
 /// Where a panel's y label stands, from its frame: in line with those of its column, unless that is far from
-/// its ticks.
-double label_margin(const Panel& panel, double of_column, const Typesetter& typesetter) {
-  const double own = side_margins(panel, typesetter).left;
+/// its ticks. Names of categories, which no label stands beside, move none.
+double label_margin(const FigureData& figure, std::size_t of, const Typesetter& typesetter) {
+  const auto columns = static_cast<std::size_t>(figure.columns);
+  const double own = side_margins(figure.panels[of], typesetter).left;
+  double of_column = own;
+  for (std::size_t i = of % columns; i < figure.panels.size(); i += columns)
+    if (figure.panels[i].y.categories.empty())
+      of_column = std::max(of_column, side_margins(figure.panels[i], typesetter).left);
   return of_column - own > kFarFromTicks ? own : of_column;
 }
 
@@ -59,8 +65,8 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
   FigurePlan plan;
   plan.margins = panel_margins(figure, typesetter);
   const auto columns = static_cast<std::size_t>(figure.columns);
-  const double column_width =
-      (figure.width - 2 * kRim - kBetween * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+  const double column_width = (figure.width - 2 * kRim - kBetweenColumns * static_cast<double>(columns - 1)) /
+                              static_cast<double>(columns);
   for (const std::string& line : figure.lines)
     for (std::string& part : typesetter.wrapped(line, figure.width - 2 * kRim, kTextSize))
       plan.lines.push_back(part);
@@ -80,7 +86,7 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
     }
     for (std::size_t i = first; i < end; ++i)
       plan.corners.push_back(
-          {kRim + static_cast<double>(i % columns) * (column_width + kBetween) + plan.margins[i].left,
+          {kRim + static_cast<double>(i % columns) * (column_width + kBetweenColumns) + plan.margins[i].left,
            y + above});
     y += above + below + kBetween;
   }
@@ -97,8 +103,8 @@ void paint(Canvas& canvas, const FigureData& figure, const FigurePlan& plan, con
                            (0.9 + 1.35 * static_cast<double>(i)) * kTextSize},
                 plan.lines[i], {kTextSize});
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
-    draw_panel(canvas, figure.panels[i], plan.panels[i], plan.corners[i],
-               label_margin(figure.panels[i], plan.margins[i].left, typesetter), typesetter);
+    draw_panel(canvas, figure.panels[i], plan.panels[i], plan.corners[i], label_margin(figure, i, typesetter),
+               typesetter);
 }
 
 }  // namespace

@@ -54,13 +54,16 @@ Series entry(const std::string& label, const Colour& colour) {
 
 struct Floor {
   const char* name;
+  const char* legend;  ///< what its line means
   double size;
 };
 
 /// Those that are there, the largest first.
 std::vector<Floor> floors_of(const ErrorBudget& b) {
   std::vector<Floor> floors = {
-      {"repeatability", b.repeatability}, {"encoder", b.encoder}, {"recordings disagree", b.records}};
+      {"repeatability", "floor: the drive repeats itself no closer", b.repeatability},
+      {"encoder", "floor: the encoder resolves no less", b.encoder},
+      {"recordings disagree", "floor: recordings disagree by this", b.records}};
   std::erase_if(floors, [](const Floor& f) { return !(f.size > 0.0); });
   std::stable_sort(floors.begin(), floors.end(),
                    [](const Floor& one, const Floor& other) { return one.size > other.size; });
@@ -112,7 +115,10 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
   };
   if (has(true)) panel.series.push_back(entry("taken by an effect that was added", kBlue));
   if (has(false)) panel.series.push_back(entry("taken by a law that this model cannot have", kGrey));
-  if (seen) panel.x_marks.push_back({floors.front().size, guide_style(), floors.front().name});
+  if (seen) {
+    panel.x_marks.push_back({floors.front().size, guide_style(), ""});
+    panel.series.push_back({floors.front().legend, guide_style(), {kNaN}, {kNaN}});
+  }
   panel.height = 90.0 + 64.0 * row;
   figure.width = 2000.0;
   figure.panels.push_back(panel);

@@ -119,6 +119,13 @@ std::string law_table(const DiagnosisResult& r) {
         r.coordinates.torque_word(), quantity(law.before_torque, r.coordinates.shown_unit("N m")),
         quantity(law.after_torque, r.coordinates.shown_unit("N m")), compensation_name(law),
         r.coordinates.torque_word());
+    if (law.variable == "input")
+      text +=
+          "Its scale is a convention: the curve changes nothing at the largest input, and all numbers of the "
+          "model in `fitted_with_law.yaml` go with that. A drive that lacks torque only at large inputs has "
+          "all "
+          "of them, and the curve, too large by one factor: the table serves with the numbers of that file, "
+          "not with those of a sheet.\n";
     if (law.variable == "position")
       text +=
           "An incremental encoder counts from where it was switched on: after that the table has to be "

@@ -76,6 +76,32 @@ TEST(Drawing, BreaksALabelOrATitleThatIsTooLong) {
   EXPECT_EQ(draw_with_notes(figure).plans[0].y.lines.size(), 1u);
 }
 
+/// Names of categories below a panel do not push its label towards the panel at its left.
+TEST(Drawing, KeepsALabelNearerToItsNumbersThanToItsNeighbour) {
+  FigureData figure;
+  figure.width = 3200.0, figure.columns = 2;
+  for (int i = 0; i < 4; ++i) {
+    Panel& panel = figure.panels.emplace_back();
+    panel.height = 460.0;
+    panel.x = {"time $t$", "s", {0.0, 1.0}, {}, {}};
+    if (i == 3)
+      panel.y.categories = {"backward", "forward"};
+    else
+      panel.y = {"correcting torque", "N·m", {-0.05, 0.05}, {}, {}};
+  }
+  const Drawing drawing = draw_with_notes(figure);
+  expect_clear_texts(figure, drawing);
+  EXPECT_EQ(drawing.plans[1].y.lines.size(), 1u);
+  int labels = 0;
+  for (const DrawnText& text : drawing.texts) {
+    if (!text.markup.starts_with("correcting torque") || text.box.x < drawing.frames[0].right()) continue;
+    ++labels;
+    EXPECT_LT(drawing.frames[1].x - text.box.right(), 130.0) << "the numbers and two spaces";
+    EXPECT_GT(text.box.x - drawing.frames[0].right(), 110.0);
+  }
+  EXPECT_EQ(labels, 1);
+}
+
 /// The room above the frame is as wide as the frame and what stands at its right.
 TEST(Drawing, BreaksNoTitleThatHasRoomBesideTheFrame) {
   FigureData figure;

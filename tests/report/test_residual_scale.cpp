@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "report/budget_band.h"
@@ -143,6 +144,15 @@ TEST(ResidualScale, TheBudgetShowsItsFloorOrSaysThatItLiesOutside) {
   FigureData figure = diagnosis_budget(r);
   ASSERT_EQ(figure.panels[0].x_marks.size(), 1u);
   EXPECT_GE(figure.panels[0].x.range.high, 1.5);
+  const auto in_legend = [&](const char* label) {
+    return std::any_of(figure.panels[0].series.begin(), figure.panels[0].series.end(),
+                       [&](const Series& s) { return s.label == label; });
+  };
+  EXPECT_TRUE(in_legend("floor: the encoder resolves no less"));
+  r.diagnosis.budget.records = 1.6;
+  figure = diagnosis_budget(r);
+  EXPECT_TRUE(in_legend("floor: recordings disagree by this"));
+  r.diagnosis.budget.records = kNaN;
   r.diagnosis.budget.encoder = 40.0;
   figure = diagnosis_budget(r);
   EXPECT_TRUE(figure.panels[0].x_marks.empty());
