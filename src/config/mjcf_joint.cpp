@@ -132,6 +132,17 @@ void read_neighbour(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
     }
 }
 
+/// Where another body on the same axis would stand.
+void read_place(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
+  for (const char* key : {"pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"})
+    if (const char* value = joint.Parent()->ToElement()->Attribute(key); value != nullptr)
+      n.body_place += fmt::format(" {}=\"{}\"", key, value);
+  const Eigen::Vector3d axis = three_of(m, joint, "axis", Eigen::Vector3d::UnitZ()),
+                        at = three_of(m, joint, "pos");
+  n.axis_place = fmt::format("axis=\"{} {} {}\"", axis.x(), axis.y(), axis.z());
+  if (at.norm() > 0.0) n.axis_place += fmt::format(" pos=\"{} {} {}\"", at.x(), at.y(), at.z());
+}
+
 }  // namespace
 
 JointNumbers mjcf_joint(const XMLElement& mujoco, const std::string& file, const std::string& name) {
@@ -139,6 +150,7 @@ JointNumbers mjcf_joint(const XMLElement& mujoco, const std::string& file, const
   const XMLElement* joint = joint_named(m, name);
   if (joint == nullptr) no_such_joint(mujoco, file, name);
   JointNumbers n;
+  read_place(m, *joint, n);
   n.slides = has_attribute(joint, "type", "slide");
   n.body_inertia = body_inertia_of(m, *joint, n.notes);
   n.inertia = inertia_with(m, *joint, n.body_inertia);

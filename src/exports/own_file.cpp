@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kShown = 1e-3;  // of an amount, as far as it is told apart from the file's
 
+// Numbers to paste are told in eight digits: what that rounds off, 5e-8 of them, is a tenth or less of the
+// intervals, which of noise-free recordings are as narrow as 1e-6 of a number.
+
 /// Gravity's torque −G sin(q + phase).
 struct Gravity {
   double size = 0.0, phase = 0.0;  ///< [N m, rad]
@@ -60,19 +63,19 @@ MovedCentre moved_centre(const HangingBody& body, const Gravity& has, const Grav
   return moved;
 }
 
-/// Three numbers, of four digits in the largest of them.
+/// Three numbers, of eight digits in the largest of them.
 std::string place_words(const std::array<double, 3>& place) {
   double largest = 0.0;
   for (const double p : place) largest = std::max(largest, std::abs(p));
-  const double unit = largest > 0.0 ? std::pow(10.0, std::floor(std::log10(largest)) - 3.0) : 1.0;
+  const double unit = largest > 0.0 ? std::pow(10.0, std::floor(std::log10(largest)) - 7.0) : 1.0;
   std::string text;
   for (const double p : place)
-    text += fmt::format("{}{:.4g}", text.empty() ? "" : " ", std::round(p / unit) * unit + 0.0);
+    text += fmt::format("{}{:.8g}", text.empty() ? "" : " ", std::round(p / unit) * unit + 0.0);
   return text;
 }
 
 std::string gravity_words(const Gravity& g) {
-  return g.size > 0.0 ? fmt::format("{:.4g} N m at phase {:.4g} rad", g.size, g.phase) : "none";
+  return g.size > 0.0 ? fmt::format("{:.8g} N m at phase {:.8g} rad", g.size, g.phase) : "none";
 }
 
 /// The body that has to change for the drive's gravity, and to what; nothing: it is right, or not known how.
@@ -93,10 +96,10 @@ struct OwnBody {
 std::string inertial_words(const HangingBody& body, const MovedCentre& moved) {
   const auto& t = body.inertia;
   const std::string inertia = body.by_geoms
-                                  ? fmt::format(" fullinertia=\"{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}\"",
+                                  ? fmt::format(" fullinertia=\"{:.8g} {:.8g} {:.8g} {:.8g} {:.8g} {:.8g}\"",
                                                 t[0], t[1], t[2], t[3], t[4], t[5])
                                   : "";
-  return fmt::format("<inertial pos=\"{}\" mass=\"{:.6g}\"{}/> in {}{} (its centre is at {})",
+  return fmt::format("<inertial pos=\"{}\" mass=\"{:.8g}\"{}/> in {}{} (its centre is at {})",
                      place_words(moved.place), body.mass, inertia, body.name,
                      body.by_geoms ? ", in place of the mass of its geoms" : ", what else it has as it is",
                      place_words(body.centre));
@@ -106,9 +109,9 @@ std::string inertial_words(const HangingBody& body, const MovedCentre& moved) {
 std::string turned_words(const JointNumbers& own, const OwnBody& body) {
   if (body.has.size > 0.0 && body.found.size > 0.0)
     return fmt::format(
-        "turn the centre of what hangs on {} by {:.4g} rad about its axis, and the mass, or its distance "
+        "turn the centre of what hangs on {} by {:.8g} rad about its axis, and the mass, or its distance "
         "from "
-        "the axis, times {:.3f} (what inertia that adds about the axis: off the armature)",
+        "the axis, times {:.8g} (what inertia that adds about the axis: off the armature)",
         own.joint, std::remainder(body.found.phase - body.has.phase, 2.0 * kPi),
         body.found.size / body.has.size);
   return fmt::format(
@@ -167,9 +170,29 @@ struct Armature {
 
 std::string joint_words(const MujocoDrive& d, std::size_t side, const Armature& armature) {
   const double friction = d.friction[side];
-  return fmt::format("armature=\"{:.6g}\" damping=\"{:.6g}\" {}", std::max(0.0, armature.value),
+  return fmt::format("armature=\"{:.8g}\" damping=\"{:.8g}\" {}", std::max(0.0, armature.value),
                      d.damping[side],
-                     friction > 0.0 ? dry_friction(fmt::format("{:.6g}", friction)) : "frictionloss=\"0\"");
+                     friction > 0.0 ? dry_friction(fmt::format("{:.8g}", friction)) : "frictionloss=\"0\"");
+}
+
+/// Whether the file has no joint for the motor of a drive with a gap: its one is the load's.
+bool lacks_the_motor(const ExportSource& s, const MujocoDrive& d) {
+  return is_two(d) && s.own && s.own->of_mjcf && s.own->load_joint.empty();
+}
+
+std::string motor_of(const JointNumbers& own) { return own.joint + "_motor"; }
+
+/// The body that a file of one joint needs for a gap, as the exported file has it, beside the load's.
+std::string motor_body(const JointNumbers& own, const MujocoDrive& d) {
+  constexpr double kNoMass = 1e-3;  // kg: a hinge asks for inertia alone, MuJoCo for a mass as well
+  const double inertia = d.inertia[0], friction = d.friction[0];
+  return fmt::format(
+      "beside the body of {0}: <body name=\"{1}\"{2}><inertial pos=\"0 0 0\" mass=\"{3:.8g}\" "
+      "diaginertia=\"{4:.8g} {4:.8g} {4:.8g}\"/><joint name=\"{1}\" type=\"{5}\" {6} damping=\"{7:.8g}\" "
+      "{8}/></body>",
+      own.joint, motor_of(own), own.body_place, own.slides ? inertia : kNoMass, inertia,
+      own.slides ? "slide" : "hinge", own.axis_place, d.damping[0],
+      friction > 0.0 ? dry_friction(fmt::format("{:.8g}", friction)) : "frictionloss=\"0\"");
 }
 
 /// Of armature and body, behind the numbers to paste.
@@ -180,15 +203,15 @@ std::string inertia_words(const ExportSource& s, double all, const Armature& arm
   const OwnSide& own = *armature.own;
   if (own.joint.empty()) return "; " + s.own->model + " has one joint, which is taken for the load's";
   if (!std::isfinite(own.body)) return "; " + take_off + ", which " + s.own->model + " does not tell";
-  std::string of = fmt::format("the {:.6g} about the axis that the body of {} has in {}", own.body, own.joint,
+  std::string of = fmt::format("the {:.8g} about the axis that the body of {} has in {}", own.body, own.joint,
                                s.own->model);
   if (armature.added != 0.0)
-    of += fmt::format(" and the {:.6g} that it {} with its mass moved as told below",
+    of += fmt::format(" and the {:.8g} that it {} with its mass moved as told below",
                       std::abs(armature.added), armature.added > 0.0 ? "gains" : "loses");
   if (armature.value < 0.0)
-    return fmt::format("; {} is more than all of the inertia found ({:.6g}): take {:.6g} off the body's own",
+    return fmt::format("; {} is more than all of the inertia found ({:.8g}): take {:.8g} off the body's own",
                        of, all, -armature.value);
-  return fmt::format("; the armature is all the inertia ({:.6g}) less {}", all, of);
+  return fmt::format("; the armature is all the inertia ({:.8g}) less {}", all, of);
 }
 
 /// Torques that act always, but for a slide's weight, which the file has by its mass.
@@ -200,29 +223,51 @@ std::string constant_words(const ExportSource& s, const MujocoDrive& d) {
     const double weight = own ? own->weight : 0.0, has = own ? own->constant - weight : 0.0;
     const double needs = d.constant[side] - weight;
     if (std::abs(needs - has) <= kShown * std::max(std::abs(needs), std::abs(has))) continue;
-    const std::string joint = own && !own->joint.empty() ? own->joint : side == 0 ? "JOINT" : "LOAD";
+    const std::string joint = own && !own->joint.empty() ? own->joint
+                              : lacks_the_motor(s, d)    ? motor_of(*s.own)
+                              : side == 0                ? "JOINT"
+                                                         : "LOAD";
     text += fmt::format("; among the actuators: <general {}/>",
-                        constant_torque(joint, fmt::format("{:.6g}", needs)));
+                        constant_torque(joint, fmt::format("{:.8g}", needs)));
     if (has != 0.0) text += fmt::format(" in place of the {:.6g} that acts on {} there", has, joint);
   }
   return text;
 }
 
-/// One line of the limit's two.
-std::string tendon_words(const MujocoDrive& d) {
+/// The limit's two lines in one.
+std::string limit_words(const MujocoDrive& d) {
   std::string limit = gap_limit(d);
   if (const auto at = limit.find('\n'); at != limit.npos)
     limit.erase(at, limit.find_first_not_of(' ', at + 1) - at - 1), limit[at] = ' ';
-  return "; tendon of the gap" + std::string(d.locked ? "" : ", motor - load") + ": " + limit;
+  return limit;
+}
+
+/// In a file of one joint: what the motor needs, what stays with the joint, and what moves from it.
+std::string with_a_motor(const ExportSource& s, const MujocoDrive& d, const OwnBody& body) {
+  const JointNumbers& own = *s.own;
+  const Armature load(s, d, 1, body);
+  const std::string motor = motor_of(own);
+  return fmt::format(
+             "{} has one joint, {}, which is taken for the load's; the motor needs a body and a joint of its "
+             "own, {}; joint of the load, {}: {}{}; <tendon><fixed name=\"{}_gap\" {}><joint joint=\"{}\" "
+             "coef=\"1\"/><joint joint=\"{}\" coef=\"-1\"/></fixed></tendon>; actuator, on the motor from "
+             "now on: joint=\"{}\" gear=\"{:.8g}\"{}",
+             own.model, own.joint, motor_body(own, d), own.joint, joint_words(d, 1, load),
+             d.friction[1] > 0.0   ? ""
+             : d.friction[0] > 0.0 ? " (the friction that was found is all the motor's)"
+                                   : "",
+             own.joint, limit_words(d), motor, own.joint, motor, d.torque_constant, filter_and_range(d)) +
+         (d.lag > 0.0 ? " (of a <general>)" : "") + inertia_words(s, d.inertia[1], load);
 }
 
 }  // namespace
 
 std::string own_file(const ExportSource& s, const MujocoDrive& d) {
   const OwnBody body(s, d);
+  if (lacks_the_motor(s, d)) return with_a_motor(s, d, body) + own_gravity(s, d, body) + constant_words(s, d);
   const Armature motor(s, d, 0, body);
   std::string text =
-      fmt::format("{}: {}; actuator: gear=\"{:.6g}\"{}", is_two(d) ? "joint of the motor" : "joint",
+      fmt::format("{}: {}; actuator: gear=\"{:.8g}\"{}", is_two(d) ? "joint of the motor" : "joint",
                   joint_words(d, 0, motor), d.torque_constant, filter_and_range(d));
   if (d.lag > 0.0) text += " (of a <general>)";
   std::string inertias = inertia_words(s, d.inertia[0], motor);
@@ -231,7 +276,13 @@ std::string own_file(const ExportSource& s, const MujocoDrive& d) {
     text += "; joint of the load: " + joint_words(d, 1, load);
     if (s.own) inertias += inertia_words(s, d.inertia[1], load);
   }
-  if (d.has_load) text += tendon_words(d);
+  if (d.has_load)
+    text += "; tendon of the gap" + std::string(d.locked ? "" : ", motor - load") + ": " + limit_words(d);
+  if (is_two(d) && !s.own)
+    text +=
+        "; a model of one joint has the load's: export --into MODEL --joint NAME tells the body, the joint "
+        "and "
+        "the tendon that the motor needs beside it";
   return text + inertias + own_gravity(s, d, body) + constant_words(s, d);
 }
 

@@ -278,7 +278,7 @@ TEST(Mjcf, TellsTheArmatureBesideTheBodyThatAFileOfTheUsersOwnHas) {
   EXPECT_THAT(told(), HasSubstr("armature=\"0.000378\""));
   EXPECT_THAT(told(), HasSubstr("(0.000878) less the 0.0005 about the axis that the body of shoulder has in "
                                 "arm.xml"));
-  EXPECT_THAT(told(), HasSubstr("from the axis, times 1.250"));
+  EXPECT_THAT(told(), HasSubstr("from the axis, times 1.25 "));
   own.body_inertia = 0.001;
   EXPECT_THAT(told(), HasSubstr("armature=\"0\""));
   EXPECT_THAT(told(), HasSubstr("take 0.000122 off the body's own"));

@@ -26,13 +26,15 @@ struct HangingBody {
 
 /// What a simulator's model says of one joint's drive; NaN: nothing.
 struct JointNumbers {
-  std::string model, joint;       ///< the file and the name in it
-  bool of_mjcf = false;           ///< and no URDF
-  bool slides = false;            ///< rad reads m, N m reads N
-  double inertia = kNaN;          ///< of the motor's side, or of all that turns [kg m²]
-  double body_inertia = kNaN;     ///< of it, the body's own, without the armature; of MJCF [kg m²]
-  double damping = kNaN;          ///< [N m s/rad]
-  double friction = kNaN;         ///< dry, on the motor's side [N m]
+  std::string model, joint;    ///< the file and the name in it
+  bool of_mjcf = false;        ///< and no URDF
+  std::string body_place;      ///< pos= and turn of the joint's body, as attributes behind a blank; of MJCF
+  std::string axis_place;      ///< axis= of the joint, and its pos=, as attributes; of MJCF
+  bool slides = false;         ///< rad reads m, N m reads N
+  double inertia = kNaN;       ///< of the motor's side, or of all that turns [kg m²]
+  double body_inertia = kNaN;  ///< of it, the body's own, without the armature; of MJCF [kg m²]
+  double damping = kNaN;       ///< [N m s/rad]
+  double friction = kNaN;      ///< dry, on the motor's side [N m]
   double torque_constant = kNaN;  ///< [N m per unit of the control]
   double unbalance = kNaN;  ///< gravity's torque −G sin(x + phase), on the load where there is one [N m]
   double unbalance_phase = 0.0;        ///< [rad]
