@@ -76,7 +76,7 @@ Certificate flat_certificate(const ExportSource& s, std::span<const Carriage> ta
   for (CarriedPart& part : c.parts)
     if (part.part == "load_unbalance" && !hangs_from_the_axis(s))
       part = {"load_unbalance", Fidelity::kLeftOut, kNotFlat};
-  add_loop_lines(s, {"q", "dq", "effort", s.plant.drive.torque_constant, "effort"}, c);
+  add_loop_lines(s, {"q", "dq", "effort", s.plant.drive.torque_constant, "effort", s.dt}, c);
   std::vector<double> times;
   for (std::size_t i = 0; i <= s.u.size(); ++i) times.push_back(s.dt * static_cast<double>(i));
   const std::vector<double> model = model_motion(s, times);

@@ -53,27 +53,51 @@ std::string wave(const Numbers& of, const char* position, std::string& where) {
   return "(sin(y)" + further + ")";
 }
 
-/// The line of a loop that is the effect; empty: it has none that is short.
-std::string loop_line(const ModelEffect& effect, const LoopWords& w) {
+/// A line of a loop; empty: there is none that is short.
+struct LoopLine {
+  std::string code;
+  std::string remark = {};  ///< behind it
+};
+
+/// "0.0117 ms"
+std::string milliseconds(double seconds) { return fmt::format("{:.3g} ms", 1e3 * seconds); }
+
+/// The input of so many steps ago, out of a ring; C, as the other lines.
+LoopLine delay_line(double delay, double step) {
+  const double count = std::round(delay / step), left = count * step - delay;
+  if (count < 1.0) return {};
+  const std::string at_another = fmt::format("at another step round({:.6g}/step) of them", delay);
+  const std::string rounding =
+      std::abs(left) < 1e-6 * delay
+          ? ""
+          : fmt::format(", {} {} than the delay", milliseconds(std::abs(left)), left > 0.0 ? "more" : "less");
+  return {fmt::format("static double past[{0}]; static int at; double now = u; u = past[at]; past[at] = now; "
+                      "at = (at + 1) % {0};",
+                      count),
+          fmt::format(" ({} steps of {}{}; {})", count, milliseconds(step), rounding, at_another)};
+}
+
+/// The line that is the effect.
+LoopLine loop_line(const ModelEffect& effect, const LoopWords& w) {
   const Numbers of{effect};
   const std::string_view name = effect.entry->name;
   std::string where;
   if (name == "torque_ripple") {
     const std::string factor = fmt::format("(1 + {:.6g}*{})", of("ratio"), wave(of, w.position, where));
     const std::string input = w.gain == 1.0 ? "u" : fmt::format("{:.6g}*u", w.gain);
-    return fmt::format("{} = {}*{}{}", w.command, input, factor, where);
+    return {fmt::format("{} = {}*{}{}", w.command, input, factor, where)};
   }
   if (name == "cogging_torque" || name == "load_unbalance") {
     const std::string term = wave(of, w.position, where);
-    return fmt::format("{} -= {:.6g}*{}{}", w.torque, of("amplitude_nm"), term, where);
+    return {fmt::format("{} -= {:.6g}*{}{}", w.torque, of("amplitude_nm"), term, where)};
   }
   if (name == "quadratic_drag")
-    return fmt::format("{0} -= {1:.6g}*{2}*pow(fabs({2}), {3:.6g})", w.torque, of("coefficient_nms2"),
-                       w.speed, of("exponent") - 1.0);
+    return {fmt::format("{0} -= {1:.6g}*{2}*pow(fabs({2}), {3:.6g})", w.torque, of("coefficient_nms2"),
+                        w.speed, of("exponent") - 1.0)};
   if (name == "input_dead_zone")
-    return fmt::format("u = u > {0:.6g} ? u - {0:.6g} : u < -{0:.6g} ? u + {0:.6g} : 0", of("width"));
-  if (name == "input_delay") return fmt::format("u = the input of {:.6g} s before", of("delay_s"));
-  return "";
+    return {fmt::format("u = u > {0:.6g} ? u - {0:.6g} : u < -{0:.6g} ? u + {0:.6g} : 0", of("width"))};
+  if (name == "input_delay") return delay_line(of("delay_s"), w.step);
+  return {};
 }
 
 /// "3.04 rad", "12 mrad"
@@ -95,8 +119,8 @@ void add_loop_lines(const ExportSource& source, const LoopWords& words, Certific
   const std::size_t first = c.parts.size() - source.drive.effects.size();  // numbers of the drive before them
   for (std::size_t i = first; i < c.parts.size(); ++i) {
     if (!lacks(c.parts[i])) continue;
-    const std::string line = loop_line(source.drive.effects[i - first].effect, words);
-    if (!line.empty()) c.parts[i].how += "; " + (kInTheLoop + line) + "`";
+    const LoopLine line = loop_line(source.drive.effects[i - first].effect, words);
+    if (!line.code.empty()) c.parts[i].how += "; " + (kInTheLoop + line.code) + "`" + line.remark;
   }
 }
 

@@ -13,6 +13,7 @@ struct LoopWords {
   const char* command;  ///< to which the input goes: "ctrl"
   double gain = 1.0;    ///< of the command [torque per unit of u], where the loop applies it
   const char* torque;   ///< a torque beside it: "qfrc_applied"
+  double step = 0.0;    ///< of the loop [s]
 };
 
 /// Says beside every effect that the target leaves out and that has a closed form the line that adds it in a

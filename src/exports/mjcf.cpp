@@ -93,7 +93,14 @@ std::string start(const ExportSource& s, const MujocoDrive& d) {
                      s.stem, pair(d.place), pair(d.speed), act);
 }
 
-std::string heading(const ExportSource& s, const MujocoDrive& d, const std::string& what) {
+/// The step of a file, and what the head of the file says of it; empty: nothing.
+struct ChosenStep {
+  double step = kCertifiedStep;  ///< [s]
+  std::string note;
+};
+
+std::string heading(const ExportSource& s, const MujocoDrive& d, const std::string& what,
+                    const ChosenStep& chosen) {
   std::string text = fmt::format(
       "<!-- {0} by gapscope: {1}; certificate.md says what it carries and how exactly.\n"
       "     ctrl of {0}_drive is u (torque {2} per unit of u on the motor), held from step to step; "
@@ -114,21 +121,24 @@ std::string heading(const ExportSource& s, const MujocoDrive& d, const std::stri
         s.stem);
   if (d.friction[0] > 0.0 || (d.friction[1] > 0.0 && !d.locked))
     text += "     solreffriction is raised to two steps by MuJoCo, whatever the step is.\n";
+  if (d.unbalance > 0.0)
+    text += "     Of gravity only m g r is known: the mass stands for it at an arm that is assumed.\n";
+  if (!chosen.note.empty()) text += "     " + chosen.note + ".\n";
   return text.insert(text.size() - 1, " -->");
 }
 
-std::string alone(const ExportSource& s, const MujocoDrive& d, double step) {
-  return heading(s, d, "a model that stands alone") +
+std::string alone(const ExportSource& s, const MujocoDrive& d, const ChosenStep& chosen) {
+  return heading(s, d, "a model that stands alone", chosen) +
          fmt::format(
              "<mujoco model=\"{}\">\n  <option timestep=\"{}\" integrator=\"RK4\" gravity=\"0 0 -{}\" "
              "tolerance=\"1e-15\" iterations=\"100\"/>\n",
-             s.stem, step, kGravity) +
+             s.stem, chosen.step, kGravity) +
          parts(s, d) + start(s, d) + "</mujoco>\n";
 }
 
-std::string fragment(const ExportSource& s, const MujocoDrive& d) {
-  return heading(s, d, "a fragment, <include file=\"...\"/> in a model of yours") + "<mujocoinclude>\n" +
-         parts(s, d) + "</mujocoinclude>\n";
+std::string fragment(const ExportSource& s, const MujocoDrive& d, const ChosenStep& chosen) {
+  return heading(s, d, "a fragment, <include file=\"...\"/> in a model of yours", chosen) +
+         "<mujocoinclude>\n" + parts(s, d) + "</mujocoinclude>\n";
 }
 
 /// Parts whose law has a kink that falls between two steps.
@@ -191,11 +201,30 @@ void judge_whole(const ExportSource& s, const TargetMotion& motion, Certificate&
   c.duration = whole.duration();
 }
 
-/// The largest step within the encoder by the better integrator; where there is none the certified one.
-double chosen_step(const std::vector<StepLimits>& limits) {
-  for (const StepLimits& l : limits)
-    if (l.integrator == "RK4" && l.within_encoder >= kCertifiedStep) return l.within_encoder;
-  return kCertifiedStep;
+/// 1, 2 or 5 times a power of ten, the largest that is no more.
+double rounded_down(double step) {
+  const double decade = std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+  for (const double digit : {5.0, 2.0})
+    if (digit * decade <= step * (1.0 + 1e-9)) return digit * decade;
+  return decade;
+}
+
+/// The largest step within the encoder by the better integrator; where there is none the certified one, or
+/// below that what the file stands.
+ChosenStep chosen_step(const std::vector<StepLimits>& limits) {
+  const auto l =
+      std::find_if(limits.begin(), limits.end(), [](const StepLimits& of) { return of.integrator == "RK4"; });
+  if (l == limits.end()) return {};
+  if (l->within_encoder >= kCertifiedStep) return {l->within_encoder, ""};
+  if (l->largest >= kCertifiedStep) return {};
+  if (std::isnan(l->largest))
+    return {kFinestStep, fmt::format("timestep is {} ms, the finest that was tried, which RK4 does not stand",
+                                     1e3 * kFinestStep)};
+  const double step = rounded_down(l->largest);
+  return {step,
+          fmt::format("timestep is {:.4g} ms: the largest step that it stands by RK4 is {:.4g} ms, in a "
+                      "model of yours as well",
+                      1e3 * step, 1e3 * l->largest)};
 }
 
 void judge(const ExportSource& s, const MujocoDrive& d, Certificate& c) {
@@ -205,12 +234,18 @@ void judge(const ExportSource& s, const MujocoDrive& d, Certificate& c) {
   };
   c.travel = errors.travel();
   const TargetMotion finest = motion_by(MujocoIntegrator::kRungeKutta);
-  if (hides_the_steps(s, c.parts, errors.at(kCertifiedStep, finest).rms, c.travel)) {
+  const TargetError certified = errors.at(kCertifiedStep, finest);
+  if (!certified.unstable && hides_the_steps(s, c.parts, certified.rms, c.travel)) {
     judge_defaults(d, errors, s.coordinates, c);
     return judge_whole(s, finest, c);
   }
   for (const Integrator& integrator : kIntegrators)
     c.limits.push_back(errors.scan(integrator.name, motion_by(integrator.kind), c.errors));
+  if (!errors.steps_fall_on_rows())
+    c.warnings.push_back(fmt::format(
+        "no step of the table divides the {:.6g} ms between two rows of the input, or is a whole multiple of "
+        "them: a part of each error is an input that comes late by up to a step",
+        1e3 * s.dt));
   judge_parts(c.errors, c);
   judge_defaults(d, errors, s.coordinates, c);
 }
@@ -224,10 +259,11 @@ DriveExport export_mjcf(const ExportSource& s) {
   c.format = "mjcf";
   c.own_file = own_file(s, d);
   c.parts = mujoco_parts(s);
-  add_loop_lines(s, {"qpos", "qvel", "ctrl", 1.0, "qfrc_applied"}, c);
   judge(s, d, c);
-  out.files = {{s.stem + ".xml", alone(s, d, chosen_step(c.limits))},
-               {s.stem + "_fragment.xml", fragment(s, d)}};
+  const ChosenStep chosen = chosen_step(c.limits);
+  if (!chosen.note.empty()) c.warnings.push_back(chosen.note);
+  add_loop_lines(s, {"qpos", "qvel", "ctrl", 1.0, "qfrc_applied", chosen.step}, c);
+  out.files = {{s.stem + ".xml", alone(s, d, chosen)}, {s.stem + "_fragment.xml", fragment(s, d, chosen)}};
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "gapscope/base/interrupt.h"
 
@@ -25,6 +26,12 @@ std::vector<double> input_at_steps(const ExportSource& source, double step) {
     u[i] = source.u[std::min(sample, source.u.size() - 1)];
   }
   return u;
+}
+
+/// Whether one is a whole multiple of the other.
+bool is_whole(double large, double small) {
+  const double ratio = large / small;
+  return ratio > 0.5 && std::abs(ratio - std::round(ratio)) <= 1e-6 * ratio;
 }
 
 /// Calls tell(i, k) for every step i that falls on the k-th place of comparison.
@@ -126,14 +133,21 @@ double TargetErrors::between(double good, double bad, const std::vector<double>&
   return kCommonTime / most;
 }
 
+bool TargetErrors::steps_fall_on_rows() const {
+  return std::any_of(std::begin(kListed), std::end(kListed),
+                     [&](double n) { return is_whole(source_.dt, kCommonTime / n); });
+}
+
 StepLimits TargetErrors::scan(const std::string& integrator, const TargetMotion& motion,
                               std::vector<TargetError>& errors) const {
   StepLimits limits;
   limits.integrator = integrator;
   bool within = true;
+  const bool on_rows = steps_fall_on_rows();
   std::vector<double> own;
   for (const double n : kListed) {
     const double step = kCommonTime / n;
+    if (on_rows && !is_whole(source_.dt, step) && !is_whole(step, source_.dt)) continue;
     TargetError error = at(step, motion);
     error.integrator = integrator;
     errors.push_back(error);

@@ -32,6 +32,9 @@ class TargetErrors {
                   std::vector<TargetError>& errors) const;
 
   double travel() const { return travel_; }
+  /// Whether one of the listed steps divides the rows of the input. Only those that do, or are a whole
+  /// multiple of them, are compared then: under any other a row acts late, which is no error of the target's.
+  bool steps_fall_on_rows() const;
 
  private:
   TargetError against(const std::vector<double>& reference, double step, const TargetMotion& motion) const;
@@ -50,6 +53,9 @@ class TargetErrors {
 
 /// What all listed steps divide or are multiples of [s].
 inline constexpr double kCommonTime = 4e-3;
+
+/// Of the listed steps the smallest [s].
+inline constexpr double kFinestStep = 1e-5;
 
 /// Where the target is compared with the model [s].
 inline constexpr double kJudgedEvery = 1e-3;

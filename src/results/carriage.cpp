@@ -38,7 +38,9 @@ constexpr Carriage kByMjcf[] = {
     {"constant_load_torque", kWhole, "a general actuator with a bias and no gain"},
     {"load_unbalance",
      kWhole,
-     "a mass beside the axis, under gravity 9.81 m/s² along −z",
+     "a mass beside the axis, under gravity 9.81 m/s² along −z; only m g r is known, and the mass stands for "
+     "it "
+     "at an arm that is assumed",
      {},
      "periods_per_turn"},
     {"shaft_compliance", kWhole, "solreflimit of the tendon"},
