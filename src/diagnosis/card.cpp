@@ -143,11 +143,7 @@ std::string torque_verdict(const CardFacts& f, const Card& card) {
     return " Your tolerance of " + limit + " of the " + f.coordinates.torque_word() + " cannot be judged.";
   if (*good) return " Within your tolerance of " + limit + ".";
   const bool then = card.percent_after <= *f.tolerance.torque_percent;
-  const std::string at = std::isfinite(card.torque) ? ""
-                                                    : ", with " + percent_text(card.percent) + " of the " +
-                                                          f.coordinates.torque_word() + " missing";
-  return fmt::format(" Outside your tolerance of {}{}{}.", limit, at,
-                     then ? ", within it with what helps" : "");
+  return fmt::format(" Outside your tolerance of {}{}.", limit, then ? ", within it with what helps" : "");
 }
 
 std::string place_line(const CardFacts& f) {
@@ -233,7 +229,7 @@ void measure(const CardFacts& f, Card& card) {
   const MismatchSize& m = f.diagnosis->mismatch;
   if (!is_told_in_torque(*f.diagnosis)) {  // the balance still tells what the model as it is lacks
     const ErrorBudget& b = f.diagnosis->budget;
-    card.percent = 100.0 * b.nominal / b.input;
+    if (b.exists()) card.torque = b.nominal, card.percent = 100.0 * b.nominal / b.input;
     return;
   }
   card.torque = m.before_torque, card.torque_after = m.after_torque;

@@ -34,16 +34,16 @@ std::string model_words(const Diagnosis& d) {
 
 /// "The model misses 9.66 N rms of force on held-out data, 17.1 % of the 56.5 N rms that the input applies"
 std::string torque_size(const CardFacts& f, const Card& card) {
-  const MismatchSize& m = f.diagnosis->mismatch;
   const SharedUnit torque(card.torque, f.coordinates.shown_unit("N m"));
   std::string text = fmt::format("{} misses {} rms of {} on held-out data", model_words(*f.diagnosis),
                                  torque(card.torque), f.coordinates.torque_word());
+  const double input = 100.0 * card.torque / card.percent;
   if (std::isfinite(card.percent))
-    text += fmt::format(", {} the {} rms that the {} applies",
-                        card.torque < 2.0 * m.input_torque ? percent_text(card.percent) + " of"
-                                                           : fmt::format("{:.2g} times", 0.01 * card.percent),
-                        SharedUnit(m.input_torque, f.coordinates.shown_unit("N m"))(m.input_torque),
-                        what_applies(*f.diagnosis));
+    text +=
+        fmt::format(", {} the {} rms that the {} applies",
+                    card.percent < 200.0 ? percent_text(card.percent) + " of"
+                                         : fmt::format("{:.2g} times", 0.01 * card.percent),
+                    SharedUnit(input, f.coordinates.shown_unit("N m"))(input), what_applies(*f.diagnosis));
   return text;
 }
 

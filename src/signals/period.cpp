@@ -68,10 +68,10 @@ double first_return(std::span<const double> u, double most, double var) {
 /// amplitude that changes on the way is another input.
 bool comes_back(std::span<const double> u, std::size_t period, double size) {
   const std::size_t length = std::max<std::size_t>(1, period / kPartsOfPeriod);
-  std::vector<double> means;
-  for (std::size_t i = 0; i + length <= u.size(); i += length) means.push_back(mean(u.subspan(i, length)));
-  const double lag = static_cast<double>(period) / static_cast<double>(length);
-  return repetition_error(means, 0, lag) < kSteady * size;
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i + period + length <= u.size(); i += length, count += 1.0)
+    sum += std::pow(mean(u.subspan(i + period, length)) - mean(u.subspan(i, length)), 2);
+  return std::sqrt(0.5 * sum / std::max(count, 1.0)) < kSteady * size;
 }
 
 std::vector<double> thinned(std::span<const double> v, std::size_t step) {

@@ -194,8 +194,8 @@ TEST(Overview, ShowsNoPassagesWithoutAVerdict) {
 TEST(Overview, BeginsWithWhatTheCardSaysOfTheGap) {
   RunResult run = sample_run({.samples = 7500});
   run.answer.emplace().sentence = "The gap is not known (for many reasons).";
-  run.answer->card.gap = "The gap is not known. Trust: none.";
-  EXPECT_EQ(all_figures(ReportView(run))[0].lines.front(), "The gap is not known. Trust: none.");
+  run.answer->card.brief.gap = "The gap is not known.";
+  EXPECT_EQ(all_figures(ReportView(run))[0].lines.front(), "The gap is not known.");
 }
 
 TEST(MissingFigures, SayWhy) {

@@ -46,9 +46,10 @@ struct CardText {
 /// with numbers, reasons and limits. A default-built one has nothing to say.
 struct Card : CardText {
   CardText brief;
-  double torque = kNaN;  ///< rms of the missing torque of the model as it is, held-out [N m]
-  /// The same, of what the input applies [%]; known of the balance, too, where the motion tells the rest
-  double percent = kNaN;
+  /// Rms of the missing torque of the model as it is, held-out [N m]; of the balance alone where the motion
+  /// tells what helps
+  double torque = kNaN;
+  double percent = kNaN;            ///< the same, of what the input applies [%]
   double torque_after = kNaN;       ///< with all that helps [N m]
   double percent_after = kNaN;      ///< the same [%]
   std::optional<bool> good_enough;  ///< by the tolerance; nothing: none is stated, or it cannot be told
