@@ -125,11 +125,12 @@ SearchResult search(const FitProblem& problem) {
   return result;
 }
 
-/// Whether the impacts of a gap may have hidden the drive from the search: each of them makes minima.
+/// Whether the impacts of a gap may have hidden the drive from a search without starts: each of them makes
+/// minima.
 bool may_have_missed(const FitProblem& problem, const SearchResult& result) {
   const double ratio = problem.options.rejected_ratio;
   const bool sought =
-      problem.structure.has_load && !problem.locked() &&
+      problem.structure.has_load && !problem.locked() && !values_are_given(problem) &&
       std::any_of(problem.parameters.begin(), problem.parameters.end(),
                   [](const Parameter& p) { return p.id == drive_number(place::kGap) && p.estimated; });
   return sought && result.best().mean_square_with_priors > ratio * ratio;

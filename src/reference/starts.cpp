@@ -146,7 +146,8 @@ StartPoints drawn_points(const FitProblem& problem, std::size_t count) {
   StartPoints found;
   const Excerpt part(problem, kLooked);
   const double hz = problem.options.observer_hz;
-  const std::size_t looked = problem.inertia > 0.0 ? kDrawsOfImpacts : kDrawsPerPoint;
+  const bool impacts = problem.inertia > 0.0 && !values_are_given(problem);
+  const std::size_t looked = impacts ? kDrawsOfImpacts : kDrawsPerPoint;
   for (std::size_t i = 0; i < looked * count; ++i) {
     Solution p{start_point(problem, drawn(problem, generator))};
     const Placement placed = choose_variants(part.problem(), p, hz);

@@ -57,7 +57,7 @@ TEST(LeftBehind, NothingThatCameBeforeAKillIsLost) {
   if (!testing::company_can_come()) GTEST_SKIP() << "no filter of system calls here";
   for (const char* file : {"report.md", "files.json", "result.json"})
     for (int when = 1, moments = 1; when <= moments; ++when)
-      for (int killed = when; killed <= std::min(when + 3, moments); ++killed) {
+      for (int killed = when; killed <= std::min(when + 2, moments); ++killed) {
         ScratchFolder scratch;
         const fs::path rig = scratch.path / "rig";
         write(rig, {"result.json", "report.md"}, "old");
