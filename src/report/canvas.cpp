@@ -1,6 +1,10 @@
 #include "report/canvas.h"
 
+#include <sys/mman.h>
+
 #include <cmath>
+#include <cstdlib>
+#include <new>
 #include <opencv2/imgproc.hpp>
 
 namespace gapscope::internal::report {
@@ -9,6 +13,17 @@ namespace {
 constexpr double kFine = 2.0;  // drawn at so many times the size of the image, averaged down
 constexpr int kShift = 4;      // sixteenths of a fine pixel
 constexpr double kFar = 1e5;   // beyond any paper; keeps sub-pixel coordinates within an int
+
+/// Memory in pages as large as the system has them: tens of megabytes in small ones take longer to come by,
+/// page by page, than to draw on.
+Memory in_large_pages(std::size_t bytes) {
+  constexpr std::size_t kPage = std::size_t{1} << 21;
+  const std::size_t size = (bytes + kPage - 1) / kPage * kPage;
+  Memory memory(static_cast<std::uint8_t*>(std::aligned_alloc(kPage, size)), &std::free);
+  if (!memory) throw std::bad_alloc();
+  madvise(memory.get(), size, MADV_HUGEPAGE);  // a wish: without it everything is as it was
+  return memory;
+}
 
 cv::Point sub_pixel(Point p, double fine) {
   const auto fixed = [=](double v) { return cvRound(std::clamp(v, -kFar, kFar) * fine * (1 << kShift)); };
@@ -75,10 +90,13 @@ std::array<Polyline, 2> cross(Point at, double size) {
 }
 
 PixelCanvas::PixelCanvas(double width, double height, const Typesetter& typesetter, double scale)
-    : fine_(kFine * scale),
-      paper_(static_cast<int>(kFine) * cvRound(height * scale),
-             static_cast<int>(kFine) * cvRound(width * scale), CV_8UC3, cv::Scalar::all(255)),
-      typesetter_(typesetter) {}
+    : fine_(kFine * scale), typesetter_(typesetter) {
+  const int rows = static_cast<int>(kFine) * cvRound(height * scale);
+  const int columns = static_cast<int>(kFine) * cvRound(width * scale);
+  memory_ = in_large_pages(3 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+  paper_ = cv::Mat(rows, columns, CV_8UC3, memory_.get());
+  paper_.setTo(cv::Scalar::all(255));
+}
 
 void PixelCanvas::fill(const Box& box, Colour colour) {
   paper_(fine_rect(box, paper_, fine_)).setTo(bgr(colour));

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -29,6 +32,8 @@ struct DrawnText {
   Box box;
   std::string markup;
 };
+
+using Memory = std::unique_ptr<std::uint8_t[], void (*)(void*)>;
 
 /// White paper, in pixels of the finished image at scale 1, y downwards.
 class Canvas {
@@ -62,7 +67,8 @@ class PixelCanvas : public Canvas {
 
  private:
   double fine_;  ///< of the paper, in its pixels
-  cv::Mat paper_;
+  Memory memory_{nullptr, &std::free};
+  cv::Mat paper_;  ///< on that memory
   const Typesetter& typesetter_;
   std::vector<DrawnText> texts_;
 };
