@@ -33,7 +33,8 @@ void require_sound(const BlindDrive& d) {
   GAPSCOPE_REQUIRE(d.motor_inertia > 0.0 && d.load_inertia > 0.0 && d.gap >= 0.0 && d.load_coulomb >= 0.0);
   GAPSCOPE_REQUIRE(d.restitution >= 0.0 && d.restitution <= 1.0);
   const Effects& e = d.effects;
-  GAPSCOPE_REQUIRE(e.motor.bristle.length_rad > 0.0 && e.motor.friction.stribeck_speed_rad_s > 0.0);
+  GAPSCOPE_REQUIRE(e.motor.bristle.length_rad > 0.0 && e.load.bristle.length_rad > 0.0 &&
+                   e.motor.friction.stribeck_speed_rad_s > 0.0);
   GAPSCOPE_REQUIRE(e.command.delay_s >= 0.0 && e.command.jitter_s >= 0.0);
   if (d.contact != ContactKind::kRigid) return;
   GAPSCOPE_REQUIRE(e.contact.eccentricity_rad == 0.0 && e.contact.growth_rad_s == 0.0 &&
@@ -51,9 +52,10 @@ Dynamics::Dynamics(const BlindDrive& drive, std::vector<Knock> knocks)
   motor_signed_ = e.motor.friction.level_nm > 0.0 || e.motor.friction.gear_ratio > 0.0 ||
                   e.motor.friction.viscous_ratio != 0.0 || e.motor.bristle.level_nm > 0.0 ||
                   e.motor.drag_nms2 != 0.0 || e.command.sag_per_w != 0.0;  // all have a kink at w1 = 0
-  load_signed_ = drive_.load == BlindLoad::kFree && drive_.load_coulomb > 0.0;
-  hidden_states_ = e.motor.bristle.level_nm > 0.0 || e.command.lag_s > 0.0 || e.sensor.lag_s > 0.0 ||
-                   e.load.resonator_inertia > 0.0;
+  load_signed_ =
+      drive_.load == BlindLoad::kFree && (drive_.load_coulomb > 0.0 || e.load.bristle.level_nm > 0.0);
+  hidden_states_ = e.motor.bristle.level_nm > 0.0 || e.load.bristle.level_nm > 0.0 || e.command.lag_s > 0.0 ||
+                   e.sensor.lag_s > 0.0 || e.load.resonator_inertia > 0.0;
   for (const Knock& knock : knocks_) {
     kinks_.push_back(knock.start_s);
     kinks_.push_back(knock.start_s + e.motor.knocks.duration_s);

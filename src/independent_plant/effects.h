@@ -23,7 +23,8 @@ struct MotorFriction {
   double gear_knee_nm = 0.0;          ///< [N·m]
 };
 
-/// LuGre bristle with constant level: ż = w1 − |w1|·z/length, torque −(level/length)·z − damping·ż.
+/// LuGre bristle with constant level, of the motor or the load: ż = w − |w|·z/length, torque
+/// −(level/length)·z − damping·ż.
 struct BristleFriction {
   double level_nm = 0.0;
   double length_rad = 1e-3;
@@ -65,6 +66,7 @@ struct MotorEffects {
 };
 
 struct LoadEffects {
+  BristleFriction bristle;    ///< of a load with a gap or a soft shaft
   double unbalance_nm = 0.0;  ///< −unbalance·sin(N·x2 + φ)
   double unbalance_phase_rad = 0.0;
   double unbalance_periods = 1.0;  ///< N, of a load that turns otherwise than x2 counts

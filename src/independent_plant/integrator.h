@@ -6,8 +6,9 @@
 
 namespace gapscope::independent_plant {
 
-/// x1 w1 x2 w2, bristle deflection, torque-loop output, filtered angle, x3 w3 of the resonator.
-enum StateIndex { kX1, kW1, kX2, kW2, kBristle, kTorqueLoop, kFilter, kX3, kW3, kStateSize };
+/// x1 w1 x2 w2, bristle deflection, torque-loop output, filtered angle, x3 w3 of the resonator, deflection of
+/// the load's bristle.
+enum StateIndex { kX1, kW1, kX2, kW2, kBristle, kTorqueLoop, kFilter, kX3, kW3, kLoadBristle, kStateSize };
 using State = std::array<double, kStateSize>;
 
 /// One step of the Dormand–Prince pair 5(4) with its continuous extension of order four

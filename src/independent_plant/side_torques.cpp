@@ -52,8 +52,14 @@ double outside_torque(const OutsideEffects& e, double t, double x1, double w1) {
   return torque;
 }
 
-double bristle_rate(const BristleFriction& b, const State& s) {
-  return s[kW1] - std::abs(s[kW1]) * s[kBristle] / b.length_rad;
+/// @param z  deflection   @param w  speed of the body
+double bristle_rate(const BristleFriction& b, double z, double w) {
+  return w - std::abs(w) * z / b.length_rad;
+}
+
+double bristle_torque(const BristleFriction& b, double z, double w) {
+  if (b.level_nm == 0.0) return 0.0;
+  return -b.level_nm / b.length_rad * z - b.damping_nms * bristle_rate(b, z, w);
 }
 
 }  // namespace
@@ -85,9 +91,7 @@ double Dynamics::motor_drive(double t, const State& s, int direction, double hel
   if (e.drag_nms2 != 0.0) torque -= std::copysign(e.drag_nms2 * std::pow(std::abs(w), e.drag_exponent), w);
   if (e.cogging.amplitude != 0.0) torque -= harmonic(e.cogging, s[kX1]);
   if (e.second_cogging.amplitude != 0.0) torque -= harmonic(e.second_cogging, s[kX1]);
-  if (e.bristle.level_nm != 0.0)
-    torque -= e.bristle.level_nm / e.bristle.length_rad * s[kBristle] +
-              e.bristle.damping_nms * bristle_rate(e.bristle, s);
+  torque += bristle_torque(e.bristle, s[kBristle], w);
   torque += outside_torque(drive_.effects.outside, t, s[kX1], w);
   if (!knocks_.empty()) torque += knock_torque(knocks_, e.knocks.duration_s, t);
   return torque;
@@ -109,7 +113,8 @@ double Dynamics::load_on_one_body(const State& s) const {
 }
 
 double Dynamics::load_drive(const State& s) const {
-  return load_torques(s[kX2], s[kW2], s) - drive_.load_damping * s[kW2];
+  return load_torques(s[kX2], s[kW2], s) - drive_.load_damping * s[kW2] +
+         bristle_torque(drive_.effects.load.bristle, s[kLoadBristle], s[kW2]);
 }
 
 double Dynamics::motor_level(int direction, double w, double gear_torque) const {
@@ -145,7 +150,9 @@ double Dynamics::motor_inertia(double t) const {
 
 void Dynamics::hidden_rates(const State& s, double held, State& rate) const {
   const Effects& e = drive_.effects;
-  if (e.motor.bristle.level_nm != 0.0) rate[kBristle] = bristle_rate(e.motor.bristle, s);
+  if (e.motor.bristle.level_nm != 0.0) rate[kBristle] = bristle_rate(e.motor.bristle, s[kBristle], s[kW1]);
+  if (e.load.bristle.level_nm != 0.0)
+    rate[kLoadBristle] = bristle_rate(e.load.bristle, s[kLoadBristle], s[kW2]);
   if (e.command.lag_s > 0.0) rate[kTorqueLoop] = (held - s[kTorqueLoop]) / e.command.lag_s;
   if (e.sensor.lag_s > 0.0) rate[kFilter] = (measured_angle(s[kX1]) - s[kFilter]) / e.sensor.lag_s;
   if (e.load.resonator_inertia > 0.0) {

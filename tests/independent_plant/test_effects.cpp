@@ -112,6 +112,16 @@ TEST(Effects, BristleGivesWayLikeAnExponentialSpring) {
   EXPECT_NEAR(hold_and_wait(dynamics, 0.01, 2.0).state()[kX1], at_rest, 1e-9);
 }
 
+TEST(Effects, BristleOfALoadThatIsPushedGivesWayLikeThatOfTheMotor) {
+  BlindDrive drive;
+  drive.gap = 1e-3;
+  drive.load_coulomb = 0.0;
+  drive.effects.load.bristle = {.level_nm = 0.02, .length_rad = 2e-3, .damping_nms = 0.3};
+  const Dynamics dynamics(drive, {});
+  const auto state = hold_and_wait(dynamics, 0.01, 2.0).state();
+  EXPECT_NEAR(state[kX2], -2e-3 * std::log(1.0 - 0.5), 1e-9);
+}
+
 TEST(Effects, UnbalanceAndConstantTorqueMoveAFrictionlessLoadToTheirBalance) {
   BlindDrive drive;
   drive.load = BlindLoad::kNone;

@@ -1,8 +1,10 @@
 // Random drives of the independent plant for the detector: how often it answers, how well, and how honest its
 // intervals are.  study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]
-// [wide] [frozen] [rubs] [pushed]: wide: other contacts, torques and lengths; frozen: as a stream, which
-// learns from the first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of the torque's
-// amplitude; pushed: the load has an unbalance of 0.5 to 5 times its dry friction, 1 to 20 periods a turn
+// [wide] [frozen] [rubs] [pushed] [held] [slides]: wide: other contacts, torques and lengths; frozen: as a
+// stream, which learns from the first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of
+// the torque's amplitude; pushed: the load has an unbalance of 0.5 to 5 times its dry friction, 1 to 20
+// periods a turn; held: 0.3 to 1 of that friction is elastic, and holds on over 0.03 to 1 of the gap; slides:
+// a load of 0.1 to 0.5 of the motor with at most 0.02 of the torque as friction
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +48,7 @@ double median_coasting(const independent_plant::BlindTruth& truth) {
 
 /// What the drive has beside the laws of random_drive().
 struct Extras {
-  bool rubs = false, pushed = false;
+  bool rubs = false, pushed = false, held = false, slides = false;
 };
 
 Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform waveform,
@@ -61,6 +63,19 @@ Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform wavef
   if (std::mt19937_64 g = random_stream(seed, "unbalance of the load"); extras.pushed) {
     c.drive.effects.load.unbalance_nm = c.drive.load_coulomb * log_uniform(g, 0.5, 5.0);
     c.drive.effects.load.unbalance_periods = log_uniform(g, 1.0, 20.0);
+  }
+  if (std::mt19937_64 g = random_stream(seed, "light load that slides"); extras.slides) {
+    c.drive.load_inertia = c.drive.motor_inertia * log_uniform(g, 0.1, 0.5);
+    c.drive.load_coulomb = c.drive.torque_constant * c.excitation.amplitude * log_uniform(g, 0.0002, 0.02);
+    c.drive.load_damping = c.drive.motor_damping * log_uniform(g, 0.01, 1.0);
+  }
+  if (std::mt19937_64 g = random_stream(seed, "elastic friction of the load"); extras.held) {
+    independent_plant::BristleFriction& bristle = c.drive.effects.load.bristle;
+    bristle.level_nm = c.drive.load_coulomb * std::uniform_real_distribution(0.3, 1.0)(g);
+    bristle.length_rad = c.drive.gap * log_uniform(g, 0.03, 1.0);
+    bristle.damping_nms =
+        log_uniform(g, 0.01, 1.0) * std::sqrt(bristle.level_nm / bristle.length_rad * c.drive.load_inertia);
+    c.drive.load_coulomb -= bristle.level_nm;
   }
   c.options.tolerance = independent_plant::kFastTolerance;
   const independent_plant::BlindRun r = independent_plant::simulate_blind(c);
@@ -136,7 +151,7 @@ int main_study(int argc, char** argv) {
   if (argc < 5) {
     fmt::print(stderr,
                "study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each] "
-               "[wide] [frozen] [rubs] [pushed]\n");
+               "[wide] [frozen] [rubs] [pushed] [held] [slides]\n");
     return 2;
   }
   const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
@@ -151,7 +166,8 @@ int main_study(int argc, char** argv) {
   std::map<std::string, Tally> tallies;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const Outcome o =
-        run(seed, with_gap, waveform, laws, {asked("rubs"), asked("pushed")}, {.frozen = asked("frozen")});
+        run(seed, with_gap, waveform, laws, {asked("rubs"), asked("pushed"), asked("held"), asked("slides")},
+            {.frozen = asked("frozen")});
     if (asked("each")) print_case(o);
     for (const std::string& name : classes(o)) tallies[name].add(o);
   }
