@@ -110,7 +110,7 @@ std::string gap_trust_and_why(const CardFacts& f) {
       !f.answer->sentence.starts_with(internal::diagnosis::kNoBacklash))
     return text;
   text.pop_back();
-  return text + " (it stands for loads of at least 0.1 of the motor's inertia, until a fitted model agrees).";
+  return text + " (it stands for loads of at least 0.2 of the motor's inertia, until a fitted model agrees).";
 }
 
 std::string gap_line(const CardFacts& f) {

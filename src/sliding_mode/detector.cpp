@@ -105,8 +105,22 @@ void warn_of_paper_bound(std::span<const MotorTrace> recordings, std::span<const
   estimate.warnings.push_back(words::paper_bound_misses(bound, paper.reason));
 }
 
+/// Most passages say that a force drives the load. Then neither does their mean tell a gap, whose noise is
+/// small enough to show how the contact rings (5450008 gap triangle wide pushed, 25 % too large), nor all of
+/// them together, which show no release.
+bool load_is_pushed(std::span<const ImpactAnalysis> analyses) {
+  std::ptrdiff_t pushed = 0, all = 0;
+  for (const ImpactAnalysis& a : analyses) {
+    all += std::ssize(a.passages);
+    pushed += std::ranges::count(a.passages, internal::sliding_mode::Refusal::kPushed,
+                                 &internal::sliding_mode::Transition::refusal);
+  }
+  return 2 * pushed > all;
+}
+
 /// Where single periods show too little: the mean period of every recording that repeats itself.
-void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
+/// @returns whether a force drives the load, as those means tell
+bool read_mean_periods(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
                        GapEstimate& estimate) {
   std::vector<ImpactAnalysis> means;
   std::vector<double> intervals;
@@ -121,15 +135,16 @@ void read_mean_periods(std::span<const MotorTrace> recordings, std::vector<Impac
     for (const GapEvent& event : internal::sliding_mode::events_of_mean(folded, means.back().passages))
       events.push_back(event);
   }
-  if (means.empty()) return;
+  if (means.empty()) return false;
   GapEstimate reading = internal::sliding_mode::decide_gap(means, intervals);
-  if (reading.verdict != GapVerdict::kBacklash) return;
+  if (reading.verdict != GapVerdict::kBacklash) return load_is_pushed(means);
   estimate = std::move(reading);
   estimate.events = std::move(events);
   const auto used = std::ranges::count_if(estimate.events, &GapEvent::accepted);
   estimate.reason = words::passages_used(used, std::ssize(estimate.events), 0);
   estimate.reason += words::mean_of_periods(static_cast<long>(periods));
   if (means.size() == recordings.size()) analyses = std::move(means);  // else some repeat nothing
+  return false;
 }
 
 std::vector<SignalFacts> facts_of(std::span<const MotorTrace> recordings) {
@@ -177,26 +192,15 @@ bool load_rests(std::span<const ImpactAnalysis> analyses) {
   return static_cast<double>(moving) <= kFewMovingLoads * static_cast<double>(all);
 }
 
-/// Most passages say that a force drives the load: their mean, whose noise is small enough to show how the
-/// contact rings, does not say it as well (5450008 gap triangle wide pushed, 25 % too large).
-bool load_is_pushed(std::span<const ImpactAnalysis> analyses) {
-  std::ptrdiff_t pushed = 0, all = 0;
-  for (const ImpactAnalysis& a : analyses) {
-    all += std::ssize(a.passages);
-    pushed += std::ranges::count(a.passages, internal::sliding_mode::Refusal::kPushed,
-                                 &internal::sliding_mode::Transition::refusal);
-  }
-  return 2 * pushed > all;
-}
-
 /// The bank of bounds, by single periods or by their mean; the loop where that tells no gap.
 GapEstimate detect_auto(std::span<const MotorTrace> recordings, std::vector<ImpactAnalysis>& analyses,
                         std::span<const double> intervals, std::span<const SignalFacts> facts,
                         const LoopSearch& loops, const DetectorOptions& options) {
   GapEstimate estimate = internal::sliding_mode::decide_gap(analyses, intervals);
-  if (estimate.verdict != GapVerdict::kBacklash && !load_is_pushed(analyses))
-    read_mean_periods(recordings, analyses, estimate);
-  if (estimate.verdict != GapVerdict::kBacklash && !options.locked && load_rests(analyses))
+  bool pushed = load_is_pushed(analyses);
+  if (estimate.verdict != GapVerdict::kBacklash && !pushed)
+    pushed = read_mean_periods(recordings, analyses, estimate);
+  if (estimate.verdict != GapVerdict::kBacklash && !options.locked && !pushed && load_rests(analyses))
     if (const auto pooled = internal::sliding_mode::read_pooled(recordings, facts)) return *pooled;
   const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.decides || options.locked);
   if (estimate.verdict != GapVerdict::kBacklash && loops.estimate && ask_loop) return *loops.estimate;

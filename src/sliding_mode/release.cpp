@@ -66,9 +66,12 @@ Release find_release(const TransitionContext& context, const FlightLaw& law, con
   release.load_travel = travel(flight.begin, kViscousShare);
   release.travel_half_width = 0.5 * (travel(flight.begin, 1.0) - travel(flight.begin, 0.0));
   release.dwell = release.load_travel <= 0.0;
+  const FlightBegin in_contact{
+      flight.begin.time, state_in_contact(context.trace, flight.begin, impact.time - flight.begin.time)};
+  release.along = kInfinity;
+  for (const FlightBegin& b : {flight.begin, flight.earliest, flight.latest, in_contact})
+    release.along = std::min(release.along, law.direction() * b.motor.speed);
   if (!release.dwell) {
-    const FlightBegin in_contact{
-        flight.begin.time, state_in_contact(context.trace, flight.begin, impact.time - flight.begin.time)};
     release.contradiction = gap(in_contact) - best;
     release.load_travel += 0.5 * release.contradiction;
     release.passive = law.direction() * flight.begin.motor.acceleration > 0.0;

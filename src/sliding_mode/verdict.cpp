@@ -182,9 +182,11 @@ Remark objection(const Pool& pool) {
   if (spread > 0.25 * gap) return words::passages_scatter(100.0 * spread / gap);
   if (2.0 * disagreement > 0.25 * gap) return words::directions_contradict(median(plus), median(minus));
   if (gap > kMostOfTravel * pool.travel) return words::most_of_travel(gap, pool.travel);
-  const auto moving = pool.refused.find(Refusal::kLoadMoving);
-  if (moving != pool.refused.end() && moving->second > kFewMoving * static_cast<double>(pool.accepted.size()))
-    return advice(Refusal::kLoadMoving);
+  for (const Refusal moving : {Refusal::kLoadMoving, Refusal::kPushed})
+    if (const auto refused = pool.refused.find(moving);
+        refused != pool.refused.end() &&
+        refused->second > kFewMoving * static_cast<double>(pool.accepted.size()))
+      return advice(moving);
   if (travels_too_far(pool, gap, only)) return advice(Refusal::kLoadMoving);
   if (gap < signals::kFewestToldQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
   const double hidden = median_of(pool, &Transition::hidden);

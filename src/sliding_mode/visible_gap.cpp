@@ -66,7 +66,7 @@ double one_body_visible_gap(const MotorTrace& trace, const signals::SignalFacts&
   const double fastest = std::sqrt(2.0) * facts.speed_rms * kPi / facts.half_period;  // [rad/s²]
   const double turns_load = kLightestLoad / (1.0 + kLightestLoad) * fastest;
   if (std::abs(fit.law.constant) > turns_load) return kInfinity;
-  const double gap = std::max(fit.left / kLeastLeft, facts.least_way());
+  const double gap = std::max(fit.hidden, facts.least_way());
   return gap < facts.travel ? gap : kInfinity;
 }
 

@@ -10,16 +10,6 @@ namespace gapscope::internal::sliding_mode {
 /// leave weaker ones.
 constexpr double kSmallestMassRatio = 0.3;
 
-/// … for which a gap is denied, by what the law of one body leaves.
-constexpr double kLightestLoad = 0.1;
-
-/// Of a gap, what the law of one body leaves at least (OneBodyFit::left). Set on 250 random drives with gaps
-/// (study_sliding_mode 4100001 300 gap sine, those with loads below 0.3 of the motor, and the first 57
-/// others; 4100001 60 gap multisine and trapezoid): it leaves 0.025 to 0.6. Double would deny two gaps above
-/// the limit that is told (4100233 sine, 4100023 trapezoid), half none, as this does; of 70 drives without a
-/// gap (4100001 70 gap_free sine) 37, 43 and 47 get a `none`.
-constexpr double kLeastLeft = 0.02;
-
 /// The smallest gap whose impacts would have shown in this motion [rad]; infinite if none would.
 /// An impact shows when its Δv leaves a peak 0.102 Δv²/k₂ of twice the floor at a bound above which the
 /// motion itself shows nothing (`hiding`, an index: detents and stick-slip hide weaker impacts). Two
@@ -35,9 +25,10 @@ double encoder_visible_gap(const signals::SignalFacts& facts);
 
 /// The smallest gap that could not hide in what one body with friction leaves of this recording [rad]. Across
 /// a gap 2β the motor is up to μ/(1 + μ) β off the centre of both masses, to one side and then to the other,
-/// without the load's inertia and friction, and no law of one body does so: it leaves kLeastLeft of the gap
-/// and more. Infinite where that is no less than the travel, and where a constant torque may keep the
-/// lightest load on one flank.
+/// without the load's inertia and friction, and no law of one body does so. How much of that is left depends
+/// on the motion: it is seen on the body that was found, with the lightest load that is asked for behind a
+/// gap (OneBodyFit::hidden). Infinite where that is no less than the travel, and where a constant torque may
+/// keep such a load on one flank.
 double one_body_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts);
 
 }  // namespace gapscope::internal::sliding_mode

@@ -74,9 +74,10 @@ Remark rests_alone() {
       "zero more slowly, so that the load stops while it is still pushed, or use a finer encoder"};
 }
 Remark load_pushed() {
-  return {"load_pushed",
-          "where the motion turns round, a force (an unbalance, a spring) exceeds the dry friction of the "
-          "load and drives it through the gap, too; take that force away, or turn round where it is small"};
+  return {
+      "load_pushed",
+      "where the motion turns round, a force on the load (an unbalance, a spring, a friction that springs "
+      "back) drives it through the gap, too; take that force away, or turn round where it is small"};
 }
 Remark contact_tears() {
   return {"contact_tears",

@@ -141,10 +141,10 @@ std::vector<std::string> classes(const Outcome& o) {
 void print_case(const Outcome& o) {
   const GapEstimate& e = o.estimate;
   fmt::print(
-      "{} gap {:.3f} mrad ({:.0f} quanta), mass ratio {:.2f}, coasting {:.3f}: {} {:.3f} [{:.3f}, {:.3f}]; "
-      "{}\n",
+      "{} gap {:.3f} mrad ({:.0f} quanta), mass ratio {:.2f}, coasting {:.3f}: {} {:.3f} [{:.3f}, {:.3f}], "
+      "above {:.3f} visible; {}\n",
       o.seed, 1e3 * o.gap, o.gap / o.quantum, o.mass_ratio, o.coasting, to_string(e.verdict), 1e3 * e.gap,
-      1e3 * e.ci95.low, 1e3 * e.ci95.high, e.reason.text());
+      1e3 * e.ci95.low, 1e3 * e.ci95.high, 1e3 * e.smallest_visible_gap, e.reason.text());
 }
 
 int main_study(int argc, char** argv) {

@@ -197,7 +197,7 @@ TEST(Detector, NoneSaysForWhichLoadsItHoldsAndLeavesOnlySmallGapsOpen) {
   rigid.m1 += rigid.m2, rigid.d1 += rigid.d2, rigid.Fc1 = rigid.Fc2, rigid.m2 = 0.0;
   const GapEstimate estimate = detect(record(rigid, sine(0.5814, 1.0), {}));
   ASSERT_EQ(estimate.verdict, GapVerdict::kNone) << estimate.brief_report();
-  EXPECT_THAT(estimate.reason.text(), HasSubstr("0.1 of the motor's inertia"));
+  EXPECT_THAT(estimate.reason.text(), HasSubstr("0.2 of the motor's inertia"));
   EXPECT_LT(estimate.smallest_visible_gap, 0.019);
 }
 
