@@ -153,11 +153,13 @@ void print_card(const Card& card, const ToldConfiguration& c, const std::string&
   for (const CardLine& l : card.lines()) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool further = !card.diagnosed && &l.text == &card.place;
+    const bool to_diagnose = !c.to_begin.empty() && l.brief.starts_with("Run `gapscope diagnose CONFIG`");
     const std::string text =
-        !further             ? l.brief
+        to_diagnose ? "Make a model as above: a diagnosis with it tells where the drive differs, and why."
+        : !further  ? l.brief
         : c.to_begin.empty() ? "Where, cause and what helps: run `gapscope diagnose CONFIG`."
-                             : "Where, cause and what helps take a model: run `gapscope init " + c.to_begin +
-                                   "`, which writes a first one, then `gapscope diagnose` with that.";
+                             : "For where, cause and what helps a model is needed: `gapscope init " +
+                                   c.to_begin + "` writes a first one; run `gapscope diagnose` with that.";
     const bool goes_on = text.find(" --model-from ") != text.npos;  // and names a folder of its own
     const Placeholder all[] = {{"DIR", folder},
                                {"CONFIG", c.file, c.settings + (goes_on ? "" : c.model + c.folder)}};
@@ -233,7 +235,7 @@ void print_effects(const DiagnosisResult& r) {
 void print_diagnosis(const std::string& folder, const DiagnosisResult& r,
                      const ToldConfiguration& configuration) {
   line("report", folder);
-  line("verdict", to_string(r.diagnosis.verdict));
+  line("verdict", verdict_words(r.diagnosis, r.coordinates));
   print_effects(r);
   if (r.simulated) line("simulator", r.simulated->sentence);
   if (r.answer) print_card(r.answer->card, configuration, folder);

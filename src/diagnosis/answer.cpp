@@ -161,7 +161,7 @@ Answer play(const Findings& f) {
 std::string no_number(const FitSummary& fit) {
   const FittedParameter* gap = fit.find("gap");
   const std::string why = (fit.rejected() ? "The fitted model is rejected: " : "") + fit.why.text();
-  if (gap == nullptr) return "Backlash is not modelled (a single body). " + why;
+  if (gap == nullptr) return "Backlash is not examined, as the model is a single body. " + why;
   if (fit.rejected()) return why;
   return gap->estimated ? why : "The model took the gap as known. " + why;
 }

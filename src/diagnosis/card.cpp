@@ -131,7 +131,7 @@ std::string brief_loop(const std::string& sentence) {
 std::string brief_gap(const CardFacts& f) {
   if (f.answer == nullptr) return first_clause(gap_not_estimated(f.diagnosis, f.coordinates));
   const std::string& told = f.answer->sentence;
-  if (gap_is_known(f)) return first_clause(told) + gap_trust(f) + gap_verdict(f);
+  if (gap_is_known(f)) return first_clause(told) + gap_trust_and_why(f) + gap_verdict(f);
   return (f.lost_motion ? brief_loop(told) : without_asides(first_clause(told))) + gap_verdict(f);
 }
 
@@ -187,11 +187,13 @@ std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) 
   const Diagnosis& d = *f.diagnosis;
   if (d.mismatch.after >= d.mismatch.before) return no_nearer(d);
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
+  const std::string short_motions = for_short_motions(d, f.coordinates);
   return std::string("Simulate with `DIR/fitted.yaml`") +
-         (!open || drifts_farther(d) ? ""
-          : d.added.size() > 1       ? ", which predicts best with all of these, established or not"
-                                     : ", which predicts better with it, established or not") +
-         for_short_motions(d, f.coordinates) + (whole ? "; " + export_words(f) : ".") +
+         (drifts_farther(d)    ? ""
+          : !open              ? (short_motions.empty() ? ", which has what was added" : "")
+          : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
+                               : ", which predicts better with it, established or not") +
+         short_motions + (whole ? "; " + export_words(f) : ".") +
          (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt_of_motion(d, f.coordinates).empty()
               ? " To settle the cause, record another motion (" + other_motion(d) +
                     ") and diagnose again with that."
@@ -267,10 +269,13 @@ Card card_of(const CardFacts& f) {
   card.helps = helps_line(f, card);
   card.next = next_line(f, card, true) + also_refitted(f);
   const std::string size = mismatch_size(f, card);
-  card.brief = {
-      brief_gap(f),         (card.diagnosed ? without_asides(size) : size) + torque_verdict(f, card),
-      card.place,           brief_cause(f),
-      brief_helps(f, card), f.diagnosis == nullptr ? first_clause(card.next) : next_line(f, card, false)};
+  card.brief = {brief_gap(f),
+                (card.diagnosed ? without_asides(size) : size) + torque_verdict(f, card),
+                card.place,
+                brief_cause(f),
+                brief_helps(f, card),
+                f.diagnosis == nullptr ? first_clause(card.next, card.next.starts_with("None") ? ".;" : ".")
+                                       : next_line(f, card, false)};
   return card;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "diagnosis/card_numbers.h"
 #include "diagnosis/card_open.h"
@@ -139,8 +140,9 @@ std::string cause_of(const CardFacts& f, bool brief) {
   if (d.verdict == DiagnosisVerdict::kNone)
     return (refitted_words(d, f.coordinates, kToldNumbers).empty()
                 ? "Nothing is missing that this recording could show."
-                : "No effect is missing that this recording could show; the drive has other numbers than the "
-                  "configuration starts at.") +
+                : "No effect is missing that this recording could show; only numbers of the configuration "
+                  "were "
+                  "off, and are fitted now.") +
            simulator;
   std::string text = established_causes(f), then = open_causes(f, !brief);
   if (text.empty() && then.empty() && d.stopped)
@@ -158,3 +160,18 @@ std::string cause_line(const CardFacts& f) { return cause_of(f, false); }
 std::string brief_cause(const CardFacts& f) { return cause_of(f, true); }
 
 }  // namespace gapscope::internal::diagnosis
+
+namespace gapscope {
+
+std::string verdict_words(const Diagnosis& d, Coordinates coordinates) {
+  std::string doubt = internal::diagnosis::brief_doubt_of_motion(d, coordinates);
+  if (!doubt.empty())
+    doubt.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(doubt.front())));
+  std::string how;
+  if (d.verdict == DiagnosisVerdict::kEffect) how = doubt.empty() ? "established" : doubt;
+  if (d.verdict == DiagnosisVerdict::kHelps) how = "its cause is not established";
+  if (d.verdict == DiagnosisVerdict::kNone) how = "no effect is missing";
+  return to_string(d.verdict) + (how.empty() ? "" : " (" + how + ")");
+}
+
+}  // namespace gapscope

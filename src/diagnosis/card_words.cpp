@@ -93,15 +93,15 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
     case GapOrigin::kNone:
       if (diagnosis->verdict == DiagnosisVerdict::kNone &&
           diagnosis->model_gap->encoder != EncoderSide::kLoad)
-        return "Backlash is not modelled (a single body), and the recording asks for none: the model is as "
-               "good as the "
-               "recording; to "
+        return "Backlash is not examined, as the model is a single body, which is as good as the recording; "
+               "to "
                "check without a model: " +
                told_without_model(*diagnosis);
       if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
-        return "Backlash is not modelled (a single body); the encoder is on the load, so that this recording "
-               "cannot show any.";
-      return "Backlash is not modelled (a single body); to check the recording for it: " +
+        return "Backlash is not examined, as the model is a single body; the encoder is on the load, so that "
+               "this recording cannot show any.";
+      return "Backlash is not examined, as the model is a single body: it is neither shown nor ruled out; to "
+             "check the recording for it: " +
              told_without_model(*diagnosis);
     case GapOrigin::kGiven:
       return "The model takes the gap as known, " + coordinates.thousandths(diagnosis->model_gap->value) +

@@ -182,11 +182,9 @@ Remark objection(const Pool& pool) {
   if (spread > 0.25 * gap) return words::passages_scatter(100.0 * spread / gap);
   if (2.0 * disagreement > 0.25 * gap) return words::directions_contradict(median(plus), median(minus));
   if (gap > kMostOfTravel * pool.travel) return words::most_of_travel(gap, pool.travel);
-  for (const Refusal moving : {Refusal::kLoadMoving, Refusal::kPushed})
-    if (const auto refused = pool.refused.find(moving);
-        refused != pool.refused.end() &&
-        refused->second > kFewMoving * static_cast<double>(pool.accepted.size()))
-      return advice(moving);
+  const double few_moving = kFewMoving * static_cast<double>(pool.accepted.size());
+  for (const auto& [why, passages] : pool.refused)
+    if ((why == Refusal::kLoadMoving || why == Refusal::kPushed) && passages > few_moving) return advice(why);
   if (travels_too_far(pool, gap, only)) return advice(Refusal::kLoadMoving);
   if (gap < signals::kFewestToldQuanta * pool.quantum) return words::gap_few_quanta(gap, gap / pool.quantum);
   const double hidden = median_of(pool, &Transition::hidden);

@@ -61,15 +61,16 @@ TEST(Card, TellsAnAmountWithoutAUnitAsAShareAndALawByWhatItAddsToASimplerOne) {
   Diagnosis d = slide_diagnosis();
   d.added[0].parameters = {{"level_nm", "N m", 20.54}};
   d.added[1].effect = "torque_ripple", d.added[1].parameters = {{"ratio", "-", 0.0312, {0.0305, 0.0319}}};
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("(20.5 N), then to 2 N with torque ripple (3.120 % of the torque (amplitude), 95 %: "
-                        "3.050 to 3.190); in all"));
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).helps,
+      HasSubstr("(20.5 N), then to 2 N with torque ripple (3.120 % of the motor's torque (amplitude), 95 %: "
+                "3.050 to 3.190); in all"));
   d.added[1].effect = "load_dependent_friction";
   d.added[1].parameters = {{"level_nm", "N m", 20.54}, {"ratio", "-", 0.1, {0.09, 0.11}}};
   EXPECT_THAT(
       card_of(facts_of(nullptr, &d)).helps,
       HasSubstr("with motor Coulomb friction (20.5 N), then to 2 N with load-dependent friction (10.0 % of "
-                "the load's torque, "
+                "the torque that goes to the load, "
                 "95 %: 9.0 to 11.0); in all"));
 }
 

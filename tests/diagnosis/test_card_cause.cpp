@@ -78,9 +78,10 @@ Diagnosis of_other_numbers() {
 TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTheDrives) {
   Diagnosis d = of_other_numbers();
   const Card card = card_of(d);
-  EXPECT_EQ(card.cause,
-            "No effect is missing that this recording could show; the drive has other numbers than the "
-            "configuration starts at.");
+  EXPECT_EQ(
+      card.cause,
+      "No effect is missing that this recording could show; only numbers of the configuration were off, and "
+      "are fitted now.");
   EXPECT_EQ(
       card.helps,
       "Nothing need be added; other numbers than the configuration starts at: motor damping 0.1 → "

@@ -182,8 +182,8 @@ TEST(CardGap, OfASingleBodyThatLacksNothingIsNotMissed) {
   d.verdict = DiagnosisVerdict::kNone, d.model_gap = ModelGap();
   EXPECT_THAT(
       card_of(d).gap,
-      HasSubstr("(a single body), and the recording asks for none: the model is as good as the recording; "
-                "to check without a model: `gapscope detect CONFIG`."));
+      HasSubstr("as the model is a single body, which is as good as the recording; to check without a model: "
+                "`gapscope detect CONFIG`."));
 }
 
 TEST(CardNext, OfOneDirectionAsksForTheOtherBeforeTheSearchGoesOn) {
@@ -213,7 +213,8 @@ TEST(CardGap, OfASingleBodyWithItsEncoderOnTheLoadDoesNotShow) {
   d.model_gap = ModelGap();
   d.model_gap->encoder = EncoderSide::kLoad;  // of one body its traces are of the motor, too
   EXPECT_EQ(card_of(d).gap,
-            "Backlash is not modelled (a single body); the encoder is on the load, so that this recording "
+            "Backlash is not examined, as the model is a single body; the encoder is on the load, so that "
+            "this recording "
             "cannot show any.");
 }
 

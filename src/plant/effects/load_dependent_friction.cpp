@@ -15,7 +15,7 @@ struct LoadDependentFriction {
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
-      {"ratio", "-", 0.0, 0.0, 0.9, Scale::kOne, false, "of the load's torque"}};
+      {"ratio", "-", 0.0, 0.0, 0.9, Scale::kOne, false, "of the torque that goes to the load"}};
   static constexpr std::array<const char*, 2> look_alikes = {"motor_coulomb_friction", "torque_saturation"};
   static constexpr ResidualPattern follows = ResidualPattern::kDirection;
   static constexpr const char* contains = "motor_coulomb_friction";

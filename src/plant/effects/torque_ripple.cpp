@@ -15,7 +15,7 @@ struct TorqueRipple {
       "y = N x1 + phase";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
-      {"ratio", "-", 0.0, 0.0, 0.95, Scale::kOne, false, "of the torque (amplitude)"},
+      {"ratio", "-", 0.0, 0.0, 0.95, Scale::kOne, false, "of the motor's torque (amplitude)"},
       {"periods_per_turn", "1/rev", 2.0, 0.25, 2000.0, Scale::kPerTravel},
       {"phase_rad", "rad", 0.0, -7.0, 7.0, Scale::kOne},
       {"second_harmonic", "-", 0.0, -0.5, 0.5, Scale::kOne},
