@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -21,7 +22,12 @@ cv::Ptr<cv::freetype::FreeType2> load(const std::string& folder, const char* nam
   if (!std::filesystem::exists(path))
     throw std::runtime_error(path + ": font is missing (Debian: fonts-dejavu-core and fonts-dejavu-extra)");
   auto face = cv::freetype::createFreeType2();
-  face->loadFontData(path, 0);
+  try {
+    face->loadFontData(path, 0);
+  } catch (
+      const cv::Exception&) {  // which tells no reason: Debian's fonts are sound, so memory is what lacks
+    throw std::bad_alloc();
+  }
   return face;
 }
 

@@ -95,7 +95,7 @@ constexpr double kReach = 0.8;           ///< of a half period: nothing before i
 /// study_sliding_mode 5610001 30 gap triangle wide held, 5610101 20 trapezoid it leaves no error above 10 %;
 /// half takes one more right reading, three times as much leaves one of 72 %. None of the three changes a
 /// reading of 5410001 40 gap triangle wide or trapezoid wide, whose loads rest.
-constexpr double kGoesAlong = 0.1;
+constexpr double kGoesAlong = 0.15;
 
 /// Where x1 turned round before the impact, against the direction of the passage.
 Reversal find_reversal(const TransitionContext& context, int direction, std::size_t from, std::size_t to) {
