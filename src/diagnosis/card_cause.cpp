@@ -141,8 +141,7 @@ std::string cause_of(const CardFacts& f, bool brief) {
     return (refitted_words(d, f.coordinates, kToldNumbers).empty()
                 ? "Nothing is missing that this recording could show."
                 : "No effect is missing that this recording could show; only numbers of the configuration "
-                  "were "
-                  "off, and are fitted now.") +
+                  "were off, and are fitted now.") +
            simulator;
   std::string text = established_causes(f), then = open_causes(f, !brief);
   if (text.empty() && then.empty() && d.stopped)

@@ -24,9 +24,8 @@ cv::Ptr<cv::freetype::FreeType2> load(const std::string& folder, const char* nam
   auto face = cv::freetype::createFreeType2();
   try {
     face->loadFontData(path, 0);
-  } catch (
-      const cv::Exception&) {  // which tells no reason: Debian's fonts are sound, so memory is what lacks
-    throw std::bad_alloc();
+  } catch (const cv::Exception&) {
+    throw std::bad_alloc();  // it tells no reason; Debian's fonts are sound, so memory is what lacks
   }
   return face;
 }

@@ -28,8 +28,8 @@ struct Release {
   double travel_half_width = 0.0;  ///< of s [rad]
   bool far_flank = true;           ///< the contact before t1 was with the flank that the passage leaves
   double contradiction = 0.0;      ///< of the gap, by the state just before t1 and that just after it [rad]
-  double along =
-      0.0;  ///< speed of both along the passage at t1, the least that the time around it allows [rad/s]
+  /// Speed of both along the passage at t1, the least that the time around it allows [rad/s].
+  double along = 0.0;
   bool passive = true;      ///< the load slowed down when it was released
   double half_width = 0.0;  ///< of the gap, from t1 and s together [rad]
 };
