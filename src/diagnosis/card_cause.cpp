@@ -163,7 +163,8 @@ std::string brief_cause(const CardFacts& f) { return cause_of(f, true); }
 namespace gapscope {
 
 std::string verdict_words(const Diagnosis& d, Coordinates coordinates) {
-  std::string doubt = internal::diagnosis::brief_doubt_of_motion(d, coordinates);
+  using internal::diagnosis::brief_doubt_of_motion;
+  std::string doubt = internal::diagnosis::without_asides(brief_doubt_of_motion(d, coordinates));
   if (!doubt.empty())
     doubt.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(doubt.front())));
   std::string how;

@@ -43,7 +43,9 @@ std::string torque_size(const CardFacts& f, const Card& card) {
         fmt::format(", {} the {} rms that the {} applies",
                     card.percent < 200.0 ? percent_text(card.percent) + " of"
                                          : fmt::format("{:.2g} times", 0.01 * card.percent),
-                    SharedUnit(input, f.coordinates.shown_unit("N m"))(input), what_applies(*f.diagnosis));
+                    SharedUnit(input, f.coordinates.shown_unit("N m"))(input), what_applies(*f.diagnosis)) +
+        (input_is_made(*f.diagnosis) ? fmt::format(", as no {} was recorded", f.coordinates.torque_word())
+                                     : "");
   return text;
 }
 

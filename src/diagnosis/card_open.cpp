@@ -168,7 +168,9 @@ std::string unexplained(const CardFacts& f, const Card& card) {
       percent_text(card.percent_after), f.coordinates.torque_word(),
       SharedUnit(1.0, "").number(card.torque_after / floor),
       b.records >= floor ? std::string("that by which ") + what_disagrees(*f.diagnosis) + " disagree"
-                         : "the least that a model could reach");
+      : b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
+          ? "what the drive itself differs by from period to period"
+          : "what the encoder's noise alone looks like");
 }
 
 }  // namespace gapscope::internal::diagnosis

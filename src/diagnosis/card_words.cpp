@@ -98,8 +98,7 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
                "check without a model: " +
                told_without_model(*diagnosis);
       if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
-        return "Backlash is not examined, as the model is a single body; the encoder is on the load, so that "
-               "this recording cannot show any.";
+        return "Backlash cannot be examined: the encoder is on the load, and this recording cannot show any.";
       return "Backlash is not examined, as the model is a single body: it is neither shown nor ruled out; to "
              "check the recording for it: " +
              told_without_model(*diagnosis);

@@ -195,10 +195,14 @@ namespace gapscope {
 bool is_told_in_torque(const Diagnosis& d) {
   using internal::diagnosis::kRule;
   const MismatchSize& m = d.mismatch;
-  if (d.added.empty() || d.budget.uncounted.empty()) return std::isfinite(m.before_torque);
+  if (d.added.empty() || !std::isfinite(m.before_torque)) return std::isfinite(m.before_torque);
   const double motion_left = std::max(0.0, (m.after - m.floor) / (m.before - m.floor));
   const bool tellable = m.before >= kRule.floor_ratio * m.floor;  // at the floor no motion falls any more
-  return tellable && m.after_torque <= (motion_left + kRule.part) * m.before_torque;
+  if (!d.budget.uncounted.empty())
+    return tellable && m.after_torque <= (motion_left + kRule.part) * m.before_torque;
+  const double fall = 1.0 - m.after_torque / m.before_torque;
+  return !(tellable &&
+           fall < kRule.part * (1.0 - motion_left));  // an elasticity moves x1, and takes no torque
 }
 
 }  // namespace gapscope

@@ -97,7 +97,7 @@ TEST(Card, TellsWhatIsStillUnexplained) {
   d.budget.nominal = 10.0, d.budget.encoder = 0.1, d.budget.band_hz = 64.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).next,
               StartsWith("Do not rely on `DIR/fitted.yaml` yet: 4 % of the input's force is unexplained with "
-                         "all that was found (20 times the least that a model could reach). Record"));
+                         "all that was found (20 times what the encoder's noise alone looks like). Record"));
   d.added.back().after_torque = kNaN;  // the budget has no size of it: it may take all of that
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).next, StartsWith("Simulate with `DIR/fitted.yaml`"));
   d.added.back().after_torque = 2.0, d.budget.encoder = 0.3;

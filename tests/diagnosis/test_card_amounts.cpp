@@ -81,8 +81,8 @@ TEST(Card, OfALawWithSeveralRatiosTellsTheLargest) {
                            {"coulomb_ratio", "-", -0.0052},
                            {"viscous_ratio", "-", -0.2, {-0.22, -0.18}}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).helps,
-              HasSubstr("then to 2 N with friction asymmetry (-20.0 % of the mean damping forward, the "
-                        "opposite backward, 95 %: -22.0 to -18.0); in all"));
+              HasSubstr("then to 2 N with friction asymmetry (-20.0 % of the mean damping forward, with "
+                        "the opposite sign backward, 95 %: -22.0 to -18.0); in all"));
 }
 
 TEST(Card, OfOneEffectTellsTheAmountAndOfSeveralTheShares) {
@@ -163,7 +163,9 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
   f.coordinates = Coordinates::kRotation;
   d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
   EXPECT_EQ(card_of(f).cause,
-            "Established: cogging torque at 24 cycles per turn and cogging torque at 7.25 cycles per turn.");
+            "Established: cogging torque at 24 cycles per turn of the position and cogging torque at 7.25 "
+            "cycles per "
+            "turn of the position.");
 }
 
 TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {

@@ -213,9 +213,7 @@ TEST(CardGap, OfASingleBodyWithItsEncoderOnTheLoadDoesNotShow) {
   d.model_gap = ModelGap();
   d.model_gap->encoder = EncoderSide::kLoad;  // of one body its traces are of the motor, too
   EXPECT_EQ(card_of(d).gap,
-            "Backlash is not examined, as the model is a single body; the encoder is on the load, so that "
-            "this recording "
-            "cannot show any.");
+            "Backlash cannot be examined: the encoder is on the load, and this recording cannot show any.");
 }
 
 }  // namespace

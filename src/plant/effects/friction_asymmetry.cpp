@@ -14,9 +14,9 @@ struct FrictionAsymmetry {
       // key, unit, absent, bounds and what they are measured in
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
       {"coulomb_ratio", "-", 0.0, -0.99, 0.99, Scale::kLevel, false,
-       "of the mean friction forward, the opposite backward"},
+       "of the mean friction forward, with the opposite sign backward"},
       {"viscous_ratio", "-", 0.0, -0.99, 0.99, Scale::kOne, false,
-       "of the mean damping forward, the opposite backward"}};
+       "of the mean damping forward, with the opposite sign backward"}};
   static constexpr std::array<const char*, 2> look_alikes = {"constant_load_torque", "load_unbalance"};
   static constexpr ResidualPattern follows = ResidualPattern::kDirection;
   static constexpr const char* contains = "motor_coulomb_friction";
