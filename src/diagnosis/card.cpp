@@ -24,7 +24,7 @@ namespace {
 using internal::diagnosis::also_refitted;
 using internal::diagnosis::as_sentence;
 using internal::diagnosis::brief_cause;
-using internal::diagnosis::brief_doubt_of_motion;
+using internal::diagnosis::brief_doubt;
 using internal::diagnosis::brief_helps;
 using internal::diagnosis::cause_line;
 using internal::diagnosis::drifts_farther;
@@ -194,7 +194,7 @@ std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) 
           : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
                                : ", which predicts better with it, established or not") +
          short_motions + (whole ? "; " + export_words(f) : ".") +
-         (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt_of_motion(d, f.coordinates).empty()
+         (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt(d, f.coordinates).empty()
               ? " To settle the cause, record another motion (" + other_motion(d) +
                     ") and diagnose again with that."
               : "");

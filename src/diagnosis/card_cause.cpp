@@ -58,7 +58,7 @@ std::string established_causes(const CardFacts& f) {
   const std::string rest = !rests_on_open_cause(*f.diagnosis) ? ""
                            : names(f, false).size() > 1       ? "with them in the model"
                                                               : "with it in the model";
-  const std::string doubt = brief_doubt_of_motion(*f.diagnosis, f.coordinates);
+  const std::string doubt = brief_doubt(*f.diagnosis, f.coordinates);
   std::string text;
   if (!alone.empty())
     text = fmt::format(" {}{}: {}.", doubt.empty() ? "Established" : doubt,
@@ -163,8 +163,8 @@ std::string brief_cause(const CardFacts& f) { return cause_of(f, true); }
 namespace gapscope {
 
 std::string verdict_words(const Diagnosis& d, Coordinates coordinates) {
-  using internal::diagnosis::brief_doubt_of_motion;
-  std::string doubt = internal::diagnosis::without_asides(brief_doubt_of_motion(d, coordinates));
+  using internal::diagnosis::brief_doubt;
+  std::string doubt = internal::diagnosis::without_asides(brief_doubt(d, coordinates));
   if (!doubt.empty())
     doubt.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(doubt.front())));
   std::string how;

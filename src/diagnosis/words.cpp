@@ -13,6 +13,7 @@
 #include "gapscope/base/decimals.h"
 #include "gapscope/base/percents.h"
 #include "gapscope/base/text.h"
+#include "gapscope/diagnosis/card.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
@@ -95,7 +96,8 @@ constexpr const char* kByBalance = " by the torque balance alone";
 /// " (likely, by the torque balance alone; ...)" or " (established; ...)", where the motion does not bear it
 /// out.
 std::string doubt_aside(const Diagnosis& d) {
-  const std::string doubt = doubt_of_motion(d);
+  const std::string doubt = doubt_of_motion(d), rival = rival_of_first(d);
+  if (doubt.empty() && !rival.empty()) return fmt::format(" (likely; {} explains nearly as much)", rival);
   return doubt.empty() ? "" : (doubt.starts_with(kByBalance) ? " (likely," : " (established") + doubt + ")";
 }
 
@@ -218,8 +220,11 @@ std::string doubt_of_motion(const Diagnosis& d) {
                      percent_of_shrink(m.shrink_ci95.high));
 }
 
-std::string brief_doubt_of_motion(const Diagnosis& d, Coordinates coordinates) {
-  if (doubt_of_motion(d).empty()) return "";
+std::string brief_doubt(const Diagnosis& d, Coordinates coordinates) {
+  if (doubt_of_motion(d).empty()) {
+    const std::string rival = rival_of_first(d);
+    return rival.empty() ? "" : fmt::format("Likely, not confirmed ({} explains nearly as much)", rival);
+  }
   const std::string what = d.mismatch.measure.starts_with("prediction") ? "prediction" : "free run";
   return d.added.front().share_of == ShareOf::kTorque
              ? "Likely, not confirmed (by the " + std::string(coordinates.torque_word()) + " balance; the " +
@@ -264,5 +269,13 @@ const char* to_string(DiagnosisVerdict verdict) {
 }
 
 std::string Diagnosis::brief_report() const { return sentence; }
+
+std::string rival_of_first(const Diagnosis& d) {
+  if (d.added.empty() || !d.added.front().established || !d.next_experiment.proposes()) return "";
+  const AddedEffect& first = d.added.front();
+  for (const Separation& s : d.next_experiment.tried.front().separations)
+    if (s.truth == first.effect && !contains(first.group, s.rival)) return readable(s.rival);
+  return "";
+}
 
 }  // namespace gapscope

@@ -11,9 +11,9 @@ namespace gapscope::internal::diagnosis {
 /// does, or nothing was added.
 std::string doubt_of_motion(const Diagnosis& diagnosis);
 
-/// The same in brief and without its numbers, as the beginning of a cause: "Likely, not confirmed (by the
-/// torque balance; the free run, restarted again and again, cannot tell)".
-std::string brief_doubt_of_motion(const Diagnosis& diagnosis, Coordinates coordinates);
+/// The doubts about established causes in brief and without their numbers, as the beginning of a cause:
+/// "Likely, not confirmed (by the torque balance; the free run, restarted again and again, cannot tell)".
+std::string brief_doubt(const Diagnosis& diagnosis, Coordinates coordinates);
 
 /// A share of the error above the floor in per cent: below the floor nothing more can shrink.
 std::string percent_of_shrink(double shrink);

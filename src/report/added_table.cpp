@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "gapscope/base/text.h"
+#include "gapscope/diagnosis/card.h"
 #include "report/markdown.h"
 #include "report/wording.h"
 
@@ -38,11 +39,13 @@ std::string alternatives(const AddedEffect& a, const std::vector<std::string>& e
   return text;
 }
 
-/// Which evidence has decided, where the motion does not bear it out.
-const char* established_word(const DiagnosisResult& r) {
+/// Which evidence has decided, where the motion does not bear it out; what else nearly explains it.
+std::string established_word(const DiagnosisResult& r) {
   const Diagnosis& d = r.diagnosis;
-  if (d.added.empty() || d.added.front().share_of == ShareOf::kMotion || d.is_shown_by_motion())
-    return "established";
+  if (d.added.empty() || d.added.front().share_of == ShareOf::kMotion || d.is_shown_by_motion()) {
+    const std::string rival = rival_of_first(d);
+    return rival.empty() ? "established" : "likely, " + rival + " explains nearly as much";
+  }
   return r.coordinates.rotational() ? "likely, by the torque balance" : "likely, by the force balance";
 }
 
@@ -69,7 +72,7 @@ bool is_left_out(const NamedValue& p) {
 std::string added_table(const DiagnosisResult& r) {
   std::string text;
   const std::vector<AddedEffect>& added = r.diagnosis.added;
-  const char* const established = established_word(r);
+  const std::string established = established_word(r);
   for (const AddedEffect& a : added) {
     const bool on_top = a.established && !added.front().established;
     const std::string others = a.established ? alternatives(a, r.diagnosis.effects) : "";

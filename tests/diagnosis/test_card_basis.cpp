@@ -39,6 +39,27 @@ TEST(CardBasis, WhatRoundsToZeroHasNoSign) {
   EXPECT_EQ(Percents(both)(-0.0001), "0.00 %");
 }
 
+TEST(CardBasis, ACauseThatTheNextExperimentIsToTellFromAnotherIsLikely) {
+  Diagnosis d = slide_diagnosis();
+  d.added.resize(1), d.effects.resize(1);
+  d.mismatch.shrink_ci95 = {0.9, 1.0};
+  EXPECT_EQ(verdict_words(d, Coordinates()), "effect (established)");
+  TriedInput best;
+  best.separations = {{"motor_coulomb_friction", "stribeck_friction", 0.2},
+                      {"stribeck_friction", "motor_coulomb_friction", 0.1}};
+  d.next_experiment.tried = {best};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause,
+              StartsWith("Likely, not confirmed (Stribeck friction explains nearly as much): motor Coulomb "
+                         "friction."));
+  EXPECT_EQ(verdict_words(d, Coordinates()), "effect (likely, not confirmed)");
+  EXPECT_THAT(
+      internal::diagnosis::sentence_of(d, Coordinates()),
+      StartsWith("The model lacks motor Coulomb friction (likely; Stribeck friction explains nearly as "
+                 "much)"));
+  d.added.front().group.push_back("stribeck_friction");  // then it is told as one of two
+  EXPECT_EQ(rival_of_first(d), "");
+}
+
 TEST(CardBasis, ACauseThatTheFreeRunCannotTellIsSaidToBeOfTheBalanceAlone) {
   const Diagnosis d = by_balance(0.46, {-2.57, 0.83});
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause,

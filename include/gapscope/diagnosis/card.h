@@ -87,4 +87,8 @@ std::string amount_words(const AddedEffect& added, const Diagnosis& diagnosis, C
 /// The verdict, and how far it goes: "effect (likely, not confirmed)".
 std::string verdict_words(const Diagnosis& diagnosis, Coordinates coordinates);
 
+/// What explains the recordings nearly as well as an established first cause, in words: the next experiment
+/// is to tell the two apart. Empty where nothing does.
+std::string rival_of_first(const Diagnosis& diagnosis);
+
 }  // namespace gapscope
