@@ -155,11 +155,13 @@ void print_card(const Card& card, const ToldConfiguration& c, const std::string&
     const bool further = !card.diagnosed && &l.text == &card.place;
     const bool to_diagnose = !c.to_begin.empty() && l.brief.starts_with("Run `gapscope diagnose CONFIG`");
     const std::string text =
-        to_diagnose ? "Make a model as above: a diagnosis with it tells where the drive differs, and why."
-        : !further  ? l.brief
-        : c.to_begin.empty() ? "Where, cause and what helps: run `gapscope diagnose CONFIG`."
-                             : "For where, cause and what helps a model is needed: `gapscope init " +
-                                   c.to_begin + "` writes a first one; run `gapscope diagnose` with that.";
+        to_diagnose
+            ? "Make a model as above: a diagnosis with it tells where the drive differs from it, and why."
+        : !further ? l.brief
+        : c.to_begin.empty()
+            ? "Where, cause and what helps: run `gapscope diagnose CONFIG`."
+            : "The place of the error, its cause and what helps take a model: `gapscope init " + c.to_begin +
+                  "` writes a first one; run `gapscope diagnose` with that.";
     const bool goes_on = text.find(" --model-from ") != text.npos;  // and names a folder of its own
     const Placeholder all[] = {{"DIR", folder},
                                {"CONFIG", c.file, c.settings + (goes_on ? "" : c.model + c.folder)}};
@@ -201,10 +203,12 @@ void print_headline(const std::string& folder, const RunResult& r, const ToldCon
   if (r.comparison && std::isfinite(r.comparison->difference))
     line("difference", comparison_line(*r.comparison, r.coordinates));
   if (r.comparison && !std::isnan(r.comparison->map_width))
-    line("load side",
-         fmt::format("{:<17} width of the x1-x2 map", r.coordinates.thousandths(r.comparison->map_width)));
+    line("load side", fmt::format("{:<17} width of the x1-x2 map, of both encoders",
+                                  r.coordinates.thousandths(r.comparison->map_width)));
   if (r.second_encoder && !std::isnan(r.second_encoder->rmse)) line("validation", validation_line(r));
-  if (!std::isnan(r.simulated_gap)) line("simulated", r.coordinates.thousandths(r.simulated_gap));
+  if (!std::isnan(r.simulated_gap))
+    line("simulated", fmt::format("{:<17} the gap that the recording was simulated with",
+                                  r.coordinates.thousandths(r.simulated_gap)));
   if (r.answer) print_card(r.answer->card, configuration, folder);
 }
 

@@ -136,9 +136,9 @@ std::string lost_motion(const Findings& f) {
   if (std::isfinite(l.gap_limit)) text += "; the gap is at most " + f.coordinates.thousandths(l.gap_limit);
   switch (l.cause) {
     case LostMotionCause::kGap:
-      return text + ". It is mostly a gap.";
+      return text + ". The lost motion is mostly a gap.";
     case LostMotionCause::kFriction:
-      return text + ". It is friction and compliance.";
+      return text + ". The lost motion is friction and compliance.";
     default:
       return text + ". Whether a gap or friction and compliance make it up cannot be told here.";
   }

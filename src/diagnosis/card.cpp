@@ -38,9 +38,11 @@ using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
 using internal::diagnosis::mismatch_size;
 using internal::diagnosis::mismatch_words;
+using internal::diagnosis::name_of;
 using internal::diagnosis::next_of_numbers;
 using internal::diagnosis::no_nearer;
 using internal::diagnosis::one_way_words;
+using internal::diagnosis::other_motion;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
 using internal::diagnosis::step_to_establish;
@@ -110,7 +112,8 @@ std::string gap_trust_and_why(const CardFacts& f) {
       !f.answer->sentence.starts_with(internal::diagnosis::kNoBacklash))
     return text;
   text.pop_back();
-  return text + " (it stands for loads of at least 0.2 of the motor's inertia, until a fitted model agrees).";
+  return text +
+         " (it holds for loads of at least 0.2 of the motor's inertia; a fitted model can confirm it).";
 }
 
 std::string gap_line(const CardFacts& f) {
@@ -159,11 +162,6 @@ std::string step_of_the_answer(const CardFacts& f) {
   return "";
 }
 
-std::string other_motion(const Diagnosis& d) {
-  return !one_way_words(d.where.direction).empty() ? "both directions, other speeds, other loads"
-                                                   : "other speeds, other loads";
-}
-
 /// What a model is good for that drifts over a whole recording, though not in the windows that judge it.
 std::string for_short_motions(const Diagnosis& d, Coordinates coordinates) {
   if (!d.whole_run || d.closed_loop) return "";
@@ -188,11 +186,13 @@ std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) 
   if (d.mismatch.after >= d.mismatch.before) return no_nearer(d);
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
   const std::string short_motions = for_short_motions(d, f.coordinates);
+  const std::string addition =
+      d.added.size() > 1 ? "all of these" : without_asides(name_of(d.added.front(), d, f.coordinates));
   return std::string("Simulate with `DIR/fitted.yaml`") +
          (drifts_farther(d)    ? ""
-          : !open              ? (short_motions.empty() ? ", which has what was added" : "")
-          : d.added.size() > 1 ? ", which predicts best with all of these, established or not"
-                               : ", which predicts better with it, established or not") +
+          : !open              ? (short_motions.empty() ? ", which has " + addition + " in it" : "")
+          : d.added.size() > 1 ? ", which predicts best with all of these in it, causes or not"
+                               : ", which predicts better with it, a cause or not") +
          short_motions + (whole ? "; " + export_words(f) : ".") +
          (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt(d, f.coordinates).empty()
               ? " To settle the cause, record another motion (" + other_motion(d) +
@@ -206,7 +206,8 @@ std::string next_line(const CardFacts& f, const Card& card, bool whole) {
   if (!step.empty()) return step;
   if (f.diagnosis == nullptr)
     return f.answer != nullptr && f.answer->trust == AnswerTrust::kGood
-               ? "None for the gap; `gapscope diagnose CONFIG` tells where the model and the drive differ, "
+               ? "Nothing more for the gap; `gapscope diagnose CONFIG` tells where the model and the drive "
+                 "differ, "
                  "and why."
                : "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why.";
   const Diagnosis& d = *f.diagnosis;
@@ -220,7 +221,8 @@ std::string next_line(const CardFacts& f, const Card& card, bool whole) {
                 : "Record both directions, too: without them causes stay open. "
                   "To go on from what was found: ") +
            "`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.";
-  if (!d.next_experiment.sentence.empty()) return d.next_experiment.sentence;
+  if (const std::string& told = d.next_experiment.sentence; !told.empty())
+    return whole || d.next_experiment.separates() ? told : without_asides(told);
   if (is_added(d)) return step_of_the_model(f, card, whole);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
   return step_to_establish(d);
@@ -274,8 +276,9 @@ Card card_of(const CardFacts& f) {
                 card.place,
                 brief_cause(f),
                 brief_helps(f, card),
-                f.diagnosis == nullptr ? first_clause(card.next, card.next.starts_with("None") ? ".;" : ".")
-                                       : next_line(f, card, false)};
+                f.diagnosis == nullptr
+                    ? first_clause(card.next, card.next.starts_with("Nothing") ? ".;" : ".")
+                    : next_line(f, card, false)};
   return card;
 }
 

@@ -168,9 +168,10 @@ std::string verdict_words(const Diagnosis& d, Coordinates coordinates) {
   if (!doubt.empty())
     doubt.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(doubt.front())));
   std::string how;
-  if (d.verdict == DiagnosisVerdict::kEffect) how = doubt.empty() ? "established" : doubt;
-  if (d.verdict == DiagnosisVerdict::kHelps) how = "its cause is not established";
-  if (d.verdict == DiagnosisVerdict::kNone) how = "no effect is missing";
+  if (d.verdict == DiagnosisVerdict::kEffect)
+    how = "missing in the model: " + (doubt.empty() ? "established" : doubt);
+  if (d.verdict == DiagnosisVerdict::kHelps) how = "the error falls, but no cause is established";
+  if (d.verdict == DiagnosisVerdict::kNone) how = "nothing is missing in the model";
   return to_string(d.verdict) + (how.empty() ? "" : " (" + how + ")");
 }
 

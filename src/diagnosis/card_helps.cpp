@@ -83,7 +83,7 @@ std::string percents(const CardFacts& f, const Card& card) {
   const double both[] = {card.percent, card.percent_after};
   const Percents percent(both);
   return percent(card.percent) + " to " + percent(card.percent_after) + " of what the " +
-         what_applies(*f.diagnosis) + " applies";
+         what_applies(*f.diagnosis);
 }
 
 /// " (free run restarted every 0.5 s, median of windows)"; empty where no measure is told
@@ -237,8 +237,15 @@ std::string brief_helps(const CardFacts& f, const Card& card) {
 }  // namespace internal::diagnosis
 
 std::string amount_words(const AddedEffect& added, const Diagnosis& diagnosis, Coordinates coordinates) {
-  return fmt::format("{}",
-                     fmt::join(internal::diagnosis::amounts_of(added, diagnosis, coordinates, ""), "; "));
+  using namespace internal::diagnosis;
+  const std::string name = without_asides(name_of(added, diagnosis, coordinates));
+  std::string text = name.starts_with(readable(added.effect)) ? "" : "as " + name + ": ";
+  text += fmt::format("{}", fmt::join(amounts_of(added, diagnosis, coordinates, ""), "; "));
+  std::vector<std::string> others;
+  for (const std::string& other : added.group)
+    if (other != added.effect && !contains(diagnosis.effects, other)) others.push_back(readable(other));
+  if (others.empty()) return text;
+  return text + (text.empty() ? "" : "; ") + "it may as well be " + enumerated(others, "or");
 }
 
 }  // namespace gapscope

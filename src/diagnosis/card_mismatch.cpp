@@ -24,9 +24,10 @@ std::string fit_of_motion(const CardFacts& f) {
                      f.reference->rejected() ? "; the model is rejected" : "");
 }
 
-/// "The model", "The refitted model, which has motor Coulomb friction,".
+/// "The model", "With nothing added, the refitted model, which has motor Coulomb friction,".
 std::string model_words(const Diagnosis& d) {
-  const std::string model = d.refitted.empty() ? "The model" : "The refitted model";
+  const std::string before = d.added.empty() ? "The " : "With nothing added, the ";
+  const std::string model = before + (d.refitted.empty() ? "model" : "refitted model");
   std::vector<std::string> names;
   for (const std::string& effect : d.modelled) names.push_back(readable(effect));
   return names.empty() ? model : model + ", which has " + enumerated(names) + ",";
@@ -40,12 +41,10 @@ std::string torque_size(const CardFacts& f, const Card& card) {
   const double input = 100.0 * card.torque / card.percent;
   if (std::isfinite(card.percent))
     text +=
-        fmt::format(", {} the {} rms that the {} applies",
+        fmt::format(", {} the {} rms that the {}",
                     card.percent < 200.0 ? percent_text(card.percent) + " of"
                                          : fmt::format("{:.2g} times", 0.01 * card.percent),
-                    SharedUnit(input, f.coordinates.shown_unit("N m"))(input), what_applies(*f.diagnosis)) +
-        (input_is_made(*f.diagnosis) ? fmt::format(", as no {} was recorded", f.coordinates.torque_word())
-                                     : "");
+                    SharedUnit(input, f.coordinates.shown_unit("N m"))(input), what_applies(*f.diagnosis));
   return text;
 }
 

@@ -92,7 +92,7 @@ std::string pushing(const NamedValue& n, const std::string& unit) {
 std::string without_interval(const AddedEffect& a, const NamedValue& n) {
   if (std::isfinite(n.ci95.low)) return "";
   if (contains(a.at_bound, n.key)) return ", at the bound of its search";
-  return a.established ? "" : ", which the recordings do not determine";
+  return a.established ? "" : ", an amount that the recordings do not determine";
 }
 
 std::string name_of_number(const RefittedNumber& n, const Diagnosis& d, Coordinates coordinates) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/card_words.h"
+#include "diagnosis/headline.h"
 #include "diagnosis/rule.h"
 #include "diagnosis/verdict.h"
 #include "gapscope/base/text.h"
@@ -115,7 +116,9 @@ const char* what_disagrees(const Diagnosis& d) {
 
 bool input_is_made(const Diagnosis& d) { return !d.traces.empty() && !d.traces.front().target.empty(); }
 
-const char* what_applies(const Diagnosis& d) { return input_is_made(d) ? "model's controller" : "input"; }
+const char* what_applies(const Diagnosis& d) {
+  return input_is_made(d) ? "model's controller computes from the goal" : "input applies";
+}
 
 std::string step_to_estimate(const Diagnosis& d) {
   return fmt::format(
@@ -143,11 +146,16 @@ bool drifts_farther(const Diagnosis& d) {
   return !(w.after < least * w.before || w.after < kRule.far * d.mismatch.floor);
 }
 
+std::string other_motion(const Diagnosis& d) {
+  return !one_way_words(d.where.direction).empty() ? "both directions, other speeds, other loads"
+                                                   : "other speeds, other loads";
+}
+
 std::string no_nearer(const Diagnosis& d) {
   return fmt::format(
       "Do not rely on `DIR/fitted.yaml` to simulate: the motion comes no nearer with {}. Record another "
-      "motion (other speeds, other loads), and diagnose again.",
-      d.added.size() > 1 ? "what was added" : "the addition");
+      "motion ({}), and diagnose again.",
+      d.added.size() > 1 ? "what was added" : "the addition", other_motion(d));
 }
 
 std::string unexplained(const CardFacts& f, const Card& card) {
@@ -163,14 +171,15 @@ std::string unexplained(const CardFacts& f, const Card& card) {
     return "";
   return fmt::format(
       "Do not rely on `DIR/fitted.yaml` yet: {} of the input's {} is unexplained with all that was found "
-      "({} times {}). Record another motion (other speeds, other loads), "
+      "({} times {}). Record another motion ({}), "
       "or swap `file` and `held_out` where there are two recordings, and diagnose again.",
       percent_text(card.percent_after), f.coordinates.torque_word(),
       SharedUnit(1.0, "").number(card.torque_after / floor),
       b.records >= floor ? std::string("that by which ") + what_disagrees(*f.diagnosis) + " disagree"
       : b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
           ? "what the drive itself differs by from period to period"
-          : "what the encoder's noise alone looks like");
+          : "what the encoder's noise alone looks like",
+      other_motion(*f.diagnosis));
 }
 
 }  // namespace gapscope::internal::diagnosis

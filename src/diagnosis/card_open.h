@@ -54,6 +54,10 @@ std::string unexplained(const CardFacts& facts, const Card& card);
 /// whole: small errors of the right numbers add up to less.
 bool drifts_farther(const Diagnosis& diagnosis);
 
+/// What another recording is to have: "both directions, other speeds, other loads", where one way was
+/// recorded.
+std::string other_motion(const Diagnosis& diagnosis);
+
 /// The step where what was added takes torque and brings the simulated motion no nearer.
 std::string no_nearer(const Diagnosis& diagnosis);
 

@@ -192,8 +192,7 @@ std::string period_words(const AddedEffect& added, Coordinates coordinates) {
   for (const NamedValue& p : added.parameters) {
     if (p.key != "periods_per_turn" || !(p.value > 0.0)) continue;
     if (const std::string cycles = fmt::format("{:.4g}", p.value); coordinates.rotational())
-      return cycles == "1" ? " once per turn of the position"
-                           : " at " + cycles + " cycles per turn of the position";
+      return cycles == "1" ? " once per motor turn" : " at " + cycles + " cycles per motor turn";
     const double period = 2.0 * kPi / p.value;
     return " every " + SharedUnit(period, coordinates.position_unit())(period);
   }

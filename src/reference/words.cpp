@@ -154,12 +154,12 @@ Remark leaves_unexplained(double share, double floors) {
   if (share >= 1.0)
     return {"leaves_unexplained",
             "The model predicts the motion no better than a motor that coasts without any torque (prediction "
-            "error {:.3g} encoder floors).",
+            "error {:.3g} times the encoder's noise).",
             {floors}};
   return {
       "leaves_unexplained",
-      "The model misses {:.0f} % of what the [torque] does to the motion (prediction error {:.3g} encoder "
-      "floors).",
+      "The model misses {:.0f} % of what the [torque] does to the motion (prediction error {:.3g} times the "
+      "encoder's noise).",
       {100.0 * share, floors}};
 }
 Remark as_well_without_gap(double ratio) {

@@ -58,7 +58,7 @@ TEST(ToldCommands, ARunWithoutAModelSendsToInit) {
   place.file("d.yaml", "name: bare\nrecording: {file: r.csv}\n");
   const auto detect = place.run("detect d.yaml");
   ASSERT_EQ(detect.status, 0) << detect.err;
-  EXPECT_THAT(detect.out, AllOf(HasSubstr("a model is needed: `gapscope init "), HasSubstr("r.csv`")));
+  EXPECT_THAT(detect.out, AllOf(HasSubstr("take a model: `gapscope init "), HasSubstr("r.csv`")));
   EXPECT_THAT(detect.out, Not(HasSubstr("gapscope diagnose d.yaml")));
 }
 

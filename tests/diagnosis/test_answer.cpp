@@ -198,7 +198,7 @@ TEST(Answer, TellsTheLostMotionThatWasMeasuredWhateverItMeans) {
   EXPECT_THAT(of(&open, nullptr).next, ElementsAre(HasSubstr("at half and at twice the torque")));
   open.lost_motion.cause = LostMotionCause::kFriction, open.lost_motion.gap_limit = kNaN;
   EXPECT_THAT(of(&open, nullptr).sentence,
-              HasSubstr("is 33.80 mrad (95 %: 33.00 to 34.60). It is friction and compliance."));
+              HasSubstr("is 33.80 mrad (95 %: 33.00 to 34.60). The lost motion is friction and compliance."));
 }
 
 TEST(Answer, TheLoopOfTheSmallestTorqueBindsADenialThatAllowsMore) {

@@ -43,7 +43,7 @@ TEST(CardBasis, ACauseThatTheNextExperimentIsToTellFromAnotherIsLikely) {
   Diagnosis d = slide_diagnosis();
   d.added.resize(1), d.effects.resize(1);
   d.mismatch.shrink_ci95 = {0.9, 1.0};
-  EXPECT_EQ(verdict_words(d, Coordinates()), "effect (established)");
+  EXPECT_EQ(verdict_words(d, Coordinates()), "effect (missing in the model: established)");
   TriedInput best;
   best.separations = {{"motor_coulomb_friction", "stribeck_friction", 0.2},
                       {"stribeck_friction", "motor_coulomb_friction", 0.1}};
@@ -51,7 +51,7 @@ TEST(CardBasis, ACauseThatTheNextExperimentIsToTellFromAnotherIsLikely) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).cause,
               StartsWith("Likely, not confirmed (Stribeck friction explains nearly as much): motor Coulomb "
                          "friction."));
-  EXPECT_EQ(verdict_words(d, Coordinates()), "effect (likely, not confirmed)");
+  EXPECT_EQ(verdict_words(d, Coordinates()), "effect (missing in the model: likely, not confirmed)");
   EXPECT_THAT(
       internal::diagnosis::sentence_of(d, Coordinates()),
       StartsWith("The model lacks motor Coulomb friction (likely; Stribeck friction explains nearly as "

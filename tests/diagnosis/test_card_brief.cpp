@@ -30,9 +30,10 @@ TEST(CardBrief, AnswersEveryLineInASentenceOrTwo) {
   const Card card = card_of(facts_of(&answer, &d));
   EXPECT_EQ(card.brief.gap,
             "The backlash gap is 19.0 mrad (95 %: 18.0 to 20.0), measured without a model. Trust: good.");
-  EXPECT_EQ(
-      card.brief.mismatch,
-      "The model misses 10 N rms of force on held-out data, 20 % of the 50 N rms that the input applies.");
+  EXPECT_EQ(card.brief.mismatch,
+            "With nothing added, the model misses 10 N rms of force on held-out data, 20 % of the 50 N rms "
+            "that the "
+            "input applies.");
   EXPECT_EQ(card.brief.place, card.place);
   EXPECT_EQ(card.brief.cause,
             "Established: motor Coulomb friction. Not established, though it helps: cogging torque.");
@@ -91,9 +92,16 @@ TEST(AmountWords, TellPeriodAndAmount) {
   d.added.back().parameters = {{"amplitude_nm", "N m", 2.0, {1.9, 2.1}},
                                {"phase_rad", "rad", 0.5},
                                {"periods_per_turn", "1/rev", 2.0 * kPi / 5e-3}};
+  EXPECT_EQ(amount_words(d.added.front(), d, Coordinates::kTranslation), "");
+  EXPECT_EQ(amount_words(d.added.back(), d, Coordinates::kTranslation),
+            "every 5 mm; amplitude 2.00 N, 95 %: 1.90 to 2.10; it may as well be torque ripple");
+  d.added.back().group.resize(1);
   EXPECT_EQ(amount_words(d.added.back(), d, Coordinates::kTranslation),
             "every 5 mm; amplitude 2.00 N, 95 %: 1.90 to 2.10");
-  EXPECT_EQ(amount_words(d.added.front(), d, Coordinates::kTranslation), "");
+  d.added.back().effect = "stribeck_friction";
+  d.added.back().parameters = {{"level_nm", "N m", 20.0}, {"stiction_ratio", "-", -0.4, {-0.5, -0.3}}};
+  EXPECT_THAT(amount_words(d.added.back(), d, Coordinates::kTranslation),
+              ::testing::StartsWith("as inverse Stribeck friction: -40 % of the Coulomb friction"));
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ TEST(CardCause, TellsThatTheRecordingsLeaveAnAmountOpen) {
   EXPECT_EQ(card_of(d).cause,
             "Not established, though it helps: motor Coulomb friction (these recordings do not determine its "
             "amount).");
-  EXPECT_THAT(card_of(d).helps, HasSubstr("friction (274 N·m, which the recordings do not determine)"));
+  EXPECT_THAT(card_of(d).helps,
+              HasSubstr("friction (274 N·m, an amount that the recordings do not determine)"));
 }
 
 /// A model of 100 N m that its recordings cannot tell from the drive once its damping is 0.04 for 0.1.
@@ -122,10 +123,10 @@ TEST(CardCause, OfAnotherVerdictTellsTheNumbersBrieflyBehindTheNextStep) {
   EXPECT_THAT(card_of(d).next, HasSubstr(", motor inertia (of all that moves) 0.00532 → "));
   d.refitted = {{"mass_ratio", "-", 1.2, 1.0, {0.99, 1.01}}};
   EXPECT_THAT(card_of(d).next, HasSubstr("has changed mass ratio (load over motor) 1.2 → 1.000 (95 %"));
-  EXPECT_THAT(card_of(d).mismatch, StartsWith("The refitted model misses "));
+  EXPECT_THAT(card_of(d).mismatch, StartsWith("With nothing added, the refitted model misses "));
   d.refitted.clear();
   EXPECT_THAT(card_of(d).next, Not(HasSubstr("changed")));
-  EXPECT_THAT(card_of(d).mismatch, StartsWith("The model misses "));
+  EXPECT_THAT(card_of(d).mismatch, StartsWith("With nothing added, the model misses "));
 }
 
 // The input's scale, inertia and damping are one number too many: recordings alone know their ratios.

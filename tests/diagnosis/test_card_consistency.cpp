@@ -48,7 +48,8 @@ TEST(CardConsistency, WhereTheTorqueDoesNotFallAsTheMotionDoesTheBalanceTellsThe
   Diagnosis d = of_uncounted();
   const Card card = card_of(d);
   EXPECT_EQ(card.brief.mismatch,
-            "The model misses 201 mN·m rms of torque on held-out data, 8.63 % of the 2.33 N·m rms that the "
+            "With nothing added, the model misses 201 mN·m rms of torque on held-out data, 8.63 % of the "
+            "2.33 N·m rms that the "
             "input applies.");
   EXPECT_THAT(card.helps, HasSubstr("brings the free-run error down from 16.1 to 0.17 mrad"));
   EXPECT_EQ(card.torque, 0.201);
@@ -137,8 +138,8 @@ TEST(CardConsistency, LimitedTrustInADenialHasItsReason) {
   CardFacts f;
   f.answer = &denial;
   EXPECT_EQ(gapscope::card_of(f).gap,
-            "There is no backlash above 1 mrad. Trust: limited (it stands for loads of at least 0.2 of the "
-            "motor's inertia, until a fitted model agrees).");
+            "There is no backlash above 1 mrad. Trust: limited (it holds for loads of at least 0.2 of the "
+            "motor's inertia; a fitted model can confirm it).");
   EXPECT_EQ(gapscope::card_of(f).brief.gap, gapscope::card_of(f).gap);
   denial.trust = AnswerTrust::kGood;
   EXPECT_THAT(gapscope::card_of(f).gap, EndsWith("Trust: good."));

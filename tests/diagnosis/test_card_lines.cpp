@@ -65,11 +65,13 @@ TEST(CardTrust, OfPlayIsInItsBoundOfTheGap) {
 
 TEST(CardMismatch, NamesTheEffectsThatTheModelHasAlready) {
   Diagnosis d = of_friction_and_delay(true, true);
-  EXPECT_THAT(card_of(d).mismatch, ::testing::StartsWith("The model misses 100 mN·m rms of torque"));
-  d.modelled = {"cogging_torque", "load_unbalance"};
   EXPECT_THAT(card_of(d).mismatch,
-              ::testing::StartsWith("The model, which has cogging torque and load unbalance, "
-                                    "misses 100 mN·m rms of torque"));
+              ::testing::StartsWith("With nothing added, the model misses 100 mN·m rms of torque"));
+  d.modelled = {"cogging_torque", "load_unbalance"};
+  EXPECT_THAT(
+      card_of(d).mismatch,
+      ::testing::StartsWith("With nothing added, the model, which has cogging torque and load unbalance, "
+                            "misses 100 mN·m rms of torque"));
 }
 
 TEST(CardMismatch, TellsTheErrorUnderTheController) {
@@ -167,14 +169,14 @@ TEST(CardNext, OfAModelThatDriftsSaysWhatItIsGoodFor) {
           "Simulate with `DIR/fitted.yaml`, for short motions alone (simulated over a whole recording it "
           "drifts by 26 % of the travel); "));
   d.added[1].established = false;
-  EXPECT_THAT(card_of(d).next, HasSubstr("established or not, for short motions alone (simulated over "));
+  EXPECT_THAT(card_of(d).next, HasSubstr("causes or not, for short motions alone (simulated over "));
   d.whole_run->after = kNaN;
   EXPECT_THAT(card_of(d).next,
               HasSubstr("never whole recordings (over one it runs away, without what was added 1.29 rad)"));
   d.whole_run->before = kNaN;
   EXPECT_THAT(card_of(d).next, HasSubstr("over a whole recording it runs away)"));
   d.whole_run->after = 0.0412;
-  EXPECT_THAT(card_of(d).next, HasSubstr("established or not; "));
+  EXPECT_THAT(card_of(d).next, HasSubstr("causes or not; "));
 }
 
 TEST(CardGap, OfASingleBodyThatLacksNothingIsNotMissed) {
