@@ -26,31 +26,21 @@ struct Asked {
   std::vector<std::string> progress = {};
 };
 
-const Asked& of_a_delay() {
-  static const Asked asked = [] {
-    Asked a{test::look_alikes("input_delay", "actuator_lag", 510001), {}};
-    a.next = next_experiment(a.pair.rivals, a.pair.recording.motor_trace(), short_limits(), 3.0, 0,
-                             [&](const std::string& what) { a.progress.push_back(what); });
-    return a;
-  }();
-  return asked;
-}
+test::LookAlikes delay_and_lag() { return test::look_alikes("input_delay", "actuator_lag", 510001); }
 
-TEST(NextExperiment, SeparatesADelayFromALagOnTheIndependentPlant) {
-  const Asked& a = of_a_delay();
+void expect_separated(const Asked& a) {
   ASSERT_TRUE(a.next.separates()) << a.next.sentence;
   EXPECT_LT(test::seen_excess(a.pair, a.pair.recording), 0.5);  // why one asks
   EXPECT_GE(test::seen_excess(a.pair, test::played(a.pair, a.next)), 1.0) << a.next.sentence;
 }
 
-TEST(NextExperiment, TellsOfEveryInputThatItTries) {
-  const std::vector<std::string>& said = of_a_delay().progress;
-  ASSERT_GE(said.size(), of_a_delay().next.tried.size());
+void expect_every_input_told(const Asked& a) {
+  const std::vector<std::string>& said = a.progress;
+  ASSERT_GE(said.size(), a.next.tried.size());
   EXPECT_EQ(said.front(), fmt::format("looking for the experiment that would tell, 1 of {}", said.size()));
 }
 
-TEST(NextExperiment, StaysWithinItsLimits) {
-  const Asked& a = of_a_delay();
+void expect_within_limits(const Asked& a) {
   const auto [low, high] = std::minmax_element(a.pair.recording.x1.begin(), a.pair.recording.x1.end());
   EXPECT_EQ(a.next.u.size(), 2000u);
   for (const double u : a.next.u) EXPECT_LE(std::abs(u), 0.9 * (1.0 + 1e-9));
@@ -59,13 +49,27 @@ TEST(NextExperiment, StaysWithinItsLimits) {
   for (const TriedInput& t : a.next.tried) EXPECT_TRUE(inputs.insert(t.input).second) << "twice: " << t.input;
 }
 
-TEST(NextExperiment, RanksByTheWorseDirection) {
-  const NextExperiment& next = of_a_delay().next;
+void expect_ranked_by_the_worse_direction(const NextExperiment& next) {
   for (const TriedInput& t : next.tried) {
     ASSERT_EQ(t.separations.size(), 2u);
     EXPECT_EQ(t.worst, std::min(t.separations[0].excess, t.separations[1].excess));
     EXPECT_LE(t.worst, next.tried.front().worst);
   }
+}
+
+// One test: the search takes longer than all that is asked of it.
+TEST(NextExperiment, SeparatesADelayFromALagOnTheIndependentPlantWithinItsLimits) {
+  Asked a{delay_and_lag(), {}};
+  a.next = next_experiment(a.pair.rivals, a.pair.recording.motor_trace(), short_limits(), 3.0, 0,
+                           [&](const std::string& what) { a.progress.push_back(what); });
+  expect_separated(a);
+  if (HasFatalFailure()) return;
+  expect_every_input_told(a);
+  expect_within_limits(a);
+  expect_ranked_by_the_worse_direction(a.next);
+  EXPECT_THROW(next_experiment({a.pair.rivals.data(), 1}, a.pair.recording.motor_trace(), {}, 3.0),
+               std::logic_error)
+      << "it needs two rivals";
 }
 
 TEST(NextExperiment, SaysThatNothingTellsALawFromOneThatContainsIt) {
@@ -76,7 +80,7 @@ TEST(NextExperiment, SaysThatNothingTellsALawFromOneThatContainsIt) {
 }
 
 TEST(NextExperiment, ProposesNothingThatWouldNotSeparate) {
-  const test::LookAlikes& pair = of_a_delay().pair;
+  const test::LookAlikes pair = delay_and_lag();
   ExperimentLimits weak = short_limits();
   weak.input = 1e-3;
   const NextExperiment next = next_experiment(pair.rivals, pair.recording.motor_trace(), weak, 3.0);
@@ -85,12 +89,6 @@ TEST(NextExperiment, ProposesNothingThatWouldNotSeparate) {
   EXPECT_EQ(next.sentence.find("No input within the limits "), 0u) << next.sentence;
   EXPECT_NE(next.sentence.find("would tell input delay from actuator lag by one σ"), std::string::npos)
       << next.sentence;
-}
-
-TEST(NextExperiment, NeedsTwoRivals) {
-  const Asked& a = of_a_delay();
-  EXPECT_THROW(next_experiment({a.pair.rivals.data(), 1}, a.pair.recording.motor_trace(), {}, 3.0),
-               std::logic_error);
 }
 
 }  // namespace
