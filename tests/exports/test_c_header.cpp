@@ -85,7 +85,7 @@ TEST(CHeader, MovesAsTheSimulatorDoesOnTheExperiment) {
 }
 
 TEST(CHeader, MovesAsTheSimulatorDoesOnRandomDrives) {
-  for (std::uint64_t seed = 301; seed <= 308; ++seed)
+  for (std::uint64_t seed = 301; seed <= 304; ++seed)
     EXPECT_LE(distance(random_drive_configuration(seed)), kSame) << seed;
 }
 
@@ -96,32 +96,34 @@ TEST(CHeader, MovesAsTheSimulatorDoesWithEveryStructure) {
             kSame);
 }
 
+// Several at once: to compile a program takes longer than to run it, and one that is wrong moves x1 by far
+// more.
 TEST(CHeader, MovesAsTheSimulatorDoesWithEveryEffectThatItSaysIsExact) {
-  for (const char* effect :
-       {"motor_coulomb_friction: {level_nm: 0.01}",
-        "friction_asymmetry: {level_nm: 0.01, coulomb_ratio: 0.4, viscous_ratio: 0.2}",
-        "stribeck_friction: {level_nm: 0.01, stiction_ratio: 0.5, stribeck_speed_rad_s: 0.1}",
-        "quadratic_drag: {coefficient_nms2: 0.01}",
-        "cogging_torque: {amplitude_nm: 0.01, periods_per_turn: 24, phase_rad: 0.3}",
-        "cogging_torque: {amplitude_nm: 0.01, periods_per_turn: 24, second_harmonic: 0.3, "
-        "second_harmonic_cos: -0.2, "
-        "third_harmonic: 0.1, third_harmonic_cos: 0.2}",
-        "load_unbalance: {amplitude_nm: 0.02, periods_per_turn: 2.5}",
-        "torque_ripple: {ratio: 0.1, periods_per_turn: 12, second_harmonic: 0.2}",
-        "load_unbalance: {amplitude_nm: 0.02, phase_rad: 0.7}", "constant_load_torque: {torque_nm: 0.01}",
-        "torque_saturation: {knee: 0.7, sharpness: 3}", "input_dead_zone: {width: 0.05}",
-        "input_delay: {delay_s: 1.3e-3}", "actuator_lag: {time_constant_s: 2.0e-3}",
-        "shaft_compliance: {stiffness_nm_rad: 90}", "contact_adhesion: {release_nm: 0.01}"})
-    for (const std::string& numbers : {kTwoBodies, std::string(", mass_ratio: 0")}) {
-      const bool needs_contact =
-          std::string(effect).starts_with("shaft") || std::string(effect).starts_with("contact");
-      if (needs_contact && numbers != kTwoBodies) continue;
-      DriveExport drive;
-      EXPECT_LE(distance(rig_configuration(numbers, fmt::format("  effects: [{{{}}}]\n", effect)), &drive),
-                kSame)
-          << effect << numbers;
-      EXPECT_EQ(drive.certificate.parts.back().fidelity, Fidelity::kExact);
-    }
+  constexpr const char* kMotor[] = {
+      "{motor_coulomb_friction: {level_nm: 0.01}}, {quadratic_drag: {coefficient_nms2: 0.01}}, "
+      "{cogging_torque: {amplitude_nm: 0.01, periods_per_turn: 24, phase_rad: 0.3}}, "
+      "{torque_saturation: {knee: 0.7, sharpness: 3}}, {input_delay: {delay_s: 1.3e-3}}",
+      "{friction_asymmetry: {level_nm: 0.01, coulomb_ratio: 0.4, viscous_ratio: 0.2}}, "
+      "{cogging_torque: {amplitude_nm: 0.01, periods_per_turn: 24, second_harmonic: 0.3, "
+      "second_harmonic_cos: -0.2, third_harmonic: 0.1, third_harmonic_cos: 0.2}}, "
+      "{load_unbalance: {amplitude_nm: 0.02, periods_per_turn: 2.5}}, {input_dead_zone: {width: 0.05}}, "
+      "{actuator_lag: {time_constant_s: 2.0e-3}}",
+      "{stribeck_friction: {level_nm: 0.01, stiction_ratio: 0.5, stribeck_speed_rad_s: 0.1}}, "
+      "{torque_ripple: {ratio: 0.1, periods_per_turn: 12, second_harmonic: 0.2}}, "
+      "{load_unbalance: {amplitude_nm: 0.02, phase_rad: 0.7}}, {constant_load_torque: {torque_nm: 0.01}}"};
+  constexpr const char* kContact[] = {"{shaft_compliance: {stiffness_nm_rad: 90}}",
+                                      "{contact_adhesion: {release_nm: 0.01}}"};
+  const auto expect_same = [](const std::string& numbers, const char* effects) {
+    DriveExport drive;
+    EXPECT_LE(distance(rig_configuration(numbers, fmt::format("  effects: [{}]\n", effects)), &drive), kSame)
+        << effects << numbers;
+    for (const CarriedPart& part : drive.certificate.parts)
+      EXPECT_EQ(part.fidelity, Fidelity::kExact) << part.part << numbers;
+  };
+  for (const char* effects : kMotor)
+    for (const std::string& numbers : {kTwoBodies, std::string(", mass_ratio: 0")})
+      expect_same(numbers, effects);
+  for (const char* effects : kContact) expect_same(kTwoBodies, effects);
 }
 
 TEST(CHeader, NamesWhatItsCodeDoesNotHave) {
