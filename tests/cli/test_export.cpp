@@ -41,7 +41,7 @@ TEST(Export, TakesTheFittedModelOfAReportIntoAFolderOfItsOwn) {
 TEST(Export, SaysInItsHeadWhatTheDiagnosisLeftUnexplained) {
   Workplace place;
   place.file("drive.yaml",
-             "name: drive\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 4, seed: 3, "
+             "name: drive\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 2, seed: 3, "
              "excitation: {sine: {amplitude: 0.58, frequency: 1}}, "
              "model: {effects: [{motor_coulomb_friction: {level_nm: 0.02}}]}}\nmodel: " +
                  testing::kPaperModel);
@@ -70,10 +70,10 @@ TEST(Export, SaysInItsHeadWhatTheDiagnosisLeftUnexplained) {
   followed["verdict"] = "effect", followed["gap"]["remains_ratio"] = 0.9;
   followed["gap"]["floor_torque_nm"] = followed["gap"]["after_torque_nm"].get<double>() / 3.0;
   place.file("report/diagnosis.json", followed.dump());
-  EXPECT_THAT(place.run("export report --to mjcf -o followed").err, Not(HasSubstr("This model")));
+  EXPECT_THAT(place.run("export report --to c -o followed").err, Not(HasSubstr("This model")));
   followed["gap"]["remains_ratio"] = 3.0;
   place.file("report/diagnosis.json", followed.dump());
-  EXPECT_THAT(place.run("export report --to mjcf -o left").err,
+  EXPECT_THAT(place.run("export report --to c -o left").err,
               HasSubstr("warning: This model, with all that its diagnosis added, still lacks "));
   followed["effects"] = {"input_delay"}, followed["error_budget"]["uncounted"] = {"input_delay"};
   followed["gap"]["after_rad"] = 3.0 * followed["gap"]["floor_rad"].get<double>();
@@ -82,7 +82,7 @@ TEST(Export, SaysInItsHeadWhatTheDiagnosisLeftUnexplained) {
            "parameters": {}, "units": {}, "parameters_ci95": {}, "shrink": 0.9, "shrink_ci95": null,
            "after_torque_nm": null}])");
   place.file("report/diagnosis.json", followed.dump());
-  EXPECT_THAT(place.run("export report --to mjcf -o uncounted").err,
+  EXPECT_THAT(place.run("export report --to c -o uncounted").err,
               HasSubstr("warning: This model, with all that its diagnosis added, still misses "))
       << "the torque has not fallen with the motion";
 }
