@@ -160,7 +160,7 @@ bool has_faded(const ModelEffect& refitted, const ModelEffect& balanced) {
          });
 }
 
-ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
+ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced, const ScoredModel& nominal) {
   const FitOptions& options = study.options.fit;
   const double hz = study.observer_hz;
   const bool locked = balanced.structure.has_load;
@@ -171,7 +171,12 @@ ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced) {
   ScoredModel as_is = judge(nullptr, {balanced, {}, 0.0, {}, {}, true}, study.held_out, hz);
   const auto& effects = refitted.fitted.model.effects;
   const bool kept = std::none_of(effects.begin(), effects.end(), has_vanished);
-  return (locked && kept && refitted.score < as_is.score) || !std::isfinite(as_is.score) ? refitted : as_is;
+  const auto error = [&](const ScoredModel& m) {
+    return study.repeats_badly() ? m.median_innovation : m.median_free;
+  };
+  const bool alone_nearer = !(error(as_is) < error(nominal)) && error(refitted) < error(nominal);
+  const bool takes = kept && (alone_nearer || (locked && refitted.score < as_is.score));
+  return takes || !std::isfinite(as_is.score) ? refitted : as_is;
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -270,10 +270,10 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
   if (search.added.empty()) return search;
   const ReferenceModel balanced = with_terms(nominal.fitted.model, budget);
   for (const ReferenceModel& values : {balanced, with_drive(balanced, nominal.fitted.model)})
-    if (!std::isfinite(search.after.score)) search.after = refitted_from(study, values);
+    if (!std::isfinite(search.after.score)) search.after = refitted_from(study, values, nominal);
   if (!is_usable(search.after, nominal)) return {};
   if (drop_what_vanished(balanced, search)) {
-    search.after = refitted_from(study, search.after.fitted.model);
+    search.after = refitted_from(study, search.after.fitted.model, nominal);
     if (!is_usable(search.after, nominal)) return {};
   }
   return search;

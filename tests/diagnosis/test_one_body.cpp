@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "diagnosis/among.h"
+#include "diagnosis/torque_model.h"
 #include "independent_plant/simulate.h"
 
 namespace gapscope {
 namespace {
+
+using namespace internal::diagnosis;
 
 constexpr double kRate = 500.0;
 
@@ -112,6 +115,53 @@ TEST(OneBody, OfAModelThatLacksNothingButHasWrongNumbersTellsWhichAreWrong) {
   const Diagnosis right = with_sheet(wrong.refitted[1].fitted, damping.fitted);
   EXPECT_TRUE(right.refitted.empty());
   EXPECT_EQ(right.sentence.find("→"), std::string::npos);
+}
+
+// Without friction and dead zone the best torque constant is too small, and the balance keeps that: with both
+// it is farther from the motion than the model without them, and the refit of all is nearer.
+TEST(OneBody, WhoseWeightGivesTheScaleIsRefittedWhereTheBalanceBringsItNoNearer) {
+  constexpr double kWeight = 0.353;
+  independent_plant::BlindDrive d;
+  d.load = independent_plant::BlindLoad::kNone;
+  d.torque_constant = 0.716, d.motor_inertia = 6.1e-3, d.motor_damping = 0.041;
+  d.effects.motor.friction.level_nm = 0.03;
+  d.effects.load.unbalance_nm = kWeight;
+  d.effects.command.dead_zone = 0.06, d.effects.command.noise = 0.02;
+  const Recording train = under(
+      d, [](double t) { return 0.45 * std::sin(0.9 * t) * (0.7 + 0.3 * std::sin(0.37 * t)); }, 1);
+  const Recording held_out = under(
+      d, [](double t) { return 0.25 * std::sin(0.6 * t) + 0.2 * std::sin(1.7 * t); }, 2);
+  const auto with = [](const char* name, std::initializer_list<ParameterSetting> numbers) {
+    ModelEffect effect;
+    effect.entry = find_effect(name);
+    std::copy(numbers.begin(), numbers.end(), effect.parameters.begin());
+    return effect;
+  };
+  using Setting = ParameterSetting;
+  ReferenceModel sheet;
+  sheet.structure.has_load = false;
+  sheet.set("torque_constant", Setting::sought(0.6));
+  sheet.set("motor_inertia", Setting::sought(5e-3));
+  sheet.set("motor_damping", Setting::sought(0.05));
+  sheet.effects.push_back(
+      with("load_unbalance", {Setting::known(kWeight), Setting::known(0.0), Setting::known(1.0)}));
+  const MotorTrace fitted[] = {train.motor_trace()}, judging[] = {held_out.motor_trace()};
+  DiagnosisOptions options;
+  options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
+  const Study study = make_study(fitted, judging, sheet, options);
+  const double hz = study.observer_hz;
+  const ScoredModel nominal =
+      judge(nullptr, fit_nominal(study.train, study.sheet, options.fit, hz), study.held_out, hz);
+  ReferenceModel balanced = nominal.fitted.model;
+  balanced.effects.push_back(with("motor_coulomb_friction", {Setting::sought(0.025)}));
+  balanced.effects.push_back(with("input_dead_zone", {Setting::sought(0.065)}));
+  const ScoredModel as_balanced = judge(nullptr, {balanced, {}, 0.0, {}, {}, true}, study.held_out, hz);
+  const ScoredModel taken = refitted_from(study, balanced, nominal);
+  EXPECT_GT(as_balanced.median_free, nominal.median_free);
+  EXPECT_LT(taken.median_free, 0.5 * nominal.median_free);
+  EXPECT_GT(taken.median_free, options.fit.rejected_ratio) << "which is taken for what it is anyway";
+  EXPECT_NEAR(taken.fitted.model.parameters[place::kTorqueConstant].value, d.torque_constant, 0.02);
+  EXPECT_FALSE(taken.fitted.balanced);
 }
 
 }  // namespace
