@@ -13,6 +13,7 @@
 #include "gapscope/base/shown.h"
 #include "gapscope/diagnosis/card.h"
 #include "gapscope/results/diagnosis_result.h"
+#include "gapscope/results/run_result.h"
 
 namespace gapscope {
 namespace {
@@ -42,6 +43,12 @@ std::string unexplained_in(const DiagnosisResult& r) {
                      Percents({&percent, 1})(percent), why);
 }
 
+std::string rejected_in(const RunResult& r) {
+  if (!r.reference || !r.reference->rejected()) return "";
+  return "The fit of this model is rejected, so its numbers are not those of the drive. " +
+         r.reference->why.text();
+}
+
 /// Behind the first comment of a file: where that ends, and how another one is written.
 struct HeadComment {
   const char *ends, *begins, *closes;
@@ -63,9 +70,10 @@ std::string left_unexplained(const std::string& source) {
   const bool folder = fs::is_directory(source);
   if (!folder && fs::path(source).filename() != "fitted.yaml") return "";
   const std::string of = folder ? source : fs::path(source).parent_path().string();
-  if (!fs::exists(fs::path(of) / "diagnosis.json")) return "";
+  const std::string report = of.empty() ? "." : of;
   try {
-    return unexplained_in(read_diagnosis_result(of.empty() ? "." : of));
+    if (fs::exists(fs::path(report) / "diagnosis.json")) return unexplained_in(read_diagnosis_result(report));
+    return fs::exists(fs::path(report) / "result.json") ? rejected_in(read_run_result(report)) : "";
   } catch (const ConfigError&) {
     return "";  // of another version: the model can be exported all the same
   }

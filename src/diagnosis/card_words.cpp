@@ -17,7 +17,7 @@ namespace gapscope::internal::diagnosis {
 SharedUnit::SharedUnit(double first, const std::string& unit) : unit_(unit) {
   static constexpr std::array kPrefixes = {"", "m", "µ", "n"};
   const double size = std::abs(first);
-  if (!(size > 0.0) || !std::isfinite(size)) return;
+  if (!(size > 0.0) || !std::isfinite(size) || unit.starts_with("unit")) return;  // no "milliunit of u"
   const double thousands = std::clamp(std::ceil(-std::log10(size) / 3.0 - 1e-12), 0.0, 3.0);
   factor_ = std::pow(10.0, 3.0 * thousands);
   unit_ = kPrefixes[static_cast<std::size_t>(thousands)] + unit;

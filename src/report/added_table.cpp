@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "gapscope/base/text.h"
-#include "gapscope/diagnosis/card.h"
+#include "gapscope/results/drive_card.h"
 #include "report/markdown.h"
 #include "report/wording.h"
 

@@ -96,6 +96,10 @@ TEST(Trust, ARejectedModelHasNoIntervalInTheTerminalTheReportOrTheComparison) {
   EXPECT_EQ(result["reference"]["trust"], "rejected");
   EXPECT_EQ(result["answer"]["from"], "none");
   EXPECT_TRUE(result["answer"]["gap_rad"].is_null());
+  const auto exported = place.run("export reports/turned --to c -o exported");
+  EXPECT_THAT(exported.err, HasSubstr("warning: The fit of this model is rejected, so its numbers are not"));
+  EXPECT_THAT(text_of(place.folder() / "exported/certificate.md"),
+              HasSubstr("The fit of this model is rejected"));
   const auto compared = place.run("compare reports/right reports/turned");
   EXPECT_EQ(compared.status, 0) << compared.err;
   EXPECT_THAT(compared.out, HasSubstr("left out, the model is rejected"));

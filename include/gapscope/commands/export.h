@@ -17,7 +17,8 @@ std::string exported_configuration(const std::string& source);
 ExportFormat export_format(const std::string& word);
 
 /// What the diagnosis in the folder of the exported model found missing and did not explain, in torque and
-/// per cent of the input's, on what was held out; empty: there is none, or it left nothing above its floor.
+/// per cent of the input's, on what was held out; without a diagnosis, that the fit there is rejected, and
+/// why. Empty: neither is the case.
 /// @param source  as exported_configuration() takes it
 std::string left_unexplained(const std::string& source);
 
