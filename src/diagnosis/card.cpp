@@ -207,8 +207,7 @@ std::string next_line(const CardFacts& f, const Card& card, bool whole) {
   if (f.diagnosis == nullptr)
     return f.answer != nullptr && f.answer->trust == AnswerTrust::kGood
                ? "Nothing more for the gap; `gapscope diagnose CONFIG` tells where the model and the drive "
-                 "differ, "
-                 "and why."
+                 "differ, and why."
                : "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why.";
   const Diagnosis& d = *f.diagnosis;
   if (d.stopped) return "Run `gapscope diagnose CONFIG` to its end.";

@@ -200,9 +200,9 @@ bool is_told_in_torque(const Diagnosis& d) {
   const bool tellable = m.before >= kRule.floor_ratio * m.floor;  // at the floor no motion falls any more
   if (!d.budget.uncounted.empty())
     return tellable && m.after_torque <= (motion_left + kRule.part) * m.before_torque;
+  // An elasticity moves x1, and takes no torque.
   const double fall = 1.0 - m.after_torque / m.before_torque;
-  return !(tellable &&
-           fall < kRule.part * (1.0 - motion_left));  // an elasticity moves x1, and takes no torque
+  return !(tellable && fall < kRule.part * (1.0 - motion_left));
 }
 
 }  // namespace gapscope

@@ -77,8 +77,7 @@ TEST(Card, TellsSizePlaceCauseAndWhatHelpsInOneUnit) {
   const Card card = card_of(facts_of(nullptr, &d));
   EXPECT_EQ(card.mismatch,
             "With nothing added, the model misses 10 N rms of force on held-out data, 20 % of the 50 N rms "
-            "that the "
-            "input applies.");
+            "that the input applies.");
   EXPECT_EQ(card.place,
             "The missing force depends on the direction of motion (55 % of its square backward).");
   EXPECT_EQ(

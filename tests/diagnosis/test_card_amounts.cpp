@@ -164,8 +164,7 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
   d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
   EXPECT_EQ(card_of(f).cause,
             "Established: cogging torque at 24 cycles per motor turn and cogging torque at 7.25 "
-            "cycles per motor "
-            "turn.");
+            "cycles per motor turn.");
 }
 
 TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {

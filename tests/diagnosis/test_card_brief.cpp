@@ -32,8 +32,7 @@ TEST(CardBrief, AnswersEveryLineInASentenceOrTwo) {
             "The backlash gap is 19.0 mrad (95 %: 18.0 to 20.0), measured without a model. Trust: good.");
   EXPECT_EQ(card.brief.mismatch,
             "With nothing added, the model misses 10 N rms of force on held-out data, 20 % of the 50 N rms "
-            "that the "
-            "input applies.");
+            "that the input applies.");
   EXPECT_EQ(card.brief.place, card.place);
   EXPECT_EQ(card.brief.cause,
             "Established: motor Coulomb friction. Not established, though it helps: cogging torque.");

@@ -84,7 +84,7 @@ bool is_told_in_torque(const Diagnosis& diagnosis);
 /// 1468". Empty where it has no numbers.
 std::string amount_words(const AddedEffect& added, const Diagnosis& diagnosis, Coordinates coordinates);
 
-/// The verdict, and how far it goes: "effect (likely, not confirmed)".
+/// The verdict, and how far it goes: "effect (missing in the model: likely, not confirmed)".
 std::string verdict_words(const Diagnosis& diagnosis, Coordinates coordinates);
 
 /// What explains the recordings nearly as well as an established first cause, in words: the next experiment
