@@ -19,14 +19,6 @@ std::string called(const AddedEffect& a, const CardFacts& f) {
   return name_of(a, *f.diagnosis, f.coordinates);
 }
 
-/// What the recordings cannot tell from an effect, but for what was added as well.
-std::vector<std::string> others_of(const AddedEffect& a, const Diagnosis& d) {
-  std::vector<std::string> all;
-  for (const std::string& other : a.group)
-    if (other != a.effect && !contains(d.effects, other)) all.push_back(readable(other));
-  return all;
-}
-
 std::vector<std::string> names(const CardFacts& f, bool established) {
   std::vector<std::string> all;
   for (const AddedEffect& a : f.diagnosis->added)

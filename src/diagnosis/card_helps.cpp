@@ -241,9 +241,7 @@ std::string amount_words(const AddedEffect& added, const Diagnosis& diagnosis, C
   const std::string name = without_asides(name_of(added, diagnosis, coordinates));
   std::string text = name.starts_with(readable(added.effect)) ? "" : "as " + name + ": ";
   text += fmt::format("{}", fmt::join(amounts_of(added, diagnosis, coordinates, ""), "; "));
-  std::vector<std::string> others;
-  for (const std::string& other : added.group)
-    if (other != added.effect && !contains(diagnosis.effects, other)) others.push_back(readable(other));
+  const std::vector<std::string> others = others_of(added, diagnosis);
   if (others.empty()) return text;
   return text + (text.empty() ? "" : "; ") + "it may as well be " + enumerated(others, "or");
 }

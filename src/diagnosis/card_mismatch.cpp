@@ -69,7 +69,7 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   if (b.records >= floor)
     return fmt::format("; {} disagree by {} of this: no one set of numbers removes it",
                        what_disagrees(*f.diagnosis), size);
-  if (b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder))
+  if (is_of_the_drive(b))
     return "; no model can get below " + size + ", by which the drive itself differs from period to period";
   return "; the encoder's noise alone looks like " + size + ", below which no model can get";
 }

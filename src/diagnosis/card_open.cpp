@@ -16,15 +16,18 @@
 
 namespace gapscope::internal::diagnosis {
 
-namespace {
-
-/// What else the torque of an effect may be.
-std::vector<std::string> rivals_of(const AddedEffect& a, const Diagnosis& d) {
+std::vector<std::string> others_of(const AddedEffect& a, const Diagnosis& d) {
   std::vector<std::string> all;
-  for (const std::string& rival : a.group)
-    if (rival != a.effect && !contains(d.effects, rival)) all.push_back(readable(rival));
+  for (const std::string& other : a.group)
+    if (other != a.effect && !contains(d.effects, other)) all.push_back(readable(other));
   return all;
 }
+
+bool is_of_the_drive(const ErrorBudget& b) {
+  return b.repeatability >= b.floor() && !(b.repeatability < kRule.floor_ratio * b.encoder);
+}
+
+namespace {
 
 constexpr const char* kLowers = "it lowers the error by only ";
 
@@ -60,7 +63,7 @@ std::string doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
 
 std::string why_open(const AddedEffect& a, const Diagnosis& d) {
   if (outlasts_motion(a, d)) return "its period is longer than the held-out motion";
-  if (const std::vector<std::string> rivals = rivals_of(a, d); !rivals.empty())
+  if (const std::vector<std::string> rivals = others_of(a, d); !rivals.empty())
     return "it may as well be " + enumerated(rivals, "or");
   if (may_be_absent(a, d)) return "these recordings do not determine its amount";
   return doubt_of_balance(a, d);
@@ -175,10 +178,9 @@ std::string unexplained(const CardFacts& f, const Card& card) {
       "or swap `file` and `held_out` where there are two recordings, and diagnose again.",
       percent_text(card.percent_after), f.coordinates.torque_word(),
       SharedUnit(1.0, "").number(card.torque_after / floor),
-      b.records >= floor ? std::string("that by which ") + what_disagrees(*f.diagnosis) + " disagree"
-      : b.repeatability >= floor && !(b.repeatability < kRule.floor_ratio * b.encoder)
-          ? "what the drive itself differs by from period to period"
-          : "what the encoder's noise alone looks like",
+      b.records >= floor   ? std::string("that by which ") + what_disagrees(*f.diagnosis) + " disagree"
+      : is_of_the_drive(b) ? "what the drive itself differs by from period to period"
+                           : "what the encoder's noise alone looks like",
       other_motion(*f.diagnosis));
 }
 

@@ -54,6 +54,12 @@ std::string unexplained(const CardFacts& facts, const Card& card);
 /// whole: small errors of the right numbers add up to less.
 bool drifts_farther(const Diagnosis& diagnosis);
 
+/// What the recordings cannot tell from an effect, but for what was added as well, in words.
+std::vector<std::string> others_of(const AddedEffect& added, const Diagnosis& diagnosis);
+
+/// Whether the floor of a budget is that the drive does not repeat, clearly more than the encoder's noise.
+bool is_of_the_drive(const ErrorBudget& budget);
+
 /// What another recording is to have: "both directions, other speeds, other loads", where one way was
 /// recorded.
 std::string other_motion(const Diagnosis& diagnosis);
