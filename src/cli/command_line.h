@@ -68,6 +68,8 @@ class CommandLine {
   CLI::App* app_;
 };
 
+inline constexpr int kInterruptedWithReport = 130;  ///< as of any command that was interrupted
+
 /// Thrown by an action that answers with an exit status of its own.
 struct ExitStatus {
   int status;

@@ -15,8 +15,6 @@
 namespace gapscope::cli {
 namespace {
 
-constexpr int kInterruptedWithReport = 130;  ///< as of any command that was interrupted
-
 struct DiagnoseArguments {
   ConfigArguments config;
   std::string folder;

@@ -42,6 +42,7 @@ void estimate(const EstimateArguments& a, const Configuration& c, const std::str
   ToldConfiguration told = a.config.told(a.folder, axis);
   if (!c.model.given) told.to_begin = c.recording ? shell_word(c.recording->files.front().path) : "RECORDING";
   print_headline(folder, outcome.result, told);
+  if (outcome.stopped) throw ExitStatus{kInterruptedWithReport};
 }
 
 std::string folder_of(const EstimateArguments& a, const Configuration& c) {
@@ -146,9 +147,11 @@ void add_run(CommandLine& app) {
       "and "
       "files.json,\n"
       "which lists them: only what it lists is replaced by the next report, any other folder is refused.\n"
-      "On standard output gaps are in mrad (mm for coordinates: translation), in result.json in rad (m).\n\n"
+      "On standard output gaps are in mrad (mm for coordinates: translation), in result.json in rad (m).\n"
+      "Ctrl-C while the model is still fitted keeps the reading without a model (exit status 130); a second "
+      "one keeps nothing.\n\n"
       "Example: gapscope run configs/02_experiment.yaml -o reports/experiment",
-      {true, true});
+      {true, true, true});
 }
 
 void add_detect(CommandLine& app) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/card_words.h"
@@ -91,6 +92,14 @@ std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, Coordinates coordi
   a.sentence = fmt::format("{}{} by the model that the diagnosis has fitted.",
                            internal::diagnosis::the_gap_is(), told_with(gap.value, gap.ci95, coordinates));
   return a;
+}
+
+void doubt_unit(Answer& a, const std::string& why, const std::string& remedy) {
+  if (a.sentence.ends_with(".")) a.sentence.pop_back();
+  a.sentence += ", if x1 has the unit that was declared (" + why + ")";
+  if (a.trust == AnswerTrust::kGood) a.trust = AnswerTrust::kLimited;
+  a.next.insert(a.next.begin(), "See that the unit of x1 is right: " + remedy + ".");
+  a.next.resize(std::min<std::size_t>(a.next.size(), 3));
 }
 
 }  // namespace gapscope

@@ -56,7 +56,7 @@ double fastest(const Material& m) {
 }
 
 Finding wrong_unit(const std::string& found, const std::string& advice) {
-  return {"unit of x1", Severity::kSpoils, found, advice};
+  return {kPositionUnitRule, Severity::kSpoils, found, advice};
 }
 
 double median_of_four(std::array<double, 4> v) {
@@ -104,7 +104,8 @@ Finding check_position_unit(const Material& m, RecordingFacts&) {
   if (speed > limit)
     return wrong_unit(speeds + fmt::format(", more than {:.0f}", limit),
                       fmt::format("give x1 in {} and t in s", m.unit()));
-  return {"unit of x1", Severity::kFine, speeds + fmt::format(", as a motor in {} may move", m.unit()), ""};
+  return {kPositionUnitRule, Severity::kFine, speeds + fmt::format(", as a motor in {} may move", m.unit()),
+          ""};
 }
 
 Finding check_encoder(const Material& m, RecordingFacts& facts) {

@@ -9,8 +9,8 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/text.h"
 #include "gapscope/base/version.h"
-#include "gapscope/inspection/inspection.h"
 #include "gapscope/inspection/reach.h"
+#include "run/checked.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
 #include "run/run_simulator.h"
@@ -19,26 +19,14 @@
 namespace gapscope {
 namespace {
 
-/// What `check` says will spoil the estimates, of what is fitted and what is held out alike. Reversals are
-/// the detector's concern.
-std::vector<std::string> spoiling(const Configuration& c, const std::vector<RecordedFile>& files) {
-  std::vector<std::string> warnings;
-  for (const RecordedFile& file : files) {
-    Inspection seen = inspect(file.path, c.recording->reading_of(file, UnevenRows::kStamped), c.coordinates);
-    judge_for_unit(c.input_facts().unit, seen);
-    for (const Finding& f : seen.findings)
-      if ((f.severity == Severity::kSpoils || f.warned) && f.rule != kReversalsRule)
-        warnings.push_back(fmt::format("{}: {}: {} -> {}", file.given, f.rule, f.found, f.advice));
-  }
-  return warnings;
-}
-
+/// Of what is fitted and what is held out alike.
 std::vector<std::string> checked(const Configuration& c, const Progress& progress) {
   std::vector<std::string> warnings;
   if (!c.recording) return warnings;
   progress("checking the recordings");
   for (const auto* files : {&c.recording->files, &c.recording->held_out})
-    for (std::string& warning : spoiling(c, *files)) warnings.push_back(std::move(warning));
+    for (std::string& warning : internal::run::check_files(c, *files, Purpose::kDiagnosis).warnings)
+      warnings.push_back(std::move(warning));
   return warnings;
 }
 

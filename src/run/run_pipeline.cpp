@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/version.h"
@@ -14,6 +15,7 @@
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/reference/fit.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "run/checked.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
 #include "run/simulated_words.h"
@@ -186,18 +188,28 @@ void estimate(const Configuration& c, const Estimators& wanted, const LoadedReco
   if (wanted.model_free) progress("model-free detector");
   if (wanted.reference) progress("reference fit");
   const auto begin = Clock::now();
+  const auto fitted = [&] { return fit(traces_of(r.recordings), c.reference_model(), c.fit); };
   parallel_for(2, threads, [&](std::size_t which) {
     stop_point();
     if (which == 0 && wanted.model_free)
       r.model_free =
           timed(out.timing.model_free_s, [&] { return model_free(c, grids, r.recordings, notes); });
-    if (which == 1 && wanted.reference)
-      r.reference = timed(out.timing.reference_s,
-                          [&] { return fit(traces_of(r.recordings), c.reference_model(), c.fit); });
+    if (which == 1 && wanted.reference) try {
+        r.reference = timed(out.timing.reference_s, fitted);
+      } catch (const Interrupted&) {
+        if (!wanted.reading_is_kept) throw;
+        out.stopped = true;
+      }
   });
   out.timing.wall_s = seconds_since(begin);
   append(r.notes, notes);
-  if (!wanted.reference) return;
+  if (out.stopped) {
+    clear_stop_request();  // what is left is the report
+    out.warnings.push_back(
+        "the fit of the model was stopped: the report has the reading without a model alone.");
+    r.notes.push_back(out.warnings.back());
+  }
+  if (!r.reference) return;
   note_defaults(c.model, r.notes);
   if (c.anchor) r.notes.push_back(c.anchor->told(c.coordinates));
   if (c.controller && c.controller->estimates())
@@ -226,6 +238,12 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   for (const Recording& grid : grids.recordings)
     r.notes.push_back(grid.file + ": for the detector alone " + grid.resampling);
   out.warnings = std::move(loaded.warnings);
+  internal::run::Checked checked;
+  if (c.recording) {
+    const Purpose purpose = wanted.reference ? Purpose::kAll : Purpose::kGap;
+    checked = internal::run::check_files(c, c.recording->files, purpose);
+  }
+  append(out.warnings, checked.warnings);
   r.recordings = std::move(loaded.recordings);
   if (c.simulation && c.simulation->plant.structure.has_load) r.simulated_gap = c.simulation->plant.drive.gap;
   estimate(c, wanted, grids, progress, threads, out);
@@ -245,6 +263,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.answer = answer_of({r.model_free ? &*r.model_free : nullptr, r.reference ? &*r.reference : nullptr,
                         r.comparison ? r.comparison->agree : std::nullopt, r.coordinates,
                         largest_travel(r.recordings)});
+  if (!checked.doubt.empty()) doubt_unit(*r.answer, checked.doubt, checked.remedy);
   r.answer->tolerance = c.tolerance;
   stop_point();
   return out;

@@ -270,7 +270,7 @@ TEST(Commands, AnInterruptGivesStatus130AndLeavesNothing) {
   place.file("c.yaml", longer);
   // Like a key: without --foreground the whole group is signalled as well, and a second signal ends it at
   // once.
-  const auto run = place.run("run c.yaml", "timeout --foreground --preserve-status -s INT 1");
+  const auto run = place.run("detect c.yaml", "timeout --foreground --preserve-status -s INT 1");
   EXPECT_EQ(run.status, 130);
   EXPECT_THAT(run.err, HasSubstr("interrupted"));
   EXPECT_EQ(run.out, "");

@@ -1,10 +1,13 @@
 // What a report and the terminal say of a model that is right, and of one whose input has the wrong sign.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/executable.h"
+#include "gapscope/base/statistics.h"
 #include "gapscope/base/text.h"
 #include "support/paper_model.h"
 
@@ -20,13 +23,14 @@ nlohmann::json result_of(const Workplace& place, const std::string& folder) {
   return nlohmann::json::parse(text_of(place.folder() / folder / "result.json"));
 }
 
+const std::string kRig =
+    "encoder: {bits: 18}\nsimulation: {rate: 1000, duration: 6, noise: 1.0e-5, plant: independent, seed: 5, "
+    "excitation: {sine: {amplitude: 0.58, frequency: 1}}}\nmodel: ";
+
 /// The paper's rig, by the plant that shares no code with the estimators, and its recording read by two
 /// configurations: as it is, and with an input of the wrong sign.
 void make_recordings(Workplace& place) {
-  place.file("made.yaml",
-             "name: made\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 6, noise: 1.0e-5, plant: "
-             "independent, seed: 5, excitation: {sine: {amplitude: 0.58, frequency: 1}}}\nmodel: " +
-                 testing::kPaperModel);
+  place.file("made.yaml", "name: made\n" + kRig + testing::kPaperModel);
   ASSERT_EQ(place.run("simulate made.yaml -o right.csv").status, 0);
   std::istringstream rows(text_of(place.folder() / "right.csv"));
   std::string turned;
@@ -47,6 +51,50 @@ void make_recordings(Workplace& place) {
     place.file(name + ".yaml",
                "name: " + name + "\nrecording: {file: " + name +
                    ".csv}\nencoder: {bits: 18}\nfit: {compare_parts: false}\nmodel: " + testing::kPaperModel);
+}
+
+TEST(Trust, AReadingOfAPositionInAnotherUnitThanDeclaredIsNotGood) {
+  Workplace place;
+  make_recordings(place);
+  std::istringstream rows(text_of(place.folder() / "right.csv"));
+  std::string degrees = "t,u,x1\n", row;
+  for (std::getline(rows, row); std::getline(rows, row);) {
+    double t = 0.0, u = 0.0, x1 = 0.0;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf", &t, &u, &x1), 3) << row;
+    degrees += fmt::format("{},{},{}\n", t, u, x1 * 180.0 / kPi);
+  }
+  place.file("degrees.csv", degrees);
+  place.file("asked.yaml", "name: asked\nrecording: {file: degrees.csv}\n");
+  const std::string declared = "name: declared\nrecording: {file: degrees.csv, units: {position: deg}}\n";
+  place.file("declared.yaml", declared);
+  const auto asked = place.run("detect asked.yaml"), told = place.run("detect declared.yaml");
+  ASSERT_EQ(asked.status, 0) << asked.err;
+  EXPECT_THAT(asked.err, HasSubstr("warning: degrees.csv: unit of x1: x1 steps by 360/262144: degrees?"));
+  EXPECT_THAT(asked.out, HasSubstr("if x1 has the unit that was declared (x1 steps by 360/262144: degrees?). "
+                                   "Trust: limited."));
+  EXPECT_THAT(asked.out, HasSubstr("next        See that the unit of x1 is right: declare it"));
+  EXPECT_THAT(told.out, HasSubstr("Trust: good."));
+  EXPECT_THAT(told.err, Not(HasSubstr("degrees?")));
+}
+
+TEST(Trust, AFitThatIsInterruptedLeavesTheReadingWithoutAModel) {
+  Workplace place;
+  std::string longer = kRig;
+  longer.replace(longer.find("duration: 6"), 11, "duration: 60");
+  const std::string sought = "{estimate: true}";
+  place.file("made.yaml", "name: made\n" + longer + testing::kPaperModel);
+  ASSERT_EQ(place.run("simulate made.yaml -o long.csv").status, 0);
+  place.file(
+      "long.yaml",
+      "name: long\nrecording: {file: long.csv}\nencoder: {bits: 18}\nmodel: {parameters: {torque_constant: "
+      "0.172, motor_inertia: " +
+          sought + ", load_damping: " + sought + ", load_coulomb_friction: " + sought +
+          ", contact_stiffness: " + sought + ", contact_damping: " + sought + "}}\n");
+  const auto run = place.run("run long.yaml", "timeout --foreground --preserve-status -s INT 4");
+  EXPECT_EQ(run.status, 130) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the fit of the model was stopped"));
+  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, motor side) is "));
+  EXPECT_TRUE(result_of(place, "reports/long")["reference"].is_null());
 }
 
 TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {

@@ -50,6 +50,12 @@ struct Findings {
 /// load far lighter than the motor leaves a weaker impact, and such a reading does not know the load.
 Answer answer_of(const Findings& findings);
 
+/// A gap in the wrong unit is as wrong as the unit: its trust is limited at most, and the unit is seen to
+/// first.
+/// @param why     "x1 steps by 360/262144: degrees?"
+/// @param remedy  "declare it, recording: units: {position: deg}"
+void doubt_unit(Answer& answer, const std::string& why, const std::string& remedy);
+
 /// The gap of the model that a diagnosis has fitted, where that follows the held-out recordings and the
 /// fitted ones determine it: good at the floor, limited up to ten of it, nothing beyond.
 std::optional<Answer> answer_of_diagnosis(const Diagnosis& diagnosis, Coordinates coordinates);

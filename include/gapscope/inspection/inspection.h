@@ -9,8 +9,9 @@
 
 namespace gapscope {
 
-inline constexpr const char* kTimeRule = "time";    ///< rows in order, none missing, uniform
-inline constexpr const char* kInputRule = "input";  ///< its range and its noise
+inline constexpr const char* kTimeRule = "time";                ///< rows in order, none missing, uniform
+inline constexpr const char* kInputRule = "input";              ///< its range and its noise
+inline constexpr const char* kPositionUnitRule = "unit of x1";  ///< as declared: not counts, degrees, turns
 /// On reversals of the motion: the one rule that concerns the detector alone.
 inline constexpr const char* kReversalsRule = "reversals";
 

@@ -17,6 +17,7 @@ bool is_made_by_simulate(const std::string& path);
 struct Estimators {
   bool model_free = true;
   bool reference = true;
+  bool reading_is_kept = false;  ///< where the reference is interrupted and the other has ended
 };
 
 /// Told what begins: "reading train.csv".
@@ -26,6 +27,7 @@ struct RunOutcome {
   RunResult result;
   Timing timing;
   std::vector<std::string> warnings;  ///< what the user should know beside the result
+  bool stopped = false;               ///< the reference was interrupted, and the rest kept
 };
 
 /// Data, both estimators, comparison: everything of `run`, `detect` and `fit` but the writing. Uneven rows
